@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "backends/gl/only_compile.hpp"
 #include "core/error.hpp"
 
 namespace triptych::gl_backend {
@@ -43,12 +44,15 @@ Api::Api(GLADloadfunc load) : GladGLContext{} {
 void GLAD_API_PTR Api::on_message(GLenum /*source*/, GLenum type, GLuint /*id*/,
                                   GLenum /*severity*/, GLsizei length, const GLchar* message,
                                   const void* user) {
-  if (type != GL_DEBUG_TYPE_ERROR && type != GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR) return;
   // Registered with the address of our own, mutable Messages; GL's signature hands it back const.
   auto* messages = static_cast<Messages*>(const_cast<void*>(user));
   const auto size =
       length < 0 ? std::string_view(message).size() : static_cast<std::size_t>(length);
-  messages->lines.emplace_back(message, size);
+  if (type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR) {
+    messages->lines.emplace_back(message, size);
+  } else if (type == GL_DEBUG_TYPE_OTHER && messages->keeps_reports) {
+    messages->reports.push_back({messages->program, std::string(message, size)});
+  }
 }
 
 void Api::collect_messages() {
@@ -57,6 +61,31 @@ void Api::collect_messages() {
   Enable(GL_DEBUG_OUTPUT);
   Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
   DebugMessageCallback(&Api::on_message, messages_.get());
+}
+
+void Api::only_compile() {
+  executes_ = false;
+  forbid_execution(*this);
+}
+
+void Api::keep_reports() const {
+  if (!messages_) return;
+  // Reports are of a severity that is off by default.
+  if (DebugMessageControl != nullptr) {
+    DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
+  }
+  messages_->keeps_reports = true;
+  messages_->reports.clear();
+}
+
+std::vector<Api::Report> Api::take_reports() const {
+  if (!messages_) return {};
+  messages_->keeps_reports = false;
+  return std::exchange(messages_->reports, {});
+}
+
+void Api::begin_link(std::vector<LinkedStage> stages) const {
+  if (messages_) messages_->program = std::move(stages);
 }
 
 void Api::check(std::string_view call, core::CodePlace place) const {

@@ -26,6 +26,28 @@ struct Api : GladGLContext {
   // From now on labels are given to the driver, where it takes them (KHR_debug).
   void label_all() { labelled = PushDebugGroup != nullptr && ObjectLabel != nullptr; }
 
+  // For a device that only compiles: calls that would execute throw core::NotSupported from now on,
+  // and no data are moved to the device. Objects are still created, so that programs can be linked.
+  void only_compile();
+  [[nodiscard]] bool executes() const { return executes_; }
+
+  // A message of the driver while it linked a program; it reports the generated code in them.
+  struct LinkedStage {
+    GLenum type = 0;
+    std::string name;
+  };
+  struct Report {
+    std::vector<LinkedStage> program;
+    std::string text;
+  };
+  // Starts keeping such messages. Does nothing without collect_messages(). take_reports() returns
+  // them, oldest first, and stops keeping them.
+  void keep_reports() const;
+  [[nodiscard]] bool can_keep_reports() const { return messages_ != nullptr; }
+  [[nodiscard]] std::vector<Report> take_reports() const;
+  // Reports that follow belong to a program of these stages.
+  void begin_link(std::vector<LinkedStage> stages) const;
+
   // Throws core::DeviceLost or core::ApiError when any call since the last check failed; `call`
   // names the last of them, or the one that matters.
   void check(std::string_view call, core::CodePlace place = core::CodePlace::current()) const;
@@ -45,10 +67,14 @@ struct Api : GladGLContext {
  private:
   struct Messages {
     std::vector<std::string> lines;
+    std::vector<LinkedStage> program;
+    std::vector<Report> reports;
+    bool keeps_reports = false;
   };
   static void GLAD_API_PTR on_message(GLenum source, GLenum type, GLuint id, GLenum severity,
                                       GLsizei length, const GLchar* message, const void* user);
   std::unique_ptr<Messages> messages_;  // at an address that the driver keeps
+  bool executes_ = true;
 };
 
 // Names the calls that are made while it lives, for tools that show them. Does nothing where

@@ -18,6 +18,7 @@
 #include "backends/gl/isolate.hpp"
 #include "core/error.hpp"
 #include "core/json_text.hpp"
+#include "measure/system/compile_only.hpp"
 #include "record/device_id.hpp"
 
 namespace triptych::gl_backend {
@@ -144,7 +145,9 @@ class GlBackend final : public measure::Backend {
       if (!may_have(system, device_id)) continue;
       try {
         Walk walk(system);
-        while (auto opened = walk.next(debug_wanted(), broken)) {
+        // A compiler reports what it generated in messages.
+        const bool debug = debug_wanted() || measure::compile_only(device_id).has_value();
+        while (auto opened = walk.next(debug, broken)) {
           if (opened->info.id != device_id) continue;
           return make_device(std::move(opened->info), std::move(opened->context));
         }

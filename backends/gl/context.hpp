@@ -18,6 +18,8 @@ class Context {
   Context& operator=(const Context&) = delete;
   virtual ~Context() = default;
   [[nodiscard]] const Api& gl() const { return *gl_; }
+  // Calls Api::only_compile().
+  void only_compile() { gl_->only_compile(); }
   // Whether its window system says so.
   [[nodiscard]] virtual bool computes_on_the_processor() const = 0;
 

@@ -12,6 +12,7 @@
 #include "backends/gl/device_info.hpp"
 #include "backends/gl/filter_probe.hpp"
 #include "backends/gl/large_points.hpp"
+#include "backends/gl/program_code.hpp"
 #include "backends/gl/techniques.hpp"
 #include "backends/gl/volume_parts.hpp"
 #include "backends/gl/volume_prepared.hpp"
@@ -52,6 +53,10 @@ class GlDevice final : public measure::Device {
     const double margin = point_margin(context_->gl());
     rasterizer_ = {context_->gl().sub_pixel_bits(), margin, largest_point(context_->gl()) - margin};
     most_texels_ = static_cast<std::uint64_t>(context_->gl().limit(GL_MAX_TEXTURE_BUFFER_SIZE));
+    if (!info_.compiles_for.empty()) {
+      context_->only_compile();
+      return;
+    }
     if (ComputePass::unsupported(context_->gl(), 1, 1)) return;
     for (std::size_t i = 0; i < filter_error_.size(); ++i) {
       filter_error_[i] = probe_filter(context_->gl(), static_cast<scene::VoxelFormat>(i));
@@ -116,6 +121,31 @@ class GlDevice final : public measure::Device {
   [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override {
     if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
     const Current current(*context_);
+    return prepare_current(work);
+  }
+
+  // Programs of the timed frame are linked when it is prepared. Variants that a driver makes at the
+  // first draw only are not among them.
+  [[nodiscard]] measure::Compiled compile(const measure::Work& work) override {
+    const Current current(*context_);
+    const Api& gl = context_->gl();
+    if (!gl.can_keep_reports()) {
+      throw core::NotSupported(
+          "the context has no KHR_debug or is no debug context (TRIPTYCH_GL_DEBUG=1 asks for one): "
+          "its driver reports nothing of the code that it generates");
+    }
+    gl.keep_reports();
+    try {
+      static_cast<void>(prepare_current(work));
+    } catch (...) {
+      static_cast<void>(gl.take_reports());
+      throw;
+    }
+    return code_of(gl.take_reports());
+  }
+
+ private:
+  [[nodiscard]] std::unique_ptr<measure::Prepared> prepare_current(const measure::Work& work) {
     const Entry& entry = *find(work.technique);
     if (const auto* raycaster = std::get_if<VolumeTechnique>(&entry.technique)) {
       return raycaster->prepare(*context_, stamps_, std::get<measure::VolumeWork>(work.scene));
@@ -125,7 +155,6 @@ class GlDevice final : public measure::Device {
                              .make(context_->gl(), std::get<measure::ParticleWork>(work.scene)));
   }
 
- private:
   // What one texture does not hold is drawn in parts, which samplers would not.
   [[nodiscard]] bool holds_whole(const std::array<int, 3>& size, scene::VoxelFormat format) const {
     const Current current(*context_);

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "measure/system/compile_only.hpp"
 #include "measure/system/cpu_features.hpp"
 
 namespace triptych::gl_backend {
@@ -145,7 +146,14 @@ record::Device device_info(const Api& gl, std::string_view suffix) {
                       .cpu_features = {},
                       .environment = measure::set_variables(code_variables),
                       .limits = limits_of(gl)};
-  if (is_software(info)) info.cpu_features = measure::cpu_features();
+  if (is_software(info)) {
+    info.cpu_features = measure::cpu_features();
+  } else if (std::string family = measure::compiled_family(driver); !family.empty()) {
+    // The id says what the variables chose.
+    info.id = measure::compile_only_id("gl", driver, family);
+    info.compiles_for = std::move(family);
+    info.environment.clear();
+  }
   gl.check("glGetString");
   return info;
 }

@@ -127,7 +127,7 @@ Shader compile(const Api& gl, const Stage& stage) {
 }  // namespace
 
 Stage plain_stage(const Api& gl, GLenum type, std::string_view main_file) {
-  return {type, version_lines(gl, type).append(embedded(main_file))};
+  return {type, version_lines(gl, type).append(embedded(main_file)), std::string(main_file)};
 }
 
 Stage shared_stage(const Api& gl, GLenum type, std::string_view constant_lines,
@@ -136,7 +136,8 @@ Stage shared_stage(const Api& gl, GLenum type, std::string_view constant_lines,
       version_lines(gl, type).append(constant_lines).append(embedded("prelude.glsl"));
   source.append(technique::source("prelude.glsl"));
   for (const std::string_view file : files) source.append(technique::whole_source(file));
-  return {type, std::move(source)};
+  const std::string_view last = files.empty() ? std::string_view() : files.back();
+  return {type, std::move(source), std::string(last.substr(0, last.rfind(".glsl")))};
 }
 
 Stage volume_stage(const Api& gl, GLenum type, const Constants& constants,
@@ -150,6 +151,7 @@ Stage volume_stage(const Api& gl, GLenum type, const Constants& constants,
   }
   Stage stage = shared_stage(gl, type, constant_lines(constants), files);
   stage.source.append(embedded(main_file));
+  stage.name = main_file;
   return stage;
 }
 
@@ -161,6 +163,9 @@ Program link(const Api& gl, std::span<const Stage> stages) {
     shaders.push_back(compile(gl, stage));
     gl.AttachShader(program.get(), shaders.back().get());
   }
+  std::vector<Api::LinkedStage> linked_stages;
+  for (const Stage& stage : stages) linked_stages.push_back({stage.type, stage.name});
+  gl.begin_link(std::move(linked_stages));
   gl.LinkProgram(program.get());
   GLint linked = GL_FALSE;
   gl.GetProgramiv(program.get(), GL_LINK_STATUS, &linked);

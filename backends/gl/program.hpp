@@ -32,6 +32,7 @@ inline constexpr int group_edge = 8;
 struct Stage {
   GLenum type = GL_COMPUTE_SHADER;
   std::string source;  // whole, from #version on
+  std::string name = {};  // of its last file, without ".glsl": what reports call it
 };
 
 // The named files of src/technique/, in that order, behind the #version line, `constant_lines` and
@@ -46,7 +47,8 @@ struct Stage {
 // The named file alone behind the #version line, for stages that share nothing.
 [[nodiscard]] Stage plain_stage(const Api& gl, GLenum type, std::string_view main_file);
 
-// Compiles and links; throws core::ApiError with the driver's log.
+// Compiles and links; throws core::ApiError with the driver's log. What the driver reports of the
+// code is added to its context's, where that keeps reports.
 [[nodiscard]] Program link(const Api& gl, std::span<const Stage> stages);
 
 }  // namespace triptych::gl_backend

@@ -99,7 +99,7 @@ class SpriteDrawing final : public Drawing {
     if (options_.culling == Culling::occlusion && cells_ > 0) {
       occlusion_.emplace(gl, work, cells_);
       programs_.sources.push_back(occlusion_->source());
-      draw_before(gl, work, arrangement);
+      if (gl.executes()) draw_before(gl, work, arrangement);
     }
     kernel_hash_ = hash_of(gl, programs_.sources);
   }

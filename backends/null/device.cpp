@@ -68,6 +68,7 @@ class NullPrepared final : public measure::Prepared {
 
   void poison() override {
     log_call(*script_, "poison");
+    overwritten_ = true;
     drawn_ = false;
   }
 
@@ -94,20 +95,13 @@ class NullPrepared final : public measure::Prepared {
   }
 
   core::Image image() override {
+    if (overwritten_ && !drawn_) return filled(std::numeric_limits<float>::quiet_NaN());
     log_call(*script_, "image");
     if (frames_ == 0) throw core::Error("the picture was asked for before a frame was drawn");
     play_failure(*script_, Place::image, subject_);
-    core::Image image = picture(*script_, work_, subject_);
-    const std::optional<FailureKind> failure = image_failure(*script_, subject_);
-    const bool stale = failure == FailureKind::stale_image && frames_ > 1;
-    if (stale || !drawn_) {
-      std::ranges::fill(image.rgba, std::numeric_limits<float>::quiet_NaN());
-    } else if (failure == FailureKind::nan_image) {
-      std::ranges::fill(image.rgba, std::numeric_limits<float>::quiet_NaN());
-    } else if (failure == FailureKind::wrong_image) {
-      for (float& channel : image.rgba) channel += 0.25F;
-    }
-    return image;
+    if (!image_) image_ = drawn_image();
+    const bool stale = failure_ == FailureKind::stale_image && frames_ > 1 && overwritten_;
+    return stale ? filled(std::numeric_limits<float>::quiet_NaN()) : *image_;
   }
 
   std::string kernel_hash() const override {
@@ -115,12 +109,33 @@ class NullPrepared final : public measure::Prepared {
   }
 
  private:
+  [[nodiscard]] core::Image filled(float value) const {
+    core::Image image = picture(*script_, work_, subject_);
+    std::ranges::fill(image.rgba, value);
+    return image;
+  }
+
+  // A failure that happens once is of all frames of one preparation.
+  [[nodiscard]] core::Image drawn_image() {
+    core::Image image = picture(*script_, work_, subject_);
+    failure_ = image_failure(*script_, subject_);
+    if (failure_ == FailureKind::nan_image) {
+      std::ranges::fill(image.rgba, std::numeric_limits<float>::quiet_NaN());
+    } else if (failure_ == FailureKind::wrong_image) {
+      for (float& channel : image.rgba) channel += 0.25F;
+    }
+    return image;
+  }
+
   std::shared_ptr<const Script> script_;
   measure::Work work_;
   std::string subject_;
   double device_factor_;
   int frames_ = 0;
-  bool drawn_ = false;  // since the image was overwritten
+  bool overwritten_ = false;  // at least once
+  bool drawn_ = false;        // since then
+  std::optional<core::Image> image_;
+  std::optional<FailureKind> failure_;
 };
 
 class NullDevice final : public measure::Device {

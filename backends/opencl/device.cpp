@@ -8,6 +8,7 @@
 #include <map>
 
 #include "backends/opencl/filter_probe.hpp"
+#include "backends/opencl/kernel_code.hpp"
 #include "backends/opencl/particle_limits.hpp"
 #include "backends/opencl/programs.hpp"
 #include "backends/opencl/techniques.hpp"
@@ -36,7 +37,8 @@ Session open_session(const Found& found) {
     const bool vectorises_loops = found.info.driver == "pocl" && !found.info.cpu_features.empty();
     return Session{.device = found.device,
                    .context = context,
-                   .queue = cl::CommandQueue(context, found.device, CL_QUEUE_PROFILING_ENABLE),
+                   .queue = {cl::CommandQueue(context, found.device, CL_QUEUE_PROFILING_ENABLE),
+                             found.info.compiles_for.empty()},
                    .batch = vectorises_loops ? 32 : 1};
   });
 }
@@ -57,6 +59,7 @@ class Device final : public measure::Device {
   [[nodiscard]] double filter_weight_error(const measure::VolumePath& path) const override;
   [[nodiscard]] record::Counts memory() const override { return session_.held.counts(); }
   [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override;
+  [[nodiscard]] measure::Compiled compile(const measure::Work& work) override;
 
  private:
   [[nodiscard]] double sampler_error(scene::VoxelFormat format) const;  // as probed
@@ -76,7 +79,7 @@ class Device final : public measure::Device {
 
 // PoCL 3.1 lists images of half floats, and without cl_khr_fp16 reads no values from them.
 std::optional<std::string> Device::half_defect(scene::VoxelFormat format) const {
-  if (format != scene::VoxelFormat::f16) return std::nullopt;
+  if (format != scene::VoxelFormat::f16 || !session_.queue.executes()) return std::nullopt;
   const double error = sampler_error(format);
   const double allowed = technique::allowed_filter_error(technique::least_weight_bits, format);
   if (error <= allowed) return std::nullopt;
@@ -190,6 +193,7 @@ double Device::filter_weight_error(const measure::VolumePath& path) const {
 }
 
 double Device::sampler_error(scene::VoxelFormat format) const {
+  if (!session_.queue.executes()) return 1;  // nothing can be sampled: the worst there is
   const auto known = filter_errors_.find(format);
   if (known != filter_errors_.end()) return known->second;
   return filter_errors_.emplace(format, probe_filter(session_, programs_, format)).first->second;
@@ -203,6 +207,17 @@ std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
   }
   const auto& volume = std::get<measure::VolumeWork>(work.scene);
   return volume_techniques.at(work.technique)(session_, programs_, volumes_, volume);
+}
+
+measure::Compiled Device::compile(const measure::Work& work) {
+  programs_.start_capture();
+  try {
+    static_cast<void>(prepare(work));
+  } catch (...) {
+    static_cast<void>(programs_.end_capture());
+    throw;
+  }
+  return checked([&] { return code_of(session_, programs_.end_capture()); });
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "measure/system/compile_only.hpp"
 #include "measure/system/cpu_features.hpp"
 #include "record/device_id.hpp"
 
@@ -87,6 +88,16 @@ record::Device describe(const cl::Device& device, const std::string& driver) {
   });
 }
 
+// A device of a stub has its family in its id, which says what the variables chose.
+void only_compile(const std::string& driver, record::Device& info) {
+  if (!info.cpu_features.empty()) return;
+  std::string family = measure::compiled_family(driver);
+  if (family.empty()) return;
+  info.id = measure::compile_only_id("opencl", driver, family);
+  info.compiles_for = std::move(family);
+  info.environment.clear();
+}
+
 // Why the device cannot be used; empty when it can.
 std::string defect_of(const cl::Device& device) {
   return checked([&]() -> std::string {
@@ -113,6 +124,7 @@ void add_device(Search& search, const cl::Device& device, const std::string& dri
     }
     Found found{.device = device, .info = describe(device, driver)};
     found.info.id = id;
+    only_compile(driver, found.info);
     search.found.push_back(std::move(found));
   } catch (const core::ApiError& error) {
     search.broken.push_back({"OpenCL device " + id, error.what()});

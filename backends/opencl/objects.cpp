@@ -159,6 +159,7 @@ void write_buffer(const Session& session, const cl::Buffer& to, std::size_t offs
   if (measure::dump_folder())
     measure::write_dump("buffer", "bin", std::span(static_cast<const std::byte*>(from), bytes),
                         fmt::format("bytes {} to {} of a buffer", offset, offset + bytes));
+  if (!session.queue.executes()) return;  // the event would stay empty
   cl::Event event;
   checked(
       [&] { session.queue.enqueueWriteBuffer(to, CL_TRUE, offset, bytes, from, nullptr, &event); },
@@ -178,6 +179,7 @@ void write_image(const Session& session, const cl::Image& to,
                  const std::array<cl::size_type, 3>& origin,
                  const std::array<cl::size_type, 3>& region, const void* from,
                  core::CodePlace place) {
+  if (!session.queue.executes()) return;
   cl::Event event;
   checked(
       [&] {
@@ -189,6 +191,7 @@ void write_image(const Session& session, const cl::Image& to,
 
 void fill_buffer(const Session& session, const cl::Buffer& to, cl_uint word, std::size_t bytes,
                  core::CodePlace place) {
+  if (!session.queue.executes()) return;
   cl::Event event;
   checked(
       [&] {

@@ -9,9 +9,12 @@
 #include <array>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/code_place.hpp"
+#include "core/error.hpp"
 #include "measure/contract/memory_ledger.hpp"
+#include "measure/system/compile_only.hpp"
 
 namespace triptych::opencl_backend {
 
@@ -32,11 +35,66 @@ decltype(auto) checked(Call&& call, core::CodePlace place = core::CodePlace::cur
   }
 }
 
+// A command queue that takes nothing on a device that only compiles: what would execute or read
+// back throws core::NotSupported there, and nothing is moved to the device. All commands of this
+// backend go through it, by the names of cl::CommandQueue.
+class Queue {
+ public:
+  Queue(cl::CommandQueue queue, bool executes = true)  // NOLINT: a queue that executes is the rule
+      : queue_(std::move(queue)), executes_(executes) {}
+  [[nodiscard]] bool executes() const noexcept { return executes_; }
+
+  using Events = std::vector<cl::Event>;
+  void enqueueWriteBuffer(const cl::Buffer& buffer, cl_bool blocking, std::size_t offset,
+                          std::size_t size, const void* data, const Events* after = nullptr,
+                          cl::Event* event = nullptr) const {
+    if (executes_) queue_.enqueueWriteBuffer(buffer, blocking, offset, size, data, after, event);
+  }
+  void enqueueWriteImage(const cl::Image& image, cl_bool blocking,
+                         const std::array<cl::size_type, 3>& origin,
+                         const std::array<cl::size_type, 3>& region, std::size_t row_pitch,
+                         std::size_t slice_pitch, const void* data,
+                         const Events* after = nullptr, cl::Event* event = nullptr) const {
+    if (!executes_) return;
+    queue_.enqueueWriteImage(image, blocking, origin, region, row_pitch, slice_pitch, data, after,
+                             event);
+  }
+  template <typename Pattern>
+  void enqueueFillBuffer(const cl::Buffer& buffer, Pattern pattern, std::size_t offset,
+                         std::size_t size, const Events* after = nullptr,
+                         cl::Event* event = nullptr) const {
+    if (executes_) queue_.enqueueFillBuffer(buffer, pattern, offset, size, after, event);
+  }
+  void enqueueNDRangeKernel(const cl::Kernel& kernel, const cl::NDRange& offset,
+                            const cl::NDRange& global, const cl::NDRange& local = cl::NullRange,
+                            const Events* after = nullptr, cl::Event* event = nullptr) const {
+    require_execution();
+    queue_.enqueueNDRangeKernel(kernel, offset, global, local, after, event);
+  }
+  void enqueueReadBuffer(const cl::Buffer& buffer, cl_bool blocking, std::size_t offset,
+                         std::size_t size, void* data, const Events* after = nullptr,
+                         cl::Event* event = nullptr) const {
+    require_execution();
+    queue_.enqueueReadBuffer(buffer, blocking, offset, size, data, after, event);
+  }
+  void finish() const {
+    if (executes_) queue_.finish();
+  }
+
+ private:
+  void require_execution() const {
+    if (!executes_) throw core::NotSupported(std::string(measure::only_compiles));
+  }
+
+  cl::CommandQueue queue_;
+  bool executes_;
+};
+
 // A device that is open: what every call needs.
 struct Session {
   cl::Device device;
   cl::Context context;
-  cl::CommandQueue queue;  // in order, with profiling
+  Queue queue;  // in order, with profiling
   // Samples per batch of the kernels (volume.cl).
   int batch = 1;
   measure::MemoryLedger held = {};  // by what make_buffer and make_image made

@@ -35,7 +35,7 @@ ParticleFrames::ParticleFrames(const Session& session, Programs& programs,
       const std::vector<Launch> again = stages_.again(timed, *extra_);
       timed_.insert(timed_.end(), again.begin(), again.end());
     }
-    if (work.camera_before) draw_before(timed, work);
+    if (work.camera_before && session.queue.executes()) draw_before(timed, work);
   });
 }
 

@@ -73,6 +73,7 @@ Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride)
             .counts = make_buffer(table_.words()),
             .totals = make_buffer(table_.bins),
             .begins = make_buffer(table_.bins + 1),
+            .entries = make_buffer(0),
             .depths = make_buffer(pixels_),
             .winners = make_buffer(pixels_)};
   // Enough for every cell in view, whatever the stride: later fewer are shown, and others of them.
@@ -80,6 +81,7 @@ Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride)
   whole.stride = 1;
   std::vector<Launch> launches{cull(programs)};
   add_binning(programs, whole, drawn_first, launches);
+  if (!session_.queue.executes()) return pass;
   run_checked(session_, launches);
   std::vector<cl_uint> totals(table_.bins);
   read_buffer(session_, pass.totals, table_.bins * sizeof totals[0], totals.data());

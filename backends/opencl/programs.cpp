@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "core/error.hpp"
@@ -70,10 +71,31 @@ cl::Program build(const Session& session, const std::string& source, const std::
 
 cl::Program Programs::get(const std::string& source, const std::string& options) {
   const std::string key = hash(source, options);
+  const bool counts = options.find("-DTRI_COUNT=1") != std::string::npos;
+  if (captures_ && !counts && std::ranges::find(captured_, key) == captured_.end()) {
+    captured_.push_back(key);
+  }
   if (const auto found = built_.find(key); found != built_.end()) return found->second;
   cl::Program program = build(session_, source, options);
   built_.emplace(key, program);
   return program;
+}
+
+void Programs::start_capture() {
+  captures_ = true;
+  captured_.clear();
+}
+
+std::vector<cl::Program> Programs::end_capture() {
+  captures_ = false;
+  std::vector<cl::Program> programs;
+  for (const std::string& key : captured_) {
+    if (const auto found = built_.find(key); found != built_.end()) {
+      programs.push_back(found->second);
+    }
+  }
+  captured_.clear();
+  return programs;
 }
 
 std::string Programs::hash(const std::string& source, const std::string& options) {

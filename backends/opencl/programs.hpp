@@ -48,9 +48,16 @@ class Programs {
   // Content hash of source and options.
   [[nodiscard]] static std::string hash(const std::string& source, const std::string& options);
 
+  // From here on the programs that are asked for are noted, each once, but those that count;
+  // end_capture() returns them in that order.
+  void start_capture();
+  [[nodiscard]] std::vector<cl::Program> end_capture();
+
  private:
   const Session& session_;
   std::map<std::string, cl::Program> built_;  // by hash
+  bool captures_ = false;
+  std::vector<std::string> captured_;  // hashes
 };
 
 }  // namespace triptych::opencl_backend

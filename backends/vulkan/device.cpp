@@ -10,6 +10,7 @@
 #include "backends/vulkan/errors.hpp"
 #include "backends/vulkan/filter_probe.hpp"
 #include "backends/vulkan/particle_data.hpp"
+#include "backends/vulkan/pipeline_code.hpp"
 #include "backends/vulkan/support.hpp"
 #include "backends/vulkan/techniques.hpp"
 #include "backends/vulkan/volume_resources.hpp"
@@ -41,16 +42,20 @@ const Entry* find_entry(std::string_view technique) {
 // Below this a device's filter is as good as interpolation in single precision.
 constexpr double exact_filter = 1e-5;
 
+// Returns one error per VoxelFormat; none if the device cannot sample it, or only compiles.
+std::array<std::optional<double>, 4> probe_filters(const Gpu& gpu) {
+  if (!gpu.executes) return {};
+  return {probe_filter(gpu, scene::VoxelFormat::u8), probe_filter(gpu, scene::VoxelFormat::u16),
+          probe_filter(gpu, scene::VoxelFormat::f32), probe_filter(gpu, scene::VoxelFormat::f16)};
+}
+
 }  // namespace
 
 Device::Device(std::unique_ptr<const Instance> instance, Candidate candidate)
     : instance_(std::move(instance)),
       info_(std::move(candidate.info)),
-      gpu_(open_gpu(candidate.physical, instance_->labels())),
-      filter_errors_{probe_filter(gpu_, scene::VoxelFormat::u8),
-                     probe_filter(gpu_, scene::VoxelFormat::u16),
-                     probe_filter(gpu_, scene::VoxelFormat::f32),
-                     probe_filter(gpu_, scene::VoxelFormat::f16)} {
+      gpu_(open_gpu(candidate.physical, instance_->labels(), info_.compiles_for.empty())),
+      filter_errors_(probe_filters(gpu_)) {
   instance_->check_validation();
 }
 
@@ -121,6 +126,23 @@ std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
         },
         work.scene);
   });
+}
+
+// Preparing builds all pipelines of the timed frame; nothing is drawn with them.
+measure::Compiled Device::compile(const measure::Work& work) {
+  if (!gpu_.reports_code) {
+    throw core::NotSupported(
+        "this driver has no VK_KHR_pipeline_executable_properties: it reports nothing of the code "
+        "that it generates");
+  }
+  gpu_.pipelines->start_capture();
+  try {
+    static_cast<void>(prepare(work));
+  } catch (...) {
+    static_cast<void>(gpu_.pipelines->end_capture());
+    throw;
+  }
+  return translated([&] { return code_of(gpu_, gpu_.pipelines->end_capture()); });
 }
 
 }  // namespace triptych::vulkan_backend

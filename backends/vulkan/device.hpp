@@ -23,6 +23,7 @@ class Device final : public measure::Device {
   [[nodiscard]] std::optional<measure::Rasterizer> rasterizer() const override;
   [[nodiscard]] record::Counts memory() const override { return gpu_.held.counts(); }
   [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override;
+  [[nodiscard]] measure::Compiled compile(const measure::Work& work) override;
 
  private:
   [[nodiscard]] std::optional<double> hardware_error(scene::VoxelFormat format) const;

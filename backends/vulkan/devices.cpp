@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "backends/vulkan/errors.hpp"
+#include "measure/system/compile_only.hpp"
 #include "measure/system/cpu_features.hpp"
 #include "record/device_id.hpp"
 
@@ -142,6 +143,15 @@ bool tells_driver(const vk::raii::PhysicalDevice& device, std::uint32_t api_vers
   });
 }
 
+// The id of a device that only compiles says what the environment variables chose, except for the
+// folder of the driver, which does not change the generated code.
+void compile_only_for(const std::string& family, std::string_view driver, record::Device& info) {
+  info.compiles_for = family;
+  info.id = measure::compile_only_id("vulkan", driver, family);
+  info.environment.clear();
+  info.limits.erase("timestampPeriod");  // a stub has no clock
+}
+
 Candidate candidate(vk::raii::PhysicalDevice device) {
   const vk::PhysicalDeviceProperties properties = device.getProperties();
   const std::string vendor = vendor_name(properties.vendorID);
@@ -167,7 +177,12 @@ Candidate candidate(vk::raii::PhysicalDevice device) {
         device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
             .get<vk::PhysicalDeviceDriverProperties>();
     info.driver = driver.driverName.data();
-    info.id = "vulkan:" + short_name(driver.driverID, info.driver);
+    const std::string driver_id = short_name(driver.driverID, info.driver);
+    info.id = "vulkan:" + driver_id;
+    if (info.cpu_features.empty()) {
+      const std::string family = measure::compiled_family(driver_id);
+      if (!family.empty()) compile_only_for(family, driver_id, info);
+    }
     const std::string_view version = driver.driverInfo.data();
     if (!version.empty()) info.driver_version = version.substr(0, version.find('\n'));
     if (is_layered(driver.driverID)) info.driver_version += " on " + host_of(info.name);

@@ -70,7 +70,8 @@ std::string key_of(const DrawState& state, const Layout& layout, const Specializ
 
 vk::raii::Pipeline make_pipeline(const Gpu& gpu, const Layout& layout,
                                  const vk::raii::RenderPass& pass, const DrawState& state,
-                                 const Specialization& constants) {
+                                 const Specialization& constants,
+                                 vk::PipelineCreateFlags flags) {
   const Stages stages(gpu, state.stages, constants);
   const vk::PipelineVertexInputStateCreateInfo vertices{
       .vertexBindingDescriptionCount = static_cast<std::uint32_t>(state.vertex_bindings.size()),
@@ -99,6 +100,7 @@ vk::raii::Pipeline make_pipeline(const Gpu& gpu, const Layout& layout,
                                                    .pDynamicStates = &scissor};
   vk::raii::Pipeline pipeline(gpu.device, nullptr,
                               vk::GraphicsPipelineCreateInfo{
+                                  .flags = flags,
                                   .stageCount = static_cast<std::uint32_t>(stages.infos().size()),
                                   .pStages = stages.infos().data(),
                                   .pVertexInputState = &vertices,
@@ -122,8 +124,14 @@ vk::raii::Pipeline make_pipeline(const Gpu& gpu, const Layout& layout,
 
 vk::Pipeline draw_pipeline(const Gpu& gpu, const Layout& layout, const vk::raii::RenderPass& pass,
                            const DrawState& state, const Specialization& constants) {
-  return gpu.pipelines->get(key_of(state, layout, constants),
-                            [&] { return make_pipeline(gpu, layout, pass, state, constants); });
+  StageNames names;
+  for (const DrawStage& each : state.stages) {
+    names.emplace_back(each.stage, shader_name(each.code));
+  }
+  return gpu.pipelines->get(key_of(state, layout, constants), names,
+                            [&](vk::PipelineCreateFlags flags) {
+                              return make_pipeline(gpu, layout, pass, state, constants, flags);
+                            });
 }
 
 }  // namespace triptych::vulkan_backend

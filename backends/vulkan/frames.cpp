@@ -54,6 +54,8 @@ void Frames::record_counters(const Recording& counting) {
 }
 
 Frames::Recorded Frames::record(const Recording& work, vk::QueryType type, bool queried) const {
+  // Commands that are never submitted are not recorded, and no query is created on a stub.
+  if (!gpu_.executes) return {.commands = nullptr, .queries = nullptr};
   Recorded recorded{.commands = make_commands(gpu_), .queries = nullptr};
   const bool timing = type == vk::QueryType::eTimestamp;
   const vk::raii::CommandBuffer& commands = recorded.commands;

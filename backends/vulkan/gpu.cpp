@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -10,6 +10,7 @@
 
 #include "backends/vulkan/errors.hpp"
 #include "core/error.hpp"
+#include "measure/system/compile_only.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
@@ -27,9 +28,24 @@ std::uint32_t choose_family(const std::vector<vk::QueueFamilyProperties>& famili
   throw core::NotSupported(fmt::format("{} has no queue for compute work", device_name));
 }
 
+// Whether the driver reports what it compiles. The extension's structure of features must be asked
+// for as well: a driver may list the extension and lack the feature.
+bool reports_code(const vk::raii::PhysicalDevice& physical) {
+  const auto extensions = physical.enumerateDeviceExtensionProperties();
+  const bool listed = std::ranges::any_of(extensions, [](const vk::ExtensionProperties& each) {
+    return std::string_view(each.extensionName.data()) ==
+           VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
+  });
+  if (!listed) return false;
+  using Feature = vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR;
+  return physical.getFeatures2<vk::PhysicalDeviceFeatures2, Feature>()
+             .get<Feature>()
+             .pipelineExecutableInfo == VK_TRUE;
+}
+
 }  // namespace
 
-Gpu open_gpu(const vk::raii::PhysicalDevice& physical, bool labelled) {
+Gpu open_gpu(const vk::raii::PhysicalDevice& physical, bool labelled, bool executes) {
   const vk::PhysicalDeviceProperties properties = physical.getProperties();
   const auto families = physical.getQueueFamilyProperties();
   const std::uint32_t family = choose_family(families, properties.deviceName.data());
@@ -52,9 +68,17 @@ Gpu open_gpu(const vk::raii::PhysicalDevice& physical, bool labelled) {
   constexpr float priority = 1.0F;
   const vk::DeviceQueueCreateInfo queue{
       .queueFamilyIndex = family, .queueCount = 1, .pQueuePriorities = &priority};
-  vk::raii::Device device(physical, vk::DeviceCreateInfo{.queueCreateInfoCount = 1,
-                                                         .pQueueCreateInfos = &queue,
-                                                         .pEnabledFeatures = &features});
+  const bool reports = reports_code(physical);
+  constexpr const char* extension = VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
+  const vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR info{.pipelineExecutableInfo =
+                                                                           VK_TRUE};
+  vk::raii::Device device(physical,
+                          vk::DeviceCreateInfo{.pNext = reports ? &info : nullptr,
+                                               .queueCreateInfoCount = 1,
+                                               .pQueueCreateInfos = &queue,
+                                               .enabledExtensionCount = reports ? 1U : 0U,
+                                               .ppEnabledExtensionNames = &extension,
+                                               .pEnabledFeatures = &features});
   vk::raii::Queue work = device.getQueue(family, 0);
   vk::raii::CommandPool commands(device, vk::CommandPoolCreateInfo{.queueFamilyIndex = family});
   return Gpu{.physical = physical,
@@ -69,7 +93,9 @@ Gpu open_gpu(const vk::raii::PhysicalDevice& physical, bool labelled) {
              .device = std::move(device),
              .queue = std::move(work),
              .commands = std::move(commands),
-             .pipelines = std::make_unique<Pipelines>()};
+             .pipelines = std::make_unique<Pipelines>(),
+             .executes = executes,
+             .reports_code = reports};
 }
 
 Label::Label(const Gpu& gpu, const vk::raii::CommandBuffer& commands, const char* name)
@@ -101,6 +127,7 @@ vk::raii::CommandBuffer make_commands(const Gpu& gpu) {
 
 void submit_and_wait(const Gpu& gpu, const vk::raii::CommandBuffer& commands,
                      const vk::raii::Fence& fence, core::CodePlace place) {
+  if (!gpu.executes) throw core::NotSupported(std::string(measure::only_compiles));
   ++gpu.submissions;
   try {
     gpu.queue.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &*commands},
@@ -122,6 +149,7 @@ void barrier(const vk::raii::CommandBuffer& commands) {
 }
 
 void run_once(const Gpu& gpu, const Recording& record, core::CodePlace place) {
+  if (!gpu.executes) return;
   const vk::raii::CommandBuffer commands = make_commands(gpu);
   const vk::raii::Fence fence(gpu.device, vk::FenceCreateInfo{});
   commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});

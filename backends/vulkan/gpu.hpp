@@ -26,6 +26,8 @@ struct Gpu {
   vk::raii::Queue queue;
   vk::raii::CommandPool commands;
   std::unique_ptr<Pipelines> pipelines;
+  bool executes = true;       // else submit_and_wait() throws, and run_once() does nothing
+  bool reports_code = false;  // VK_KHR_pipeline_executable_properties is enabled
   measure::MemoryLedger held = {};  // by buffers and images
   // Submissions so far: a device that is lost says after how many.
   mutable std::uint64_t submissions = 0;
@@ -36,8 +38,10 @@ struct Gpu {
 };
 
 // Throws core::NotSupported when the device has no queue for compute work, vk::SystemError.
-// `labelled`: its instance has VK_EXT_debug_utils, and names are wanted.
-[[nodiscard]] Gpu open_gpu(const vk::raii::PhysicalDevice& physical, bool labelled = false);
+// `labelled`: its instance has VK_EXT_debug_utils, and names are wanted. `executes`: false for a
+// device that only compiles.
+[[nodiscard]] Gpu open_gpu(const vk::raii::PhysicalDevice& physical, bool labelled = false,
+                           bool executes = true);
 
 // Names the commands that are recorded while it lives, for tools that show them. Does nothing where
 // nothing is labelled.
@@ -62,7 +66,8 @@ using Recording = std::function<void(const vk::raii::CommandBuffer&)>;
 // A primary command buffer in its initial state.
 [[nodiscard]] vk::raii::CommandBuffer make_commands(const Gpu& gpu);
 
-// Submits and waits for a fence; the wait sleeps.
+// Submits and waits for a fence; the wait sleeps. The only place that submits: throws
+// core::NotSupported on a device that only compiles.
 void submit_and_wait(const Gpu& gpu, const vk::raii::CommandBuffer& commands,
                      const vk::raii::Fence& fence,
                      core::CodePlace place = core::CodePlace::current());
@@ -70,7 +75,8 @@ void submit_and_wait(const Gpu& gpu, const vk::raii::CommandBuffer& commands,
 // Orders everything recorded after it behind all work submitted before, memory included.
 void barrier(const vk::raii::CommandBuffer& commands);
 
-// Records between two barriers, submits once, waits.
+// Records between two barriers, submits once, waits; on a device that only compiles, where nothing
+// that is moved would be read, it does nothing.
 void run_once(const Gpu& gpu, const Recording& record,
               core::CodePlace place = core::CodePlace::current());
 

@@ -19,6 +19,14 @@ std::string_view spirv(std::string_view name) {
   return code;
 }
 
+std::string shader_name(std::string_view code) {
+  for (const std::string_view name : embedded_names()) {
+    if (embedded(name).data() != code.data()) continue;
+    return std::string(name.substr(0, name.rfind(".spv")));
+  }
+  return "shader";
+}
+
 vk::raii::ShaderModule make_shader(const Gpu& gpu, std::string_view code) {
   std::vector<std::uint32_t> words(code.size() / sizeof(std::uint32_t));  // aligned, as Vulkan asks
   std::memcpy(words.data(), code.data(), code.size());
@@ -36,13 +44,15 @@ vk::Pipeline compute_pipeline(const Gpu& gpu, const Layout& layout, std::string_
                               const Specialization& constants) {
   const std::string key =
       fmt::format("{}; {}", code_hash({&code, 1}, constants), layout.definition);
-  return gpu.pipelines->get(key, [&]() -> vk::raii::Pipeline {
+  const StageNames stages{{vk::ShaderStageFlagBits::eCompute, shader_name(code)}};
+  return gpu.pipelines->get(key, stages, [&](vk::PipelineCreateFlags flags) -> vk::raii::Pipeline {
     const vk::SpecializationInfo specialization = constants.info();
     const vk::raii::ShaderModule module = make_shader(gpu, code);
     const auto begin = std::chrono::steady_clock::now();
     vk::raii::Pipeline pipeline(
         gpu.device, nullptr,
-        vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
+        vk::ComputePipelineCreateInfo{.flags = flags,
+                                      .stage = {.stage = vk::ShaderStageFlagBits::eCompute,
                                                 .module = *module,
                                                 .pName = "main",
                                                 .pSpecializationInfo = &specialization},

@@ -54,6 +54,8 @@ static_assert(sizeof(Constants) == 9 * 4);
 
 // The embedded SPIR-V by its file name, "raycast.comp.spv".
 [[nodiscard]] std::string_view spirv(std::string_view name);
+// Returns the name of its file without the ending: "raycast.comp".
+[[nodiscard]] std::string shader_name(std::string_view code);
 // A module from the bytes of a SPIR-V file.
 [[nodiscard]] vk::raii::ShaderModule make_shader(const Gpu& gpu, std::string_view code);
 

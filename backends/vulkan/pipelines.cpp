@@ -1,11 +1,35 @@
 #include "backends/vulkan/pipelines.hpp"
 
+#include <algorithm>
+
 namespace triptych::vulkan_backend {
 
-vk::Pipeline Pipelines::get(const std::string& key, const Make& make) {
-  auto made = made_.find(key);
-  if (made == made_.end()) made = made_.emplace(key, make()).first;
+vk::Pipeline Pipelines::get(const std::string& key, const StageNames& stages, const Make& make) {
+  using enum vk::PipelineCreateFlagBits;
+  const vk::PipelineCreateFlags flags =
+      captures_ ? eCaptureStatisticsKHR | eCaptureInternalRepresentationsKHR
+                : vk::PipelineCreateFlags{};
+  // One that was made without the flags reports nothing.
+  const std::string full_key = captures_ ? "captured; " + key : key;
+  auto made = made_.find(full_key);
+  if (made == made_.end()) made = made_.emplace(full_key, make(flags)).first;
+  if (captures_) {
+    Captured captured{stages, *made->second};
+    if (std::ranges::find(captured_, captured) == captured_.end()) {
+      captured_.push_back(std::move(captured));
+    }
+  }
   return *made->second;
+}
+
+void Pipelines::start_capture() {
+  captures_ = true;
+  captured_.clear();
+}
+
+std::vector<Pipelines::Captured> Pipelines::end_capture() {
+  captures_ = false;
+  return std::exchange(captured_, {});
 }
 
 }  // namespace triptych::vulkan_backend

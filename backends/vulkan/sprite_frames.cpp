@@ -58,7 +58,7 @@ SpriteFrames::SpriteFrames(const Gpu& gpu, const Instance& instance,
       frames_(
           (bind(), gpu), common_statistics() | technique_.statistics,
           [this](const vk::raii::CommandBuffer& commands) { record(commands, draws_, false); }) {
-  if (occlusion_) draw_before(work);
+  if (occlusion_ && gpu.executes) draw_before(work);
   instance_.check_validation();
 }
 

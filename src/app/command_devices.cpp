@@ -23,6 +23,10 @@ void print_text(const std::vector<Greeting>& greeted, const std::vector<measure:
     put("{}\n  {} ({}), driver {}, {}\n", each.device.id, each.device.name,
                each.device.vendor, each.device.driver_version, each.device.api_version);
     if (each.refused) put("  cannot be used: {}\n", text_of(*each.refused));
+    if (!each.device.compiles_for.empty()) {
+      put("  only compiles, for the GPU family {}: nothing is executed on it\n",
+                 each.device.compiles_for);
+    }
     for (const record::ClockTrust& clock : each.clocks) {
       put("  clock for {}: {}\n", clock.work, clock.verdict);
     }
@@ -58,7 +62,7 @@ void print_json(const std::vector<Greeting>& greeted, const std::vector<measure:
 
 core::ExitCode devices(const bool& json) {
   const Registry registry = make_registry();
-  const measure::Listing listing = registry.devices();
+  const measure::Listing listing = registry.devices_and_compilers({});
   const std::string suite(registry.suites.front()->name());
   std::vector<Greeting> greeted;
   for (const record::Device& device : listing.devices)

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "app/comparing.hpp"
 #include "app/judging.hpp"
@@ -11,10 +12,12 @@
 #include "app/saying.hpp"
 #include "app/version.hpp"
 #include "core/foreign_error.hpp"
+#include "core/glob.hpp"
 #include "core/output_files.hpp"
 #include "core/quoting.hpp"
 #include "judge/gate/gate.hpp"
 #include "measure/plan/plan.hpp"
+#include "measure/system/compile_only.hpp"
 #include "measure/system/stopwatch.hpp"
 #include "measure/worker/listing.hpp"
 #include "record/check.hpp"
@@ -59,6 +62,15 @@ struct JudgedPlan {
   record::Checks checks;
 };
 
+const std::vector<std::string> code_plans{"volume/code", "particles/code"};
+
+// The gate judges these plans if none is named.
+std::vector<std::string> gate_job() {
+  std::vector<std::string> plans = main_job;
+  plans.insert(plans.end(), code_plans.begin(), code_plans.end());
+  return plans;
+}
+
 // The plans as they are now: one that cannot be read is judged by nothing. One that is left without
 // what it is made for goes.
 std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry& registry) {
@@ -67,7 +79,7 @@ std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry&
   record::Checks without;
   for (const std::string& name : arguments.without) without.insert(record::check(name));
   std::vector<JudgedPlan> plans;
-  for (const std::string& typed : arguments.plans.empty() ? main_job : arguments.plans) {
+  for (const std::string& typed : arguments.plans.empty() ? gate_job() : arguments.plans) {
     JudgedPlan each{typed, arguments.choice.load(typed, registry.find_suite()), asked};
     if (each.plan.configurations.empty()) {
       throw core::NotSupported(
@@ -75,6 +87,7 @@ std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry&
                       each.plan.name, arguments.choice.shard));
     }
     if (without.contains(record::Check::cost) && each.plan.counted()) continue;
+    if (without.contains(record::Check::code) && each.plan.compiled()) continue;
     if (each.checks.empty()) each.checks = each.plan.checks;
     std::erase_if(each.checks, [&](record::Check check) { return without.contains(check); });
     if (!each.checks.empty()) plans.push_back(std::move(each));
@@ -87,7 +100,11 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
                                const Registry& registry, measure::Truths& truths) {
   judge::GateRequest request = request_of(truths, judged.plan, registry.suite(judged.plan.suite));
   request.devices = arguments.devices;
-  request.required_devices = arguments.required;
+  // Devices that only compile appear in no other plan, and the other devices need not report code.
+  for (const std::string& glob : arguments.required) {
+    const bool compiles = measure::compile_only(glob).has_value();
+    if (compiles == judged.plan.compiled()) request.required_devices.push_back(glob);
+  }
   request.without_devices = arguments.without_devices;
   request.program = version();
   request.checks = judged.checks;
@@ -98,10 +115,15 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
 
 // Nothing is stored and nothing is held against what is: each device against itself by the base.
 core::ExitCode judge_by_base(const GateArguments& arguments) {
-  std::vector<Comparing> comparisons = against_base(
-      arguments.base, measure::choose_devices(make_registry().devices(), arguments.devices));
+  const Registry registry = make_registry();
+  const measure::Listing listing = measure::name_a_compiler(arguments.devices)
+                                       ? registry.devices_and_compilers(arguments.devices)
+                                       : registry.devices();
+  std::vector<Comparing> comparisons =
+      against_base(arguments.base, measure::choose_devices(listing, arguments.devices));
   for (Comparing& each : comparisons) {
     each.plans = arguments.plans;
+    if (each.plans.empty() && measure::compile_only(each.b.device)) each.plans = code_plans;
     each.choice = arguments.choice;
     each.faults = arguments.faults;
     each.times = arguments.times;
@@ -109,10 +131,45 @@ core::ExitCode judge_by_base(const GateArguments& arguments) {
   return compare_and_tell(comparisons, arguments.json);
 }
 
+// Returns whether a plan that checks code has anything to judge: a device with a GPU's compiler, or,
+// if the gate does not measure, a run in the store.
+bool has_compilers(const GateArguments& arguments, const Registry& registry,
+                   const JudgedPlan& judged) {
+  if (!arguments.measure) {
+    if (!std::filesystem::exists(arguments.store)) return true;  // which is an error of its own
+    const record::Store store(arguments.store, record::Store::Mode::read);
+    return store.latest_run(judged.plan.name).has_value();
+  }
+  const measure::Listing listing = registry.devices_and_compilers(arguments.devices);
+  const auto compiles = [&](const record::Device& device) {
+    return device.cpu_features.empty() &&
+           (arguments.devices.empty() || core::any_glob_matches(arguments.devices, device.id));
+  };
+  if (std::ranges::any_of(listing.devices, compiles)) return true;
+  for (const measure::Broken& each : listing.broken) {
+    if (measure::compile_only(each.what)) say("triptych: {}: {}\n", each.what, each.reason);
+  }
+  return false;
+}
+
+// Removes the plans that check code from the default plans on a machine without any GPU's compiler,
+// unless a device that only compiles is required.
+void leave_out_compilers(const GateArguments& arguments, const Registry& registry,
+                         std::vector<JudgedPlan>& plans) {
+  const bool required = measure::name_a_compiler(arguments.required);
+  const auto compiled = std::ranges::find_if(
+      plans, [](const JudgedPlan& each) { return each.plan.compiled(); });
+  if (!arguments.plans.empty() || required || compiled == plans.end()) return;
+  if (has_compilers(arguments, registry, *compiled)) return;
+  std::erase_if(plans, [](const JudgedPlan& each) { return each.plan.compiled(); });
+  say("triptych: the check code is left out: no GPU's compiler is here to be asked\n");
+}
+
 core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Stopwatch& since) {
   if (!arguments.base.empty()) return judge_by_base(arguments);
   const Registry registry = make_registry();
-  const std::vector<JudgedPlan> plans = plans_of(arguments, registry);
+  std::vector<JudgedPlan> plans = plans_of(arguments, registry);
+  leave_out_compilers(arguments, registry, plans);
   if (arguments.measure) {
     std::vector<std::string> typed;
     for (const JudgedPlan& each : plans) typed.push_back(each.typed);
@@ -225,7 +282,7 @@ void add_gate_commands(Commands& commands) {
   add_example(command, "triptych gate --measure --store gate.sqlite --out out");
   command.add_option("PLAN", arguments.plans,
                      fmt::format("SUITE/PLAN or the YAML file, as it was run (default: {})",
-                                 fmt::join(main_job, " ")));
+                                 fmt::join(gate_job(), " ")));
   add_choice_options(command, arguments.choice);
   command.add_flag("--measure", arguments.measure, "Measure new runs before judging");
   command.add_option("--store", arguments.store, "SQLite file with the records")
@@ -238,7 +295,8 @@ void add_gate_commands(Commands& commands) {
       ->delimiter(',');
   command
       .add_option("--without", arguments.without,
-                  "Leave out these checks; cost also leaves out the plans that count instructions")
+                  "Leave out these checks; cost also leaves out the plans that count instructions, "
+                  "code those that ask compilers")
       ->delimiter(',');
   add_devices_option(command, arguments.devices);
   command.add_option("--require", arguments.required,

@@ -115,7 +115,7 @@ Drawn draw_within_error(const Drawing& drawing, const measure::Plan& plan,
   return {run, *answers.front().record};
 }
 
-// What the data are, for a look before anything is drawn.
+// Prints a description of the data and draws nothing.
 core::ExitCode describe_data(const Registry& registry, const FrameArguments& arguments) {
   const auto [suite, plan] = choose_data(registry, arguments);
   for (const std::string& line : suite.describe_data(plan.configurations.front())) {

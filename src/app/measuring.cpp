@@ -9,6 +9,7 @@
 #include "app/saying.hpp"
 #include "app/version.hpp"
 #include "core/output_files.hpp"
+#include "measure/system/compile_only.hpp"
 #include "measure/request/error_request.hpp"
 #include "measure/request/fastest.hpp"
 #include "measure/system/system_facts.hpp"
@@ -167,18 +168,77 @@ void tell_the_fastest(const Bench& bench, const measure::Plan& plan, const std::
   }
 }
 
+// Compilers are asked by plans that check their code alone, and where nobody names a device such a
+// plan leaves out the processor's: its instructions are counted by the plans that check cost.
+std::vector<std::string> devices_of(const measure::Listing& listing,
+                                    const std::vector<std::string>& globs, bool compiled) {
+  std::vector<std::string> chosen = measure::choose_devices(listing, globs);
+  std::vector<std::string> fit;
+  for (const std::string& id : chosen) {
+    const auto device = std::ranges::find(listing.devices, id, &record::Device::id);
+    const bool computes_here = !device->cpu_features.empty();
+    const bool fits = compiled ? !globs.empty() || !computes_here : device->compiles_for.empty();
+    if (fits) fit.push_back(id);
+  }
+  // Who names nothing else gets skips that say why.
+  if (fit.empty() && !globs.empty()) return chosen;
+  return fit;
+}
+
+measure::Listing listing_for(const Measuring& measuring, const Registry& registry,
+                             const std::vector<measure::Plan>& plans) {
+  const bool compiled = std::ranges::any_of(plans, &measure::Plan::compiled);
+  return compiled || measure::name_a_compiler(measuring.devices)
+             ? registry.devices_and_compilers(measuring.devices)
+             : registry.devices();
+}
+
+// Plans that only compile are measured on other devices than plans that draw.
+std::vector<measure::RunResult> measure_each(const Measuring& measuring, const Registry& registry,
+                                             const std::vector<measure::Plan>& plans,
+                                             const measure::Listing& listing,
+                                             record::Store& store) {
+  std::vector<measure::RunResult> results(plans.size());
+  for (const bool compiled : {false, true}) {
+    std::vector<measure::Plan> group;
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+      if (plans[i].compiled() != compiled) continue;
+      group.push_back(plans[i]);
+      places.push_back(i);
+    }
+    if (group.empty()) continue;
+    const Bench bench{measuring, registry, devices_of(listing, measuring.devices, compiled),
+                      begun_with(listing, measuring.devices), store};
+    if (bench.devices.empty()) {
+      std::string missing;
+      for (const measure::Broken& each : listing.broken) {
+        if (measure::compile_only(each.what)) {
+          missing += fmt::format("; {}: {}", each.what, each.reason);
+        }
+      }
+      throw core::NotSupported(
+          fmt::format("{}: no device with a GPU's compiler is here{}", group.front().name, missing));
+    }
+    std::vector<measure::RunResult> measured = measure_on(bench, group);
+    for (std::size_t i = 0; i < places.size(); ++i) results[places[i]] = std::move(measured[i]);
+  }
+  return results;
+}
+
 }  // namespace
 
 Measured measure_and_tell(const Measuring& measuring) {
   const Registry registry = make_registry();
   const std::vector<measure::Plan> plans = load_plans(measuring, registry);
-  const measure::Listing listing = registry.devices();
-  const std::vector<std::string> devices = measure::choose_devices(listing, measuring.devices);
+  const measure::Listing listing = listing_for(measuring, registry, plans);
   core::require_writable(std::filesystem::path(measuring.store).parent_path());
   record::Store store(measuring.store, record::Store::Mode::append);
-  const Bench bench{measuring, registry, devices, begun_with(listing, measuring.devices), store};
+  const Bench bench{measuring, registry,
+                    devices_of(listing, measuring.devices, plans.front().compiled()),
+                    begun_with(listing, measuring.devices), store};
   if (measuring.error) return measure_within_error(bench, plans.front());
-  Measured measured{.results = measure_on(bench, plans)};
+  Measured measured{.results = measure_each(measuring, registry, plans, listing, store)};
   for (std::size_t i = 0; measuring.chooses && i < plans.size(); ++i) {
     tell_the_fastest(bench, plans[i], measured.results[i].run);
   }

@@ -22,6 +22,9 @@ struct Registry {
   [[nodiscard]] measure::FindSuiteWithTruth find_suite() const;
   // The devices of this machine.
   [[nodiscard]] measure::Listing devices() const;
+  // The same with those that only compile, as measure::list_compilers finds them for the globs.
+  [[nodiscard]] measure::Listing devices_and_compilers(
+      const std::vector<std::string>& globs) const;
 };
 
 [[nodiscard]] Registry make_registry();

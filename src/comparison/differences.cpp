@@ -10,6 +10,7 @@
 #include "accuracy/image_metrics.hpp"
 #include "judge/agreement.hpp"
 #include "judge/baselines/frame_change.hpp"
+#include "judge/code/code_change.hpp"
 #include "judge/gate/open_counts.hpp"
 #include "judge/image_observation.hpp"
 #include "report/words/finding.hpp"
@@ -91,6 +92,7 @@ class Finder {
     if (!both_measured()) return std::move(result_);
     image();
     cost();
+    code();
     memory();
     for (const std::string& name : names_in(a_.record.counters, b_.record.counters)) counter(name);
     for (const std::string& name : names_in(a_.record.statistics, b_.record.statistics)) {
@@ -207,6 +209,17 @@ class Finder {
       add(Kind::changed, "cost of preparing",
           fmt::format("instructions {:.0f} → {:.0f}", before, now), now / before);
     }
+  }
+
+  // Worse code for the same family is a regression, also across driver versions. Two families may
+  // differ.
+  void code() {
+    if (a_.record.code.empty() || b_.record.code.empty()) return;
+    const judge::CodeComparison comparison = judge::compare_code(a_.record.code, b_.record.code);
+    const std::string text = judge::code_change_text(comparison);
+    if (text.empty()) return;
+    const bool worse = comparison.direction() == judge::CodeDirection::worse;
+    add(worse && same_id_ ? Kind::regression : Kind::changed, "code", text);
   }
 
   void memory() {

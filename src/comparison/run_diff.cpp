@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "judge/code/code_totals.hpp"
+
 namespace triptych::comparison {
 namespace {
 
@@ -18,6 +20,16 @@ void name_injected(const record::Record& a, const record::Record& b,
   for (Difference& each : differences) {
     each.injected = injected;
     each.text += fmt::format(" [injected: {}]", injected);
+  }
+}
+
+// Adds the totals over the whole plan, one difference per statistic.
+void add_totals(const judge::CodeTotals& totals, std::vector<Difference>& differences) {
+  if (totals.changed() == 0) return;
+  for (const std::string& line : totals.lines()) {
+    const std::size_t colon = line.find(": ");
+    differences.push_back({DifferenceKind::changed, "code total " + line.substr(0, colon),
+                           line.substr(colon + 2)});
   }
 }
 
@@ -106,12 +118,15 @@ RunDiff diff_runs(const RunSide& a, const RunSide& b, measure::Truths& truths, b
     std::string key = record.configuration;
     of_b.insert_or_assign(std::move(key), std::move(record));
   }
+  judge::CodeTotals totals;
   for (const record::Record& record : records_of(a)) {
     const auto found = of_b.extract(record.configuration);
+    if (found) totals.add(record.configuration, record.code, found.mapped().code);
     diff.configurations.push_back(found ? differ.both(record, found.mapped())
                                         : Differ::one("a", record));
   }
   for (const auto& [key, record] : of_b) diff.configurations.push_back(Differ::one("b", record));
+  add_totals(totals, diff.device);
   return diff;
 }
 

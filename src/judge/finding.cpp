@@ -22,7 +22,7 @@ constexpr Names<Verdict, 7> verdict_names{{
     {Verdict::regression, "regression"},
 }};
 
-constexpr Names<Cause, 72> cause_names{{
+constexpr Names<Cause, 76> cause_names{{
     {Cause::none, "none"},
     {Cause::as_stored, "as_stored"},
     {Cause::values_changed, "values_changed"},
@@ -47,6 +47,7 @@ constexpr Names<Cause, 72> cause_names{{
     {Cause::data_changed, "data_changed"},
     {Cause::no_baselines, "no_baselines"},
     {Cause::nothing_decided, "nothing_decided"},
+    {Cause::device_fault, "device_fault"},
     {Cause::unused_waiver, "unused_waiver"},
     {Cause::waiver_of_no_test, "waiver_of_no_test"},
     {Cause::within_bound, "within_bound"},
@@ -68,6 +69,9 @@ constexpr Names<Cause, 72> cause_names{{
     {Cause::frame_allocations, "frame_allocations"},
     {Cause::preparing, "preparing"},
     {Cause::injected_memory, "injected_memory"},
+    {Cause::other_executables, "other_executables"},
+    {Cause::other_disassembly, "other_disassembly"},
+    {Cause::other_compiler, "other_compiler"},
     {Cause::time, "time"},
     {Cause::times, "times"},
     {Cause::other_clock, "other_clock"},

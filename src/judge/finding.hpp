@@ -59,6 +59,7 @@ enum class Cause : std::uint8_t {
   data_changed,        // <hash> <now>: not the data that were measured
   no_baselines,        // <folder>
   nothing_decided,     // of a device
+  device_fault,        // found apart from any configuration: <kind> <subject> <last_words>; detail
   unused_waiver,       // expired, and excuses nothing: <test> <device> <expiry> <reason>
   waiver_of_no_test,   // <test>
   // Of images.
@@ -83,6 +84,10 @@ enum class Cause : std::uint8_t {
   frame_allocations,  // changed; "configurations", <configuration>, changes: the largest
   preparing,          // likewise
   injected_memory,    // an injected slowdown takes memory itself
+  // Code of GPUs.
+  other_executables,  // names: those that only one of the two was compiled in
+  other_disassembly,  // names: configurations whose statistics did not change
+  other_compiler,     // <driver_version> <other_version> "configurations" "changed"; changes: totals
   // Of times.
   time,         // "median_ns" "baseline_ns" "ratio" "half_width"
   times,        // over all configurations of a device

@@ -7,11 +7,12 @@
 namespace triptych::record {
 namespace {
 
-constexpr Names<Check, 9> check_names{{
+constexpr Names<Check, 10> check_names{{
     {Check::image, "image"},
     {Check::counters, "counters"},
     {Check::statistics, "statistics"},
     {Check::cost, "cost"},
+    {Check::code, "code"},
     {Check::memory, "memory"},
     {Check::timing, "timing"},
     {Check::correlation, "correlation"},

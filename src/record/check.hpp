@@ -13,6 +13,7 @@ enum class Check : std::uint8_t {
   counters,     // ours, exact
   statistics,   // the driver's pipeline statistics, exact by driver version
   cost,         // instructions per frame, by driver version
+  code,         // what a GPU's compiler reports of its output, exact by driver version
   memory,       // bytes allocated on the device, exact
   timing,       // shown; decides only on request
   correlation,  // cost of one device along the line of another's

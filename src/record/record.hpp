@@ -13,6 +13,7 @@
 
 #include "record/beginning.hpp"
 #include "record/check.hpp"
+#include "record/code.hpp"
 #include "record/device_fault.hpp"
 #include "record/reason.hpp"
 #include "record/statistic_worth.hpp"
@@ -36,6 +37,9 @@ struct Device {
   // is not part of any key.
   std::map<std::string, StatisticWorth> statistics_calibration = {};
   std::vector<DeviceFault> faults = {};  // not part of any key either
+  // The GPU family, such as "navi31", of a device that only compiles: its driver generates code for
+  // hardware that is not here, and nothing is ever executed on it. Empty: the device executes.
+  std::string compiles_for = {};
 
   // id, driver version, API version, CPU features or else the name of the hardware, environment:
   // what timings and bits depend on.
@@ -105,6 +109,7 @@ struct Record {
   // the same of preparing.
   Counts cost;
   Counts prepare_cost;
+  Code code;                // of plans that check `code`; empty where no compiler reported any
   std::string counted_by;   // by what: emulator, its version, the processor it shows
   Counts memory;            // bytes allocated on the device for this configuration, by kind
   Counts energy;            // microjoules of a frame, by meter; empty where no meter told it

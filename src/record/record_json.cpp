@@ -35,6 +35,9 @@ requires std::is_integral_v<T> Json encode(T value) {
 Json encode(const Reason& reason);
 Json encode(const StatisticWorth& worth);
 Json encode(const DeviceFault& fault);
+Json encode(const Executable& executable) {
+  return executable;
+}
 
 template <typename T>
 Json encode(const std::vector<T>& values) {
@@ -77,6 +80,10 @@ void decode(const Json& json, std::string& value) {
 void decode(const Json& json, bool& value) {
   if (!json.is_boolean()) throw core::InputError("expected true or false");
   value = json.get<bool>();
+}
+
+void decode(const Json& json, Executable& value) {
+  value = json.get<Executable>();
 }
 
 template <typename T>
@@ -141,6 +148,7 @@ void visit_fields(auto& device, Visit&& visit) requires
   visit("limits", device.limits);
   visit("statistics_calibration", device.statistics_calibration);
   visit("faults", device.faults);
+  visit("compiles_for", device.compiles_for);
 }
 
 template <typename Visit>
@@ -212,6 +220,7 @@ void visit_fields(auto& record, Visit&& visit) requires
   visit("cost", record.cost);
   visit("prepare_cost", record.prepare_cost);
   visit("counted_by", record.counted_by);
+  visit("code", record.code);
   visit("memory", record.memory);
   visit("energy", record.energy);
   visit("counters", record.counters);
@@ -309,6 +318,13 @@ void to_json(Json& json, const DeviceFault& fault) {
 void from_json(const Json& json, DeviceFault& fault) {
   read_fields(json, fault);
   read_name(json, "kind", fault.kind, device_fault_kind);
+}
+void to_json(Json& json, const Executable& executable) {
+  json = {{"statistics", encode(executable.statistics)}, {"assembly", executable.assembly}};
+}
+void from_json(const Json& json, Executable& executable) {
+  read(json, "statistics", executable.statistics);
+  read(json, "assembly", executable.assembly);
 }
 void to_json(Json& json, const Device& device) {
   write_fields(json, device);

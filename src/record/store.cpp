@@ -296,6 +296,25 @@ std::optional<TruthImage> Store::truth(std::string_view scene, std::string_view 
   });
 }
 
+void Store::add_listing(std::string_view hash, std::string_view text) {
+  state_->write([&] {
+    execute(state_->database, "INSERT INTO listing VALUES (?, ?, ?) ON CONFLICT (hash) DO NOTHING",
+            hash, text, core::content_hash(text));
+  });
+}
+
+std::optional<std::string> Store::listing(std::string_view hash) const {
+  return on_store(state_->file, [&]() -> std::optional<std::string> {
+    SQLite::Statement row =
+        prepared(state_->database, "SELECT text FROM listing WHERE hash = ?", hash);
+    if (!row.executeStep()) return std::nullopt;
+    std::string text;
+    Reader(row) >> text;
+    require_seal(hash, core::content_hash(text), fmt::format("disassembly '{}'", hash));
+    return text;
+  });
+}
+
 std::vector<Run> latest_runs(const Store& store) {
   std::map<std::string, Run> by_plan;
   for (Run& run : store.runs()) by_plan.insert_or_assign(run.plan, std::move(run));

@@ -81,6 +81,8 @@ class Store {
   void unbegin_record(const std::string& run, const std::string& configuration,
                       const std::string& device);
   void set_truth(const TruthImage& truth);
+  // A disassembly, which records name by its content hash; known ones are left alone.
+  void add_listing(std::string_view hash, std::string_view text);
 
   [[nodiscard]] std::vector<Run> runs() const;  // oldest first
   [[nodiscard]] std::optional<Run> latest_run(std::string_view plan) const;
@@ -111,6 +113,8 @@ class Store {
   [[nodiscard]] core::Image picture(std::string_view hash) const;
   [[nodiscard]] std::optional<TruthImage> truth(std::string_view scene,
                                                 std::string_view version) const;
+  // The disassembly with this hash; nullopt where the store has none.
+  [[nodiscard]] std::optional<std::string> listing(std::string_view hash) const;
 
  private:
   struct State;

@@ -144,6 +144,34 @@ void read_times(const SQLite::Database& database, std::string_view run,
             });
 }
 
+// Reads the compilers' reports of all records.
+void read_code(const SQLite::Database& database, std::string_view run,
+               const RecordsBySeq& records) {
+  read_rows(database, "executable", "t.name, t.assembly", "t.record", run, records,
+            [](Record& record, Reader& row) {
+              std::string name;
+              row >> name;
+              row >> record.code[name].assembly;
+            });
+  read_rows(database, "code", "t.executable, t.name, t.value", "t.record", run, records,
+            [](Record& record, Reader& row) {
+              std::string executable;
+              std::string name;
+              row >> executable >> name;
+              row >> record.code[executable].statistics[name];
+            });
+}
+
+void insert_code(const SQLite::Database& database, std::int64_t record, const Code& code) {
+  for (const auto& [executable, what] : code) {
+    execute(database, "INSERT INTO executable VALUES (?, ?, ?)", record, executable,
+            what.assembly);
+    for (const auto& [name, value] : what.statistics) {
+      execute(database, "INSERT INTO code VALUES (?, ?, ?, ?)", record, executable, name, value);
+    }
+  }
+}
+
 void require_record_seal(const Row& row, const Record& record) {
   require_seal(row.seal, seal_of(record),
                fmt::format("the record of {} on {}", record.configuration, record.device));
@@ -176,6 +204,8 @@ class PartsOf {
   explicit PartsOf(const SQLite::Database& database)
       : database_(database),
         samples_(database, "sample", "clock, ns", "clock, frame"),
+        executables_(database, "executable", "name, assembly", "name"),
+        code_(database, "code", "executable, name, value", "executable, name"),
         same_as_(database, "same_as", "configuration", "record") {}
 
   void read(std::int64_t record, Record& r) {
@@ -193,6 +223,17 @@ class PartsOf {
     read_map("energy", record, r.energy);
     read_map("statistic", record, r.statistics);
     read_map("precision", record, r.precision);
+    executables_.each(record, [&](Reader& row) {
+      std::string name;
+      row >> name;
+      row >> r.code[name].assembly;
+    });
+    code_.each(record, [&](Reader& row) {
+      std::string executable;
+      std::string name;
+      row >> executable >> name;
+      row >> r.code[executable].statistics[name];
+    });
     same_as_.each(record, [&](Reader& row) { row >> r.same_as; });
   }
 
@@ -208,7 +249,7 @@ class PartsOf {
   }
 
   const SQLite::Database& database_;
-  RowsOf samples_, same_as_;
+  RowsOf samples_, executables_, code_, same_as_;
   std::map<std::string, RowsOf> maps_;
 };
 
@@ -226,6 +267,7 @@ void insert_record(const SQLite::Database& database, const Record& r) {
   insert_map(database, "energy", seq, r.energy);
   insert_map(database, "statistic", seq, r.statistics);
   insert_map(database, "precision", seq, r.precision);
+  insert_code(database, seq, r.code);
   if (!r.same_as.empty()) execute(database, "INSERT INTO same_as VALUES (?, ?)", seq, r.same_as);
 }
 
@@ -248,6 +290,7 @@ std::vector<Record> read_records(const SQLite::Database& database, std::string_v
   read_map(database, "energy", run, by_seq, &Record::energy);
   read_map(database, "statistic", run, by_seq, &Record::statistics);
   read_map(database, "precision", run, by_seq, &Record::precision);
+  read_code(database, run, by_seq);
   read_rows(database, "same_as", "t.configuration", "t.record", run, by_seq,
             [](Record& record, Reader& row) { row >> record.same_as; });
   for (std::size_t i = 0; i < records.size(); ++i) require_record_seal(of[i], records[i]);

@@ -157,11 +157,11 @@ void insert_device(const SQLite::Database& database, const std::string& run, con
   execute(database, "DELETE FROM device WHERE run = ? AND id = ?", run, d.id);
   execute(database,
           "INSERT INTO device (run, id, api, name, vendor, driver, driver_version, api_version, "
-          "cpu_features, key, key_hash, environment, limits, seal) "
-          "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+          "cpu_features, key, key_hash, environment, limits, compiles_for, seal) "
+          "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
           run, d.id, d.api, d.name, d.vendor, d.driver, d.driver_version, d.api_version,
           d.cpu_features, d.key(), d.key_hash(), text_of(d.environment, "environment", json),
-          text_of(d.limits, "limits", json), seal_of(d, clocks));
+          text_of(d.limits, "limits", json), d.compiles_for, seal_of(d, clocks));
   const std::int64_t device = database.getLastInsertRowid();
   for (const ClockTrust& c : clocks) {
     execute(database,
@@ -187,7 +187,7 @@ std::vector<Store::DeviceEntry> read_devices(const SQLite::Database& database,
   SQLite::Statement rows =
       prepared(database,
                "SELECT seq, id, api, name, vendor, driver, driver_version, api_version, "
-               "cpu_features, environment, limits, seal FROM device WHERE run = ? ORDER BY seq",
+               "cpu_features, environment, limits, compiles_for, seal FROM device WHERE run = ? ORDER BY seq",
                run);
   while (rows.executeStep()) {
     std::uint64_t seq = 0;
@@ -196,7 +196,7 @@ std::vector<Store::DeviceEntry> read_devices(const SQLite::Database& database,
     std::string seal;
     Device d;
     Reader(rows) >> seq >> d.id >> d.api >> d.name >> d.vendor >> d.driver >> d.driver_version >>
-        d.api_version >> d.cpu_features >> environment >> limits >> seal;
+        d.api_version >> d.cpu_features >> environment >> limits >> d.compiles_for >> seal;
     d.environment = map_of(environment);
     d.limits = map_of(limits);
     d.statistics_calibration = read_calibration(database, seq);

@@ -50,6 +50,7 @@ CREATE TABLE device (
   key_hash TEXT NOT NULL,
   environment TEXT NOT NULL,
   limits TEXT NOT NULL,
+  compiles_for TEXT NOT NULL,
   seal TEXT NOT NULL,
   UNIQUE (run, id)
 ) STRICT;
@@ -165,6 +166,25 @@ CREATE TABLE precision (
   PRIMARY KEY (record, name)
 ) STRICT, WITHOUT ROWID;
 
+CREATE TABLE executable (
+  record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
+  name TEXT NOT NULL,
+  assembly TEXT NOT NULL,
+  PRIMARY KEY (record, name)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE code (
+  record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
+  executable TEXT NOT NULL,
+  name TEXT NOT NULL,
+  value REAL,
+  PRIMARY KEY (record, executable, name)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE listing (
+  hash TEXT PRIMARY KEY,
+  text TEXT NOT NULL,
+  seal TEXT NOT NULL
+) STRICT;
 CREATE TABLE image (
   hash TEXT PRIMARY KEY,
   exr BLOB NOT NULL,

@@ -103,6 +103,25 @@ Columns<ValueSource> cost_columns() {
   };
 }
 
+struct CodeSource {
+  std::uint64_t record;
+  const std::string& executable;
+  const std::string& name;
+  double value;
+};
+
+Columns<CodeSource> code_columns() {
+  return {
+      {{"record", "integer", "", numbers}, [](const CodeSource& s) { return s.record; }},
+      {{"executable", "text", "", "shader stage or kernel"},
+       [](const CodeSource& s) { return s.executable; }},
+      {{"name", "text", "", "statistic, by the driver's name"},
+       [](const CodeSource& s) { return s.name; }},
+      {{"value", "number", "", "as the compiler reports it"},
+       [](const CodeSource& s) { return s.value; }},
+  };
+}
+
 class Tables {
  public:
   Tables(const std::filesystem::path& folder, const RecordNames& names)
@@ -116,7 +135,8 @@ class Tables {
                   value_columns("of one frame, counted by our device code")),
         statistics_(folder, "statistics", "a pipeline statistic a row",
                     value_columns("of one frame, by the driver")),
-        cost_(folder, "cost", "a part of a cost a row", cost_columns()) {}
+        cost_(folder, "cost", "a part of a cost a row", cost_columns()),
+        code_(folder, "code", "one statistic of one executable per row", code_columns()) {}
 
   void add(const Store& store, const Run& run) {
     runs_.add({store.file().string(), run});
@@ -136,6 +156,7 @@ class Tables {
     counters_.end(dictionary, rows);
     statistics_.end(dictionary, rows);
     cost_.end(dictionary, rows);
+    code_.end(dictionary, rows);
   }
 
  private:
@@ -154,6 +175,11 @@ class Tables {
     add_all(statistics_, record.statistics, "frame");
     add_all(cost_, record.cost, "frame");
     add_all(cost_, record.prepare_cost, "prepare");
+    for (const auto& [executable, what] : record.code) {
+      for (const auto& [name, value] : what.statistics) {
+        code_.add({number, executable, name, value});
+      }
+    }
   }
 
   std::uint64_t last_ = 0;
@@ -163,6 +189,7 @@ class Tables {
   Table<RecordSource> records_;
   Table<SampleSource> samples_;
   Table<ValueSource> counters_, statistics_, cost_;
+  Table<CodeSource> code_;
 };
 
 struct RunInStore {

@@ -331,6 +331,12 @@ std::string command_of(const Finding& finding, const judge::GateResult& result) 
                   .injected = finding.injected,
                   .limit = finding.reason.limit(),
                   .more = {"--truth", "--out", "repro"}};
+  // Nothing is drawn: what its compiler makes of it is printed.
+  if (finding.check == Check::code) {
+    command.command = "code";
+    command.more.clear();
+    return text_of(command);
+  }
   // Counting has a limit of its own.
   if (finding.check == Check::cost) command.limit.reset();
   if (!is_told_by_a_picture(finding)) {

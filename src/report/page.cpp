@@ -45,13 +45,14 @@ PlanData data_of(const record::Store& store, const PlanReport& report, std::size
   return plan;
 }
 
-Html plan_part(const PlanReport& report, const PlanData& plan) {
+Html plan_part(const record::Store& store, const PlanReport& report, const PlanData& plan) {
   return markup(
              "<section id=\"{}\" data-kind=\"plan\" data-suite=\"{}\" data-device=\"{}\"><h2>{}"
              "</h2><p>{}</p>",
              plan.prefix, suite_of(plan), devices_of(plan), plan.name,
              words::headline(report.verdict)) +
-         system_line(report.run) + common_line(plan) + changes_section(plan) +
+         system_line(report.run) + common_line(plan) + code_section(store, plan) +
+         changes_section(plan) +
          accuracy_section(plan) + correlation_section(plan) + devices_section(plan) +
          times_section(plan) + speed_of_light_section(plan) + needed_section(plan) +
          counts_section(plan) + markup("</section>\n");
@@ -79,7 +80,8 @@ std::string page(const record::Store& store, const PageRequest& request) {
   const JudgedPictures judged = judged_pictures(all, plans);
   Html text = page_begin("Triptych report") + verdict_card(all, plans) + filters(plans) +
               markup("<main>") + first_part(all, {store, request.truth, judged}, plans);
-  for (std::size_t i = 0; i < plans.size(); ++i) text += plan_part(request.plans[i], plans[i]);
+  for (std::size_t i = 0; i < plans.size(); ++i) 
+    text += plan_part(store, request.plans[i], plans[i]);
   const Html whole = without_repeated_pictures(text) + markup("</main>") + comparison_dialog() +
                      page_end(/*with_script=*/true);
   return whole.text();

@@ -61,6 +61,8 @@ struct Pictures {
 [[nodiscard]] Html changes_section(const PlanData& plan);
 [[nodiscard]] Html times_section(const PlanData& plan);
 [[nodiscard]] Html speed_of_light_section(const PlanData& plan);
+// The compilers' reports, with the disassembly of worse code beside an earlier one from the store.
+[[nodiscard]] Html code_section(const record::Store& store, const PlanData& plan);
 // Samples and spheres that skipping and culling leave, and how many of them show.
 [[nodiscard]] Html needed_section(const PlanData& plan);
 // Of each pair of devices, what keeps step and what is off its line.

@@ -13,8 +13,8 @@ namespace triptych::scene {
 [[nodiscard]] std::string particle_endings();
 [[nodiscard]] std::string volume_endings();
 
-// What to do with a file of this ending (".xtc", or empty for none): how to convert it where it is
-// of a known program, and which endings are read.
+// Advice on a file of this ending (".xtc", or empty for none): the command that converts it if its
+// format is known, and the endings that are read.
 [[nodiscard]] std::string particle_advice(std::string_view ending);
 [[nodiscard]] std::string volume_advice(std::string_view ending);
 

@@ -15,7 +15,7 @@ constexpr double nanometre = 0.1;  // an ångström in this file's unit
 constexpr std::size_t places_begin = 20;
 
 // Numbers are written as "%{n+5}.{n}f": the first decimal point is always in column 25, and their
-// distance gives the width. The numbers of one line tell, as none may be wider than its columns.
+// distance gives the width. One line is enough, because no number may be wider than its columns.
 std::size_t place_width(std::string_view line, const LineReader& reader) {
   constexpr std::size_t first_point = places_begin + 4;
   const std::size_t first = line.find('.', places_begin);
@@ -55,7 +55,7 @@ void add_gro_atom(Atoms& atoms, std::string_view line, std::size_t width,
 }
 
 // Numbers of a box above 1000 nm touch, and the box is not needed: what must be right is only that
-// this line is no further atom.
+// this line is not a further atom.
 void check_box(std::string_view line, const LineReader& reader) {
   const std::size_t words = split_words(line).size();
   const bool numbers = line.find_first_not_of("0123456789.+-eE \t") == std::string_view::npos;

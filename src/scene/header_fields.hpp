@@ -1,5 +1,5 @@
 #pragma once
-// What headers of volumes have in common: directions of axes, and names of anatomical directions.
+// Shared by the headers of volumes: directions of axes, and names of anatomical directions.
 
 #include <array>
 #include <string>

@@ -110,7 +110,7 @@ StoredType meta_type(const MetaField& field) {
        {"met_long_long", StoredType::i64},
        {"met_float", StoredType::f32},
        {"met_double", StoredType::f64},
-       // As ITK writes them: four bytes.
+       // ITK writes them with four bytes.
        {"met_ulong", StoredType::u32},
        {"met_long", StoredType::i32}}};
   const std::string name = lower_case(field.value);
@@ -254,7 +254,7 @@ Volume read_metaimage(const std::filesystem::path& file, const Component& compon
   const MetaHeader header(file);
   if (const MetaField* object = header.find("objecttype");
       object != nullptr && lower_case(object->value) != "image") {
-    throw core::InputError(object->place, fmt::format("'{}' is no volume; expected Image",
+    throw core::InputError(object->place, fmt::format("'{}' is not a volume; expected Image",
                                                       quotable(object->value)));
   }
   Volume volume;

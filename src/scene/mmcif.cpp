@@ -42,8 +42,8 @@ class Tokens {
     return ahead_;
   }
   void take() { ahead_.reset(); }
-  // How many lines that begin with '#' came before the word, or the end, that was last seen: all of
-  // them, and those right before it.
+  // The number of lines that begin with '#' before the word (or the end) that was seen last: all of
+  // them, and those directly before it.
   [[nodiscard]] std::uint64_t marks() const { return marks_; }
   [[nodiscard]] std::uint64_t marks_before() const { return marks_before_; }
 
@@ -299,7 +299,7 @@ class ClosingMarks {
   std::uint64_t closed_ = 0;
 };
 
-// What a file without atoms is instead, as far as its first categories show.
+// Says which other content a file without atoms has, as far as its loops show.
 std::string_view other_content(std::string_view tag) {
   if (tag.starts_with("_chem_comp_atom.")) {
     return "the file describes a chemical component (_chem_comp_atom), not a structure";

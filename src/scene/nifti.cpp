@@ -50,7 +50,7 @@ class NiftiHeader {
       check_magic();
       return;
     }
-    reject("is no NIfTI file: its first 4 bytes are no header size, 348 or 540");
+    reject("is not a NIfTI file: its first 4 bytes are not a header size (348 or 540)");
   }
 
   [[nodiscard]] bool big_endian() const { return big_; }
@@ -251,7 +251,7 @@ std::string unit_name(int code) {
   }
 }
 
-// The .img beside a .hdr, compressed or not.
+// The .img file that belongs to a .hdr file, compressed or not.
 std::filesystem::path image_beside(const std::filesystem::path& file, const NiftiHeader& header) {
   std::filesystem::path stem = file;
   const std::string last = lower_case(file.extension().string());
@@ -268,7 +268,7 @@ std::filesystem::path image_beside(const std::filesystem::path& file, const Nift
 
 std::uint64_t start_of_voxels(const NiftiHeader& header) {
   const double offset = header.vox_offset();
-  // Of a single file, the header and the four bytes after it that say whether more of it follows.
+  // In a single file, four bytes after the header say whether extensions follow.
   const std::size_t least = header.is_single_file() ? header.header_bytes() + 4 : 0;
   if (offset == 0) return least;
   constexpr double most = 0x1.0p53;

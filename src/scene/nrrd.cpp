@@ -307,8 +307,8 @@ void require_places(const Field& kinds) {
   }
 }
 
-// Which of four axes is that of the components: the one whose kind is no space, or without a
-// direction, or of size 1 where no other is.
+// Finds the component axis among four: the one whose kind is not spatial, else the one without a
+// direction, else the only one of size 1.
 std::size_t component_axis(const Header& header, const std::vector<std::string_view>& sizes) {
   const core::FilePlace& place = header.require("dimension").place;
   std::vector<std::size_t> found;
@@ -341,7 +341,7 @@ std::size_t component_axis(const Header& header, const std::vector<std::string_v
   if (found.size() == 1 && found.front() < 4) return found.front();
   throw core::InputError(place,
                          "expected 3 axes, or 4 of which 'kinds' or 'space directions' states the one "
-                         "that is no axis in space, as in 'kinds: vector domain domain domain'");
+                         "that is not spatial, as in 'kinds: vector domain domain domain'");
 }
 
 // Sizes, and for four axes the layout of the components.
@@ -351,8 +351,8 @@ LeftOut parse_axes(const Header& header, Volume& volume, ValueLayout& layout) {
   const auto axes = parse_number<int>(dimension.value);
   if (axes != 3 && axes != 4) {
     throw core::InputError(dimension.place,
-                           fmt::format("dimension '{}'; expected 3 axes, or 4 of which one is no "
-                                       "axis in space",
+                           fmt::format("dimension '{}'; expected 3 axes, or 4 of which one is not "
+                                       "spatial",
                                        quotable(dimension.value)));
   }
   if (axes == 3) {

@@ -38,7 +38,7 @@ std::string letters_of_name(std::string_view name) {
 }
 
 // The symbol in columns 77 and 78, or nothing. Older files have other things there, such as the end
-// of a word that names a segment: "MEMBRANE" is no radium.
+// of a word that names a segment: "MEMBRANE" does not mean radium.
 std::string symbol_in_columns(std::string_view line) {
   const std::string_view field = columns(line, 77, 78);
   const std::string_view symbol = trimmed(field);

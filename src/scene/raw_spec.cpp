@@ -64,11 +64,11 @@ void take_option(RawSpec& spec, std::string_view part, std::string_view data) {
     spec.layout.big_endian = part == "big";
   } else if (part.starts_with(skip)) {
     const auto bytes = parse_number<std::int64_t>(part.substr(skip.size()));
-    if (!bytes || *bytes < 0) reject_spec(data, "skip is no whole number from 0 on");
+    if (!bytes || *bytes < 0) reject_spec(data, "skip must be a whole number, 0 or more");
     spec.skip = *bytes;
   } else if (part.starts_with(components)) {
     const auto count = parse_number<std::uint64_t>(part.substr(components.size()));
-    if (!count || *count < 1) reject_spec(data, "components is no whole number from 1 on");
+    if (!count || *count < 1) reject_spec(data, "components must be a whole number, 1 or more");
     spec.layout.components = *count;
   } else if (const auto spacing = three_numbers<double>(part)) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -76,7 +76,7 @@ void take_option(RawSpec& spec, std::string_view part, std::string_view data) {
           usable_spacing(spacing->at(axis), spec.size.at(axis), {.file = spec.file});
     }
   } else {
-    reject_spec(data, fmt::format("'{}' is no spacing or option", part));
+    reject_spec(data, fmt::format("'{}' is neither a spacing nor an option", part));
   }
 }
 
@@ -99,7 +99,7 @@ std::optional<RawSpec> parse_raw_spec(std::string_view data) {
   const auto type = std::ranges::find(type_names, lower_case(parts[at + 1]),
                                       &std::pair<std::string_view, StoredType>::first);
   if (type == type_names.end()) {
-    reject_spec(data, fmt::format("'{}' is no type of u8 i8 u16 i16 u32 i32 u64 i64 f32 f64",
+    reject_spec(data, fmt::format("unknown type '{}'; the types are u8 i8 u16 i16 u32 i32 u64 i64 f32 f64",
                                   parts[at + 1]));
   }
   spec.layout.type = type->second;

@@ -35,7 +35,7 @@ std::uint64_t size_of_file(const std::filesystem::path& file) {
   return size;
 }
 
-// What a message calls the data of an encoding.
+// The name of the encoded data in messages.
 std::string_view stream_name(const RawVoxels& source) {
   switch (source.encoding) {
     case RawEncoding::gzip:
@@ -97,7 +97,7 @@ ByteSource open_data(const RawVoxels& source, const std::filesystem::path& file)
   return bytes;
 }
 
-// How many bytes lie before the voxels of a file that holds `share` bytes of them.
+// The number of bytes before the voxels in a file that holds `share` bytes of voxels.
 std::uint64_t bytes_before(const RawVoxels& source, const std::filesystem::path& file,
                            std::uint64_t share) {
   if (source.skip != RawVoxels::at_end) return static_cast<std::uint64_t>(source.skip);
@@ -114,8 +114,8 @@ void check_claim(const Volume& volume, const RawVoxels& source, std::uint64_t ne
       source.packing == Packing::none ? size - std::min(source.start, size) : size;
   const auto skip = static_cast<std::uint64_t>(std::max<std::int64_t>(source.skip, 0));
   if (is_compressed(source)) {
-    // Deflate's densest code spends one bit on 129 bytes; more cannot come out of this file. Of
-    // bzip2's there is no such bound that helps.
+    // Deflate's densest code spends one bit on 129 bytes; more cannot come out of this file. No
+    // such bound helps for bzip2.
     constexpr std::uint64_t largest_ratio = 1032;
     const bool deflated =
         source.encoding != RawEncoding::bzip2 && source.packing != Packing::bzip2;
@@ -179,7 +179,7 @@ class Files {
     return filled;
   }
 
-  // Of the file that was read last: nothing but blanks may be left of a text.
+  // Checks the file that was read last: a text may only have blanks left.
   void check_surplus() const {
     if (source_.more_may_follow) return;
     std::vector<std::byte> surplus(source_.encoding == RawEncoding::text

@@ -1,5 +1,5 @@
 #pragma once
-// The voxels behind a header: values of a file, in one of several encodings, brought into a volume.
+// Reads the voxels that a header describes, in one of several encodings, into a volume.
 
 #include <cstdint>
 #include <filesystem>
@@ -40,7 +40,7 @@ struct RawVoxels {
 // stream is broken, IoError when the file cannot be read.
 void read_voxels(Volume& volume, const RawVoxels& source);
 
-// As read_voxels, from values that are decoded already. More may follow them. No more than
+// Like read_voxels, from values that are decoded already. More may follow them. No more than
 // most_unpacked_bytes are read.
 void read_stream(Volume& volume, const ValueLayout& layout, const Component& component,
                  const ByteSource& values, const std::filesystem::path& file);

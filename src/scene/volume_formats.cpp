@@ -81,7 +81,7 @@ const VolumeFormat& volume_format(const std::filesystem::path& file) {
       formats, [&](const VolumeFormat& format) { return format.begins(start); });
   if (named == formats.end() && begun == formats.end()) {
     throw core::InputError({.file = file.string()},
-                           fmt::format("'{}' is no known format of volumes; {}", quotable(ending),
+                           fmt::format("'{}' is not a known volume format; {}", quotable(ending),
                                        volume_advice(ending)));
   }
   if (named == formats.end()) return *begun;

@@ -31,7 +31,7 @@ class Letters {
   }
   void take() { ++at_; }
 
-  // The next letter that is no blank.
+  // The next letter that is not a blank.
   std::optional<char> peek_ink() {
     for (auto c = peek(); c; c = peek()) {
       if (*c != ' ' && *c != '\n' && *c != '\r' && *c != '\t') return c;

@@ -1,6 +1,6 @@
 #pragma once
 // From the values of a file to the voxels of a volume: one component of several, or its magnitude,
-// scaled where the file says so, in one of the types that Volume has.
+// scaled if the file states a scale, in one of the types that Volume has.
 
 #include <cstdint>
 #include <optional>
@@ -42,7 +42,7 @@ struct ValueLayout {
 [[nodiscard]] std::uint64_t take_values(Volume& volume, const ValueLayout& layout,
                                         const Component& component, const ByteSource& source);
 
-// How many bytes the values of a volume take in the file; nothing where 64 bits cannot count them.
+// The number of bytes of a volume's values in the file; nothing if 64 bits cannot count them.
 [[nodiscard]] std::optional<std::uint64_t> value_bytes(const Volume& volume,
                                                        const ValueLayout& layout);
 

@@ -29,7 +29,7 @@ struct VtiArray {
   bool of_cells = false;
 };
 
-// What the tags of a file say.
+// The content of a file's tags.
 struct VtiFile {
   std::string file;
   XmlTag root;
@@ -82,7 +82,7 @@ VtiFile read_tags(const std::filesystem::path& file) {
     } else if (tag->name == "AppendedData") {
       vti.appended = *tag;
       vti.appended_start = start_of_appended(file, tag->end);
-      break;  // what follows is no text
+      break;  // bytes follow, not text
     }
   }
   if (vti.root.attribute("type") != "ImageData" || vti.image.name.empty()) {
@@ -121,7 +121,7 @@ std::vector<T> numbers_of(const std::string& text, std::size_t count, const VtiF
   std::vector<T> numbers;
   for (const std::string_view word : split_words(plain)) {
     const auto number = parse_number<T>(word);
-    if (!number) vti.reject(fmt::format("{}: '{}' is no number", name, quotable(word)));
+    if (!number) vti.reject(fmt::format("{}: '{}' is not a number", name, quotable(word)));
     numbers.push_back(*number);
   }
   if (numbers.size() != count) {

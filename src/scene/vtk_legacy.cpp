@@ -96,7 +96,7 @@ std::uint64_t count_of(const VtkLines& lines, std::string_view word) {
   return *count;
 }
 
-// What is known of the image before its array comes.
+// The properties of the image that are stated before its array.
 struct VtkHeader {
   bool binary = false;
   std::string sizes;
@@ -160,8 +160,8 @@ ValueLayout take_array(VtkLines& lines, const VtkHeader& header) {
     layout.components = count_of(lines, words[1]);
     layout.type = vtk_type(lines, words[3]);
   } else {
-    lines.reject(fmt::format("'{}' is no array that is read; expected SCALARS, COLOR_SCALARS, "
-                             "VECTORS, NORMALS or FIELD",
+    lines.reject(fmt::format("expected an array, found '{}'; the arrays that are read are SCALARS, "
+                             "COLOR_SCALARS, VECTORS, NORMALS and FIELD",
                              quotable(words.front())));
   }
   return layout;

@@ -24,7 +24,7 @@ std::optional<char> XmlTags::letter() {
   return static_cast<char>(buffer_[at_++]);
 }
 
-// What stands between '<' and '>', which may be in quotes.
+// The text between '<' and '>', which may also occur in quotes.
 std::string XmlTags::until_end() {
   constexpr std::size_t longest = std::size_t{1} << 16U;
   std::string text;

@@ -68,13 +68,13 @@ XyzColumns stated_columns(std::string_view list, const LineReader& reader) {
 XyzColumns columns_of(std::string_view text, const LineReader& reader) {
   const XyzComment comment = parse_xyz_comment(text);
   if (!comment.error.empty()) {
-    reader.reject(fmt::format("the comment has 'Properties=' but is no extended XYZ: {}",
+    reader.reject(fmt::format("the comment has 'Properties=' but is not valid extended XYZ: {}",
                               comment.error));
   }
   return comment.properties ? stated_columns(*comment.properties, reader) : XyzColumns{};
 }
 
-// As other programs write numbers: with Fortran's exponent (1.0D+00), or Mathematica's (8.4*^-6).
+// Numbers as other programs write them: with Fortran's exponent (1.0D+00), or Mathematica's (8.4*^-6).
 double xyz_number(std::string_view word, std::string_view what, const LineReader& reader) {
   const std::size_t mark = word.find_first_of("dD*");
   if (mark == std::string_view::npos) return reader.number(word, what);
@@ -84,7 +84,7 @@ double xyz_number(std::string_view word, std::string_view what, const LineReader
   } else if (word[mark] != '*') {
     plain[mark] = 'e';
   }
-  // "1.0e+00": a sign after the exponent is fine, one before it is not ours to explain.
+  // The original word is quoted if this is not a number either.
   const auto value = parse_number<double>(plain);
   return value ? *value : reader.number(word, what);
 }
@@ -190,7 +190,7 @@ void name_words(Atoms& atoms, bool numbered) {
   name_elements(atoms);
 }
 
-// What follows a frame: nothing, or the count of the next one. The data set QM9 has three lines
+// A frame is followed by nothing, or by the count of the next one. The data set QM9 has three lines
 // there: frequencies, SMILES and InChI.
 void check_what_follows(LineReader& reader) {
   if (reader.at_end()) return;

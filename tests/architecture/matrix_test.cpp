@@ -63,7 +63,7 @@ TEST(Matrix, EveryCellIsImplementedOrExplained) {
 // What no gate draws nobody judges.
 TEST(Matrix, EveryTechniqueIsInTheGatesPlans) {
   for (const technique::Technique& each : technique::catalogue()) {
-    for (const char* plan : {"quick.yaml", "cost.yaml"}) {
+    for (const char* plan : {"quick.yaml", "cost.yaml", "code.yaml"}) {
       const std::string text = read(source_folder / "suites" / each.suite / "plans" / plan);
       const std::regex named("(^|[^a-z_])" + each.id + "($|[^a-z_])");
       EXPECT_TRUE(std::regex_search(text, named))

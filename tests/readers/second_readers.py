@@ -31,7 +31,7 @@ import generated_files
 
 
 class Refused(Exception):
-    """The second reader cannot read the file, or what it holds is no such thing."""
+    """The second reader cannot read the file, or it holds other data."""
 
 
 class Particles:
@@ -260,7 +260,7 @@ def decompressed(data):
 
 
 class unpacked:
-    """A plain file beside a compressed one's others, for readers that need it."""
+    """A plain copy of a compressed file, for readers that need one."""
 
     def __init__(self, path):
         self.path = path
@@ -396,7 +396,7 @@ def seeds_as_files(folder):
     """The inputs of the fuzzers: the first line is the file's ending."""
     root = pathlib.Path(__file__).resolve().parents[1] / "fuzz" / "seeds"
     folders = [root / "particles", root / "volumes"]
-    # What the fuzzers of this checkout kept.
+    # Inputs that the fuzzers of this checkout kept.
     corpus = root.parents[2] / "build" / "fuzz" / "corpus"
     folders += [corpus / "particles", corpus / "volumes"]
     for source in folders:

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -127,6 +128,29 @@ void update_cost(const Accepted& accepted, const record::Device& device, NextFol
         {"frame", kept_of(record.cost)}, {"prepare", kept_of(record.prepare_cost)}};
   }
   update.write(3);
+}
+
+// Infinite statistics are not stored, because JSON has no such number.
+void update_code(const Accepted& accepted, const record::Device& device, NextFolder& next) {
+  Update update(next, Layout::code(device));
+  bool any = false;
+  for (const record::Record& record : accepted.measured) {
+    if (record.device != device.id || record.code.empty()) continue;
+    any = true;
+    Json& file = update.object();
+    file["device"] = device.id;
+    file["driver_version"] = device.driver_version;
+    Json code = Json::object();
+    for (const auto& [name, executable] : record.code) {
+      Json& entry = code[name] = Json::object();
+      if (!executable.assembly.empty()) entry["assembly"] = executable.assembly;
+      for (const auto& [statistic, value] : executable.statistics) {
+        if (std::isfinite(value)) entry[statistic] = value;
+      }
+    }
+    table_of(file["configurations"], accepted)[record.configuration] = std::move(code);
+  }
+  if (any) update.write(4);
 }
 
 // Of untimed records whose statistics were not read nothing is known: what is stored of them stays.
@@ -436,6 +460,7 @@ std::vector<std::string> accept(const record::Store& store, const std::string& r
   if (!keeps_times) next.drop_folder("timings/");
   for (const auto& [id, device] : accepted.devices) {
     update_cost(accepted, device, next);
+    update_code(accepted, device, next);
     update_statistics(accepted, device, next);
     if (keeps_times) update_timings(accepted, device, next);
   }

@@ -127,6 +127,27 @@ DriverCost read_cost(const core::JsonNode& node) {
               })};
 }
 
+record::Executable read_executable(const core::JsonNode& node) {
+  record::Executable executable;
+  for (const auto& [name, value] : node.members()) {
+    if (name == "assembly") {
+      executable.assembly = value.text();
+    } else {
+      executable.statistics.emplace(name, value.number_from_zero());
+    }
+  }
+  return executable;
+}
+
+DriverCode read_code(const core::JsonNode& node) {
+  const auto read_one = [](const core::JsonNode& code) {
+    return read_members<record::Executable>(code, read_executable);
+  };
+  return {.device = node.at("device").text(),
+          .driver_version = node.at("driver_version").text(),
+          .configurations = read_members<record::Code>(node.at("configurations"), read_one)};
+}
+
 StoredTiming read_timing(const core::JsonNode& node) {
   return {node.at("clock").text(), node.at("median_ns").positive_number(),
           node.at("spread").positive_number(), node.at("kernel_hash").text()};
@@ -202,6 +223,7 @@ struct Baselines::Cache {
   std::optional<ByName<ByName<StoredError>>> errors;
   std::optional<ByName<ByName<std::uint64_t>>> scores;
   std::optional<ByName<DriverCost>> cost;
+  std::optional<ByName<DriverCode>> code;
   std::map<fs::path, ByName<record::Counts>> statistics;
   std::map<fs::path, ByName<record::StatisticWorth>> calibrations;
   std::map<fs::path, ByName<StoredTiming>> timings;
@@ -371,6 +393,23 @@ const std::map<std::string, DriverCost>& Baselines::cost_of_all_drivers() const 
 const DriverCost* Baselines::cost(const record::Device& device) const {
   const auto found = cost_of_all_drivers().find(device.statistics_key());
   return found == cost_of_all_drivers().end() ? nullptr : &found->second;
+}
+
+const std::map<std::string, DriverCode>& Baselines::code_of_all_drivers() const {
+  if (!cache_->code) {
+    cache_->code.emplace();
+    for (const auto& [driver, path] : files_in(folder_ / Layout::code_folder)) {
+      if (const auto file = core::JsonFile::read(path)) {
+        cache_->code->emplace(driver, read_code(file->root()));
+      }
+    }
+  }
+  return *cache_->code;
+}
+
+const DriverCode* Baselines::code(const record::Device& device) const {
+  const auto found = code_of_all_drivers().find(device.statistics_key());
+  return found == code_of_all_drivers().end() ? nullptr : &found->second;
 }
 
 bool Baselines::has_statistics(const record::Device& device) const {

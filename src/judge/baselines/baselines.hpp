@@ -7,6 +7,8 @@
 //   memory.json               {configuration: {device id: {kind: bytes}}}
 //   cost/<driver>.json        {device, driver_version, counted_by, configurations: {configuration:
 //                             {frame: {part: instructions}, prepare: likewise}}}
+//   code/<driver>.json        {device, driver_version, configurations: {configuration: {executable:
+//                             {assembly: hash of its disassembly, statistic: value}}}}
 //   statistics/<driver>.json  {device, calibration: {statistic: verdict} where it is known,
 //                             configurations: {configuration: {statistic: value}}}
 //   timings/<device key>.json {device, configurations: {configuration: {clock, median_ns, spread,
@@ -77,6 +79,13 @@ struct DriverCost {
   std::map<std::string, StoredCost> configurations;
 };
 
+// The stored code statistics of one driver version.
+struct DriverCode {
+  std::string device;          // id
+  std::string driver_version;  // as the driver gives it
+  std::map<std::string, record::Code> configurations;
+};
+
 // Counter → device id → value.
 using StoredCounters = std::map<std::string, std::map<std::string, std::uint64_t>>;
 
@@ -115,6 +124,9 @@ class Baselines {
   [[nodiscard]] const DriverCost* cost(const record::Device& device) const;
   // By Device::statistics_key().
   [[nodiscard]] const std::map<std::string, DriverCost>& cost_of_all_drivers() const;
+  // Likewise.
+  [[nodiscard]] const DriverCode* code(const record::Device& device) const;
+  [[nodiscard]] const std::map<std::string, DriverCode>& code_of_all_drivers() const;
   // nullopt: nothing stored for this driver version at all, or not for this configuration.
   [[nodiscard]] std::optional<record::Counts> statistics(const record::Device& device,
                                                          const std::string& configuration) const;

@@ -57,6 +57,7 @@ void drop_skipped(std::span<const record::Record> skipped,
   }
   for (const auto& [id, device] : devices) {
     drop_from_file(skipped, id, Layout::cost(device), 3, next);
+    drop_from_file(skipped, id, Layout::code(device), 4, next);
     drop_from_file(skipped, id, Layout::statistics(device), 3, next);
     drop_from_file(skipped, id, Layout::timings(device), 2, next);
   }

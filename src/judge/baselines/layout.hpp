@@ -18,6 +18,7 @@ struct Layout {
   static constexpr const char* scores = "score.json";
   static constexpr const char* history = "history.json";
   static constexpr const char* cost_folder = "cost/";
+  static constexpr const char* code_folder = "code/";
   static constexpr const char* statistics_folder = "statistics/";
 
   [[nodiscard]] static std::string image(const std::string& scene) {
@@ -25,6 +26,9 @@ struct Layout {
   }
   [[nodiscard]] static std::string cost(const record::Device& device) {
     return cost_folder + device.statistics_key() + ".json";
+  }
+  [[nodiscard]] static std::string code(const record::Device& device) {
+    return code_folder + device.statistics_key() + ".json";
   }
   [[nodiscard]] static std::string statistics(const record::Device& device) {
     return statistics_folder + device.statistics_key() + ".json";

@@ -78,8 +78,10 @@ bool measured_before(const RunView& view, const record::Record& record) {
   const bool overridden = std::ranges::any_of(
       view.device(record).environment,
       [](const auto& setting) { return setting.first.find("OVERRIDE") != std::string::npos; });
-  return !overridden && view.baselines.present() &&
-         view.baselines.was_measured(record.device, record.configuration);
+  if (overridden || !view.baselines.present()) return false;
+  if (view.baselines.was_measured(record.device, record.configuration)) return true;
+  const DriverCode* code = view.baselines.code(view.device(record));
+  return code != nullptr && code->configurations.contains(record.configuration);
 }
 
 // Everything but measured, once, under the first check asked for. What failed in a stress case is
@@ -99,6 +101,20 @@ void report_outcomes(const RunView& view, std::vector<Finding>& findings) {
         finding_about(record, check, verdict,
                       {.cause = Cause::ended, .outcome = record.outcome, .reason = record.reason}));
     findings.back().measured_before = missed;
+  }
+}
+
+// What the driver did wrong apart from any configuration: in its clock, its statistics, at its end.
+void report_device_faults(const RunView& view, std::vector<Finding>& findings) {
+  for (const auto& [id, device] : view.devices) {
+    for (const record::DeviceFault& fault : device.faults) {
+      findings.push_back(finding_about(view, device, *view.checks.begin(), Verdict::regression,
+                                       {.cause = Cause::device_fault,
+                                        .facts = {{"kind", std::string(name_of(fault.kind))},
+                                                  {"subject", fault.subject},
+                                                  {"last_words", fault.last_words}},
+                                        .detail = fault.detail}));
+    }
   }
 }
 
@@ -256,6 +272,8 @@ constexpr std::array check_rows{
              [](Judging& all) { append(all.result.findings, check_statistics(all.view)); }},
     CheckRow{Check::cost, true,
              [](Judging& all) { append(all.result.findings, check_cost(all.view)); }},
+    CheckRow{Check::code, true,
+             [](Judging& all) { append(all.result.findings, check_code(all.view)); }},
     CheckRow{Check::memory, true,
              [](Judging& all) { append(all.result.findings, check_memory(all.view)); }},
     CheckRow{Check::correlation, true,
@@ -312,6 +330,7 @@ void report_what_is_there(const RunView& view, GateResult& result) {
   }
   report_nothing_measured(view, result.run, result.findings);
   report_outcomes(view, result.findings);
+  report_device_faults(view, result.findings);
   report_other_plan(view, result.run, result.findings);
   report_rows(view, result.findings);
   report_other_data(view, result.findings);

@@ -58,6 +58,7 @@ struct ImageFindings {
 [[nodiscard]] std::vector<Finding> check_counters(const RunView& view);
 [[nodiscard]] std::vector<Finding> check_statistics(const RunView& view);
 [[nodiscard]] std::vector<Finding> check_cost(const RunView& view);
+[[nodiscard]] std::vector<Finding> check_code(const RunView& view);
 [[nodiscard]] std::vector<Finding> check_memory(const RunView& view);
 [[nodiscard]] std::vector<Finding> check_timings(const RunView& view, const WrongImages& wrong);
 

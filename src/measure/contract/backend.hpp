@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/image.hpp"
 #include "record/record.hpp"
 #include "scene/particle_scene.hpp"
@@ -112,6 +113,12 @@ struct Rasterizer {
   double largest_point = 0;  // pixels, without the margin; larger sprites are quads
 };
 
+// The compiler's report about the timed build of a work.
+struct Compiled {
+  record::Code code;
+  std::map<std::string, std::string> listings;  // disassembly by its content hash
+};
+
 class Device {
  public:
   Device() = default;
@@ -143,6 +150,14 @@ class Device {
 
   // Throws NotSupported, ApiError, DeviceLost.
   [[nodiscard]] virtual std::unique_ptr<Prepared> prepare(const Work& work) = 0;
+
+  // Compiles the timed build and returns the compiler's report. Nothing is drawn. On a device with
+  // record::Device::compiles_for nothing is executed and no data are moved; frame() and image()
+  // throw NotSupported there. Throws as prepare() does, and NotSupported if the driver reports
+  // nothing.
+  [[nodiscard]] virtual Compiled compile(const Work& /*work*/) {
+    throw core::NotSupported("this driver reports no statistics of the code that it generates");
+  }
 };
 
 // What a loader says of one platform or device that cannot be used.

@@ -34,6 +34,7 @@ struct Plan {
   [[nodiscard]] static record::Checks standard_checks();
   [[nodiscard]] bool timed() const { return checks.contains(record::Check::timing); }
   [[nodiscard]] bool counted() const { return checks.contains(record::Check::cost); }
+  [[nodiscard]] bool compiled() const { return checks.contains(record::Check::code); }
   [[nodiscard]] bool judges_pictures() const;
   [[nodiscard]] bool judges_counters() const;
 };

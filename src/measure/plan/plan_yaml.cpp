@@ -115,6 +115,11 @@ record::Checks checks_of(const std::vector<PlacedText>& names) {
                            "'checks': cost and timing exclude each other, as instructions are "
                            "counted in an emulator; make two plans");
   }
+  if (checks.contains(record::Check::code) && checks.size() > 1) {
+    throw core::InputError(names.front().place,
+                           "'checks': code excludes every other check, as nothing is drawn where "
+                           "only compilers are asked; make two plans");
+  }
   return checks;
 }
 

@@ -106,10 +106,11 @@ std::unique_ptr<Prepared> prepare_long_enough(Device& device, Work work) {
 }  // namespace
 
 record::ClockTrust calibrate(Prepared& prepared, technique::Work work_kind) {
-  const int frames = frames_within_budget(prepared.frame(Purpose::timing).wall_ns);
+  FrameProof proof(prepared, false);
+  const int frames = frames_within_budget(proof.draw(Purpose::timing).wall_ns);
+  proof.check("the first frame of the clock's calibration");
   std::vector<double> ratios;
   std::vector<double> wall_ns;
-  FrameProof proof(prepared);
   for (int i = 0; i < frames; ++i) {
     const Frame frame = proof.draw(Purpose::timing);
     proof.check("a frame of the clock's calibration");

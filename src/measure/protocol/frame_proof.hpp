@@ -35,6 +35,10 @@ class FrameProof {
   // Throws NotDrawn where more pixels are without a value than in the first.
   void check_drawn(std::string_view what);
 
+  // The image of the next check() is the one that later ones have to repeat, instead of the
+  // first's: what is warmed up may differ from the very first frame. It still has to be drawn.
+  void begin_again() { renewed_ = true; }
+
   // start() and one frame; the check is the caller's.
   [[nodiscard]] Frame draw(Purpose purpose) {
     start();
@@ -52,6 +56,7 @@ class FrameProof {
   Prepared& prepared_;
   bool image_is_judged_;
   bool started_ = false;
+  bool renewed_ = false;
   std::optional<core::Image> first_;
   core::Image last_;
   std::size_t first_without_value_ = 0;

@@ -30,15 +30,17 @@ struct WarmUp {
 // The first frames compile, fault pages in and wake threads. Frames too short for four of them to
 // have warmed anything are repeated until a tenth of the loop's time has gone by. The fastest
 // predicts, so that the loop lasts no less than asked.
-WarmUp warm_up(Prepared& prepared, const Protocol& protocol) {
+WarmUp warm_up(FrameProof& proof, const Protocol& protocol) {
   WarmUp result;
   const double enough_ns = protocol.least_loop_ns / 10;
   double spent_ns = 0;
   while (result.frames < protocol.warm_up_frames ||
          (spent_ns < enough_ns && result.frames < protocol.most_loop_frames)) {
+    if (result.frames == 0) proof.start();
     const Stopwatch whole;
-    const Frame frame = prepared.frame(Purpose::timing);
+    const Frame frame = proof.prepared().frame(Purpose::timing);
     spent_ns += std::max(frame.wall_ns, whole.ns());
+    if (result.frames == 0) proof.check("the first frame");
     result.fastest_ns = std::min(result.fastest_ns, frame.wall_ns);
     ++result.frames;
   }
@@ -152,8 +154,11 @@ Measurement count_instructions(Prepared& prepared, const Protocol& protocol,
                                const InstructionCounter& counter) {
   constexpr int frames_before = 2;
   FrameProof proof(prepared, protocol.image_is_judged);
-  for (int i = 0; i < frames_before; ++i) static_cast<void>(proof.draw(Purpose::timing));
-  proof.check("the second frame");
+  for (int i = 0; i < frames_before; ++i) {
+    proof.begin_again();
+    static_cast<void>(proof.draw(Purpose::timing));
+    proof.check(fmt::format("frame {} before the counted one", i + 1));
+  }
   proof.start();
   counter.wait_until_quiet();
   Measurement result;
@@ -189,13 +194,14 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
     return value;
   };
 
-  const WarmUp warm = counted([&] { return warm_up(prepared, protocol); });
+  FrameProof proof(prepared, protocol.image_is_judged);
+  const WarmUp warm = counted([&] { return warm_up(proof, protocol); });
+  proof.begin_again();
   record.warm_up_frames = warm.frames;
   record.frames_per_100ms = count_to_fill(100e6, warm.fastest_ns, std::numeric_limits<int>::max());
   record.loop_frames =
       count_to_fill(protocol.least_loop_ns, warm.fastest_ns, protocol.most_loop_frames);
 
-  FrameProof proof(prepared, protocol.image_is_judged);
   core::Json entries = time_into(record, proof, protocol.timed_frames, name, work_ns);
   record.device_clock_trusted =
       is_trusted(work_kind, clocks) && plausible(record.device_ns, record.wall_ns);

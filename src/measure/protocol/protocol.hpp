@@ -32,6 +32,8 @@ struct Protocol {
   // picture where they are asked for.
   bool counted = false;
   bool picture = true;  // kept of a counted frame, too
+  // The compiler is asked about the device code, and no frame is drawn.
+  bool compiled = false;
   // Else a configuration that does the very work of one before (measure/contract/equivalents.hpp)
   // takes over what that one told.
   bool measure_every = false;

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "measure/counting/emulator.hpp"
+#include "measure/system/compile_only.hpp"
 #include "measure/system/stopwatch.hpp"
 
 namespace triptych::measure {
@@ -18,6 +19,14 @@ record::Record ended(record::Outcome outcome, record::Reason reason) {
   record.outcome = outcome;
   record.reason = std::move(reason);
   return record;
+}
+
+bool has_statistics_fault(const record::Device& device) {
+  using enum record::DeviceFaultKind;
+  return std::ranges::any_of(device.faults, [](const record::DeviceFault& each) {
+    return each.kind == statistics_all_zero || each.kind == statistics_crash ||
+           each.kind == statistics_not_ready;
+  });
 }
 
 }  // namespace
@@ -39,7 +48,10 @@ Done DeviceRun::perform(const Configuration& configuration, const std::string& k
                         const OnLoading& on_loading) {
   const Job job = this->job(configuration, key);
   Done done;
-  if (const auto reason = no_emulator()) {
+  if (!context_.plan.compiled() && compile_only(device_)) {
+    done = {ended(record::Outcome::skipped, {.cause = record::Cause::not_supported,
+                                            .detail = std::string(only_compiles)})};
+  } else if (const auto reason = no_emulator()) {
     done = {ended(record::Outcome::skipped, *reason)};
   } else if (!ensure_worker()) {
     done = {ended(slot_.unsupported() ? record::Outcome::skipped : record::Outcome::failed,
@@ -101,6 +113,7 @@ Protocol DeviceRun::protocol() const {
       protocol.statistics && context_.plan.checks.contains(record::Check::statistics);
   protocol.timed = protocol.timed && context_.plan.timed();
   protocol.counted = context_.plan.counted();
+  protocol.compiled = context_.plan.compiled();
   if (protocol.counted) {
     protocol.picture = context_.plan.judges_pictures();
     protocol.counters = context_.plan.judges_counters();
@@ -156,7 +169,10 @@ void DeviceRun::watch_memory(std::uint64_t peak_bytes) {
 bool DeviceRun::ensure_worker() {
   return slot_.open(
       [this] {
-        return Start{.suite = context_.plan.suite, .kinds = context_.kinds, .clocks = clocks_};
+        return Start{.suite = context_.plan.suite,
+                     .kinds = context_.kinds,
+                     .clocks = clocks_,
+                     .statistics = !known_ || !has_statistics_fault(*known_)};
       },
       [this](const Hello& hello) { greet(hello); });
 }
@@ -183,6 +199,7 @@ Done DeviceRun::ask(const Job& job, const OnLoading& on_loading) {
   watch_memory(answer.record.peak_memory_bytes);
   Done done{.record = std::move(answer.record),
             .exr = std::move(answer.exr),
+            .listings = std::move(answer.listings),
             .work_ns = answer.worker_ns - answer.record.overhead_ns};
   done.record.overhead_ns = stopwatch.ns() - done.work_ns;
   return done;

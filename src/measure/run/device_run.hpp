@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -31,7 +33,8 @@ struct RunContext {
 // device's.
 struct Done {
   record::Record record;
-  std::vector<std::byte> exr;
+  std::vector<std::byte> exr = {};
+  std::map<std::string, std::string> listings = {};  // disassembly by its content hash
   double work_ns = 0;
 };
 

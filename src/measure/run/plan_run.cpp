@@ -167,6 +167,7 @@ void PlanRun::measure(const std::string& device, const Configuration& configurat
   if (done.record.outcome == record::Outcome::measured) share_frames(done.record);
   // The image first: a record must never name one that is not there.
   if (!done.exr.empty()) context_.store.add_image(done.record.image, done.exr);
+  for (const auto& [hash, text] : done.listings) context_.store.add_listing(hash, text);
   context_.store.add_record(done.record);
   work_ns_ += done.work_ns;
   count(done.record, result_);

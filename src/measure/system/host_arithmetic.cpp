@@ -31,16 +31,10 @@ std::string rounding_mode() {
 
 std::string restore_arithmetic() {
   const std::string rounding = rounding_mode();
-  const bool flushes = flushes_subnormals();
-  if (rounding.empty() && !flushes) return {};
+  if (rounding.empty() && !flushes_subnormals()) return {};
   std::fesetenv(FE_DFL_ENV);
-  std::string changed;
-  if (!rounding.empty()) changed = "the process rounds " + rounding + " instead of to nearest";
-  if (flushes) {
-    changed += changed.empty() ? "" : ", and ";
-    changed += "subnormal numbers are taken for 0";
-  }
-  return changed;
+  return rounding.empty() ? std::string()
+                          : "the process rounds " + rounding + " instead of to nearest";
 }
 
 }  // namespace triptych::measure

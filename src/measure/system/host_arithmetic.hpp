@@ -3,10 +3,10 @@
 
 namespace triptych::measure {
 
-// What the floating-point arithmetic of this thread is no longer by default: the rounding mode, or
-// subnormal numbers that are taken for 0. Drivers that generate code change both, and some forget to
-// change them back; data that are generated afterwards have other bits. Restores the default.
-// Empty where nothing was changed.
+// Restores the default floating-point arithmetic of this thread: rounding to nearest, with subnormal
+// numbers. Drivers that generate code change both, and some forget to change them back; data that are
+// generated afterwards have other bits. Returns the rounding mode that was changed, in words; empty
+// where it was not.
 [[nodiscard]] std::string restore_arithmetic();
 
 }  // namespace triptych::measure

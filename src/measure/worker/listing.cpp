@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "measure/system/compile_only.hpp"
 #include "measure/system/environment.hpp"
 #include "measure/worker/own_program.hpp"
 #include "measure/worker/wire.hpp"
@@ -43,7 +44,8 @@ WorkerLink::Reply ask_once(const std::vector<std::string>& command, const std::s
                            const Message& request, std::chrono::seconds limit) {
   InterruptGuard interrupts;
   const CacheFolder cache(device_id);
-  WorkerLink link(command, worker_environment(device_id, cache), interrupts);
+  const std::vector<std::string> variables = compile_only_environment(device_id);
+  WorkerLink link(command, worker_environment(device_id, cache, variables), interrupts);
   WorkerLink::Reply reply = link.ask(request, limit);
   if (std::holds_alternative<Message>(reply)) link.finish();
   return reply;
@@ -68,6 +70,37 @@ Listing list_one(const std::string& api) {
     }
   }
   return {.devices = {}, .broken = {{.what = api, .reason = {}, .ended = std::move(reason)}}};
+}
+
+bool any_matches(const std::vector<std::string>& globs, const std::string& id) {
+  return std::ranges::any_of(
+      globs, [&](const std::string& glob) { return ::fnmatch(glob.c_str(), id.c_str(), 0) == 0; });
+}
+
+// Asks the driver whether it compiles for the family of this device, and adds what it answers.
+void list_compiler(const std::string& id, Listing& listing) {
+  const std::string api = id.substr(0, id.find(':'));
+  const auto refuse = [&](std::string reason) {
+    listing.broken.push_back({.what = id, .reason = std::move(reason)});
+  };
+  try {
+    const WorkerLink::Reply reply = ask_once({own_program(), "list-api", api}, id,
+                                             {.json = core::Json::object(), .binary = {}},
+                                             listing_limit);
+    const auto* answer = std::get_if<Message>(&reply);
+    if (answer == nullptr) {
+      listing.broken.push_back({.what = id, .reason = {}, .ended = reason_of(reply)});
+      return;
+    }
+    for (record::Device& device : from_json(answer->json).devices) {
+      if (device.id == id) return listing.devices.push_back(std::move(device));
+    }
+    refuse(
+        "the driver that is installed does not know this family; a newer one may (Mesa 25.0 of "
+        "Debian 13 knows AMD's up to gfx1201)");
+  } catch (const core::NotSupported& error) {
+    refuse(error.what());
+  }
 }
 
 // Says why no device of the listing is one that `glob` asks for.
@@ -96,6 +129,24 @@ Listing list_devices(const std::vector<std::string>& apis) {
     std::ranges::move(one.broken, std::back_inserter(all.broken));
   }
   return all;
+}
+
+bool name_a_compiler(const std::vector<std::string>& globs) {
+  return std::ranges::any_of(
+      globs, [](const std::string& glob) { return compile_only(glob).has_value(); });
+}
+
+Listing list_compilers(const std::vector<std::string>& globs) {
+  std::vector<std::string> ids = usual_compile_only_devices();
+  if (!globs.empty()) {
+    std::erase_if(ids, [&](const std::string& id) { return !any_matches(globs, id); });
+  }
+  for (const std::string& glob : globs) {
+    if (compile_only(glob) && std::ranges::find(ids, glob) == ids.end()) ids.push_back(glob);
+  }
+  Listing listing;
+  for (const std::string& id : ids) list_compiler(id, listing);
+  return listing;
 }
 
 std::vector<std::string> choose_devices(const Listing& listing,

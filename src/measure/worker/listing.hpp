@@ -13,6 +13,14 @@ namespace triptych::measure {
 
 [[nodiscard]] Listing list_devices(const std::vector<std::string>& apis);
 
+// Lists the devices that only compile (measure/system/compile_only.hpp): the usual ones that match
+// any of the globs (all if there are no globs), and every family that a glob names in full. If
+// something is missing for one, `broken` has an entry with its id.
+[[nodiscard]] Listing list_compilers(const std::vector<std::string>& globs);
+
+// Returns whether a glob is the full name of a device that only compiles.
+[[nodiscard]] bool name_a_compiler(const std::vector<std::string>& globs);
+
 // Ids of the devices that match any of the globs (all for none), in listing order. Throws
 // core::NotSupported naming what is there when a glob matches nothing.
 [[nodiscard]] std::vector<std::string> choose_devices(const Listing& listing,

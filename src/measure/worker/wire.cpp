@@ -109,6 +109,7 @@ Json to_json(const Protocol& protocol) {
           {"timed", protocol.timed},
           {"counted", protocol.counted},
           {"picture", protocol.picture},
+          {"compiled", protocol.compiled},
           {"measure_every", protocol.measure_every}};
 }
 
@@ -122,6 +123,7 @@ Protocol protocol_from(const Json& json) {
           .timed = json.at("timed"),
           .counted = json.at("counted"),
           .picture = json.at("picture"),
+          .compiled = json.at("compiled"),
           .measure_every = json.at("measure_every")};
 }
 
@@ -206,7 +208,10 @@ Message to_message(const Loading& loading) {
 }
 
 Message to_message(Answer answer) {
-  return {{{"type", "answer"}, {"record", answer.record}, {"worker_ns", answer.worker_ns}},
+  return {{{"type", "answer"},
+           {"record", answer.record},
+           {"listings", answer.listings},
+           {"worker_ns", answer.worker_ns}},
           std::move(answer.exr)};
 }
 
@@ -279,6 +284,7 @@ std::optional<Answer> as_answer(Message message) {
   return reading("answer", [&] {
     return Answer{.record = message.json.at("record").get<record::Record>(),
                   .worker_ns = message.json.at("worker_ns"),
+                  .listings = message.json.at("listings"),
                   .exr = std::move(message.binary)};
   });
 }

@@ -16,6 +16,7 @@
 //                                 none; loading may come before it
 
 #include <cstddef>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -82,6 +83,7 @@ struct Job {
 struct Answer {
   record::Record record;  // what is known below the plan; `factors` with every "auto" resolved
   double worker_ns = 0;   // from job read to answer ready
+  std::map<std::string, std::string> listings = {};  // disassembly by its content hash
   std::vector<std::byte> exr;
 };
 

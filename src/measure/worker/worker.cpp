@@ -22,6 +22,7 @@
 #include "measure/protocol/injected_fault.hpp"
 #include "measure/protocol/protocol.hpp"
 #include "measure/protocol/statistics_calibration.hpp"
+#include "measure/system/compile_only.hpp"
 #include "measure/system/crash_trace.hpp"
 #include "measure/system/host_arithmetic.hpp"
 #include "measure/system/stopwatch.hpp"
@@ -120,6 +121,7 @@ class Worker {
   // `statistics`: they are read, too.
   void calibrate_for(const std::vector<std::string>& kinds, bool statistics) {
     has_statistics_ = statistics;
+    if (!info_.compiles_for.empty()) return;
     for (const std::string& kind : kinds) {
       if (std::ranges::find(clocks_, kind, &record::ClockTrust::work) != clocks_.end()) continue;
       clocks_.push_back(calibrate_clock(*device_, suite_, kind_named(kind)));
@@ -154,9 +156,10 @@ class Worker {
   [[nodiscard]] Batch hold(const Hold& hold) {
     return batch([&](Batch&) {
       held_.reset();
+      require_execution();
       Configuration configuration = hold.configuration;
       held_ = device_->prepare(supported_work(configuration, hold.faults));
-      proof_.emplace(*held_);
+      proof_.emplace(*held_, false);
     });
   }
 
@@ -216,6 +219,7 @@ class Worker {
     record.reason = std::move(reason);
     answer.record = std::move(record);
     answer.exr.clear();
+    answer.listings.clear();
   }
 
   // What the device can do of it. Resolves the configuration's "auto" levels.
@@ -242,9 +246,11 @@ class Worker {
 
   void perform(const Job& job, Answer& answer) {
     measuring_ns_ = 0;
+    if (!job.protocol.compiled) require_execution();
     const Stopwatch whole;
     Configuration configuration = job.configuration;
     const Work work = work_or_skip(configuration, job.faults);
+    if (job.protocol.compiled) return compile(work, std::move(configuration), answer);
     const bool may_share = !job.protocol.measure_every && job.faults.empty();
     std::optional<PlainWork> plain;
     if (may_share) plain = suite_.plain(configuration, work);
@@ -277,6 +283,20 @@ class Worker {
       equivalents_.add(*plain, configuration_key(suite_, job.configuration), work, measured.image);
     }
     keep_picture(work, measured.image, answer);
+  }
+
+  void require_execution() const {
+    if (!info_.compiles_for.empty()) throw core::NotSupported(std::string(only_compiles));
+  }
+
+  void compile(const Work& work, Configuration configuration, Answer& answer) {
+    const Stopwatch compiling;
+    Compiled compiled = device_->compile(work);
+    measuring_ns_ = compiling.ns();
+    answer.record.outcome = record::Outcome::measured;
+    answer.record.code = std::move(compiled.code);
+    answer.record.factors = std::move(configuration);
+    answer.listings = std::move(compiled.listings);
   }
 
   static void keep_picture(const Work& work, const core::Image& image, Answer& answer) {

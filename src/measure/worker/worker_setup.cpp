@@ -10,6 +10,7 @@
 
 #include "core/hash.hpp"
 #include "measure/counting/emulator.hpp"
+#include "measure/system/compile_only.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -48,6 +49,11 @@ WorkerSetup worker_setup(const SideOptions& side, bool counted, const CacheFolde
     }
   } else if (!side.environment.empty()) {
     keep_shaders_apart(overrides);
+  }
+  if (!counted) {
+    for (std::string& each : compile_only_environment(side.device, side.environment)) {
+      overrides.push_back(std::move(each));
+    }
   }
   setup.environment = worker_environment(side.device, cache, overrides);
   return setup;

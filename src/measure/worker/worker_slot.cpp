@@ -11,6 +11,11 @@ namespace triptych::measure {
 
 namespace {
 
+bool died(const record::Reason& reason) {
+  return reason.cause == record::Cause::signal || reason.cause == record::Cause::exit_code ||
+         reason.cause == record::Cause::timeout;
+}
+
 record::DeviceFault statistics_crash(const record::Reason& reason) {
   const auto signal = reason.number("signal");
   return {.kind = record::DeviceFaultKind::statistics_crash,
@@ -26,21 +31,21 @@ bool WorkerSlot::open(const std::function<Start()>& start,
   constexpr int most_attempts = 2;
   for (int attempt = 0; !occupied() && !why_closed_.is_one(); ++attempt) {
     Start asked = start();
-    asked.statistics = !statistics_fault_;
-    const bool calibrates = !asked.kinds.empty() && asked.statistics;
+    asked.statistics = asked.statistics && !statistics_fault_;
+    const bool reads_statistics = !asked.kinds.empty() && asked.statistics;
     Refused refused = try_to_open(asked, [&](Hello hello) {
       if (statistics_fault_) hello.device.faults.push_back(*statistics_fault_);
       greeted(hello);
     });
     if (!refused.is_one()) continue;
-    // What a driver is worst at is pipeline statistics: without them it may do all else. Where it
-    // does not, they are not to blame.
-    const bool last = refused.unsupported() || attempt + 1 >= most_attempts;
-    if (last) {
+    if (!refused.unsupported() && attempt + 1 < most_attempts) continue;
+    // A driver that dies each time may do all else without pipeline statistics. Where it does not,
+    // they are not to blame.
+    if (reads_statistics && died(refused.reason)) {
+      statistics_fault_ = statistics_crash(refused.reason);
+    } else {
       statistics_fault_.reset();
       why_closed_ = std::move(refused);
-    } else if (calibrates) {
-      statistics_fault_ = statistics_crash(refused.reason);
     }
   }
   return occupied();

@@ -111,6 +111,7 @@ class Writing {
         }
       }
       copy_named("image", {"hash"}, {"exr"});
+      copy_named("listing", {"hash"}, {"text"});
       copy_named("truth", {"scene", "version"}, {"image", "bound", "own_seal"});
       out_.exec("COMMIT");
       return counts;

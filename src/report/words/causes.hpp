@@ -31,6 +31,7 @@ namespace triptych::report::words {
 [[nodiscard]] std::string values_changed(const judge::Observation& what);
 [[nodiscard]] std::string other_driver_statistics(const judge::Observation& what);
 [[nodiscard]] std::string other_counter(const judge::Observation& what);
+[[nodiscard]] std::string other_compiler(const judge::Observation& what);
 [[nodiscard]] std::string time(const judge::Observation& what);
 [[nodiscard]] std::string times(const judge::Observation& what);
 [[nodiscard]] std::string error(const judge::Observation& what);

@@ -24,6 +24,7 @@ inline constexpr std::array check_words{
     CheckWords{record::Check::statistics, "Statistics", "changed", "as stored", "not checked",
                true},
     CheckWords{record::Check::cost, "Cost", "changed", "as stored", "not checked", true},
+    CheckWords{record::Check::code, "Code", "worse", "as stored", "not checked", false},
     CheckWords{record::Check::memory, "Memory", "changed", "as stored", "not checked", true},
     CheckWords{record::Check::timing, "Times", "slower", "not slower", "not checked", true},
     CheckWords{record::Check::correlation, "Devices", "off the line", "along the line",

@@ -65,6 +65,42 @@ std::string no_stored_device(const Observation& what) {
   return fmt::format("nothing is stored for this device: {}", what.fact("device_key"));
 }
 
+std::string_view fault_text(record::DeviceFaultKind kind) {
+  switch (kind) {
+    case record::DeviceFaultKind::clock_reads_zero:
+      return "the device's clock reads 0";
+    case record::DeviceFaultKind::clock_rate_wrong:
+      return "the ticks of the device's clock are not as long as the driver reports";
+    case record::DeviceFaultKind::clock_not_written:
+      return "the driver never writes the time stamps that it is asked for";
+    case record::DeviceFaultKind::statistics_all_zero:
+      return "all pipeline statistics are 0 for frames that draw something";
+    case record::DeviceFaultKind::statistics_crash:
+      return "the driver crashes when pipeline statistics are read; the rest was measured without "
+             "them";
+    case record::DeviceFaultKind::statistics_not_ready:
+      return "pipeline statistics do not become available, although the program waits for them; "
+             "the rest was measured without them";
+    case record::DeviceFaultKind::teardown_crash:
+      return "the driver crashes while the device is closed or the process ends";
+    case record::DeviceFaultKind::teardown_hang:
+      return "the driver hangs while the device is closed or the process ends";
+    case record::DeviceFaultKind::memory_grows:
+      return "the memory of the process grows from configuration to configuration";
+  }
+  return {};
+}
+
+std::string device_fault(const Observation& what) {
+  std::string text{fault_text(record::device_fault_kind(what.fact("kind")))};
+  if (!what.fact("subject").empty()) text += fmt::format(" ({} work)", what.fact("subject"));
+  text = with_detail(text, what.detail);
+  if (!what.fact("last_words").empty()) {
+    text += fmt::format("; it last printed: {}", what.fact("last_words"));
+  }
+  return text;
+}
+
 std::string not_counted(const Observation& what) {
   std::string text = fmt::format("{} was not counted", what.fact("counter"));
   if (!what.fact("levels").empty()) text += " with " + what.fact("levels");
@@ -132,6 +168,8 @@ std::string sentence_of(const Observation& what) {
     case Cause::no_baselines:
       return what.detail.empty() ? fmt::format("there are no baselines in {}", what.fact("folder"))
                                  : fmt::format("{}: {}", what.fact("folder"), what.detail);
+    case Cause::device_fault:
+      return device_fault(what);
     case Cause::nothing_decided:
       return "no check reached a verdict for this device: there were only advisories and skips";
     case Cause::unused_waiver:
@@ -180,6 +218,14 @@ std::string sentence_of(const Observation& what) {
       return changed_in(what, "the driver's instructions for preparing");
     case Cause::injected_memory:
       return "not compared, because an injected slowdown allocates memory itself";
+    case Cause::other_executables:
+      return fmt::format("compiled in other parts than when it was accepted: {}",
+                         fmt::join(what.names, ", "));
+    case Cause::other_disassembly:
+      return fmt::format("the disassembly of {} changed, the statistics did not",
+                         examples(what.names));
+    case Cause::other_compiler:
+      return other_compiler(what);
     case Cause::time:
       return time(what);
     case Cause::times:

@@ -47,7 +47,8 @@ std::string cause_text(const Reason& reason) {
     case record::Cause::error:
       return reason.detail;
     case record::Cause::not_drawn:
-      return with_detail("the driver reported success, but drew nothing", reason.detail);
+      return with_detail("the driver reported a frame as finished that it did not draw",
+                         reason.detail);
     case record::Cause::bad_input:
       return with_detail("invalid input", reason.detail);
     case record::Cause::not_on_processor:

@@ -93,6 +93,16 @@ std::string values_changed(const Observation& what) {
   return text;
 }
 
+// Totals as Mesa's developers quote them.
+std::string other_compiler(const Observation& what) {
+  std::string text = fmt::format("not compared, because {} is another compiler than the stored {}",
+                                 what.fact("driver_version"), what.fact("other_version"));
+  text += fmt::format("; {:.0f} of {} changed", what.number("changed"),
+                      counted(what.number("configurations"), "configuration", "configurations"));
+  for (const Change& each : what.changes) text += "; " + text_of(each);
+  return text;
+}
+
 std::string other_driver_statistics(const Observation& what) {
   std::string text = fmt::format(
       "no statistics are stored for this driver version ({}), {}; ", what.fact("driver_version"),

@@ -160,7 +160,7 @@ TEST(Mmcif, RefusesALoopThatIsCutOff) {
   expect_refused("a.cif", closing, ":15:", "the file ends here, where '#' was expected");
   EXPECT_EQ(load("a.cif", closing + "#\n").count(), 2U);
   EXPECT_EQ(load("a.cif", closing + "_entry.more 1\n").count(), 2U);
-  // Of few marks nothing follows but a warning.
+  // A few marks only give a note.
   const ParticleSet unsure = load("a.cif", "data_X\n#\n_entry.id X\n#\n" + loop);
   EXPECT_THAT(unsure.facts.notes, ElementsAre(HasSubstr("if the file was cut off")));
   // Others only put it between parts, or nowhere.
@@ -303,7 +303,7 @@ TEST(ParticleFiles, RefuseWhatTheyCannotRead) {
   const std::string packed = gzipped(xyz);
   expect_refused("a.xyz.gz", packed.substr(0, packed.size() - 9), ": ", "broken gzip stream");
   expect_refused("a.xyz.gz", xyz, ": ", "broken gzip stream");
-  expect_refused("a.abc", xyz, ": ", "'.abc' is no known format of particles; expected .pdb");
+  expect_refused("a.abc", xyz, ": ", "'.abc' is not a known particle format; expected .pdb");
   EXPECT_THAT([] { static_cast<void>(load_particles("generate:uniform", ColourKind::rgba8)); },
               ThrowsMessage<core::InputError>(HasSubstr("expected generate:NAME:COUNT")));
   EXPECT_THROW(static_cast<void>(load_particles("generate:uniform:1e3", ColourKind::rgba8)),

@@ -185,7 +185,7 @@ TEST(NiftiFiles, MayBePairs) {
 TEST(NiftiFiles, ThatAreBrokenNameTheCause) {
   const auto nifti = [] { return Nifti(1, false).dims({2, 1, 1}).type(2); };
   expect_refused("a.nii", "short", "has 5 bytes");
-  expect_refused("a.nii", std::string(400, 'x'), "first 4 bytes are no header size");
+  expect_refused("a.nii", std::string(400, 'x'), "first 4 bytes are not a header size");
   expect_refused("a.nii", nifti().with("A"), "need 2 bytes of data");
   expect_refused("a.nii", nifti().type(32).with("AB"), "datatype 32 is not supported");
   expect_refused("a.nii", nifti().dims({2, 1}).with("AB"), "has 2 dimensions; expected 3 to 7");
@@ -241,7 +241,7 @@ TEST(MetaImage, ThatIsBrokenNamesTheLine) {
   expect_refused("a.mha", meta + "ElementType = MET_WORD\nElementDataFile = LOCAL\nAB",
                  ":5: type 'MET_WORD' is not supported");
   expect_refused("a.mha", "NDims = 2\nDimSize = 2 1\nElementDataFile = LOCAL\n", ":1: 2 dimensions");
-  expect_refused("a.mha", "ObjectType = Mesh\nElementDataFile = LOCAL\n", ":1: 'Mesh' is no volume");
+  expect_refused("a.mha", "ObjectType = Mesh\nElementDataFile = LOCAL\n", ":1: 'Mesh' is not a volume");
   expect_refused("a.mha", meta + "ElementDataFile =\n", "the data file '' is not there");
   expect_refused("a.mha", meta + "TransformMatrix = 1 1 0 0 1 0 0 0 1\nElementType = MET_UCHAR\n"
                                  "ElementDataFile = LOCAL\nAB",
@@ -380,7 +380,7 @@ TEST(WideIntegers, BecomeTheSmallestTypeThatHoldsThem) {
   EXPECT_EQ(type_of({-1, 32767}).facts.value_type, "i64");
 }
 
-// A row of a table is not all of a format: whoever adds one is told here what is missing.
+// A format needs more than its row in the table: this test names the parts that are missing.
 template <typename Format>
 void expect_complete(std::span<const Format> formats, const std::string& seeds) {
   const std::filesystem::path root = TRIPTYCH_SOURCE_FOLDER;

@@ -1,0 +1,16 @@
+#pragma once
+// Reads what a driver reports about pipelines (VK_KHR_pipeline_executable_properties).
+
+#include <vector>
+
+#include "backends/vulkan/gpu.hpp"
+#include "measure/contract/backend.hpp"
+
+namespace triptych::vulkan_backend {
+
+// The pipelines must have been created during a capture. Throws vk::SystemError, and
+// core::NotSupported if the driver reports nothing about any of them.
+[[nodiscard]] measure::Compiled code_of(const Gpu& gpu,
+                                        const std::vector<Pipelines::Captured>& pipelines);
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,216 @@
+#include "judge/code/code_change.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace triptych::judge {
+namespace {
+
+struct NamedStatistic {
+  std::string_view driver_name;  // in lower case
+  CodeStatistic statistic;
+};
+
+namespace quantity {
+constexpr CodeStatistic occupancy{"occupancy", "MaxWaves", true, false, 0};
+constexpr CodeStatistic spilled_vgprs{"spilled VGPRs", "SpillVGPRs", true, true, 1};
+constexpr CodeStatistic spilled_sgprs{"spilled SGPRs", "SpillSGPRs", true, true, 2};
+constexpr CodeStatistic spills{"spills", "Spills", true, true, 1};
+constexpr CodeStatistic fills{"fills", "Fills", true, true, 2};
+constexpr CodeStatistic scratch{"scratch", "Scratch", true, true, 3};
+constexpr CodeStatistic instructions{"instructions", "Instrs", true, true, 4};
+constexpr CodeStatistic loop{"instructions per iteration", "LoopInstrs", true, true, 5};
+constexpr CodeStatistic latency{"latency", "Latency", true, true, 6};
+constexpr CodeStatistic throughput{"inverse throughput", "InvThroughput", true, true, 7};
+constexpr CodeStatistic vgprs{"VGPRs", "VGPRs", false, true, 10};
+constexpr CodeStatistic sgprs{"SGPRs", "SGPRs", false, true, 11};
+constexpr CodeStatistic registers{"registers", "GPRs", false, true, 10};
+constexpr CodeStatistic code_size{"code size", "CodeSize", false, true, 12};
+constexpr CodeStatistic local{"local memory", "LDS", false, true, 13};
+constexpr CodeStatistic branches{"branches", "Branches", false, true, 14};
+constexpr CodeStatistic copies{"copies", "Copies", false, true, 15};
+}  // namespace quantity
+
+// Names of RADV, radeonsi, NVK, NVIDIA's driver, ANV and iris, OpenCL, and of what Triptych counts.
+constexpr std::array<NamedStatistic, 44> named_statistics{{
+    {"subgroups per simd", quantity::occupancy},
+    {"max waves", quantity::occupancy},
+    {"max warps/sm", quantity::occupancy},
+    {"spilled vgprs", quantity::spilled_vgprs},
+    {"spilled sgprs", quantity::spilled_sgprs},
+    {"spill count", quantity::spills},
+    {"spills", quantity::spills},
+    {"spills to memory", quantity::spills},
+    {"fill count", quantity::fills},
+    {"fills", quantity::fills},
+    {"fills from memory", quantity::fills},
+    {"scratch size", quantity::scratch},
+    {"scratch", quantity::scratch},
+    {"scratch memory size", quantity::scratch},
+    {"slm size", quantity::scratch},
+    {"stack size", quantity::scratch},
+    {"local memory size", quantity::scratch},
+    {"bytes stack frame", quantity::scratch},
+    {"private memory", quantity::scratch},
+    {"instructions", quantity::instructions},
+    {"instruction count", quantity::instructions},
+    {"inst", quantity::instructions},
+    {"loop instructions", quantity::loop},
+    {"latency", quantity::latency},
+    {"cycles", quantity::latency},
+    {"cycle count", quantity::latency},
+    {"inverse throughput", quantity::throughput},
+    {"vgprs", quantity::vgprs},
+    {"sgprs", quantity::sgprs},
+    {"number of gprs", quantity::registers},
+    {"gprs", quantity::registers},
+    {"register count", quantity::registers},
+    {"registers", quantity::registers},
+    {"max live registers", quantity::registers},
+    {"code size", quantity::code_size},
+    {"binary size", quantity::code_size},
+    {"lds size", quantity::local},
+    {"lds", quantity::local},
+    {"local memory", quantity::local},
+    {"shared memory size", quantity::local},
+    {"branches", quantity::branches},
+    {"loop branches", {"branches per iteration", "", false, true, 16}},
+    {"copies", quantity::copies},
+    {"pre-sched sgprs", {"SGPRs before scheduling", "", false, true, 20}},
+}};
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::ranges::transform(result, result.begin(), [](char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  });
+  return result;
+}
+
+void compare_executable(const std::string& name, const record::Executable& before,
+                        const record::Executable& now, CodeComparison& comparison) {
+  // A statistic that only one of the two reports is missing, not zero: it did not change.
+  for (const auto& [statistic, value] : now.statistics) {
+    const auto old = before.statistics.find(statistic);
+    if (old == before.statistics.end() || old->second == value) continue;
+    comparison.changes.push_back({.executable = name,
+                                  .driver_name = statistic,
+                                  .statistic = code_statistic(statistic),
+                                  .before = old->second,
+                                  .now = value});
+  }
+  if (!before.assembly.empty() && !now.assembly.empty() && before.assembly != now.assembly) {
+    comparison.assembled.push_back(name);
+  }
+}
+
+std::string text_of(const CodeChange& change) {
+  const std::string_view name =
+      change.statistic.name.empty() ? std::string_view(change.driver_name) : change.statistic.name;
+  std::string text = fmt::format("{} {:g} → {:g}", name, change.before, change.now);
+  if (change.before > 0 && change.statistic.decides && change.statistic.rank >= 4) {
+    text += fmt::format(" ({:+.3g} %)", 100 * (change.now - change.before) / change.before);
+  }
+  return text;
+}
+
+// Register counts explain the occupancy, so they follow it in parentheses.
+std::string text_of_executable(const std::vector<CodeChange>& changes) {
+  std::vector<std::string> deciding;
+  std::vector<std::string> others;
+  std::vector<std::string> used;
+  for (const CodeChange& each : changes) {
+    const bool is_registers = each.statistic.rank == 10 || each.statistic.rank == 11;
+    (each.statistic.decides ? deciding : is_registers ? used : others).push_back(text_of(each));
+  }
+  if (!deciding.empty() && changes.front().statistic.rank == 0 && !used.empty()) {
+    deciding.front() += fmt::format(" ({})", fmt::join(used, ", "));
+    used.clear();
+  }
+  deciding.insert(deciding.end(), used.begin(), used.end());
+  constexpr std::size_t most_others = 4;
+  if (others.size() > most_others) {
+    const std::size_t more = others.size() - most_others;
+    others.resize(most_others);
+    others.push_back(fmt::format("{} more", more));
+  }
+  if (deciding.empty()) return fmt::format("{}", fmt::join(others, ", "));
+  return fmt::format("{}", fmt::join(deciding, ", "));
+}
+
+}  // namespace
+
+CodeStatistic code_statistic(std::string_view driver_name) {
+  const std::string name = lower(driver_name);
+  const auto* const found = std::ranges::find(named_statistics, name, &NamedStatistic::driver_name);
+  return found == named_statistics.end() ? CodeStatistic{} : found->statistic;
+}
+
+CodeDirection CodeComparison::direction() const {
+  if (changes.empty()) return CodeDirection::same;
+  const auto any = [&](auto is) { return std::ranges::any_of(changes, is); };
+  const bool worse = any([](const CodeChange& each) { return each.worse(); });
+  const bool better = any([](const CodeChange& each) { return each.better(); });
+  if (!worse && !better) return CodeDirection::other;
+  if (worse != better) return worse ? CodeDirection::worse : CodeDirection::better;
+  const auto throughput_is = [&](bool worse_one) {
+    return any([&](const CodeChange& each) {
+      return each.statistic.rank == quantity::throughput.rank && each.worse() == worse_one;
+    });
+  };
+  const bool faster = throughput_is(false) && !throughput_is(true);
+  return faster ? CodeDirection::better : CodeDirection::worse;
+}
+
+bool CodeComparison::mixed() const {
+  const auto any = [&](auto is) { return std::ranges::any_of(changes, is); };
+  return any([](const CodeChange& each) { return each.worse(); }) &&
+         any([](const CodeChange& each) { return each.better(); });
+}
+
+CodeComparison compare_code(const record::Code& before, const record::Code& now) {
+  CodeComparison comparison;
+  for (const auto& [name, executable] : now) {
+    const auto old = before.find(name);
+    if (old == before.end()) {
+      comparison.added.push_back(name);
+    } else {
+      compare_executable(name, old->second, executable, comparison);
+    }
+  }
+  for (const auto& [name, executable] : before) {
+    if (!now.contains(name)) comparison.gone.push_back(name);
+  }
+  std::ranges::stable_sort(comparison.changes, {}, [](const CodeChange& each) {
+    return std::tuple(std::string_view(each.executable), each.statistic.rank,
+                      std::string_view(each.driver_name));
+  });
+  return comparison;
+}
+
+std::string code_change_text(const CodeComparison& comparison) {
+  std::map<std::string, std::vector<CodeChange>> executables;
+  for (const CodeChange& each : comparison.changes) executables[each.executable].push_back(each);
+  std::vector<std::string> parts;
+  for (const auto& [name, changes] : executables) {
+    parts.push_back(executables.size() == 1 && comparison.gone.empty()
+                        ? text_of_executable(changes)
+                        : fmt::format("{}: {}", name, text_of_executable(changes)));
+  }
+  if (!comparison.gone.empty()) {
+    parts.push_back(fmt::format("no longer compiled: {}", fmt::join(comparison.gone, ", ")));
+  }
+  if (!comparison.added.empty()) {
+    parts.push_back(fmt::format("compiled in addition: {}", fmt::join(comparison.added, ", ")));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+}  // namespace triptych::judge

@@ -1,0 +1,57 @@
+#pragma once
+// Compares what compilers reported about two builds of the same device code.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "record/code.hpp"
+
+namespace triptych::judge {
+
+// The meaning of a driver's statistic. Drivers use different names for the same quantity. Unknown
+// names are kept as they are; their changes are shown and decide nothing.
+struct CodeStatistic {
+  std::string_view name;       // "occupancy"; empty for an unknown statistic
+  std::string_view mesa = {};  // its name in the totals of Mesa's developers: "MaxWaves"; may be empty
+  bool decides = false;        // a change for the worse is a regression
+  bool more_is_worse = true;   // means nothing where it does not decide
+  int rank = 100;              // in the order in which people want to read them
+};
+[[nodiscard]] CodeStatistic code_statistic(std::string_view driver_name);
+
+struct CodeChange {
+  std::string executable;
+  std::string driver_name;
+  CodeStatistic statistic;  // its texts live as long as driver_name
+  double before = 0;
+  double now = 0;
+  [[nodiscard]] bool worse() const {
+    return statistic.decides && (now > before) == statistic.more_is_worse;
+  }
+  [[nodiscard]] bool better() const { return statistic.decides && !worse(); }
+};
+
+enum class CodeDirection { same, other, worse, better };
+
+struct CodeComparison {
+  std::vector<CodeChange> changes;     // the most important statistics first
+  std::vector<std::string> gone;       // executables that no longer exist
+  std::vector<std::string> added;      // executables that did not exist before
+  std::vector<std::string> assembled;  // executables whose disassembly changed
+  // The direction of all statistics that decide. If some improved and others got worse, the inverse
+  // throughput gives the direction. If it did not change or is not reported, the result is `worse`,
+  // because somebody has to accept a mixed change. `other`: only statistics that decide nothing
+  // changed.
+  [[nodiscard]] CodeDirection direction() const;
+  [[nodiscard]] bool mixed() const;
+};
+
+[[nodiscard]] CodeComparison compare_code(const record::Code& before, const record::Code& now);
+
+// "occupancy 16 → 12 (VGPRs 84 → 100), inverse throughput 332 → 368 (+11 %)"; of several
+// executables each with its name.
+[[nodiscard]] std::string code_change_text(const CodeComparison& comparison);
+
+}  // namespace triptych::judge

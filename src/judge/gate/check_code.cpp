@@ -1,0 +1,177 @@
+// Compares what compilers report about their output with the values stored for the same driver
+// version. The comparison is exact and valid on any machine, because the output does not depend on
+// the machine that compiles.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "judge/code/code_change.hpp"
+#include "judge/code/code_totals.hpp"
+#include "judge/gate/run_view.hpp"
+
+namespace triptych::judge {
+namespace {
+
+// A change of several executables names each; of one it names the statistic alone.
+Change change_of(const CodeChange& change, bool several) {
+  const std::string_view name =
+      change.statistic.name.empty() ? std::string_view(change.driver_name) : change.statistic.name;
+  return {.name = several ? fmt::format("{} {}", change.executable, name) : std::string(name),
+          .before = change.before,
+          .now = change.now};
+}
+
+std::vector<Change> changes_of(const CodeComparison& comparison) {
+  const bool several = std::ranges::any_of(comparison.changes, [&](const CodeChange& each) {
+    return each.executable != comparison.changes.front().executable;
+  });
+  std::vector<Change> changes;
+  for (const CodeChange& each : comparison.changes) changes.push_back(change_of(each, several));
+  return changes;
+}
+
+std::vector<Change> changes_of(const CodeTotals& totals) {
+  std::vector<Change> changes;
+  for (const auto& [name, total] : totals.totals()) {
+    if (total.helped + total.hurt == 0) continue;
+    changes.push_back({.name = name, .before = total.before, .now = total.now});
+  }
+  return changes;
+}
+
+// A configuration that is compiled in other parts than before cannot be compared part by part.
+bool in_other_parts(const CodeComparison& comparison) {
+  return !comparison.gone.empty() || !comparison.added.empty();
+}
+
+Verdict verdict_of(const CodeComparison& comparison) {
+  const CodeDirection direction = comparison.direction();
+  if (direction == CodeDirection::worse) return Verdict::regression;
+  if (in_other_parts(comparison)) return Verdict::cannot_judge;
+  if (direction == CodeDirection::better) return Verdict::improved;
+  return direction == CodeDirection::other ? Verdict::advisory : Verdict::pass;
+}
+
+// Returns the largest relative change of a statistic that decides; findings are sorted by it.
+double ratio_of(const CodeComparison& comparison) {
+  double ratio = 1;
+  for (const CodeChange& each : comparison.changes) {
+    if (!each.statistic.decides || each.before <= 0 || each.now <= 0) continue;
+    ratio = std::max(ratio, each.now > each.before ? each.now / each.before
+                                                   : each.before / each.now);
+  }
+  return ratio;
+}
+
+Finding judge_code(const record::Record& record, const CodeComparison& comparison,
+                   const Advised& accept) {
+  Observation what{.cause = Cause::as_stored,
+                   .against = Against::baseline,
+                   .numbers = {{"values", static_cast<double>(record.code.size())}}};
+  if (!comparison.changes.empty()) {
+    what.cause = Cause::values_changed;
+    what.numbers = {{"ratio", ratio_of(comparison)}};
+    what.changes = changes_of(comparison);
+  } else if (in_other_parts(comparison)) {
+    what.cause = Cause::other_executables;
+    what.numbers.clear();
+  }
+  what.names = comparison.gone;
+  what.names.insert(what.names.end(), comparison.added.begin(), comparison.added.end());
+  const Verdict verdict = verdict_of(comparison);
+  return finding_about(record, Check::code, verdict, std::move(what),
+                       verdict == Verdict::cannot_judge ? accept : Advised{});
+}
+
+class DeviceCodeCheck {
+ public:
+  DeviceCodeCheck(const RunView& view, const record::Device& device)
+      : view_(view), device_(device), stored_(view.baselines.code(device)) {}
+
+  void look_at(const record::Record& record) { records_.push_back(&record); }
+
+  void finish(std::vector<Finding>& findings) {
+    if (stored_ == nullptr) return tell_other(findings);
+    for (const record::Record* record : records_) compare(*record, findings);
+    if (!not_stored_.empty()) {
+      add(findings, Verdict::cannot_judge, {.cause = Cause::not_stored, .names = not_stored_},
+          view_.accept());
+    }
+    if (!reassembled_.empty()) {
+      add(findings, Verdict::advisory,
+          {.cause = Cause::other_disassembly, .names = reassembled_});
+    }
+  }
+
+ private:
+  void add(std::vector<Finding>& findings, Verdict verdict, Observation what,
+           Advised advice = {}) const {
+    findings.push_back(finding_about(view_, device_, Check::code, verdict, std::move(what),
+                                     std::move(advice)));
+  }
+
+  // Another driver version is another compiler. Its changes are reported as totals.
+  void tell_other(std::vector<Finding>& findings) const {
+    const DriverCode* other = nullptr;
+    for (const auto& [driver, code] : view_.baselines.code_of_all_drivers()) {
+      if (code.device == device_.id) other = &code;
+    }
+    if (other == nullptr) {
+      return add(findings, Verdict::advisory, {.cause = Cause::no_stored_device}, view_.accept());
+    }
+    CodeTotals totals;
+    for (const record::Record* record : records_) {
+      const auto there = other->configurations.find(record->configuration);
+      if (there != other->configurations.end()) {
+        totals.add(record->configuration, there->second, record->code);
+      }
+    }
+    add(findings, Verdict::advisory,
+        {.cause = Cause::other_compiler,
+         .against = Against::other_devices,
+         .numbers = {{"configurations", static_cast<double>(totals.configurations())},
+                     {"changed", static_cast<double>(totals.changed())}},
+         .changes = changes_of(totals),
+         .facts = {{"driver_version", device_.driver_version},
+                   {"other_version", other->driver_version}}});
+  }
+
+  void compare(const record::Record& record, std::vector<Finding>& findings) {
+    const auto stored = stored_->configurations.find(record.configuration);
+    if (stored == stored_->configurations.end()) {
+      not_stored_.push_back(record.configuration);
+      return;
+    }
+    const CodeComparison comparison = compare_code(stored->second, record.code);
+    findings.push_back(judge_code(record, comparison, view_.accept()));
+    if (comparison.changes.empty() && !comparison.assembled.empty()) {
+      reassembled_.push_back(record.configuration);
+    }
+  }
+
+  const RunView& view_;
+  const record::Device& device_;
+  const DriverCode* stored_;  // of this driver version
+  std::vector<const record::Record*> records_;
+  std::vector<std::string> not_stored_;
+  std::vector<std::string> reassembled_;  // other disassembly, the same statistics
+};
+
+}  // namespace
+
+std::vector<Finding> check_code(const RunView& view) {
+  std::map<std::string, DeviceCodeCheck> devices;
+  for (const record::Record* record : view.measured) {
+    if (record->code.empty()) continue;
+    devices.try_emplace(record->device, view, view.device(*record)).first->second.look_at(*record);
+  }
+  std::vector<Finding> findings;
+  for (auto& [id, check] : devices) check.finish(findings);
+  return findings;
+}
+
+}  // namespace triptych::judge

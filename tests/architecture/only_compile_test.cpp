@@ -1,0 +1,57 @@
+// A device that only compiles executes nothing: what submits, draws or reads back stands in one
+// place of each backend, where it is guarded.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "source_tree.hpp"
+
+namespace triptych::architecture {
+namespace {
+
+// Files of a backend in which a line outside comments matches.
+std::set<std::string> files_with(const std::string& folder, const std::regex& pattern) {
+  std::set<std::string> found;
+  for (const auto& file : files_below(folder, {".cpp", ".hpp"})) {
+    std::istringstream text(read(file));
+    for (std::string line; std::getline(text, line);) {
+      if (std::regex_search(line.substr(0, line.find("//")), pattern)) {
+        found.insert(std::filesystem::path(file).filename().string());
+      }
+    }
+  }
+  return found;
+}
+
+TEST(OnlyCompile, VulkanSubmitsInOnePlace) {
+  EXPECT_EQ(files_with("backends/vulkan", std::regex(R"(queue\.(submit|waitIdle))")),
+            std::set<std::string>{"gpu.cpp"});
+}
+
+TEST(OnlyCompile, OpenclHasOneQueue) {
+  EXPECT_EQ(files_with("backends/opencl", std::regex(R"(cl::CommandQueue|\bclEnqueue)")),
+            (std::set<std::string>{"device.cpp", "objects.hpp"}));
+}
+
+// Every function of GL that this backend calls and that executes, reads back or waits is replaced.
+TEST(OnlyCompile, GlReplacesAllThatExecutes) {
+  const std::string guard = read(source_folder / "backends/gl/only_compile.cpp");
+  static const std::regex call(
+      R"(\bgl_?(?:->|\.)((?:Draw(?:Arrays|Elements)|MultiDraw|Dispatch|Clear|Read(?!Buffer)|Copy|Get\w*SubData|GetQueryObject|GetTexImage|FenceSync|ClientWaitSync|Finish|Flush|Blit|BufferSubData|BufferData|TexImage|TexSubImage|GenerateMipmap|MapBuffer)\w*)\()");
+  std::size_t seen = 0;
+  for (const auto& file : files_below("backends/gl", {".cpp", ".hpp"})) {
+    const std::string text = read(file);
+    for (std::sregex_iterator at(text.begin(), text.end(), call), end; at != end; ++at) {
+      const std::string name = (*at)[1];
+      ++seen;
+      EXPECT_NE(guard.find("gl." + name), std::string::npos)
+          << file << " calls gl" << name << ", which only_compile.cpp does not replace";
+    }
+  }
+  EXPECT_GT(seen, 10U);
+}
+
+}  // namespace
+}  // namespace triptych::architecture

@@ -1,0 +1,186 @@
+// The gate compares the compilers' reports with stored ones.
+
+#include <gmock/gmock.h>
+
+#include "fixture.hpp"
+#include "judge/code/code_change.hpp"
+#include "judge/code/code_totals.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using core::ExitCode;
+using record::Code;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const Code as_compiled{{"raycast.comp",
+                        {.statistics = {{"Instructions", 657},
+                                        {"Subgroups per SIMD", 16},
+                                        {"VGPRs", 84},
+                                        {"Inverse Throughput", 6486},
+                                        {"Latency", 41715},
+                                        {"Spilled VGPRs", 0},
+                                        {"Something new", 5}},
+                         .assembly = "aaaa"}}};
+
+Code with_changes(const std::map<std::string, double>& changes) {
+  Code code = as_compiled;
+  for (const auto& [name, value] : changes) code.at("raycast.comp").statistics[name] = value;
+  return code;
+}
+
+CodeDirection direction_of(const std::map<std::string, double>& changes) {
+  return compare_code(as_compiled, with_changes(changes)).direction();
+}
+
+TEST(CodeChange, NothingChanged) {
+  EXPECT_EQ(direction_of({}), CodeDirection::same);
+}
+
+TEST(CodeChange, EachStatisticHasItsDirection) {
+  EXPECT_EQ(direction_of({{"Instructions", 658}}), CodeDirection::worse);
+  EXPECT_EQ(direction_of({{"Instructions", 656}}), CodeDirection::better);
+  EXPECT_EQ(direction_of({{"Subgroups per SIMD", 12}}), CodeDirection::worse);
+  EXPECT_EQ(direction_of({{"Subgroups per SIMD", 20}}), CodeDirection::better);
+  EXPECT_EQ(direction_of({{"Spilled VGPRs", 1}}), CodeDirection::worse);
+}
+
+// Registers matter where they cost occupancy.
+TEST(CodeChange, RegistersAndUnknownStatisticsDecideNothing) {
+  EXPECT_EQ(direction_of({{"VGPRs", 88}}), CodeDirection::other);
+  EXPECT_EQ(direction_of({{"Something new", 6}}), CodeDirection::other);
+}
+
+TEST(CodeChange, TheInverseThroughputNamesTheDirectionOfAMixedChange) {
+  EXPECT_EQ(direction_of({{"Instructions", 700}, {"Inverse Throughput", 6000}}),
+            CodeDirection::better);
+  EXPECT_EQ(direction_of({{"Instructions", 600}, {"Inverse Throughput", 7000}}),
+            CodeDirection::worse);
+  EXPECT_EQ(direction_of({{"Instructions", 700}, {"Latency", 40000}}), CodeDirection::worse);
+  EXPECT_TRUE(compare_code(as_compiled, with_changes({{"Instructions", 700}, {"Latency", 40000}}))
+                  .mixed());
+}
+
+TEST(CodeChange, WhatOnlyOneReportsIsMissingAndNotZero) {
+  Code without = as_compiled;
+  without.at("raycast.comp").statistics.erase("Instructions");
+  EXPECT_TRUE(compare_code(as_compiled, without).changes.empty());
+  EXPECT_TRUE(compare_code(without, as_compiled).changes.empty());
+}
+
+TEST(CodeChange, TheTextNamesTheCauseFirst) {
+  EXPECT_EQ(code_change_text(compare_code(
+                as_compiled, with_changes({{"Subgroups per SIMD", 12},
+                                           {"VGPRs", 100},
+                                           {"Inverse Throughput", 7199.46}}))),
+            "occupancy 16 → 12 (VGPRs 84 → 100), inverse throughput 6486 → 7199.46 (+11 %)");
+}
+
+TEST(CodeTotals, AreThoseThatMesasDevelopersQuote) {
+  CodeTotals totals;
+  totals.add("a", as_compiled, with_changes({{"Instructions", 647}}));
+  totals.add("b", as_compiled, with_changes({{"Instructions", 660}}));
+  totals.add("c", as_compiled, as_compiled);
+  EXPECT_THAT(totals.lines(),
+              ElementsAre("Instrs: 1971 -> 1964 (-0.36%); split: -0.51%, +0.15%; helped: 1, "
+                          "hurt: 1; worst: b (657 -> 660)"));
+  EXPECT_EQ(totals.changed(), 2U);
+}
+
+TEST(CodeTotals, FewerWavesHurt) {
+  CodeTotals totals;
+  totals.add("a", as_compiled, with_changes({{"Subgroups per SIMD", 12}}));
+  EXPECT_THAT(totals.lines(), ElementsAre(HasSubstr("helped: 0, hurt: 1; worst: a (16 -> 12)")));
+}
+
+class CodeGateTest : public JudgeTest {
+ protected:
+  CodeGateTest() {
+    request_.checks = {Check::code};
+    checks_ = {Check::code};
+  }
+
+  static Tweak compiled(const std::function<void(record::Record&)>& change = {}) {
+    return [change](record::Record& record, core::Image&) {
+      record.code = as_compiled;
+      if (change) change(record);
+    };
+  }
+  // Changes one configuration on one device.
+  static Tweak changed(const std::map<std::string, double>& changes) {
+    return compiled([=](record::Record& record) {
+      if (record.device != "vulkan:lavapipe" || record.configuration != plain_) return;
+      record.code = with_changes(changes);
+    });
+  }
+  GateResult judge(const Tweak& change) {
+    accept_first(compiled());
+    add_run("b", change);
+    return gate("b");
+  }
+};
+
+TEST_F(CodeGateTest, TheSameCodePasses) {
+  const GateResult result = judge(compiled());
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  EXPECT_EQ(with(result, Verdict::pass, Check::code).size(), 12U);
+}
+
+TEST_F(CodeGateTest, OneInstructionIsARegression) {
+  const GateResult result = judge(changed({{"Instructions", 658}}));
+  const auto wrong = with(result, Verdict::regression, Check::code);
+  ASSERT_EQ(wrong.size(), 1U) << text(result);
+  EXPECT_EQ(wrong[0].device, "vulkan:lavapipe");
+  EXPECT_EQ(wrong[0].configuration, plain_);
+  EXPECT_EQ(wrong[0].cause, Cause::values_changed);
+  ASSERT_EQ(wrong[0].changes.size(), 1U);
+  EXPECT_EQ(wrong[0].changes[0].name, "instructions");
+  EXPECT_EQ(wrong[0].changes[0].before, 657);
+  EXPECT_EQ(wrong[0].changes[0].now, 658);
+  EXPECT_EQ(result.exit_code(), ExitCode::regression);
+}
+
+TEST_F(CodeGateTest, OneInstructionLessIsAnImprovement) {
+  const GateResult result = judge(changed({{"Instructions", 656}}));
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  EXPECT_EQ(with(result, Verdict::improved, Check::code).size(), 1U);
+}
+
+TEST_F(CodeGateTest, OtherPartsCannotBeCompared) {
+  const GateResult result = judge(compiled([](record::Record& record) {
+    if (record.configuration != plain_) return;
+    record.code["another.comp"] = record.code.at("raycast.comp");
+  }));
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge) << text(result);
+  EXPECT_EQ(with(result, Verdict::cannot_judge, Check::code).at(0).cause,
+            Cause::other_executables);
+}
+
+// A compiler that crashes, or no longer takes what it took.
+TEST_F(CodeGateTest, WhatNoLongerCompilesIsARegression) {
+  const GateResult result = judge(compiled([](record::Record& record) {
+    if (record.device != "vulkan:lavapipe" || record.configuration != plain_) return;
+    record.code.clear();
+    record.outcome = record::Outcome::crashed;
+  }));
+  EXPECT_EQ(result.exit_code(), ExitCode::regression) << text(result);
+}
+
+TEST_F(CodeGateTest, AnotherDriverVersionIsToldInTotals) {
+  accept_first(compiled());
+  for (const char* id : {"gl:llvmpipe-egl", "opencl:pocl", "vulkan:lavapipe"}) {
+    driver_versions_[id] = "25.0.7";
+  }
+  add_run("b", compiled([](record::Record& record) {
+    record.code = with_changes({{"Instructions", 700}});
+  }));
+  const auto told = with(gate("b"), Verdict::advisory, Check::code);
+  ASSERT_EQ(told.size(), 3U);
+  EXPECT_EQ(told[0].cause, Cause::other_compiler);
+  EXPECT_EQ(told[0].changes.at(0).name, "Instrs");
+  EXPECT_EQ(with(gate("b"), Verdict::regression).size(), 0U);
+}
+
+}  // namespace
+}  // namespace triptych::judge

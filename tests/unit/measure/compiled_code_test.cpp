@@ -1,0 +1,109 @@
+// Statistics are read from the lines that drivers print.
+
+#include "measure/code/compiled_code.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <string>
+
+#include "core/error.hpp"
+#include "measure/code/standard_error.hpp"
+#include "measure/system/compile_only.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::IsEmpty;
+using testing::Key;
+using testing::Not;
+using testing::Pair;
+using testing::StartsWith;
+
+TEST(ParseStatistics, ReadsRadeonsisLine) {
+  const auto read = parse_statistics(
+      "Shader Stats: SGPRS: 32 VGPRS: 16 Code Size: 412 LDS: 0 Scratch: 0 Max Waves: 16 "
+      "Spilled SGPRs: 3 PrivMem VGPRs: 0 (CS, W32)");
+  EXPECT_THAT(read, AllOf(Contains(Pair("SGPRS", 32)), Contains(Pair("VGPRS", 16)),
+                          Contains(Pair("Code Size", 412)), Contains(Pair("Max Waves", 16)),
+                          Contains(Pair("Spilled SGPRs", 3))));
+  EXPECT_EQ(read.size(), 8U);
+  EXPECT_THAT(parse_statistics("Code Size: 9204 bytes"), Contains(Pair("Code Size", 9204)));
+  EXPECT_THAT(parse_statistics("Shader Disassembly Begin"), IsEmpty());
+}
+
+TEST(ParseCounts, ReadsLinesOfIntelAndNvidia) {
+  EXPECT_THAT(parse_counts("shader: 55 inst, 0 loops, 328 cycles, 4 sends"),
+              AllOf(Contains(Pair("inst", 55)), Contains(Pair("cycles", 328))));
+  EXPECT_THAT(parse_counts("ptxas info : Used 32 registers, 8 bytes stack frame"),
+              AllOf(Contains(Pair("registers", 32)), Contains(Pair("bytes stack frame", 8))));
+}
+
+TEST(CompiledCode, HashesAreNoStatistics) {
+  CompiledCode code;
+  code.add("a", {{"VGPRs", 24}, {"Driver pipeline hash", 1e18}, {"Hash", 7}}, "");
+  const Compiled compiled = code.take();
+  EXPECT_THAT(compiled.code.at("a").statistics, testing::ElementsAre(Pair("VGPRs", 24)));
+}
+
+TEST(CompiledCode, TheSameNameTwiceIsTwoExecutables) {
+  CompiledCode code;
+  code.add("cull.comp", {{"VGPRs", 24}}, "");
+  code.add("cull.comp", {{"VGPRs", 28}}, "");
+  EXPECT_THAT(code.take().code, AllOf(Contains(Key("cull.comp")), Contains(Key("cull.comp#2"))));
+}
+
+TEST(CompiledCode, NothingReportedIsNotSupported) {
+  CompiledCode code;
+  code.add("a", {}, "");
+  EXPECT_THROW(static_cast<void>(code.take()), core::NotSupported);
+}
+
+// Two drivers of one GPU: one reports instructions, the other's are counted.
+TEST(CompiledCode, CountsInstructionsThatAreNotReported) {
+  const std::string assembly = "BB0:\n\tv_mov_b32 v0, 0\n\ts_endpgm\n";
+  CompiledCode code;
+  code.add("counted", {{"VGPRs", 24}}, assembly);
+  code.add("reported", {{"Instructions", 60}}, assembly);
+  const Compiled compiled = code.take();
+  EXPECT_EQ(compiled.code.at("counted").statistics.at("Instructions"), 2);
+  EXPECT_EQ(compiled.code.at("reported").statistics.at("Instructions"), 60);
+  EXPECT_EQ(compiled.listings.at(compiled.code.at("counted").assembly), assembly);
+}
+
+TEST(StandardError, IsKeptAndGivenBack) {
+  const auto write = [](const std::string& text) {
+    ASSERT_EQ(::write(STDERR_FILENO, text.data(), text.size()),
+              static_cast<ssize_t>(text.size()));
+  };
+  EXPECT_EQ(standard_error_of([&] { write("from a driver\n"); }), "from a driver\n");
+  EXPECT_EQ(standard_error_of([] {}), "");
+}
+
+TEST(CompileOnly, FamiliesAreReadFromIds) {
+  EXPECT_EQ(compile_only("vulkan:radv-navi31")->family, "navi31");
+  EXPECT_EQ(compile_only("opencl:rusticl-navi31")->driver, "rusticl");
+  for (const char* id : {"vulkan:radv", "gl:radeonsi-egl", "vulkan:lavapipe", "vulkan:radv-*"}) {
+    EXPECT_FALSE(compile_only(id)) << id;
+  }
+}
+
+TEST(CompileOnly, AnotherDeviceNeedsNoVariables) {
+  EXPECT_THAT(compile_only_environment("vulkan:lavapipe"), IsEmpty());
+  EXPECT_THAT(compile_only_environment("vulkan:radv"), IsEmpty());
+}
+
+TEST(CompileOnly, WhatIsMissingIsNamedWithItsPackage) {
+  const std::vector<std::string> nowhere{"LD_LIBRARY_PATH=/nowhere"};
+  try {
+    static_cast<void>(compile_only_environment("vulkan:nvk-pascal", nowhere));
+    FAIL() << "no stub has this family";
+  } catch (const core::NotSupported& error) {
+    EXPECT_THAT(std::string(error.what()), Not(IsEmpty()));
+  }
+}
+
+}  // namespace
+}  // namespace triptych::measure
