@@ -21,6 +21,11 @@ set(TRIPTYCH_UNITY_BATCH 8 CACHE STRING "How many files a batch holds")
 function(triptych_batch target)
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD ${TRIPTYCH_UNITY} UNITY_BUILD_BATCH_SIZE ${TRIPTYCH_UNITY_BATCH})
+  # GCC warns about members whose type is in an anonymous namespace unless the file that is compiled defines them;
+  # in a batch every file is included.
+  if(TRIPTYCH_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  endif()
 endfunction()
 
 # triptych_room(NAME SOURCES file... [ROOMS room...] [PUBLIC lib...] [PRIVATE lib...])

@@ -54,7 +54,7 @@ struct Programs {
   std::vector<std::string> sources;
 };
 
-// Values of TRI_OCCLUSION in cull.comp.glsl, one for each time that cells are culled in a frame.
+// Values of TRI_OCCLUSION in cull.glsl, one for each time that cells are culled in a frame.
 std::vector<int> passes_of(Culling culling) {
   if (culling == Culling::none) return {};
   if (culling == Culling::frustum) return {0};
@@ -62,8 +62,10 @@ std::vector<int> passes_of(Culling culling) {
 }
 
 ParticleStage cull_stage(bool instanced, int pass) {
-  std::vector<std::string_view> files{"cells.glsl", "cull.comp.glsl"};
-  if (pass > 0) files = {"sprite.glsl", "cells.glsl", "occlusion.glsl", "cull.comp.glsl"};
+  std::vector<std::string_view> files{"cells.glsl", "cull.glsl", "cull.comp.glsl"};
+  if (pass > 0) {
+    files = {"sprite.glsl", "cells.glsl", "occlusion.glsl", "cull.glsl", "cull.comp.glsl"};
+  }
   return {
       GL_COMPUTE_SHADER, files,
       fmt::format("#define TRI_INSTANCED {:d}\n#define TRI_OCCLUSION {}\n", int{instanced}, pass)};

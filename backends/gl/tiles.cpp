@@ -52,7 +52,7 @@ Programs make_programs(const Api& gl, const ParticleConstants& constants, Cullin
     std::vector<std::string_view> files{"sprite.glsl"};
     if (i == cells || i == bin) files.emplace_back("cells.glsl");
     const std::string main_file = fmt::format("tiles_{}.comp.glsl", passes[i]);
-    files.insert(files.end(), {"tile_grid.glsl", "tiles.glsl", main_file});
+    files.insert(files.end(), {"keys.glsl", "tile_grid.glsl", "tiles.glsl", main_file});
     programs.of[i] =
         program({{GL_COMPUTE_SHADER, files,
                   defines + "#define TRI_ROUND round_cells\nuniform uvec2 round_cells;\n"}},
@@ -62,9 +62,9 @@ Programs make_programs(const Api& gl, const ParticleConstants& constants, Cullin
   showing.count = false;
   programs.show = program(
       {{GL_VERTEX_SHADER,
-        {"tile_grid.glsl", "tiles_show.vert.glsl"},
+        {"keys.glsl", "tile_grid.glsl", "tiles_show.vert.glsl"},
         defines + "#define TRI_INSTANCE gl_InstanceID\n#define TRI_CORNER gl_VertexID\n"},
-       {GL_FRAGMENT_SHADER, {"tile_grid.glsl", "storage.glsl", "tiles_show.frag.glsl"}, defines}},
+       {GL_FRAGMENT_SHADER, {"keys.glsl", "tile_grid.glsl", "storage.glsl", "tiles_show.frag.glsl"}, defines}},
       showing);
   return programs;
 }
@@ -125,7 +125,7 @@ class TilesDrawing final : public Drawing {
   }
 
   [[nodiscard]] record::Counts counters(const Api& gl) const override {
-    return technique::particle_counts({.work = technique::Work::compute,
+    return technique::particle_counts({.method = technique::Method::tiles,
                                        .culling = options_.culling,
                                        .cells = cells_,
                                        .particles = particles_},

@@ -84,6 +84,16 @@ TRI_FN void find_rectangles(const Particles* u, Batch* batch) {
     batch->corners[k] = 0;
   }
 }
+#elif TRI_STORED
+// Finds the rectangles of the n particles from `first` on.
+TRI_FN void find_rectangles(const Particles* u, __global const float* restrict stored, uint first,
+                            uint n, Batch* batch) {
+  for (uint k = 0; k < n; ++k) {
+    Polygon polygon;
+    batch->corners[k] = stored_polygon(u, stored, first + k, &polygon);
+    polygon_rectangle(u, &polygon, &batch->first[k], &batch->last[k]);
+  }
+}
 #else
 TRI_FN void find_rectangles(const Particles* u, Batch* batch) {
   for (int k = 0; k < TRI_BATCH; ++k) {
@@ -107,7 +117,11 @@ __kernel void count_bins(__global const Particles* restrict parameters,
                          __global const Cell* restrict cells, __global const uint* restrict list,
                          __global float* restrict camera, __global uint* restrict rectangles,
                          uint bins, __global uint* restrict counts,
-                         __global uint* restrict counters) {
+                         __global uint* restrict counters
+#if TRI_STORED
+                         , __global const float* restrict stored
+#endif
+) {
   uint chunk = (uint)get_global_id(0);
   uint chunks = (uint)get_global_size(0);
   Particles u = *parameters;
@@ -126,7 +140,11 @@ __kernel void count_bins(__global const Particles* restrict parameters,
       uint n = min(stop - i, (uint)TRI_BATCH);
       load_batch(spheres + 4 * (size_t)i, n, &batch);
       to_camera_space(&u, &batch);
+#if TRI_STORED
+      find_rectangles(&u, stored, i, n, &batch);
+#else
       find_rectangles(&u, &batch);
+#endif
       for (uint k = 0; k < n; ++k) {
         size_t particle = i + k;
         uint first = batch.first[k];

@@ -96,17 +96,26 @@ record::Counts ParticleFrames::read_counters() {
 }
 
 core::Image ParticleFrames::image() {
-  core::Image image(width_, height_);
+  return read_picture(session_, {.width = width_,
+                                 .height = height_,
+                                 .near = near_,
+                                 .image = stages_.image(),
+                                 .ids = stages_.ids(),
+                                 .depths = picture_.depths});
+}
+
+core::Image read_picture(const Session& session, const ShadedPicture& picture) {
+  core::Image image(picture.width, picture.height);
   image.ids.resize(image.pixel_count());
   image.depth.resize(image.pixel_count());
   const auto read = [&](const cl::Buffer& from, auto& to) {
-    read_buffer(session_, from, to.size() * sizeof to[0], to.data());
+    read_buffer(session, from, to.size() * sizeof to[0], to.data());
   };
-  read(stages_.image(), image.rgba);
-  read(stages_.ids(), image.ids);
-  read(picture_.depths, image.depth);
+  read(picture.image, image.rgba);
+  read(picture.ids, image.ids);
+  read(picture.depths, image.depth);
   for (float& z : image.depth) {
-    z = z > 0 ? static_cast<float>(near_ / static_cast<double>(z))
+    z = z > 0 ? static_cast<float>(picture.near / static_cast<double>(z))
               : std::numeric_limits<float>::infinity();
   }
   return image;

@@ -12,6 +12,17 @@
 
 namespace triptych::opencl_backend {
 
+// The picture that shading left on the device; of `depths` the reversed ones, 0 for none.
+struct ShadedPicture {
+  int width = 0;
+  int height = 0;
+  double near = 1;
+  const cl::Buffer& image;
+  const cl::Buffer& ids;
+  const cl::Buffer& depths;
+};
+[[nodiscard]] core::Image read_picture(const Session& session, const ShadedPicture& picture);
+
 class ParticleFrames final : public measure::Prepared {
  public:
   // Compiles the timed build and uploads everything; the counting build is made when it is first

@@ -56,11 +56,12 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
         "{}",
         count, pixels, largest, most);
   }
+  // The passes of quad_tess store the most of each particle: 28 words.
   // Sphere, the same in camera space, rectangle, colour, id; picture, id, and for each pass its
   // depths, winners and counts of entries.
   const std::uint64_t passes = work.options.extra_work_stride > 0 ? 2 : 1;
   const std::uint64_t all =
-      (16 + 16 + 8 + 16 + 4) * count + 20 * pixels + passes * (8 * pixels + table);
+      (16 + 16 + 8 + 16 + 4 + 4 * 28) * count + 20 * pixels + passes * (8 * pixels + table);
   if (all > total) {
     return fmt::format("{} bytes are needed, CL_DEVICE_GLOBAL_MEM_SIZE is {}", all, total);
   }

@@ -41,7 +41,8 @@ Part sprites_part(const ParticleConstants& constants) {
       common_options(constants, {ParticleFault::unresolved_ties, ParticleFault::reversed_depth,
                                  ParticleFault::wrong_sense, ParticleFault::lost_at_border});
   return {program_source({"sphere_math.h", "particles.cl", "particle_rectangle.cl",
-                          "particle_sprite.cl", "particle_bins.cl", "particle_tiles.cl"}),
+                          "particle_sprite.cl", "particle_expand.cl", "particle_bins.cl",
+                          "particle_tiles.cl"}),
           fmt::format("{} -DTRI_SPRITE={} -DTRI_RAY_AT_VERTEX={:d} -DTRI_CONSERVATIVE_DEPTH={:d} "
                       "-DTRI_MOST_TILES={}",
                       common, static_cast<int>(constants.sprite), constants.ray_at_vertex,
@@ -51,9 +52,22 @@ Part sprites_part(const ParticleConstants& constants) {
 Part shading_part(ParticleConstants constants) {
   constants.count = false;  // it has nothing to count
   return {program_source({"sphere_math.h", "particles.cl", "particle_shade.cl"}),
-          fmt::format("{} -DTRI_COLOUR={} -DTRI_TRANSFER_AT_PIXEL={:d} -DTRI_RAY_AT_VERTEX={:d}",
+          fmt::format("{} -DTRI_COLOUR={} -DTRI_TRANSFER_AT_PIXEL={:d} -DTRI_RAY_AT_VERTEX={:d}{}",
                       common_options(constants, {}), static_cast<int>(constants.colour),
-                      constants.transfer_at_pixel, constants.ray_at_vertex)};
+                      constants.transfer_at_pixel, constants.ray_at_vertex,
+                      constants.traced ? " -DTRI_TRACED=1" : "")};
+}
+
+Part rays_part(const ParticleConstants& constants) {
+  const std::string common =
+      common_options(constants, {ParticleFault::unresolved_ties, ParticleFault::reversed_depth,
+                                 ParticleFault::wrong_sense, ParticleFault::small_box});
+  return {program_source({"sphere_math.h", "box_math.h", "particles.cl", "particle_rectangle.cl",
+                          "particle_sprite.cl", "particle_bins.cl", "particle_tiles.cl",
+                          "particle_hierarchy.cl", "particle_rays.cl"}),
+          fmt::format("{} -DTRI_SPRITE=0 -DTRI_RAY_AT_VERTEX=0 -DTRI_CONSERVATIVE_DEPTH=1 "
+                      "-DTRI_MOST_TILES={}",
+                      common, most_tiles)};
 }
 
 }  // namespace
@@ -76,6 +90,19 @@ ParticlePrograms particle_programs(Programs& programs, const ParticleConstants& 
   return {.cells = get(cells_part(constants)),
           .sprites = get(sprites_part(constants)),
           .shading = get(shading_part(constants))};
+}
+
+RayPrograms ray_programs(Programs& programs, const ParticleConstants& constants) {
+  const auto get = [&](const Part& part) { return programs.get(part.source, part.options); };
+  return {.rays = get(rays_part(constants)), .shading = get(shading_part(constants))};
+}
+
+std::string ray_hash(const ParticleConstants& constants) {
+  std::string all;
+  for (const Part& part : {rays_part(constants), shading_part(constants)}) {
+    all += Programs::hash(part.source, part.options);
+  }
+  return core::content_hash(all);
 }
 
 std::string particle_hash(const ParticleConstants& constants) {

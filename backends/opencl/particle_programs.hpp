@@ -16,8 +16,20 @@ enum class Sprite : std::uint8_t {
   screen_quad,
   ray_quad,
   polygon,
-  adaptive_polygon
+  adaptive_polygon,
+  // Vertices from passes of their own (particle_expand.cl):
+  expanded_quad,   // a geometry stage's
+  evaluated_quad,  // those of tessellation stages
+  point
 };
+// Words that such passes leave for each particle: vertices, or a point; and patches before them.
+[[nodiscard]] constexpr std::size_t stored_words(Sprite sprite) {
+  if (sprite == Sprite::point) return 8;
+  return sprite == Sprite::expanded_quad || sprite == Sprite::evaluated_quad ? 16 : 0;
+}
+[[nodiscard]] constexpr std::size_t patch_words(Sprite sprite) {
+  return sprite == Sprite::evaluated_quad ? 12 : 0;
+}
 
 // The compile-time constants of particles.cl and what follows it. A build that does not count or
 // inject a fault holds no trace of it.
@@ -27,6 +39,7 @@ struct ParticleConstants {
   bool transfer_at_pixel = true;
   bool ray_at_vertex = false;
   bool conservative_depth = false;
+  bool traced = false;  // shading is given spheres in world space
   technique::ParticleFault fault = technique::ParticleFault::none;
   bool count = false;
 };
@@ -43,12 +56,19 @@ inline constexpr int scan_items = 64;  // work group of place_bins
 
 struct ParticlePrograms {
   cl::Program cells;    // cull_cells, test_cells, list_cells, place_chunks, place_bins
-  cl::Program sprites;  // count_bins, fill_bins, draw_tiles
+  cl::Program sprites;  // count_bins, fill_bins, draw_tiles, those of particle_expand.cl
   cl::Program shading;  // colour_sprites, shade
 };
 
 [[nodiscard]] ParticlePrograms particle_programs(Programs& programs,
                                                  const ParticleConstants& constants);
+
+struct RayPrograms {
+  cl::Program rays;     // those of particle_hierarchy.cl, and trace_tiles
+  cl::Program shading;  // shade
+};
+[[nodiscard]] RayPrograms ray_programs(Programs& programs, const ParticleConstants& constants);
+[[nodiscard]] std::string ray_hash(const ParticleConstants& constants);
 
 // Content hash of the three, their options included.
 [[nodiscard]] std::string particle_hash(const ParticleConstants& constants);

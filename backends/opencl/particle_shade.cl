@@ -42,7 +42,7 @@ __kernel void colour_sprites(__global const Cell* restrict cells,
 }
 #endif
 
-// One work item per row of pixels.
+// One work item per row of pixels. `camera`: the spheres in camera space; with TRI_TRACED in world space.
 __kernel void shade(__global const Particles* restrict parameters,
                     __global const float* restrict camera, __global const uint* restrict ids,
                     __global const uint* restrict colours, __global const float4* restrict table,
@@ -65,6 +65,9 @@ __kernel void shade(__global const Particles* restrict parameters,
     float cosine = cosines[pixel];
 #else
     float4 c = vload4(particle, camera);
+#if TRI_TRACED
+    c.xyz = (float3)(camera_x(&u, c.x, c.y, c.z), camera_y(&u, c.x, c.y, c.z), camera_z(&u, c.x, c.y, c.z));
+#endif
     float sx = pixel_ray_x(&u, x);
     float discriminant = tri_sphere_discriminant(c.x, c.y, c.z, c.w, sx, sy);
     float cosine = tri_sphere_cosine(c.w, sx, sy, discriminant);

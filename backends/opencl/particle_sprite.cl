@@ -6,6 +6,12 @@
 #define TRI_RAY_QUAD 2
 #define TRI_POLYGON 3
 #define TRI_ADAPTIVE_POLYGON 4
+// Those whose vertices passes of their own have written (particle_expand.cl).
+#define TRI_EXPANDED_QUAD 5
+#define TRI_EVALUATED_QUAD 6
+#define TRI_POINT 7
+#define TRI_STORED (TRI_SPRITE >= TRI_EXPANDED_QUAD)
+#define TRI_LARGEST_POINT 255.0f  // pixels; what Mesa's software devices draw
 
 #if TRI_SPRITE == TRI_POLYGON
 #define TRI_SPRITE_CORNERS 32
@@ -242,6 +248,70 @@ TRI_FN int fan_triangle(const Polygon* polygon, float right, float down) {
 }
 #endif
 
+// From clip space to the grid.
+TRI_FN void snap_outline(const Particles* u, const Outline* outline, Polygon* polygon) {
+  float across = (float)(u->viewport.x * (TRI_SUBPIXELS / 2));
+  float down = (float)(u->viewport.y * (TRI_SUBPIXELS / 2));
+  for (int k = 0; k < outline->n; ++k) {
+    polygon->x[k] = (int)tri_floor(outline->x[k] / outline->w[k] * across + across + 0.5f);
+    polygon->y[k] = (int)tri_floor(outline->y[k] / outline->w[k] * down + down + 0.5f);
+  }
+  polygon->n = outline->n;
+#if TRI_RAY_AT_VERTEX
+  for (int k = 0; k + 2 < polygon->n; ++k) {
+    polygon->rays[k] = fit_rays(u, polygon, k + 1, k + 2);
+  }
+#endif
+}
+
+#if TRI_SPRITE == TRI_POINT
+// The square around the centre, both on the grid. Returns the vertices that the sphere was drawn with.
+TRI_FN int stored_polygon(const Particles* u, __global const float* stored, size_t particle,
+                          Polygon* polygon) {
+  float4 point = vload4(2 * particle, stored);
+  polygon->n = 0;
+  if (point.w == 0.0f) return 0;
+  Outline outline;
+  outline.n = 0;
+  if (point.w == 4.0f) {
+    float4 bounds = vload4(2 * particle + 1, stored);
+    add_rectangle(u, bounds.lo, bounds.hi, &outline);
+    snap_outline(u, &outline, polygon);
+    return 4;
+  }
+  int middle_x = (int)tri_floor(point.x * (float)(u->viewport.x * (TRI_SUBPIXELS / 2)) +
+                                (float)(u->viewport.x * (TRI_SUBPIXELS / 2)) + 0.5f);
+  int middle_y = (int)tri_floor(point.y * (float)(u->viewport.y * (TRI_SUBPIXELS / 2)) +
+                                (float)(u->viewport.y * (TRI_SUBPIXELS / 2)) + 0.5f);
+  int size = max((int)tri_floor(point.z * (float)TRI_SUBPIXELS + 0.5f), TRI_SUBPIXELS);
+  int left = middle_x - (size >> 1);
+  int top = middle_y - (size >> 1);
+  for (int k = 0; k < 4; ++k) {
+    polygon->x[k] = k == 0 || k == 3 ? left : left + size;
+    polygon->y[k] = k < 2 ? top : top + size;
+  }
+  polygon->n = 4;
+  return 1;
+}
+#elif TRI_STORED
+// Assembled from its four vertices in clip space. Near is where z exceeds w.
+TRI_FN int stored_polygon(const Particles* u, __global const float* stored, size_t particle,
+                          Polygon* polygon) {
+  Outline outline;
+  outline.n = 4;
+  float near = 0.0f;
+  for (int k = 0; k < 4; ++k) {
+    float4 corner = vload4(4 * particle + (size_t)k, stored);
+    outline.x[k] = corner.x;
+    outline.y[k] = corner.y;
+    outline.w[k] = corner.w;
+    near = corner.z;
+  }
+  if (needs_clipping(&outline, near)) clip_outline(&outline, near);
+  snap_outline(u, &outline, polygon);
+  return 4;
+}
+#else
 // The sprite on the grid. Returns its corners before clipping: 0 where there is no sprite.
 TRI_FN int make_polygon(const Particles* u, float4 sphere, Polygon* polygon) {
   Outline outline;
@@ -253,24 +323,14 @@ TRI_FN int make_polygon(const Particles* u, float4 sphere, Polygon* polygon) {
     clip_outline(&outline, u->eye.w);
   }
 #endif
-  float across = (float)(u->viewport.x * (TRI_SUBPIXELS / 2));
-  float down = (float)(u->viewport.y * (TRI_SUBPIXELS / 2));
-  for (int k = 0; k < outline.n; ++k) {
-    polygon->x[k] = (int)tri_floor(outline.x[k] / outline.w[k] * across + across + 0.5f);
-    polygon->y[k] = (int)tri_floor(outline.y[k] / outline.w[k] * down + down + 0.5f);
-  }
-  polygon->n = outline.n;
-#if TRI_RAY_AT_VERTEX
-  for (int k = 0; k + 2 < polygon->n; ++k) {
-    polygon->rays[k] = fit_rays(u, polygon, k + 1, k + 2);
-  }
-#endif
+  snap_outline(u, &outline, polygon);
 #if TRI_SPRITE == TRI_SCREEN_QUAD
   return outline.n;
 #else
   return sprite_corners(u, sphere);
 #endif
 }
+#endif
 
 // The first pixel whose centre does not lie before this place on the grid.
 TRI_FN int pixel_from(int place) {

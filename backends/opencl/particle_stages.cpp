@@ -32,12 +32,17 @@ ParticleStages::ParticleStages(const Session& session, ParticleData data,
     : session_(session),
       culling_(work.options.culling),
       colours_sprites_(!constants.transfer_at_pixel),
+      sprite_(constants.sprite),
       height_(static_cast<std::size_t>(work.scene.height)),
       pixels_(static_cast<std::size_t>(work.scene.width) * height_),
       tiles_(tile_grid(work.scene)),
       table_(bin_table(work.scene.width, work.scene.height, work.scene.particles->count())),
       data_(std::move(data)),
       counter_rows_(std::max({table_.bins, data_.cell_count, table_.chunks})),
+      stored_(stored_words(sprite_) > 0 ? make_buffer(stored_words(sprite_) * data_.count)
+                                        : cl::Buffer()),
+      patches_(patch_words(sprite_) > 0 ? make_buffer(patch_words(sprite_) * data_.count)
+                                        : cl::Buffer()),
       camera_(make_buffer(4 * data_.count)),
       rectangles_(make_buffer(2 * data_.count)),
       sprite_colours_(make_buffer(colours_sprites_ ? 4 * data_.count : 0)),
@@ -126,14 +131,49 @@ void ParticleStages::add_binning(const ParticlePrograms& programs, const Pass& p
   const auto bins = static_cast<cl_uint>(table_.bins);
   to.push_back(make_launch(programs.cells, "list_cells", one, one, data_.parameters, states_, state,
                            pass.stride, pass.list));
+  add_expansion(programs, pass, to);
   to.push_back(make_launch(programs.sprites, "count_bins", cl::NDRange(table_.chunks), one,
                            data_.parameters, data_.spheres, data_.cells, pass.list, camera_,
                            rectangles_, bins, pass.counts, counters_));
+  add_stored(to.back());
   to.push_back(make_launch(
       programs.cells, "place_chunks", cl::NDRange(round_up(table_.bins, group)), cl::NDRange(group),
       bins, static_cast<cl_uint>(table_.chunks), pass.counts, pass.totals, counters_));
   to.push_back(make_launch(programs.cells, "place_bins", cl::NDRange(scan_items),
                            cl::NDRange(scan_items), bins, pass.totals, pass.begins));
+}
+
+void ParticleStages::add_expansion(const ParticlePrograms& programs, const Pass& pass,
+                                   std::vector<Launch>& to) const {
+  const cl::NDRange one(1);
+  const cl::NDRange chunks(table_.chunks);
+  const auto add = [&](const char* kernel, const auto&... arguments) {
+    to.push_back(make_launch(programs.sprites, kernel, chunks, one, data_.parameters, arguments...));
+  };
+  switch (sprite_) {
+    case Sprite::expanded_quad:
+      add("expand_sprites", data_.spheres, data_.cells, pass.list, stored_);
+      return;
+    case Sprite::evaluated_quad:
+      add("control_patches", data_.spheres, data_.cells, pass.list, patches_);
+      add("evaluate_patches", data_.cells, pass.list, patches_, stored_);
+      return;
+    case Sprite::point:
+      add("project_points", data_.spheres, data_.cells, pass.list, stored_);
+      return;
+    case Sprite::rectangle:
+    case Sprite::screen_quad:
+    case Sprite::ray_quad:
+    case Sprite::polygon:
+    case Sprite::adaptive_polygon:
+      return;
+  }
+}
+
+void ParticleStages::add_stored(Launch& launch) const {
+  if (stored_words(sprite_) == 0) return;
+  const auto last = launch.kernel.getInfo<CL_KERNEL_NUM_ARGS>() - 1;
+  launch.kernel.setArg(last, stored_);
 }
 
 void ParticleStages::add_drawing(const ParticlePrograms& programs, const Pass& pass, cl_uint state,
@@ -153,6 +193,7 @@ void ParticleStages::add_drawing(const ParticlePrograms& programs, const Pass& p
                            cl::NDRange(1, 1), data_.parameters, camera_, rectangles_, pass.begins,
                            pass.entries, later, farthest_, pass.depths, pass.winners, cosines_,
                            counters_));
+  add_stored(to.back());
 }
 
 Launch ParticleStages::shade(const ParticlePrograms& programs, const Pass& pass) const {

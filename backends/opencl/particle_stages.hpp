@@ -2,6 +2,7 @@
 // The stages of a particle frame as kernel launches, and what they share on the device.
 //
 //   cull_cells                          which cells are in view
+//   expand_sprites; control_patches, evaluate_patches; project_points      of some techniques, in each pass
 //   list_cells, count_bins, place_chunks, place_bins, fill_bins, draw_tiles       a pass
 //   test_cells, and a second pass       with occlusion culling: what came into sight
 //   shade                               the picture
@@ -60,6 +61,10 @@ class ParticleStages {
   [[nodiscard]] cl::NDRange cell_range() const;
   [[nodiscard]] Launch cull(const ParticlePrograms& programs) const;
   [[nodiscard]] Launch test(const ParticlePrograms& programs) const;
+  void add_expansion(const ParticlePrograms& programs, const Pass& pass,
+                     std::vector<Launch>& to) const;
+  // A last argument for kernels that read what the expansion has stored.
+  void add_stored(Launch& launch) const;
   [[nodiscard]] Launch shade(const ParticlePrograms& programs, const Pass& pass) const;
   void add_binning(const ParticlePrograms& programs, const Pass& pass, cl_uint state,
                    std::vector<Launch>& to) const;
@@ -69,12 +74,15 @@ class ParticleStages {
   Session session_;
   technique::Culling culling_;
   bool colours_sprites_;
+  Sprite sprite_;
   std::size_t height_;
   std::size_t pixels_;
   std::array<std::size_t, 2> tiles_;
   BinTable table_;
   ParticleData data_;
   std::size_t counter_rows_;
+  cl::Buffer stored_;          // vertices, or points
+  cl::Buffer patches_;
   cl::Buffer camera_;          // spheres in camera space
   cl::Buffer rectangles_;      // of pixels
   cl::Buffer sprite_colours_;  // where the transfer function is looked up for sprites

@@ -138,7 +138,8 @@ TRI_FN void draw_row(float near, int x0, int x1, int y, float4 c, uint particle,
 }
 
 TRI_FN void draw_entry(const Particles* u, __global const float* restrict camera,
-                       __global const uint* restrict rectangles, uint particle, Tile* tile,
+                       __global const uint* restrict rectangles,
+                       __global const float* restrict stored, uint particle, Tile* tile,
                        uint* fragments, uint* kept) {
   float4 c = vload4(particle, camera);
   if (hidden(tile, c)) return;
@@ -150,7 +151,9 @@ TRI_FN void draw_entry(const Particles* u, __global const float* restrict camera
   int y1 = min(unpacked_y(last) - tile->y, tile->last_y);
   if (x0 > x1 || y0 > y1) return;
   Polygon polygon;
-#if TRI_SPRITE != 0
+#if TRI_STORED
+  stored_polygon(u, stored, particle, &polygon);
+#elif TRI_SPRITE != 0
   make_polygon(u, c, &polygon);
 #endif
   for (int y = y0; y <= y1; ++y) {
@@ -212,7 +215,14 @@ __kernel void draw_tiles(__global const Particles* restrict parameters,
                          __global const uint* restrict entries, uint later,
                          __global float* restrict farthest, __global float* restrict depths,
                          __global uint* restrict winners, __global float* restrict cosines,
-                         __global uint* restrict counters) {
+                         __global uint* restrict counters
+#if TRI_STORED
+                         , __global const float* restrict stored
+#endif
+) {
+#if !TRI_STORED
+  __global const float* stored = 0;
+#endif
   int tile_x = (int)get_global_id(0);
   int tile_y = (int)get_global_id(1);
   Particles u = *parameters;
@@ -230,7 +240,7 @@ __kernel void draw_tiles(__global const Particles* restrict parameters,
   for (int k = 0; k < 2; ++k) {
     uint end = begins[drawn_in[k] + 1];
     for (uint at = begins[drawn_in[k]]; at < end; ++at) {
-      draw_entry(&u, camera, rectangles, entries[at], &tile, &fragments, &kept);
+      draw_entry(&u, camera, rectangles, stored, entries[at], &tile, &fragments, &kept);
     }
   }
   store_tile(&u, &tile, depths, winners, cosines);

@@ -32,6 +32,7 @@ typedef struct {
 #define TRI_WRONG_SENSE (TRI_FAULT == 4)
 #define TRI_LOST_AT_BORDER (TRI_FAULT == 6)
 #define TRI_MISSING_BARRIER (TRI_FAULT == 7)
+#define TRI_SMALL_BOX (TRI_FAULT == 8)
 
 #define TRI_NONE 0xFFFFFFFFu
 
@@ -43,6 +44,10 @@ typedef struct {
 #define TRI_COUNT_BIN_ENTRIES 4
 #define TRI_COUNT_SUBMITTED 5
 #define TRI_COUNT_CELLS_CULLED 6
+// Techniques that trace rays have no sprites. Their counters use the same columns.
+#define TRI_COUNT_NODES 0
+#define TRI_COUNT_BOXES 1
+#define TRI_COUNT_INTERSECTIONS 2
 
 // Components of a point's place in camera space.
 TRI_FN float camera_x(const Particles* u, float x, float y, float z) {

@@ -11,7 +11,7 @@ inline constexpr std::uint32_t commands_binding = first_free_binding;
 
 // By what cells are left out: the view alone, or, in the two passes of a frame with occlusion
 // culling, also by what the last frame showed and by what the first pass has drawn
-// (technique/particles/cull.comp.glsl: TRI_OCCLUSION).
+// (technique/particles/cull.glsl: TRI_OCCLUSION).
 enum class CullPass : std::uint8_t { view, seen_before, seen_now };
 
 // The device pass that leaves out cells outside the view, and the draws of what it leaves.

@@ -10,18 +10,18 @@
 namespace triptych::vulkan_backend {
 
 Layout make_layout(const Gpu& gpu, vk::ArrayProxy<const vk::DescriptorSetLayoutBinding> bindings,
-                   std::uint32_t push_bytes) {
+                   std::uint32_t push_bytes, vk::ShaderStageFlags push_stages) {
   vk::raii::DescriptorSetLayout set(
       gpu.device, vk::DescriptorSetLayoutCreateInfo{.bindingCount = bindings.size(),
                                                     .pBindings = bindings.data()});
-  const vk::PushConstantRange push{.stageFlags = vk::ShaderStageFlagBits::eCompute,
+  const vk::PushConstantRange push{.stageFlags = push_stages,
                                    .size = push_bytes};
   vk::raii::PipelineLayout pipeline(
       gpu.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = 1,
                                                .pSetLayouts = &*set,
                                                .pushConstantRangeCount = push_bytes > 0 ? 1U : 0U,
                                                .pPushConstantRanges = &push});
-  std::string definition = fmt::format("push {}", push_bytes);
+  std::string definition = fmt::format("push {} in {}", push_bytes, vk::to_string(push_stages));
   for (const vk::DescriptorSetLayoutBinding& each : bindings) {
     definition += fmt::format(", {}: {} {} in {}", each.binding, each.descriptorCount,
                               vk::to_string(each.descriptorType), vk::to_string(each.stageFlags));
@@ -30,15 +30,18 @@ Layout make_layout(const Gpu& gpu, vk::ArrayProxy<const vk::DescriptorSetLayoutB
 }
 
 vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets,
-                                   std::uint32_t storage_buffers, std::uint32_t texel_buffers) {
-  const std::array<vk::DescriptorPoolSize, 5> sizes{{
+                                   std::uint32_t storage_buffers, std::uint32_t texel_buffers,
+                                   std::uint32_t structures) {
+  const std::array<vk::DescriptorPoolSize, 6> sizes{{
       {.type = vk::DescriptorType::eUniformBuffer, .descriptorCount = 2 * sets},
       {.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = 2 * sets},
       {.type = vk::DescriptorType::eStorageBuffer, .descriptorCount = storage_buffers * sets},
       {.type = vk::DescriptorType::eStorageImage, .descriptorCount = sets},
       {.type = vk::DescriptorType::eUniformTexelBuffer, .descriptorCount = texel_buffers * sets},
+      {.type = vk::DescriptorType::eAccelerationStructureKHR, .descriptorCount = structures * sets},
   }};
-  const std::uint32_t kinds = texel_buffers > 0 ? 5 : 3;  // none of a kind may not be asked for
+  // None of a kind may not be asked for. Whoever has structures has texels.
+  const std::uint32_t kinds = structures > 0 ? 6 : (texel_buffers > 0 ? 5 : 3);
   return {gpu.device, vk::DescriptorPoolCreateInfo{
                           .maxSets = sets, .poolSizeCount = kinds, .pPoolSizes = sizes.data()}};
 }

@@ -13,16 +13,19 @@ struct Layout {
   vk::raii::PipelineLayout pipeline;
   std::string definition;  // the same text for layouts that are defined in the same way
 };
-// `push_bytes`: size of a push constant block of the compute stage.
+// `push_bytes`: size of a push constant block, of these stages.
 [[nodiscard]] Layout make_layout(const Gpu& gpu,
                                  vk::ArrayProxy<const vk::DescriptorSetLayoutBinding> bindings,
-                                 std::uint32_t push_bytes = 0);
+                                 std::uint32_t push_bytes = 0,
+                                 vk::ShaderStageFlags push_stages =
+                                     vk::ShaderStageFlagBits::eCompute);
 
 // Room for this many sets, each with up to two uniform buffers, two textures, `storage_buffers`, a
-// storage image and `texel_buffers`, where there are any of those.
+// storage image, `texel_buffers` and `structures`, where there are any of those.
 [[nodiscard]] vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets,
                                                  std::uint32_t storage_buffers = 3,
-                                                 std::uint32_t texel_buffers = 0);
+                                                 std::uint32_t texel_buffers = 0,
+                                                 std::uint32_t structures = 0);
 // The sets are freed with the pool.
 [[nodiscard]] std::vector<vk::DescriptorSet> allocate_sets(const Gpu& gpu,
                                                            const vk::raii::DescriptorPool& pool,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "backends/vulkan/errors.hpp"
+#include "backends/vulkan/extensions.hpp"
 #include "core/error.hpp"
 #include "measure/system/compile_only.hpp"
 
@@ -69,22 +70,26 @@ Gpu open_gpu(const vk::raii::PhysicalDevice& physical, bool labelled, bool execu
   const vk::DeviceQueueCreateInfo queue{
       .queueFamilyIndex = family, .queueCount = 1, .pQueuePriorities = &priority};
   const bool reports = reports_code(physical);
-  constexpr const char* extension = VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
-  const vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR info{.pipelineExecutableInfo =
-                                                                           VK_TRUE};
-  vk::raii::Device device(physical,
-                          vk::DeviceCreateInfo{.pNext = reports ? &info : nullptr,
-                                               .queueCreateInfoCount = 1,
-                                               .pQueueCreateInfos = &queue,
-                                               .enabledExtensionCount = reports ? 1U : 0U,
-                                               .ppEnabledExtensionNames = &extension,
-                                               .pEnabledFeatures = &features});
+  const ExtensionRequest request(physical);
+  std::vector<const char*> names = request.names();
+  if (reports) names.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+  vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR info{
+      .pNext = request.features(), .pipelineExecutableInfo = VK_TRUE};
+  vk::raii::Device device(
+      physical,
+      vk::DeviceCreateInfo{.pNext = reports ? &info : request.features(),
+                           .queueCreateInfoCount = 1,
+                           .pQueueCreateInfos = &queue,
+                           .enabledExtensionCount = static_cast<std::uint32_t>(names.size()),
+                           .ppEnabledExtensionNames = names.data(),
+                           .pEnabledFeatures = &features});
   vk::raii::Queue work = device.getQueue(family, 0);
   vk::raii::CommandPool commands(device, vk::CommandPoolCreateInfo{.queueFamilyIndex = family});
   return Gpu{.physical = physical,
              .properties = properties,
              .memory = physical.getMemoryProperties(),
              .features = features,
+             .extensions = request.extensions(),
              .family = family,
              .draws = bool(families[family].queueFlags & vk::QueueFlagBits::eGraphics),
              .labelled = labelled,

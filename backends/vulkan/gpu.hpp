@@ -11,12 +11,30 @@
 
 namespace triptych::vulkan_backend {
 
+// Extensions that some techniques need. Each is enabled where the device offers it with all that it
+// depends on.
+struct Extensions {
+  bool acceleration_structure = false;
+  bool ray_query = false;
+  bool ray_pipeline = false;
+  bool mesh_shader = false;
+  std::uint32_t scratch_alignment = 1;      // minAccelerationStructureScratchOffsetAlignment
+  std::uint64_t most_boxes = 0;             // maxPrimitiveCount
+  std::uint32_t group_handle_bytes = 0;     // shaderGroupHandleSize
+  std::uint32_t group_base_alignment = 1;   // shaderGroupBaseAlignment
+  std::uint32_t mesh_vertices = 0;          // maxMeshOutputVertices
+  std::uint32_t mesh_primitives = 0;        // maxMeshOutputPrimitives
+  std::uint32_t mesh_invocations = 0;       // maxMeshWorkGroupInvocations
+  std::uint32_t task_groups = 0;            // maxTaskWorkGroupCount along one axis
+};
+
 // An open device and the one queue that all work goes through. Outlives everything made from it.
 struct Gpu {
   vk::raii::PhysicalDevice physical;
   vk::PhysicalDeviceProperties properties;
   vk::PhysicalDeviceMemoryProperties memory;
   vk::PhysicalDeviceFeatures features;  // those enabled
+  Extensions extensions = {};
   std::uint32_t family = 0;
   bool draws = false;                // the queue takes draw calls
   bool labelled = false;             // objects and commands are named for tools

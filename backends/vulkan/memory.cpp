@@ -46,11 +46,13 @@ std::uint32_t memory_type(const Gpu& gpu, const vk::MemoryRequirements& needed, 
 }
 
 vk::raii::DeviceMemory allocate(const Gpu& gpu, const vk::MemoryRequirements& needed, Place place,
-                                core::CodePlace code_place) {
+                                core::CodePlace code_place, bool addressed = false) {
   const std::uint32_t type = memory_type(gpu, needed, place);
+  const vk::MemoryAllocateFlagsInfo flags{.flags = vk::MemoryAllocateFlagBits::eDeviceAddress};
   try {
-    return {gpu.device,
-            vk::MemoryAllocateInfo{.allocationSize = needed.size, .memoryTypeIndex = type}};
+    return {gpu.device, vk::MemoryAllocateInfo{.pNext = addressed ? &flags : nullptr,
+                                               .allocationSize = needed.size,
+                                               .memoryTypeIndex = type}};
   } catch (const vk::SystemError& error) {
     // Larger ones may succeed, but a device need not give them.
     if (needed.size > gpu.most_allocated) {
@@ -109,7 +111,8 @@ Buffer::Buffer(const Gpu& gpu, vk::DeviceSize size, vk::BufferUsageFlags usage, 
           },
           code_place)) {
   const vk::MemoryRequirements needed = buffer_.getMemoryRequirements();
-  memory_ = allocate(gpu, needed, place, code_place);
+  memory_ = allocate(gpu, needed, place, code_place,
+                     bool(usage & vk::BufferUsageFlagBits::eShaderDeviceAddress));
   held_ = gpu.held.buffer(needed.size);
   name_object(gpu, vk::ObjectType::eBuffer,
               reinterpret_cast<std::uint64_t>(static_cast<VkBuffer>(*buffer_)), "buffer",

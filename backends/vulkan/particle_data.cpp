@@ -146,13 +146,13 @@ void ParticleData::clear_counters(const vk::raii::CommandBuffer& commands) const
   barrier(commands);
 }
 
-record::Counts ParticleData::counts(technique::Work work, technique::Culling culling,
+record::Counts ParticleData::counts(technique::Method method, technique::Culling culling,
                                     const core::Image& picture) const {
   std::vector<std::uint32_t> sums(technique::particle_counter_bytes / sizeof(std::uint32_t));
   download(gpu_, counters_, std::as_writable_bytes(std::span(sums)));
   measure::check_counted(sums);
   return technique::particle_counts(
-      {.work = work, .culling = culling, .cells = cells_, .particles = particles_}, sums, picture);
+      {.method = method, .culling = culling, .cells = cells_, .particles = particles_}, sums, picture);
 }
 
 }  // namespace triptych::vulkan_backend

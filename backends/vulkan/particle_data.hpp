@@ -72,7 +72,7 @@ class ParticleData {
   void poison_counters() const;
   void clear_counters(const vk::raii::CommandBuffer& commands) const;
   // What a counting frame told; the device has finished it.
-  [[nodiscard]] record::Counts counts(technique::Work work, technique::Culling culling,
+  [[nodiscard]] record::Counts counts(technique::Method method, technique::Culling culling,
                                       const core::Image& picture) const;
 
  private:

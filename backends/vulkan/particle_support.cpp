@@ -6,6 +6,7 @@
 #include "backends/vulkan/particle_data.hpp"
 #include "backends/vulkan/particle_target.hpp"
 #include "backends/vulkan/support.hpp"
+#include "technique/catalogue.hpp"
 #include "technique/particles/option_reason.hpp"
 
 namespace triptych::vulkan_backend {
@@ -25,8 +26,9 @@ std::optional<std::string> storage_reason(const Gpu& gpu, const scene::ParticleS
     return fmt::format("needs {} storage buffers; maxPerStageDescriptorStorageBuffers = {}",
                        buffers, limits.maxPerStageDescriptorStorageBuffers);
   }
-  const bool fetches_by_index =
-      technique == "quad_instanced" || technique == "tiles" || technique == "point";
+  const technique::Technique& drawn = technique::technique(technique);
+  const bool fetches_by_index = drawn.method != technique::Method::sprites ||
+                                technique == "quad_instanced" || technique == "point" || technique == "mesh";
   const std::uint64_t bytes = sphere_bytes * set.count();
   if (fetches_by_index && bytes > limits.maxStorageBufferRange) {
     return fmt::format("{} particles need {} bytes in one buffer; maxStorageBufferRange = {}",
@@ -56,6 +58,17 @@ std::optional<std::string> feature_reason(const Gpu& gpu, Needs needs) {
   }
   if (needs == Needs::tessellation && gpu.features.tessellationShader == VK_FALSE) {
     return "the device lacks tessellationShader";
+  }
+  if (needs == Needs::ray_query && !gpu.extensions.ray_query) {
+    return "the device lacks VK_KHR_ray_query or what it depends on: Mesa's lavapipe has it from 25.0 "
+           "(Debian 13)";
+  }
+  if (needs == Needs::ray_pipeline && !gpu.extensions.ray_pipeline) {
+    return "the device lacks VK_KHR_ray_tracing_pipeline or what it depends on: Mesa's lavapipe has it "
+           "from 25.0 (Debian 13)";
+  }
+  if (needs == Needs::mesh && !gpu.extensions.mesh_shader) {
+    return "the device lacks VK_EXT_mesh_shader: Mesa's lavapipe has it from 25.0 (Debian 13)";
   }
   return std::nullopt;
 }
@@ -116,7 +129,9 @@ std::optional<std::string> particle_reason(const Gpu& gpu, const measure::Partic
   constexpr std::uint64_t depth = sizeof(float);
   const bool reads_depths = work.options.culling == technique::Culling::occlusion;
   std::uint64_t pixel_bytes = reads_depths ? depth : 0;
-  if (technique == "tiles") pixel_bytes = depth + sizeof(std::uint32_t);  // and a particle
+  const bool draws_sprites =
+      technique::technique(technique).method == technique::Method::sprites;
+  if (!draws_sprites) pixel_bytes = depth + sizeof(std::uint32_t);  // and a particle
   if (auto reason = picture_reason(gpu, scene.width, scene.height, needs, pixel_bytes)) {
     return reason;
   }

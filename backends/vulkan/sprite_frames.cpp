@@ -19,11 +19,14 @@ vk::QueryPipelineStatisticFlags common_statistics() {
          eClippingInvocations | eClippingPrimitives | eFragmentShaderInvocations;
 }
 
-std::vector<vk::DescriptorSetLayoutBinding> bindings() {
-  auto all = particle_bindings();
-  all.push_back(storage_binding(commands_binding, vk::ShaderStageFlagBits::eCompute));
-  std::ranges::copy(occlusion_bindings(), std::back_inserter(all));
-  return all;
+constexpr vk::ShaderStageFlags mesh_stages =
+    vk::ShaderStageFlagBits::eTaskEXT | vk::ShaderStageFlagBits::eMeshEXT;
+
+// Mesh pipelines assemble no input and run no vertex stage.
+vk::QueryPipelineStatisticFlags statistics_of(const SpriteTechnique& technique) {
+  using enum vk::QueryPipelineStatisticFlagBits;
+  if (technique.draw.meshes) return eFragmentShaderInvocations | technique.statistics;
+  return common_statistics() | technique.statistics;
 }
 
 void read_vertices(DrawState& state, scene::ColourKind colour) {
@@ -38,6 +41,15 @@ void read_vertices(DrawState& state, scene::ColourKind colour) {
 
 }  // namespace
 
+std::vector<vk::DescriptorSetLayoutBinding> SpriteFrames::bindings() const {
+  auto all = particle_bindings();
+  all.push_back(storage_binding(commands_binding, vk::ShaderStageFlagBits::eCompute));
+  std::ranges::copy(occlusion_bindings(), std::back_inserter(all));
+  if (!technique_.draw.meshes) return all;
+  for (vk::DescriptorSetLayoutBinding& each : all) each.stageFlags |= mesh_stages;
+  return all;
+}
+
 SpriteFrames::SpriteFrames(const Gpu& gpu, const Instance& instance,
                            const measure::ParticleWork& work,
                            const technique::Arrangement& arrangement, SpriteTechnique technique)
@@ -49,14 +61,15 @@ SpriteFrames::SpriteFrames(const Gpu& gpu, const Instance& instance,
       constants_(particle_constants(gpu, work)),
       data_(gpu, work, arrangement),
       target_(gpu, work.scene, options_.fault == ParticleFault::reversed_depth ? 1.0F : 0.0F),
-      layout_(make_layout(gpu, bindings())),
+      layout_(make_layout(gpu, bindings(), technique_.draw.meshes ? sizeof(std::uint32_t[2]) : 0,
+                          vk::ShaderStageFlagBits::eTaskEXT)),
       pool_(make_pool(gpu, 1, static_cast<std::uint32_t>(bindings().size()))),
       set_(allocate_sets(gpu, pool_, layout_, 1).front()),
       culling_(gpu, layout_, data_.cells(), technique_.draw.instanced, options_.culling,
                constants_),
       draws_(draws(false)),
       frames_(
-          (bind(), gpu), common_statistics() | technique_.statistics,
+          (bind(), gpu), statistics_of(technique_),
           [this](const vk::raii::CommandBuffer& commands) { record(commands, draws_, false); }) {
   if (occlusion_ && gpu.executes) draw_before(work);
   instance_.check_validation();
@@ -78,7 +91,7 @@ void SpriteFrames::settle() const {
 }
 
 void SpriteFrames::bind() {
-  const bool instanced = technique_.draw.instanced || technique_.rest.has_value();
+  const bool instanced = technique_.draw.instanced || technique_.draw.meshes || technique_.rest.has_value();
   data_.bind(set_, instanced ? Fetch::by_index : Fetch::attributes);
   culling_.bind(set_);
   if (options_.culling != Culling::occlusion) return;
@@ -106,7 +119,7 @@ DrawState SpriteFrames::draw_state(const SpriteDraw& draw, bool counting) const 
     state.stages.push_back({each.stage, spirv(counting ? each.counting : each.timed)});
   }
   state.stages.push_back({vk::ShaderStageFlagBits::eFragment, pixel_stage(counting)});
-  if (!draw.instanced) read_vertices(state, colour_);
+  if (!draw.instanced && !draw.meshes) read_vertices(state, colour_);
   return state;
 }
 
@@ -114,7 +127,9 @@ SpriteFrames::Draws SpriteFrames::draws(bool counting) const {
   const auto make = [&](const SpriteDraw& draw) {
     return draw_pipeline(gpu_, layout_, target_.pass(), draw_state(draw, counting), constants_);
   };
-  Draws made{make(technique_.draw), {}};
+  Draws made{.draw = make(technique_.draw), .later = {}, .rest = {}};
+  made.later = made.draw;
+  if (technique_.later) made.later = make(*technique_.later);
   if (technique_.rest && !technique_.rest_runs.empty()) made.rest = make(*technique_.rest);
   return made;
 }
@@ -127,8 +142,8 @@ void SpriteFrames::record(const vk::raii::CommandBuffer& commands, const Draws& 
   if (counting) data_.clear_counters(commands);
   if (occlusion_) {
     occlusion_->start_frame(commands);
-    culling_.record(commands, CullPass::seen_before, counting);
-  } else if (options_.culling == Culling::frustum) {
+    if (!technique_.draw.meshes) culling_.record(commands, CullPass::seen_before, counting);
+  } else if (options_.culling == Culling::frustum && !technique_.draw.meshes) {
     culling_.record(commands, CullPass::view, counting);
   }
   const Label label(gpu_, commands, "draw sprites");
@@ -142,6 +157,13 @@ void SpriteFrames::draw_newly_seen(const vk::raii::CommandBuffer& commands, cons
                                    bool counting) const {
   const Label label(gpu_, commands, "draw what came into sight");
   occlusion_->find_farthest(commands, target_.depth());
+  if (technique_.draw.meshes) {
+    target_.begin(commands, true);
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, draws.later);
+    draw_meshes(commands, {1, 1});
+    commands.endRenderPass();
+    return;
+  }
   culling_.record(commands, CullPass::seen_now, counting);
   target_.begin(commands, true);
   bind_vertices(commands, draws);
@@ -153,6 +175,7 @@ void SpriteFrames::bind_vertices(const vk::raii::CommandBuffer& commands,
                                  const Draws& draws) const {
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, draws.draw);
   const std::array<vk::DeviceSize, 3> offsets{};
+  if (technique_.draw.meshes) return;
   const std::array buffers{data_.spheres().get(), data_.colours().get(), data_.ids().get()};
   commands.bindVertexBuffers(0, buffers, offsets);
 }
@@ -160,7 +183,9 @@ void SpriteFrames::bind_vertices(const vk::raii::CommandBuffer& commands,
 void SpriteFrames::draw(const vk::raii::CommandBuffer& commands, const Draws& draws,
                         bool counting) const {
   bind_vertices(commands, draws);
-  if (options_.culling == Culling::none) {
+  if (technique_.draw.meshes) {
+    draw_meshes(commands, {1, 1});
+  } else if (options_.culling == Culling::none) {
     draw_run(commands, technique_.draw.instanced, {0, data_.particles()});
   } else {
     culling_.draw(commands, 1);
@@ -172,6 +197,15 @@ void SpriteFrames::draw(const vk::raii::CommandBuffer& commands, const Draws& dr
       draw_run(commands, technique_.rest->instanced, run);
     }
   }
+}
+
+void SpriteFrames::draw_meshes(const vk::raii::CommandBuffer& commands,
+                               const std::array<std::uint32_t, 2>& share) const {
+  constexpr std::uint32_t cells_per_group = 32;  // mesh.task.glsl
+  const std::uint32_t cells = (data_.cells() + share[0] - 1) / share[0];
+  commands.pushConstants<std::array<std::uint32_t, 2>>(
+      *layout_.pipeline, vk::ShaderStageFlagBits::eTaskEXT, 0, share);
+  commands.drawMeshTasksEXT((cells + cells_per_group - 1) / cells_per_group, 1, 1);
 }
 
 void SpriteFrames::draw_run(const vk::raii::CommandBuffer& commands, bool instanced,
@@ -187,6 +221,11 @@ void SpriteFrames::draw_run(const vk::raii::CommandBuffer& commands, bool instan
 // what is culled stays so. No fragment passes a depth test that keeps the first.
 void SpriteFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
   const auto stride = static_cast<std::uint32_t>(options_.extra_work_stride);
+  if (technique_.draw.meshes) {
+    const bool whole_cells = data_.cells() >= 8 * stride;
+    draw_meshes(commands, {whole_cells ? stride : 1, whole_cells ? 1 : stride});
+    return;
+  }
   if (options_.culling != Culling::none && data_.cells() >= 8 * stride) {
     culling_.draw(commands, stride);
     return;
@@ -225,7 +264,7 @@ measure::Frame SpriteFrames::frame(measure::Purpose purpose) {
     }
     measure::Frame frame = frames_.submit(purpose);
     if (counting) {
-      frame.counts = data_.counts(technique::Work::draw, options_.culling, target_.read(gpu_));
+      frame.counts = data_.counts(technique::Method::sprites, options_.culling, target_.read(gpu_));
     }
     instance_.check_validation();
     return frame;

@@ -30,6 +30,8 @@ struct SpriteDraw {
   std::vector<SpriteStage> stages;
   // Four vertices per particle and no vertex buffer; otherwise one vertex per particle.
   bool instanced = false;
+  // Task and mesh stages. The task stage culls cells itself, and there are no vertices.
+  bool meshes = false;
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::ePointList;
 };
 
@@ -42,6 +44,8 @@ struct ParticleRun {
 struct SpriteTechnique {
   SpriteDraw draw;
   vk::QueryPipelineStatisticFlags statistics;  // of its own stages, beside the common ones
+  // The draw of occlusion culling's second pass, if its stages differ from those of the first.
+  std::optional<SpriteDraw> later;
   // A second draw, for these particles only.
   std::optional<SpriteDraw> rest;
   std::vector<ParticleRun> rest_runs;
@@ -60,6 +64,7 @@ class SpriteFrames final : public measure::Prepared {
  private:
   struct Draws {
     vk::Pipeline draw;
+    vk::Pipeline later;
     vk::Pipeline rest;  // null where there is nothing of the kind
   };
   [[nodiscard]] Draws draws(bool counting) const;
@@ -75,6 +80,10 @@ class SpriteFrames final : public measure::Prepared {
   void settle() const;
   void draw_run(const vk::raii::CommandBuffer& commands, bool instanced, ParticleRun run) const;
   void draw_again(const vk::raii::CommandBuffer& commands) const;
+  // Draws every x-th cell, and of each cell the first 1/y of its particles.
+  void draw_meshes(const vk::raii::CommandBuffer& commands,
+                   const std::array<std::uint32_t, 2>& share) const;
+  [[nodiscard]] std::vector<vk::DescriptorSetLayoutBinding> bindings() const;
 
   const Gpu& gpu_;
   const Instance& instance_;

@@ -12,7 +12,15 @@
 namespace triptych::vulkan_backend {
 
 // Optional features that techniques need.
-enum class Needs : std::uint8_t { nothing, drawing, geometry, tessellation };
+enum class Needs : std::uint8_t {
+  nothing,
+  drawing,
+  geometry,
+  tessellation,
+  ray_query,
+  ray_pipeline,
+  mesh
+};
 
 // The feature that is lacking, if one is.
 [[nodiscard]] std::optional<std::string> feature_reason(const Gpu& gpu, Needs needs);

@@ -228,7 +228,7 @@ measure::Frame TilesFrames::frame(measure::Purpose purpose) {
     }
     measure::Frame frame = frames_.submit(purpose);
     if (counting) {
-      frame.counts = data_.counts(technique::Work::compute, options_.culling, target_.read(gpu_));
+      frame.counts = data_.counts(technique::Method::tiles, options_.culling, target_.read(gpu_));
     }
     instance_.check_validation();
     return frame;

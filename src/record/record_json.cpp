@@ -35,6 +35,7 @@ requires std::is_integral_v<T> Json encode(T value) {
 Json encode(const Reason& reason);
 Json encode(const StatisticWorth& worth);
 Json encode(const DeviceFault& fault);
+Json encode(const Beginning& beginning);
 Json encode(const Executable& executable) {
   return executable;
 }
@@ -103,6 +104,7 @@ void decode(const Json& json, T& value) {
 void decode(const Json& json, Reason& reason);
 void decode(const Json& json, StatisticWorth& worth);
 void decode(const Json& json, DeviceFault& fault);
+void decode(const Json& json, Beginning& beginning);
 
 template <typename T>
 void decode(const Json& json, std::vector<T>& values) {
@@ -269,6 +271,12 @@ Json encode(const Reason& reason) {
 }
 Json encode(const StatisticWorth& worth) {
   return worth;
+}
+Json encode(const Beginning& beginning) {
+  return beginning;
+}
+void decode(const Json& json, Beginning& beginning) {
+  from_json(json, beginning);
 }
 Json encode(const DeviceFault& fault) {
   return fault;

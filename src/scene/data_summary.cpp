@@ -16,13 +16,14 @@ namespace {
 // A picture of letters, from nothing to much. A letter is about twice as high as it is wide.
 class SmallPicture {
  public:
-  SmallPicture(double width, double height) {
+  // No finer than so many columns and rows, so that each cell gets something of a coarse grid.
+  SmallPicture(double width, double height, std::size_t most_columns, std::size_t most_rows) {
     constexpr double longest = 56;
     const double scale = longest / std::max({width, height, std::numeric_limits<double>::min()});
     columns_ = std::clamp(static_cast<std::size_t>(std::lround(width * scale)), std::size_t{1},
-                          std::size_t{56});
+                          std::min(most_columns, std::size_t{56}));
     rows_ = std::clamp(static_cast<std::size_t>(std::lround(height * scale / 2)), std::size_t{1},
-                       std::size_t{28});
+                       std::min(most_rows, std::size_t{28}));
     cells_.assign(columns_ * rows_, 0);
   }
 
@@ -103,7 +104,8 @@ double percentile_of(const Histogram& histogram, const Volume& volume, double pe
 
 void append_picture(std::vector<std::string>& lines, const Volume& volume) {
   const auto [nx, ny, nz] = volume.size;
-  SmallPicture picture(nx * volume.spacing[0], ny * volume.spacing[1]);
+  SmallPicture picture(nx * volume.spacing[0], ny * volume.spacing[1],
+                       static_cast<std::size_t>(nx), static_cast<std::size_t>(ny));
   const double range = volume.range_hi - volume.range_lo;
   if (!(range > 0)) return;
   with_scalar_type(volume.type, [&](auto zero) {
@@ -125,7 +127,7 @@ void append_picture(std::vector<std::string>& lines, const Volume& volume) {
 }
 
 void append_picture(std::vector<std::string>& lines, const ParticleSet& set, const Box& box) {
-  SmallPicture picture(box.hi.x - box.lo.x, box.hi.y - box.lo.y);
+  SmallPicture picture(box.hi.x - box.lo.x, box.hi.y - box.lo.y, 56, 28);
   for (const auto& sphere : set.spheres) {
     const auto share = [](double at, double lo, double hi) {
       return hi > lo ? (at - lo) / (hi - lo) : 0.5;

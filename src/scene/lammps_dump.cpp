@@ -11,7 +11,7 @@
 namespace triptych::scene {
 namespace {
 
-constexpr std::string_view item = "ITEM: ";
+constexpr std::string_view item_mark = "ITEM: ";
 using DumpWords = std::vector<std::string_view>;
 
 // The simulation's box, to undo scaling.
@@ -111,10 +111,10 @@ Columns parse_columns(std::string_view header, const LineReader& reader) {
 std::string_view read_headers(LineReader& reader, Frame& frame) {
   for (;;) {
     const std::string_view line = reader.require("ITEM: ATOMS");
-    if (!line.starts_with(item)) {
+    if (!line.starts_with(item_mark)) {
       reader.reject(fmt::format("expected 'ITEM: …', found '{}'", quotable(line)));
     }
-    const std::string_view header = line.substr(item.size());
+    const std::string_view header = line.substr(item_mark.size());
     if (header.starts_with("ATOMS")) return header.substr(5);
     if (header.starts_with("NUMBER OF ATOMS")) {
       frame.count = reader.count(reader.require("the number of atoms"), "the number of atoms");
@@ -192,7 +192,7 @@ ParticleSet read_lammps_dump(LineReader& reader, std::uint64_t frame, ColourKind
       rows.add(row);
     }
     if (atoms.places.empty()) reader.reject("expected atoms, found none");
-    if (!reader.at_end() && !reader.require("a frame").starts_with(item)) {
+    if (!reader.at_end() && !reader.require("a frame").starts_with(item_mark)) {
       reader.reject(fmt::format("expected the next frame after {} atoms", *header.count));
     }
     return to_particles(std::move(atoms), colour, reader, first_line);

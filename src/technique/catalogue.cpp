@@ -11,6 +11,18 @@
 namespace triptych::technique {
 namespace {
 
+Method method_of(const core::Json& entry) {
+  const std::string name = entry.value("method", "rays");
+  if (name == "sprites") return Method::sprites;
+  return name == "tiles" ? Method::tiles : Method::rays;
+}
+
+Vertices vertices_of(const core::Json& entry) {
+  const std::string name = entry.value("vertices", "none");
+  if (name == "corners") return Vertices::corners;
+  return name == "one" ? Vertices::one : Vertices::none;
+}
+
 std::vector<Technique> parse(std::string_view text) {
   std::vector<Technique> result;
   // A named object, because at() below refers into it.
@@ -19,6 +31,9 @@ std::vector<Technique> parse(std::string_view text) {
     result.push_back({.id = entry.at("id"),
                       .suite = entry.at("suite"),
                       .work = entry.at("work") == "draw" ? Work::draw : Work::compute,
+                      .method = method_of(entry),
+                      .vertices = vertices_of(entry),
+                      .asks_corners = entry.value("asks_corners", false),
                       .picture = entry.at("picture"),
                       .apis = entry.at("apis"),
                       .summary = entry.at("summary")});

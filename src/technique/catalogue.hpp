@@ -13,10 +13,19 @@ namespace triptych::technique {
 enum class Work : std::uint8_t { compute, draw };
 [[nodiscard]] std::string_view name_of(Work work);
 
+// How a particle technique finds the pixels of a sphere: by a sprite around it, by tiles of the
+// picture that it reaches, or by rays that look for it.
+enum class Method : std::uint8_t { sprites, tiles, rays };
+// The vertices that a sphere is drawn with.
+enum class Vertices : std::uint8_t { none, one, corners };
+
 struct Technique {
   std::string id;     // also the file stem in every backend's folder
   std::string suite;  // "volume" or "particles"
   Work work = Work::compute;
+  Method method = Method::rays;
+  Vertices vertices = Vertices::none;
+  bool asks_corners = false;  // draws as many corners as the factor `corners` says
   bool picture = true;  // draws the scene; false for a bound on speed, whose image is meaningless
   std::vector<std::string> apis;  // the APIs on which the technique exists
   std::string summary;

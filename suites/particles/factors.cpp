@@ -42,6 +42,8 @@ const std::vector<Factor>& particle_factors() {
              "number of corners of polygon_tess"),
       choice("culling", {"none", "frustum", "occlusion"}, "frustum", Decides::how_it_is_made,
              "which cells of particles are not drawn"),
+      choice("structure", {"static", "refit", "rebuild"}, "static", Decides::how_it_is_made,
+             "what each frame does with the hierarchy that rays go through"),
       number("radius_scale", 1e-6, 1e6, "1", Decides::the_picture,
              "factor by which every radius is multiplied"),
       text("camera", "orbit_y:1/8",

@@ -11,6 +11,7 @@
 
 #include "scene/camera.hpp"
 #include "scene/particles.hpp"
+#include "technique/catalogue.hpp"
 
 namespace triptych::particles_suite {
 namespace {
@@ -98,14 +99,19 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
     current = level;
     plain.why[factor] = why;
   };
-  const std::string technique = configuration.at("technique");
+  const technique::Technique& technique = technique::technique(configuration.at("technique"));
   if (configuration.at("colour") != "intensity") {
     plainer("transfer", "vertex", "stored colours are not looked up");
     plainer("transfer_function", "haze", "stored colours are not looked up");
   }
-  if (technique != "polygon_tess") plainer("corners", "8", "only polygon_tess is told how many");
+  if (!technique.asks_corners) plainer("corners", "8", "only polygon_tess is told how many");
+  if (technique.method == technique::Method::rays) {
+    plainer("conservative_depth", "off", "rays leave out what lies behind in any case");
+    plainer("culling", "frustum", "rays leave out what they cannot hit in any case");
+    return plain;
+  }
   if (work.options.conservative_depth) {
-    if (technique == "tiles") {
+    if (technique.method == technique::Method::tiles) {
       plainer("conservative_depth", "off", "tiles reject by the sphere's front in any case");
     } else if (sprites_are_apart(work.scene)) {
       plainer("conservative_depth", "off", "no sprite lies behind another");

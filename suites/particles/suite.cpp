@@ -190,6 +190,7 @@ measure::Work ParticleSuite::work(Configuration& configuration, const measure::D
           .conservative_depth = configuration.at("conservative_depth") == "on",
           .corners = static_cast<int>(as_number(configuration, "corners")),
           .culling = technique::culling(configuration.at("culling")),
+          .structure = technique::structure(configuration.at("structure")),
       }};
   if (loaded_.own && configuration.at("camera") == own_level) {
     work.camera_before = loaded_.own->camera_before;

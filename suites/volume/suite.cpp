@@ -120,10 +120,16 @@ std::string VolumeSuite::missing_data(const Configuration& configuration) const 
       folders_.empty() ? "" : fmt::format(", nor in {}", folders_.front().string()));
 }
 
+// The level of `component`; its default in configurations that are older than the factor.
+std::string component_of(const Configuration& configuration) {
+  const auto found = configuration.find("component");
+  return found == configuration.end() ? "0" : found->second;
+}
+
 scene::Volume VolumeSuite::read(const Configuration& configuration,
                                 std::optional<StressScene>& stress) const {
   const std::string& data = configuration.at("data");
-  const scene::Component component = scene::parse_component(configuration.at("component"));
+  const scene::Component component = scene::parse_component(component_of(configuration));
   if (analytic_data(data) || stress_data(data)) scene::check_component(component, 1, data);
   if (const auto known = stress_data(data)) {
     stress = stress_scene(*known);
@@ -138,7 +144,7 @@ const VolumeSuite::Loaded& VolumeSuite::load(const Configuration& configuration,
   const std::string& data = configuration.at("data");
   const std::string& window = configuration.at("window");
   const std::string& mapping = configuration.at("mapping");
-  const std::string& component = configuration.at("component");
+  const std::string component = component_of(configuration);
   if (loaded_.grid && loaded_.data == data && loaded_.window == window &&
       loaded_.mapping == mapping && loaded_.component == component &&
       choose(loaded_.native, loaded_.grid->size) == loaded_.grid->format) {

@@ -20,6 +20,7 @@ std::vector<Injected> faults() {
   all.push_back({"reversed_depth", generated_work("uniform", 2000, "orbit_y:1/8", 96)});
   all.push_back({"culled_visible", generated_work("uniform", 50000, "orbit_y:1/8", 96)});
   all.push_back({"lost_at_border", generated_work("uniform", 500, "orbit_y:1/8", 200)});
+  all.push_back({"small_box", generated_work("uniform", 500, "orbit_y:1/8", 200)});
   all.push_back({"missing_barrier", generated_work("uniform", 20000, "orbit_y:1/8", 128)});
   return all;
 }
@@ -48,9 +49,10 @@ TEST(ParticleFaults, TheWrongSenseIsCaughtWhereFragmentsAreRejectedEarly) {
     ParticleWork work = studded_wall();
     work.options.conservative_depth = true;
     const reference::SphereTruth truth = truth_of(work);
-    for (const char* technique : {"tiles", "quad_instanced"}) {
+    for (const char* technique : {"tiles", "bvh", "quad_instanced"}) {
       SCOPED_TRACE(technique);
-      const bool ours = std::string_view(technique) == "tiles" || device.info().api == "opencl";
+      const bool ours =
+          std::string_view(technique) != "quad_instanced" || device.info().api == "opencl";
       measure::Work faulty{.technique = technique, .scene = work};
       expect_true(draw(device, faulty), truth);
       measure::inject("wrong_sense", faulty);

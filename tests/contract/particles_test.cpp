@@ -139,6 +139,48 @@ TEST(Particles, AllTechniquesAndOptionsDrawTheSameBits) {
   });
 }
 
+// A hierarchy that is built or fitted anew in every frame finds the same spheres.
+TEST(Particles, StructuresBuiltInEveryFrameDrawTheSameBits) {
+  using technique::Structure;
+  on_every_device([](measure::Device& device) {
+    const ParticleWork plain = generated_work("coincident", 8000, "path_z:7/8", 96);
+    std::optional<core::Image> first;
+    for (const Structure structure :
+         {Structure::built_once, Structure::refitted, Structure::rebuilt}) {
+      SCOPED_TRACE(technique::name_of(structure));
+      ParticleWork work = plain;
+      work.options.structure = structure;
+      with_every_technique(device, work, [&](const measure::Work& whole) {
+        const auto prepared = device.prepare(whole);
+        for (int frame = 0; frame < 3; ++frame) {
+          static_cast<void>(prepared->frame(measure::Purpose::timing));
+        }
+        if (!first) first = prepared->image();
+        EXPECT_EQ(prepared->image(), *first);
+      });
+    }
+  });
+}
+
+// So many spheres at one depth on one pixel that no nearest one leaves the others out: more nodes than one dispatch may
+// visit on Mesa's software devices.
+TEST(Particles, ABeamThroughManyEqualSpheresFindsTheFirst) {
+  on_every_device([](measure::Device& device) {
+    std::vector<std::array<double, 4>> spheres(60000, {0, 0, 0, 1});
+    const ParticleWork work =
+        particle_work(particles_of(spheres), looking({0, 0, 5}, {0, 0, 0}, 60), 8, 8);
+    for (const char* technique : {"bvh"}) {
+      SCOPED_TRACE(technique);
+      const measure::Work whole{.technique = technique, .scene = work};
+      if (device.unsupported(whole)) continue;
+      const core::Image image = draw(device, whole);
+      for (const std::uint32_t id : image.ids) {
+        EXPECT_TRUE(id == 0 || id == core::Image::no_particle) << id;
+      }
+    }
+  });
+}
+
 TEST(Particles, TheOrderInTheFileChangesNothing) {
   on_every_device([](measure::Device& device) {
     const ParticleWork work = generated_work("coincident", 3000, "orbit_y:1/8", 64);

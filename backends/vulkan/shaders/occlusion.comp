@@ -5,4 +5,5 @@
 #include "particles/sprite.glsl"
 #include "particles/cells.glsl"
 #include "particles/occlusion.glsl"
+#include "particles/cull.glsl"
 #include "particles/cull.comp.glsl"

@@ -5,6 +5,7 @@
 #include "particles/camera_space.glsl"
 #include "particles/sprite.glsl"
 #include "particles/cells.glsl"
+#include "particles/keys.glsl"
 #include "particles/tile_grid.glsl"
 #include "particles/tiles.glsl"
 #include "particles/tiles_cells.comp.glsl"

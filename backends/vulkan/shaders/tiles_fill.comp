@@ -3,6 +3,7 @@
 #include "particle_prelude.glsl"
 #include "particles/camera_space.glsl"
 #include "particles/sprite.glsl"
+#include "particles/keys.glsl"
 #include "particles/tile_grid.glsl"
 #include "particles/tiles.glsl"
 #include "particles/tiles_fill.comp.glsl"

@@ -4,6 +4,7 @@
 #include "tiles_prelude.glsl"
 #include "particles/camera_space.glsl"
 #include "particles/sprite.glsl"
+#include "particles/keys.glsl"
 #include "particles/tile_grid.glsl"
 #include "particles/tiles.glsl"
 #include "particles/tiles_resolve.comp.glsl"

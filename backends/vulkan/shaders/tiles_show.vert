@@ -4,5 +4,6 @@
 #include "particles/camera_space.glsl"
 #define TRI_INSTANCE gl_InstanceIndex
 #define TRI_CORNER gl_VertexIndex
+#include "particles/keys.glsl"
 #include "particles/tile_grid.glsl"
 #include "particles/tiles_show.vert.glsl"

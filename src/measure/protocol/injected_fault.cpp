@@ -30,7 +30,7 @@ constexpr std::array<std::pair<std::string_view, Fault>, 5> volume_faults{{
     {"uncorrected_opacity", Fault::uncorrected_opacity},
     {"coarse_filter", Fault::coarse_filter},
 }};
-constexpr std::array<std::pair<std::string_view, ParticleFault>, 7> particle_faults{{
+constexpr std::array<std::pair<std::string_view, ParticleFault>, 8> particle_faults{{
     {"small_sprite", ParticleFault::small_sprite},
     {"unresolved_ties", ParticleFault::unresolved_ties},
     {"reversed_depth", ParticleFault::reversed_depth},
@@ -38,6 +38,7 @@ constexpr std::array<std::pair<std::string_view, ParticleFault>, 7> particle_fau
     {"culled_visible", ParticleFault::culled_visible},
     {"lost_at_border", ParticleFault::lost_at_border},
     {"missing_barrier", ParticleFault::missing_barrier},
+    {"small_box", ParticleFault::small_box},
 }};
 constexpr std::array<std::string_view, 3> mishaps{"crash", "hang", "device_lost"};
 constexpr std::string_view slowdown = "slowdown:";

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "technique/catalogue.hpp"
+
 namespace triptych::technique {
 namespace {
 
-std::optional<std::string> fault_reason(bool tiles, const ParticleOptions& options,
-                                        SpriteRasterizer rasterizer) {
+std::optional<std::string> fault_of_sprites(const Technique& technique,
+                                            const ParticleOptions& options,
+                                            SpriteRasterizer rasterizer) {
+  const bool tiles = technique.method == Method::tiles;
   const bool in_tiles = tiles || rasterizer == SpriteRasterizer::in_tiles;
   switch (options.fault) {
     case ParticleFault::wrong_sense:
@@ -22,6 +26,8 @@ std::optional<std::string> fault_reason(bool tiles, const ParticleOptions& optio
     case ParticleFault::missing_barrier:
       if (rasterizer == SpriteRasterizer::in_tiles) return std::nullopt;
       return "missing_barrier is a fault of work groups that wait for each other: here none does";
+    case ParticleFault::small_box:
+      return "small_box is a fault of the boxes that rays look into: there are none";
     case ParticleFault::none:
     case ParticleFault::small_sprite:
     case ParticleFault::unresolved_ties:
@@ -31,19 +37,47 @@ std::optional<std::string> fault_reason(bool tiles, const ParticleOptions& optio
   return std::nullopt;
 }
 
+std::optional<std::string> fault_of_rays(ParticleFault fault) {
+  switch (fault) {
+    case ParticleFault::small_sprite:
+      return "small_sprite is a fault of sprites: rays need none";
+    case ParticleFault::culled_visible:
+      return "culled_visible is a fault of culling: rays leave no cells out";
+    case ParticleFault::lost_at_border:
+      return "lost_at_border is a fault of tiles: rays put no sphere into any";
+    case ParticleFault::missing_barrier:
+      return "missing_barrier is a fault of work groups that wait for each other: here none does";
+    case ParticleFault::none:
+    case ParticleFault::unresolved_ties:
+    case ParticleFault::reversed_depth:
+    case ParticleFault::wrong_sense:
+    case ParticleFault::small_box:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-std::optional<std::string> option_reason(std::string_view technique, const ParticleOptions& options,
+std::optional<std::string> option_reason(std::string_view id, const ParticleOptions& options,
                                          SpriteRasterizer rasterizer) {
-  const bool tiles = technique == "tiles";
+  const Technique& technique = technique::technique(id);
   if (options.ray == ComputedAt::vertex) {
-    if (technique == "point") return "a point has one vertex: its rays are made per pixel";
-    if (tiles) return "tiles have no vertices: rays are made per pixel";
+    if (technique.vertices == Vertices::one) {
+      return fmt::format("a {} has one vertex: its rays are made per pixel", id);
+    }
+    if (technique.vertices == Vertices::none) {
+      return fmt::format("{} draws no vertices: rays are made per pixel", id);
+    }
   }
-  if (technique == "polygon_tess" && options.corners < 4) {
+  if (technique.asks_corners && options.corners < 4) {
     return fmt::format("polygons of {} corners; 4 is the least", options.corners);
   }
-  return fault_reason(tiles, options, rasterizer);
+  if (technique.method == Method::rays) return fault_of_rays(options.fault);
+  if (options.structure != Structure::built_once) {
+    return fmt::format("{} has no hierarchy that could be built in every frame", id);
+  }
+  return fault_of_sprites(technique, options, rasterizer);
 }
 
 }  // namespace triptych::technique

@@ -24,6 +24,12 @@ std::map<std::string, std::uint64_t> particle_counts(const CountedFrame& frame,
     }
     return result;
   };
+  if (frame.method == Method::rays) {
+    return {{"nodes_visited", sum(ParticleCounter::nodes_visited)},
+            {"boxes_tested", sum(ParticleCounter::boxes_tested)},
+            {"intersections_tested", sum(ParticleCounter::intersections_tested)},
+            {"visible_ids", visible_ids(picture)}};
+  }
   const bool all = frame.culling == Culling::none;
   const std::uint64_t submitted = all ? frame.particles : sum(ParticleCounter::submitted);
   std::map<std::string, std::uint64_t> counts{
@@ -34,7 +40,7 @@ std::map<std::string, std::uint64_t> particle_counts(const CountedFrame& frame,
       {"sprites", sum(ParticleCounter::sprites)},
       {"vertices", sum(ParticleCounter::vertices)},
       {"visible_ids", visible_ids(picture)}};
-  if (frame.work == Work::compute) {
+  if (frame.method == Method::tiles) {
     counts["bin_entries"] = sum(ParticleCounter::bin_entries);
   } else {
     const std::uint64_t fragments = sum(ParticleCounter::fragments);

@@ -20,7 +20,11 @@ enum class ParticleCounter : std::uint8_t {
   discarded,
   bin_entries,
   submitted,
-  cells_culled
+  cells_culled,
+  // Techniques that trace rays have no sprites. Their counters use the same columns (traced.glsl).
+  nodes_visited = 0,
+  boxes_tested = 1,
+  intersections_tested = 2
 };
 
 // The shaders' buffer: rows of so many sums each, 32 bits wide.
@@ -33,7 +37,7 @@ inline constexpr std::size_t particle_counter_bytes =
 [[nodiscard]] std::uint64_t visible_ids(const core::Image& picture);
 
 struct CountedFrame {
-  Work work = Work::draw;
+  Method method = Method::sprites;
   Culling culling = Culling::none;  // with none nothing adds up what is submitted: it is all
   std::uint64_t cells = 0;
   std::uint64_t particles = 0;
@@ -49,6 +53,9 @@ struct CountedFrame {
 //   fragments_discarded   of those, the ones whose ray misses the sphere or finds it behind
 //   fragments_kept        the others
 //   bin_entries           (tile, particle) pairs: tiles, and OpenCL's rasterizer
+//   nodes_visited         inner nodes of the hierarchy whose children were tested: rays alone, as
+//   boxes_tested          boxes of nodes and of single spheres, and
+//   intersections_tested  (pixel, sphere) pairs
 //   visible_ids           the different particles in the picture, which every one tells
 // `sums`: all rows of the buffer.
 [[nodiscard]] std::map<std::string, std::uint64_t> particle_counts(

@@ -22,6 +22,26 @@ std::string_view name_of(Culling culling) {
   return {};
 }
 
+std::string_view name_of(Structure structure) {
+  switch (structure) {
+    case Structure::built_once:
+      return "static";
+    case Structure::refitted:
+      return "refit";
+    case Structure::rebuilt:
+      return "rebuild";
+  }
+  return {};
+}
+
+Structure structure(std::string_view name) {
+  for (const Structure each : {Structure::built_once, Structure::refitted, Structure::rebuilt}) {
+    if (name == name_of(each)) return each;
+  }
+  throw core::InputError(
+      fmt::format("unknown structure '{}'; there are: static, refit, rebuild", name));
+}
+
 ComputedAt computed_at(std::string_view name) {
   for (const ComputedAt stage : {ComputedAt::vertex, ComputedAt::pixel}) {
     if (name == name_of(stage)) return stage;

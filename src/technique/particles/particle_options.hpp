@@ -10,6 +10,12 @@ namespace triptych::technique {
 enum class ComputedAt : std::uint8_t { vertex, pixel };
 // Which cells are left out: none, those outside the view, those hidden as well.
 enum class Culling : std::uint8_t { none, frustum, occlusion };
+// The work of a frame on a hierarchy or an acceleration structure before rays traverse it: none,
+// because it was built when the scene was prepared; fitting the boxes to spheres that moved; or
+// building all of it again.
+enum class Structure : std::uint8_t { built_once, refitted, rebuilt };
+[[nodiscard]] std::string_view name_of(Structure structure);  // static, refit, rebuild
+[[nodiscard]] Structure structure(std::string_view name);     // throws InputError
 [[nodiscard]] std::string_view name_of(ComputedAt stage);
 [[nodiscard]] std::string_view name_of(Culling culling);
 [[nodiscard]] ComputedAt computed_at(std::string_view name);  // throws InputError
@@ -26,7 +32,8 @@ enum class ParticleFault : std::uint8_t {
                         // promises the opposite of what conservative depth does
   culled_visible = 5,   // the view is taken to be half as wide as it is
   lost_at_border = 6,   // a particle is not put into the last tile that it reaches
-  missing_barrier = 7   // a work group does not wait for what it shares
+  missing_barrier = 7,  // a work group does not wait for what it shares
+  small_box = 8         // the box around a sphere is made for half its radius
 };
 
 struct ParticleOptions {
@@ -35,6 +42,7 @@ struct ParticleOptions {
   bool conservative_depth = false;
   int corners = 4;  // of polygon_tess: 4…8, 16, 32
   Culling culling = Culling::frustum;
+  Structure structure = Structure::built_once;
   ParticleFault fault = ParticleFault::none;
   // Every extra_work_stride-th particle (in evenly spread runs) is drawn a second time: an injected
   // slowdown of about 1/stride by real work that changes no pixel; 0: none.

@@ -1,13 +1,11 @@
-// What all passes of `tiles` share (tiles.glsl says which there are): the grid, the keys that a pixel keeps,
-// and everything that is only read, as texels: a software device fetches those for all lanes at once, but
-// loads from storage buffers lane by lane.
+// Shared by all passes of `tiles` (tiles.glsl lists them), after keys.glsl: the grid, and everything that is
+// only read, as texels: a software device fetches those for all lanes at once, but loads from storage
+// buffers lane by lane.
 
 #define TRI_TILE 16             // pixels along a tile's edge
 #define TRI_SMALL_EDGE 6        // and along that of a small sphere's rectangle at most: what llvmpipe is fastest with
 #define TRI_BLOCK 4             // tiles along the edge of what is drawn together
 #define TRI_PARTICLE_BITS 28    // of an entry
-#define TRI_LARGEST_KEY 0xFFFFFFFFu
-#define TRI_NO_PARTICLE 0xFFFFFFFFu
 
 TRI_BINDING(13) uniform samplerBuffer camera_texels;  // spheres in camera space, by particle
 TRI_BINDING(14) uniform usamplerBuffer tile_texels;   // a header, then a Tile each, of two texels
@@ -39,22 +37,4 @@ uint farthest_in(int index) { return tile_state(index).z; }
 #endif
 TRI_BINDING(TRI_LARGE_PIXELS) layout(rgba32ui) uniform uimage2D large_pixels;
 
-// Keys: the nearest depth has the largest, 0 is none; the first particle has the smallest. The injected
-// faults turn them round: 2 unresolved ties, 3 reversed depth, 4 the sphere's back for its front, 6 lost at
-// a tile's border.
-uint depth_key(float depth) {
-  uint bits = floatBitsToUint(depth);
-  return TRI_FAULT == 3 ? ~bits : bits;
-}
-float depth_of_key(uint key) { return uintBitsToFloat(TRI_FAULT == 3 ? ~key : key); }
-uint particle_key(uint particle) { return TRI_FAULT == 2 ? ~particle & 0x7FFFFFFFu : particle; }
-uint particle_of_key(uint key) { return TRI_FAULT == 2 ? ~key & 0x7FFFFFFFu : key; }
-
 uint particle_of(uint entry) { return entry & (1u << TRI_PARTICLE_BITS) - 1u; }
-
-// The depth key of the sphere on the ray through this place of the image plane, 0 where the ray misses it.
-uint sphere_key(vec4 c, vec2 s) {
-  float discriminant = tri_sphere_discriminant(c.x, c.y, c.z, c.w, s.x, s.y);
-  float distance = tri_sphere_distance(c.x, c.y, c.z, s.x, s.y, max(discriminant, 0.0));
-  return discriminant >= 0.0 && distance > 0.0 ? depth_key(tri_depth(u.eye.w, distance)) : 0u;
-}

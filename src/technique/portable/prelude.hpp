@@ -26,6 +26,7 @@ namespace triptych::technique::portable {
 using real = float;
 using real2 = glm::vec2;
 #define TRI_PRECISION 32
+#include "technique/portable/box_math.h"
 #include "technique/portable/sphere_math.h"
 #include "technique/portable/volume_math.h"
 #include "technique/portable/volume_preintegration.h"

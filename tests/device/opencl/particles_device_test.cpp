@@ -171,7 +171,10 @@ TEST(OpenClParticles, WhatCannotBeDrawnIsRefused) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = seen_from({{0, 0, -4, 1}}, {0, 0, 0}, 60);
     EXPECT_EQ(device.unsupported(make_work("tiles", scene)), std::nullopt);
-    for (const char* technique : {"point", "quad_ray", "quad_tess"}) {
+    for (const char* technique : {"point", "quad_ray", "quad_tess", "bvh"}) {
+      EXPECT_EQ(device.unsupported(make_work(technique, scene)), std::nullopt) << technique;
+    }
+    for (const char* technique : {"ray_query", "ray_pipeline", "mesh"}) {
       EXPECT_TRUE(device.unsupported(make_work(technique, scene))) << technique;
     }
     EXPECT_TRUE(device.unsupported(make_work("raycast", scene)));

@@ -164,8 +164,9 @@ TEST(WorkerLink, AWorkerThatTalksNonsenseIsBuriedWithItsWords) {
   const auto reply = link.ask(to_message(Start{}), seconds(10));
   const auto* died = std::get_if<WorkerLink::Died>(&reply);
   ASSERT_NE(died, nullptr);
-  EXPECT_THAT(died->reason, testing::HasSubstr("no message"));
-  EXPECT_THAT(died->reason, testing::HasSubstr("it last said: broken"));
+  EXPECT_EQ(died->reason.cause, record::Cause::bad_answer);
+  EXPECT_THAT(died->reason.detail, testing::HasSubstr("no message"));
+  EXPECT_EQ(died->reason.last_words, "broken");
 }
 
 TEST(WorkerLink, AnInterruptEndsTheWaiting) {

@@ -44,6 +44,7 @@ TEST(OptionReason, RaysAreMadeAtVerticesWhereThereAreSome) {
   }
   EXPECT_THAT(reason("point", {.ray = ComputedAt::vertex}), HasSubstr("one vertex"));
   EXPECT_THAT(reason("tiles", {.ray = ComputedAt::vertex}), HasSubstr("no vertices"));
+  EXPECT_THAT(reason("bvh", {.ray = ComputedAt::vertex}), HasSubstr("no vertices"));
 }
 
 TEST(OptionReason, APolygonHasFourCornersAtLeast) {
@@ -74,6 +75,31 @@ TEST(OptionReason, AFaultNeedsWhatItBreaks) {
           << technique;
     }
   }
+}
+
+TEST(OptionReason, OnlyRaysHaveAStructureToBuild) {
+  for (const Structure structure : {Structure::refitted, Structure::rebuilt}) {
+    for (const std::string_view technique : techniques) {
+      EXPECT_THAT(reason(technique, {.structure = structure}), HasSubstr("no hierarchy"));
+    }
+    EXPECT_EQ(reason("bvh", {.structure = structure}), "");
+    EXPECT_EQ(reason("ray_query", {.structure = structure}), "");
+  }
+}
+
+TEST(OptionReason, RaysHaveTheFaultsOfBoxesAndDepths) {
+  const auto refused = [](ParticleFault fault) {
+    return !reason("bvh", {.conservative_depth = true, .fault = fault}).empty();
+  };
+  for (const ParticleFault fault : {ParticleFault::small_box, ParticleFault::wrong_sense,
+                                    ParticleFault::unresolved_ties, ParticleFault::reversed_depth}) {
+    EXPECT_FALSE(refused(fault));
+  }
+  for (const ParticleFault fault : {ParticleFault::small_sprite, ParticleFault::culled_visible,
+                                    ParticleFault::lost_at_border, ParticleFault::missing_barrier}) {
+    EXPECT_TRUE(refused(fault));
+  }
+  EXPECT_THAT(reason("tiles", {.fault = ParticleFault::small_box}), HasSubstr("boxes"));
 }
 
 }  // namespace

@@ -41,10 +41,17 @@ TEST(ParticleCounts, OfSpritesAddUpAllRows) {
 
 TEST(ParticleCounts, OfComputeAreBinEntriesAndNoFragments) {
   const CountedFrame frame{
-      .work = Work::compute, .culling = Culling::frustum, .cells = 90, .particles = 100};
+      .method = Method::tiles, .culling = Culling::frustum, .cells = 90, .particles = 100};
   const auto counts = particle_counts(frame, two_rows(), picture_of({1}));
   EXPECT_THAT(counts, Contains(Pair("bin_entries", 51)));
   EXPECT_THAT(counts, Not(Contains(Pair(testing::StartsWith("fragments"), testing::_))));
+}
+
+TEST(ParticleCounts, OfRaysAreWhatTheyWentThrough) {
+  const CountedFrame frame{.method = Method::rays, .cells = 90, .particles = 100};
+  EXPECT_THAT(particle_counts(frame, two_rows(), picture_of({1})),
+              UnorderedElementsAre(Pair("nodes_visited", 11), Pair("boxes_tested", 21),
+                                   Pair("intersections_tested", 31), Pair("visible_ids", 1)));
 }
 
 TEST(ParticleCounts, WithoutCullingAllIsSubmitted) {

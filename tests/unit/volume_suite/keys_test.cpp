@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "core/error.hpp"
 #include "measure/plan/plan.hpp"
 #include "suites/volume/suite.hpp"
 #include "support/table_keys.hpp"
@@ -56,6 +57,21 @@ TEST(Keys, NameAWindowAndAMappingOnlyWhereThereIsOne) {
     EXPECT_NE(suite->truth_key(configuration, {}), suite->truth_key(plain, {})) << factor;
     EXPECT_NE(suite->limit_key(configuration), suite->limit_key(plain)) << factor;
   }
+}
+
+TEST(Keys, NameAComponentOnlyWhereOneIsChosen) {
+  const auto suite = make_suite({});
+  measure::Configuration configuration = configuration_of(*suite, "haze");
+  const std::string plain = measure::scene_key(*suite, configuration);
+  EXPECT_EQ(plain.find("component"), std::string::npos);
+  configuration["component"] = "magnitude";
+  EXPECT_NE(measure::scene_key(*suite, configuration).find("component=magnitude"),
+            std::string::npos);
+  const std::string hash = suite->data_hash(configuration);
+  configuration.erase("component");
+  EXPECT_EQ(suite->data_hash(configuration), hash) << "stored before there were components";
+  configuration["component"] = "1";
+  EXPECT_THROW((void)suite->data_hash(configuration), core::InputError);
 }
 
 TEST(Keys, OfAnAnalyticProblemWithAWindowHaveNoClosedForm) {

@@ -1,0 +1,12 @@
+// The same quads, evaluated from the domain coordinates of patches: what tessellation shaders do elsewhere.
+#include "backends/opencl/particle_frames.hpp"
+#include "backends/opencl/techniques.hpp"
+
+namespace triptych::opencl_backend {
+
+std::unique_ptr<measure::Prepared> prepare_quad_tess(const Session& session, Programs& programs,
+                                                    const measure::ParticleWork& work) {
+  return std::make_unique<ParticleFrames>(session, programs, work, Sprite::evaluated_quad);
+}
+
+}  // namespace triptych::opencl_backend

@@ -1,0 +1,40 @@
+#pragma once
+#include <vector>
+
+#include "backends/vulkan/gpu.hpp"
+
+namespace triptych::vulkan_backend {
+
+// Names and features of the extensions with which a device is opened, for the techniques that need
+// more than Vulkan 1.1. The chain of features points into the object itself.
+class ExtensionRequest {
+ public:
+  explicit ExtensionRequest(const vk::raii::PhysicalDevice& physical);
+  ExtensionRequest(const ExtensionRequest&) = delete;
+  ExtensionRequest& operator=(const ExtensionRequest&) = delete;
+
+  [[nodiscard]] const Extensions& extensions() const noexcept { return extensions_; }
+  [[nodiscard]] const std::vector<const char*>& names() const noexcept { return names_; }
+  // For pNext of vk::DeviceCreateInfo; null where nothing is asked for.
+  [[nodiscard]] void* features() const noexcept { return chain_; }
+
+ private:
+  template <class Feature>
+  void add(Feature& feature) {
+    feature.pNext = chain_;
+    chain_ = &feature;
+  }
+  void ask_for_rays(const vk::raii::PhysicalDevice& physical);
+  void ask_for_meshes(const vk::raii::PhysicalDevice& physical);
+
+  Extensions extensions_;
+  std::vector<const char*> names_;
+  void* chain_ = nullptr;
+  vk::PhysicalDeviceBufferDeviceAddressFeatures addresses_{.bufferDeviceAddress = VK_TRUE};
+  vk::PhysicalDeviceAccelerationStructureFeaturesKHR structures_{.accelerationStructure = VK_TRUE};
+  vk::PhysicalDeviceRayQueryFeaturesKHR queries_{.rayQuery = VK_TRUE};
+  vk::PhysicalDeviceRayTracingPipelineFeaturesKHR pipelines_{.rayTracingPipeline = VK_TRUE};
+  vk::PhysicalDeviceMeshShaderFeaturesEXT meshes_{.taskShader = VK_TRUE, .meshShader = VK_TRUE};
+};
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,7 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "particle_prelude.glsl"
+#include "hierarchy_prelude.glsl"
+#include "particles/storage.glsl"
+#include "particles/sphere_box.glsl"
+#include "particles/hierarchy_leaves.comp.glsl"

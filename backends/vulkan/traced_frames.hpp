@@ -1,0 +1,104 @@
+#pragma once
+// The techniques that find a sphere for each pixel by a ray: they differ in what the rays go
+// through.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "backends/vulkan/frames.hpp"
+#include "backends/vulkan/instance.hpp"
+#include "backends/vulkan/particle_data.hpp"
+#include "backends/vulkan/particle_target.hpp"
+
+namespace triptych::vulkan_backend {
+
+// Bindings of technique/particles/traced.glsl and traced_texels.glsl.
+enum TracedBinding : std::uint32_t {
+  traced_pixels_binding = 11,
+  traced_pixel_texels_binding = 16,
+  traced_sphere_texels_binding,
+  traced_colour_texels_binding,
+  traced_id_texels_binding
+};
+
+// The structure that rays go through, on the device, and the passes that send the rays.
+class Tracer {
+ public:
+  Tracer() = default;
+  Tracer(const Tracer&) = delete;
+  Tracer& operator=(const Tracer&) = delete;
+  virtual ~Tracer() = default;
+
+  // Bindings of its own, and the bytes of the push constants that its compute passes are given.
+  [[nodiscard]] virtual std::vector<vk::DescriptorSetLayoutBinding> bindings() const = 0;
+  [[nodiscard]] virtual std::uint32_t push_bytes() const = 0;
+  // The shader stages of its passes.
+  [[nodiscard]] virtual vk::ShaderStageFlags stages() const {
+    return vk::ShaderStageFlagBits::eCompute;
+  }
+  [[nodiscard]] virtual vk::QueryPipelineStatisticFlags statistics() const {
+    return vk::QueryPipelineStatisticFlagBits::eComputeShaderInvocations;
+  }
+  // True if Triptych's own kernels traverse the structure, so that every driver visits the same nodes.
+  [[nodiscard]] virtual bool counts_nodes() const = 0;
+  virtual void bind(vk::DescriptorSet set) const = 0;
+  // After bind(), once: makes the pipelines of the timed build, and what rays go through.
+  virtual void prepare(const Layout& layout, vk::DescriptorSet set) = 0;
+  // Makes those of the counting build.
+  virtual void prepare_counting(const Layout& layout) = 0;
+  // A frame up to the keys of every pixel; the set is bound.
+  virtual void record(const vk::raii::CommandBuffer& commands, const Layout& layout,
+                      bool counting) const = 0;
+  // The device code of the timed build.
+  [[nodiscard]] virtual std::vector<std::string_view> codes() const = 0;
+};
+
+class TracedFrames final : public measure::Prepared {
+ public:
+  using MakeTracer = std::unique_ptr<Tracer> (*)(const Gpu& gpu, const measure::ParticleWork& work,
+                                                 const technique::Arrangement& arrangement,
+                                                 const ParticleData& data);
+  TracedFrames(const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work,
+               const technique::Arrangement& arrangement, MakeTracer make_tracer);
+
+  void poison() override;
+  [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
+  [[nodiscard]] core::Image image() override;
+  [[nodiscard]] std::string kernel_hash() const override;
+
+ private:
+  struct Texels {
+    std::uint32_t binding;
+    vk::raii::BufferView view;
+  };
+  [[nodiscard]] std::vector<vk::DescriptorSetLayoutBinding> bindings() const;
+  void prepare();
+  void record(const vk::raii::CommandBuffer& commands, bool counting) const;
+
+  const Gpu& gpu_;
+  const Instance& instance_;
+  technique::ParticleOptions options_;
+  Specialization constants_;
+  ParticleData data_;
+  ParticleTarget target_;
+  Buffer pixels_;
+  std::vector<Texels> texels_;
+  std::unique_ptr<Tracer> tracer_;
+  Layout layout_;
+  vk::raii::DescriptorPool pool_;
+  vk::DescriptorSet set_;  // freed with the pool
+  vk::Pipeline show_;
+  Frames frames_;
+};
+
+// Arranges the scene.
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_traced(
+    const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work,
+    TracedFrames::MakeTracer make_tracer);
+
+// Room for 32-bit words that compute passes write and read, also as texels; of some for none.
+[[nodiscard]] Buffer device_words(const Gpu& gpu, std::uint64_t count);
+
+}  // namespace triptych::vulkan_backend

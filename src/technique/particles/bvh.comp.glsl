@@ -1,0 +1,192 @@
+// One invocation traces a beam of 4×2 pixels. It descends the hierarchy, nearer child first, and tests each sphere whose
+// box the beam crosses, unless the box lies behind the surfaces that all of the beam's pixels have found. A block has 8×8
+// beams. Eight consecutive invocations are a square of 8×8 pixels, because software devices run eight at once.
+//
+// The traversal needs no stack. `trail` has one bit for each level below the root; it is 1 if the sibling was visited or
+// missed. Together with the node's number it gives the way back (Laine, Restart trail for stackless BVH traversal, 2010).
+//
+// TRI_STEP: x, only every x-th beam is traced; y, blocks per row; z, number of beams; w, flags: 1, continue traversals
+// that an earlier dispatch did not finish; 2, store where they end. Mesa's software devices end all loops of an invocation
+// after 65,535 passes together, without an error, so a dispatch visits at most TRI_MOST_STEPS nodes.
+layout(local_size_x = 64) in;
+
+TRI_BINDING(13) uniform samplerBuffer box_texels;
+TRI_BINDING(14) uniform samplerBuffer tree_sphere_texels;
+TRI_BINDING(15) uniform usamplerBuffer tree_order_texels;
+
+#define TRI_BEAM_X 4
+#define TRI_BEAM_Y 2
+#define TRI_BEAM_PIXELS 8
+#define TRI_MOST_STEPS 7000u
+
+// Planes through the eye, each with the beam on its positive side.
+vec3 left_side;
+vec3 right_side;
+vec3 upper_side;
+vec3 lower_side;
+float slack_share;
+ivec2 first_pixel;
+uint depth_keys[TRI_BEAM_PIXELS];
+uint particle_keys[TRI_BEAM_PIXELS];
+uint lowest_key;
+#if TRI_COUNT
+uint nodes_visited = 0u;
+uint boxes_tested = 0u;
+uint intersections_tested = 0u;
+#endif
+
+ivec2 beam_pixel(int k) { return first_pixel + ivec2(k % TRI_BEAM_X, k / TRI_BEAM_X); }
+bool in_picture(ivec2 pixel) { return pixel.x < u.viewport.x && pixel.y < u.viewport.y; }
+
+// The sides run 1/64 pixel outside the outermost rays, as the margin of sprites does: a sphere's silhouette in single
+// precision is less than that beyond the true one.
+void open_beam(uint beam) {
+  uint block = beam / 64u;
+  uint n = beam % 64u;
+  uvec2 place = uvec2((n & 1u) + (n >> 2 & 6u), (n >> 1 & 3u) + (n >> 3 & 4u));
+  place += 8u * uvec2(block % TRI_STEP.y, block / TRI_STEP.y);
+  first_pixel = ivec2(place) * ivec2(TRI_BEAM_X, TRI_BEAM_Y);
+  vec2 upper_left = pixel_ray(first_pixel);
+  vec2 lower_right = pixel_ray(first_pixel + ivec2(TRI_BEAM_X - 1, TRI_BEAM_Y - 1));
+  TRI_PRECISE vec2 margin = 0.015625 * u.plane.zw;
+  TRI_PRECISE vec2 low = vec2(upper_left.x, lower_right.y) - margin;
+  TRI_PRECISE vec2 high = vec2(lower_right.x, upper_left.y) + margin;
+  TRI_PRECISE vec3 left = u.right.xyz - low.x * u.forward.xyz;
+  TRI_PRECISE vec3 right = high.x * u.forward.xyz - u.right.xyz;
+  TRI_PRECISE vec3 lower = u.up.xyz - low.y * u.forward.xyz;
+  TRI_PRECISE vec3 upper = high.y * u.forward.xyz - u.up.xyz;
+  left_side = left;
+  right_side = right;
+  lower_side = lower;
+  upper_side = upper;
+  vec2 widest = max(abs(low), abs(high));
+  TRI_PRECISE float share = 3.8e-6 * (1.0 + max(widest.x, widest.y));
+  slack_share = share;
+}
+
+float highest(vec3 n, vec3 lo, vec3 hi) {
+  return tri_box_highest(n.x, n.y, n.z, lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
+}
+
+// Whether the beam crosses the box and something in it may show. `nearest`: along the view axis, of the box.
+// Rounding: 2⁻¹⁸ of the box's farthest point from the eye covers products and sums (8u), the rounded axes (u) and, in
+// `nearest`, the 24u·(|C| + r) by which a distance may err. 2.4e-7 of the eye's own coordinates covers those.
+bool may_show(vec3 world_lo, vec3 world_hi, out float nearest) {
+  TRI_PRECISE vec3 around = 2.4e-7 * abs(u.eye.xyz);
+  TRI_PRECISE vec3 lo = (world_lo - u.eye.xyz) - around;
+  TRI_PRECISE vec3 hi = (world_hi - u.eye.xyz) + around;
+  TRI_PRECISE float slack = slack_share * tri_box_reach(lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
+  TRI_PRECISE float before = -highest(-u.forward.xyz, lo, hi) - slack;
+  bool outside = highest(left_side, lo, hi) < -slack || highest(right_side, lo, hi) < -slack ||
+                 highest(upper_side, lo, hi) < -slack || highest(lower_side, lo, hi) < -slack;
+  nearest = before;
+  float front = TRI_FAULT == 4 ? highest(u.forward.xyz, lo, hi) : before;
+  TRI_PRECISE float deepest = front * (TRI_FAULT == 3 ? 0.0 : uintBitsToFloat(lowest_key));
+#if TRI_COUNT
+  ++boxes_tested;
+#endif
+  return !outside && !(deepest > u.eye.w);
+}
+
+void test_sphere(vec4 sphere, uint particle) {
+  vec4 c = camera_space(sphere);
+  uint key = particle_key(particle);
+  uint lowest = TRI_LARGEST_KEY;
+  for (int k = 0; k < TRI_BEAM_PIXELS; ++k) {
+    ivec2 pixel = beam_pixel(k);
+    uint depth = sphere_key(c, pixel_ray(pixel));
+    bool wins = depth > depth_keys[k] || (depth > 0u && depth == depth_keys[k] && key < particle_keys[k]);
+    depth_keys[k] = wins ? depth : depth_keys[k];
+    particle_keys[k] = wins ? key : particle_keys[k];
+    lowest = in_picture(pixel) ? min(lowest, depth_keys[k]) : lowest;
+#if TRI_COUNT
+    intersections_tested += in_picture(pixel) ? 1u : 0u;
+#endif
+  }
+  lowest_key = lowest;
+}
+
+void test_leaf(uint leaf) {
+  uint end = leaf_begin(leaf + 1u);
+  for (uint i = leaf_begin(leaf); i < end; ++i) {
+    vec4 sphere = texelFetch(tree_sphere_texels, int(i));
+    vec3 lo;
+    vec3 hi;
+    sphere_box(sphere, lo, hi);
+    float nearest;
+    if (may_show(lo, hi, nearest)) test_sphere(sphere, texelFetch(tree_order_texels, int(i)).x);
+  }
+}
+
+// Goes on from a node until the way ends, or for so many nodes. 0 for the node where it has ended.
+void trace(inout uint node, inout uint trail) {
+  uint leaves = 1u << TRI_TREE_SHAPE.y;
+  for (uint step = 0u; step < TRI_MOST_STEPS && node != 0u; ++step) {
+    bool descends = false;
+    if (node >= leaves) {
+      test_leaf(node - leaves);
+    } else {
+      int at = 4 * int(node);
+      float nearest_a;
+      float nearest_b;
+      bool a = may_show(texelFetch(box_texels, at).xyz, texelFetch(box_texels, at + 1).xyz, nearest_a);
+      bool b = may_show(texelFetch(box_texels, at + 2).xyz, texelFetch(box_texels, at + 3).xyz, nearest_b);
+#if TRI_COUNT
+      ++nodes_visited;
+#endif
+      descends = a || b;
+      if (descends) {
+        bool second = b && (!a || nearest_b < nearest_a);
+        node = 2u * node + (second ? 1u : 0u);
+        trail = 2u * trail + (a && b ? 0u : 1u);
+      }
+    }
+    if (!descends) {
+      int up = findLSB(~trail);
+      node >>= up;
+      trail = trail >> up | 1u;
+      node = node > 1u ? node ^ 1u : 0u;
+    }
+  }
+}
+
+void main() {
+  uint n = 64u * (gl_WorkGroupID.y * TRI_GROUP_COLUMNS + gl_WorkGroupID.x) + gl_LocalInvocationIndex;
+  uint beam = n * TRI_STEP.x;
+  if (beam >= TRI_STEP.z) return;
+  bool continues = (TRI_STEP.w & 1u) != 0u;
+  uint node = continues ? scratch[2u * beam] : 1u;
+  uint trail = continues ? scratch[2u * beam + 1u] : 0u;
+  open_beam(beam);
+  if (!in_picture(first_pixel)) node = 0u;
+  if (node == 0u) {
+    if ((TRI_STEP.w & 2u) != 0u) scratch[2u * beam] = 0u;
+    return;
+  }
+  lowest_key = continues ? TRI_LARGEST_KEY : 0u;
+  for (int k = 0; k < TRI_BEAM_PIXELS; ++k) {
+    depth_keys[k] = 0u;
+    particle_keys[k] = TRI_NO_PARTICLE;
+    if (!continues || !in_picture(beam_pixel(k))) continue;
+    int at = pixel_index(beam_pixel(k));
+    depth_keys[k] = pixels[at];
+    particle_keys[k] = pixels[plane_size() + at];
+    lowest_key = min(lowest_key, depth_keys[k]);
+  }
+  trace(node, trail);
+  if ((TRI_STEP.w & 2u) != 0u) {
+    scratch[2u * beam] = node;
+    scratch[2u * beam + 1u] = trail;
+  }
+  for (int k = 0; k < TRI_BEAM_PIXELS; ++k) {
+    if (!in_picture(beam_pixel(k))) continue;
+    int at = pixel_index(beam_pixel(k));
+    pixels[at] = depth_keys[k];
+    pixels[plane_size() + at] = particle_keys[k];
+  }
+#if TRI_COUNT
+  add_count(TRI_COUNT_NODES, beam, nodes_visited);
+  add_count(TRI_COUNT_BOXES, beam, boxes_tested);
+  add_count(TRI_COUNT_INTERSECTIONS, beam, intersections_tested);
+#endif
+}

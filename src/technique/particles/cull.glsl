@@ -1,0 +1,27 @@
+// After cells.glsl, and occlusion.glsl where TRI_OCCLUSION is not 0. TRI_OCCLUSION: 1, a frame's first draw, of what the
+// last frame showed; 2, its second, of what came into sight since then, noting what this frame shows. 0 or not defined:
+// neither.
+#ifndef TRI_OCCLUSION
+#define TRI_OCCLUSION 0
+#endif
+
+// Whether the pass draws the cell; counts it.
+bool is_drawn(uint index, Cell cell) {
+  bool drawn = !outside_view(cell);
+  bool left_out = !drawn;
+#if TRI_OCCLUSION == 1
+  drawn = drawn && visible_before[index] != 0u;
+  left_out = false;  // the second draw decides
+#elif TRI_OCCLUSION == 2
+  bool drawn_before = drawn && visible_before[index] != 0u;
+  bool shown = drawn && !hidden(cell);
+  visible_now[index] = shown ? 1u : 0u;
+  drawn = shown && !drawn_before;
+  left_out = !shown && !drawn_before;
+#endif
+#if TRI_COUNT
+  if (drawn) add_count(TRI_COUNT_SUBMITTED, index, cell.count);
+  if (left_out) add_count(TRI_COUNT_CELLS_CULLED, index, 1u);
+#endif
+  return drawn;
+}

@@ -1,0 +1,15 @@
+// One invocation per run of particles: how many of them have each digit. TRI_STEP: the digit's lowest bit, where in
+// `sorted` the list begins, the number of runs.
+layout(local_size_x = 64) in;
+
+void main() {
+  uint run = gl_GlobalInvocationID.x;
+  uint runs = TRI_STEP.z;
+  if (run >= runs) return;
+  for (uint digit = 0u; digit < TRI_DIGITS; ++digit) scratch[digit * runs + run] = 0u;
+  uint end = run_begin(TRI_TREE_SHAPE.x, runs, run + 1u);
+  for (uint i = run_begin(TRI_TREE_SHAPE.x, runs, run); i < end; ++i) {
+    uint digit = sorted[2u * (TRI_STEP.y + i)] >> TRI_STEP.x & (TRI_DIGITS - 1u);
+    ++scratch[digit * runs + run];
+  }
+}

@@ -1,0 +1,16 @@
+// One invocation per digit: the counts of the runs become places among all particles with this digit. TRI_STEP as for
+// hierarchy_count.
+layout(local_size_x = 64) in;
+
+void main() {
+  uint digit = gl_GlobalInvocationID.x;
+  uint runs = TRI_STEP.z;
+  if (digit >= TRI_DIGITS) return;
+  uint sum = 0u;
+  for (uint run = 0u; run < runs; ++run) {
+    uint here = scratch[digit * runs + run];
+    scratch[digit * runs + run] = sum;
+    sum += here;
+  }
+  scratch[TRI_DIGITS * runs + digit] = sum;
+}

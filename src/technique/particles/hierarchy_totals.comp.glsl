@@ -1,0 +1,12 @@
+// One invocation: where the particles with each digit begin.
+layout(local_size_x = 1) in;
+
+void main() {
+  uint at = TRI_DIGITS * TRI_STEP.z;
+  uint sum = 0u;
+  for (uint digit = 0u; digit < TRI_DIGITS; ++digit) {
+    uint here = scratch[at + digit];
+    scratch[at + digit] = sum;
+    sum += here;
+  }
+}

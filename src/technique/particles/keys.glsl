@@ -1,0 +1,20 @@
+// Keys that a pixel keeps: the nearest depth has the largest, 0 is none; the first particle has the smallest. The
+// injected faults turn them round: 2 unresolved ties, 3 reversed depth.
+
+#define TRI_LARGEST_KEY 0xFFFFFFFFu
+#define TRI_NO_PARTICLE 0xFFFFFFFFu
+
+uint depth_key(float depth) {
+  uint bits = floatBitsToUint(depth);
+  return TRI_FAULT == 3 ? ~bits : bits;
+}
+float depth_of_key(uint key) { return uintBitsToFloat(TRI_FAULT == 3 ? ~key : key); }
+uint particle_key(uint particle) { return TRI_FAULT == 2 ? ~particle & 0x7FFFFFFFu : particle; }
+uint particle_of_key(uint key) { return TRI_FAULT == 2 ? ~key & 0x7FFFFFFFu : key; }
+
+// The depth key of the sphere on the ray through this place of the image plane, 0 where the ray misses it.
+uint sphere_key(vec4 c, vec2 s) {
+  float discriminant = tri_sphere_discriminant(c.x, c.y, c.z, c.w, s.x, s.y);
+  float distance = tri_sphere_distance(c.x, c.y, c.z, s.x, s.y, max(discriminant, 0.0));
+  return discriminant >= 0.0 && distance > 0.0 ? depth_key(tri_depth(u.eye.w, distance)) : 0u;
+}

@@ -1,0 +1,36 @@
+// After cull.glsl. One invocation per cell, 32 in a group: the cells that are drawn, in their order, and how many mesh
+// groups each of them takes. TRI_CULLED (0 or 1): whether any are left out. TRI_SHARE (uvec2): every x-th cell is drawn,
+// and of each the first part of y.
+layout(local_size_x = 32) in;
+taskPayloadSharedEXT CellList list;
+shared uint drawn_count[32];
+shared uint drawn_begin[32];
+
+void main() {
+  uint n = gl_LocalInvocationIndex;
+  uint index = (32u * gl_WorkGroupID.x + n) * TRI_SHARE.x;
+  drawn_count[n] = 0u;
+  if (index < u.counts.y) {
+    Cell cell = cells[index];
+#if TRI_CULLED
+    bool drawn = is_drawn(index, cell);
+#else
+    bool drawn = true;
+#endif
+    drawn_begin[n] = cell.begin;
+    drawn_count[n] = drawn ? (cell.count + TRI_SHARE.y - 1u) / TRI_SHARE.y : 0u;
+  }
+  barrier();
+  if (n == 0u) {
+    uint groups = 0u;
+    for (uint k = 0u; k < 32u; ++k) {
+      list.begin[k] = drawn_begin[k];
+      list.count[k] = drawn_count[k];
+      groups += (drawn_count[k] + TRI_MESH_SPRITES - 1u) / TRI_MESH_SPRITES;
+      list.end[k] = groups;
+    }
+    list.groups = groups;
+  }
+  barrier();
+  EmitMeshTasksEXT(list.groups, 1, 1);
+}
