@@ -32,6 +32,7 @@ vk::raii::RenderPass colour_pass(const Gpu& gpu, vk::Format format, vk::Attachme
 
 vk::raii::Framebuffer colour_framebuffer(const Gpu& gpu, const vk::raii::RenderPass& pass,
                                          const Image& target) {
+  if (!gpu.executes) return nullptr;
   const vk::ImageView view = target.view();
   return {gpu.device, vk::FramebufferCreateInfo{.renderPass = *pass,
                                                 .attachmentCount = 1,

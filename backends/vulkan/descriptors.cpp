@@ -63,6 +63,7 @@ void bind_buffer(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
     throw core::NotSupported(fmt::format("needs {} bytes in one buffer; maxStorageBufferRange = {}",
                                          buffer.size(), most));
   }
+  if (!gpu.executes) return;
   const vk::DescriptorBufferInfo info{.buffer = buffer.get(), .range = buffer.size()};
   gpu.device.updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set,
                                                          .dstBinding = binding,
@@ -79,12 +80,14 @@ vk::raii::BufferView texel_view(const Gpu& gpu, const Buffer& buffer, vk::Format
     throw core::NotSupported(
         fmt::format("needs {} texels in one buffer; maxTexelBufferElements = {}", texels, most));
   }
+  if (!gpu.executes) return nullptr;
   return {gpu.device, vk::BufferViewCreateInfo{
                           .buffer = buffer.get(), .format = format, .range = VK_WHOLE_SIZE}};
 }
 
 void bind_texels(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                  const vk::raii::BufferView& view) {
+  if (!gpu.executes) return;
   const vk::BufferView texels = *view;
   gpu.device.updateDescriptorSets(
       vk::WriteDescriptorSet{.dstSet = set,
@@ -97,6 +100,7 @@ void bind_texels(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
 
 void bind_storage_image(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                         const Image& image) {
+  if (!gpu.executes) return;
   const vk::DescriptorImageInfo info{.imageView = image.view(),
                                      .imageLayout = vk::ImageLayout::eGeneral};
   gpu.device.updateDescriptorSets(
@@ -110,6 +114,7 @@ void bind_storage_image(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t bin
 
 void bind_texture(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding, const Image& image,
                   const vk::raii::Sampler& sampler) {
+  if (!gpu.executes) return;
   const vk::DescriptorImageInfo info{.sampler = *sampler,
                                      .imageView = image.view(),
                                      .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};

@@ -44,7 +44,8 @@ Frames::Frames(const Gpu& gpu, vk::QueryPipelineStatisticFlags statistics, const
       statistic_flags_(gpu.features.pipelineStatisticsQuery == VK_TRUE
                            ? statistics
                            : vk::QueryPipelineStatisticFlags{}),
-      fence_(gpu.device, vk::FenceCreateInfo{}),
+      fence_(gpu.executes ? vk::raii::Fence(gpu.device, vk::FenceCreateInfo{})
+                          : vk::raii::Fence(nullptr)),
       timed_(record(timed, vk::QueryType::eTimestamp, gpu.timestamp_bits > 0)),
       counted_by_driver_(
           record(timed, vk::QueryType::ePipelineStatistics, bool(statistic_flags_))) {}

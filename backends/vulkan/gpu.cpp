@@ -44,6 +44,17 @@ bool reports_code(const vk::raii::PhysicalDevice& physical) {
              .pipelineExecutableInfo == VK_TRUE;
 }
 
+// A GPU that is not here has heaps of 0 bytes. They are given a size, so that what the GPU itself
+// would hold is compiled; nothing is ever written to them.
+vk::PhysicalDeviceMemoryProperties memory_of(const vk::raii::PhysicalDevice& physical,
+                                             bool executes) {
+  vk::PhysicalDeviceMemoryProperties memory = physical.getMemoryProperties();
+  for (std::uint32_t heap = 0; !executes && heap < memory.memoryHeapCount; ++heap) {
+    memory.memoryHeaps[heap].size = vk::DeviceSize{1} << 40;
+  }
+  return memory;
+}
+
 }  // namespace
 
 Gpu open_gpu(const vk::raii::PhysicalDevice& physical, bool labelled, bool executes) {
@@ -87,7 +98,7 @@ Gpu open_gpu(const vk::raii::PhysicalDevice& physical, bool labelled, bool execu
   vk::raii::CommandPool commands(device, vk::CommandPoolCreateInfo{.queueFamilyIndex = family});
   return Gpu{.physical = physical,
              .properties = properties,
-             .memory = physical.getMemoryProperties(),
+             .memory = memory_of(physical, executes),
              .features = features,
              .extensions = request.extensions(),
              .family = family,

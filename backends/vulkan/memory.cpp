@@ -23,6 +23,7 @@ vk::DeviceSize heap_size(const Gpu& gpu, std::uint32_t type) {
 
 // Never of a heap that is too small, as one of 0 bytes is, whatever it is marked as.
 std::uint32_t memory_type(const Gpu& gpu, const vk::MemoryRequirements& needed, Place place) {
+  if (!gpu.executes) return 0;  // RADV lists no types without a GPU, and takes the first
   using enum vk::MemoryPropertyFlagBits;
   const vk::MemoryPropertyFlags host = eHostVisible | eHostCoherent;
   // In order of preference; the last of each is guaranteed by the specification.
@@ -129,6 +130,8 @@ Image::Image(const Gpu& gpu, vk::ImageType type, vk::Format format, vk::Extent3D
       memory_(nullptr),
       image_(translated(
           [&] {
+            // RADV of Mesa 22.3 crashes in vkCreateImage without a GPU. No pipeline needs one.
+            if (!gpu.executes) return vk::raii::Image(nullptr);
             return vk::raii::Image(gpu.device, vk::ImageCreateInfo{.imageType = type,
                                                                    .format = format,
                                                                    .extent = extent,
@@ -138,6 +141,7 @@ Image::Image(const Gpu& gpu, vk::ImageType type, vk::Format format, vk::Extent3D
           },
           code_place)),
       view_(nullptr) {
+  if (!gpu.executes) return;
   const vk::MemoryRequirements needed = image_.getMemoryRequirements();
   memory_ = allocate(gpu, needed, Place::device, code_place);
   held_ = gpu.held.image(needed.size);

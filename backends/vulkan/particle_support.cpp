@@ -93,6 +93,7 @@ std::optional<std::string> picture_reason(const Gpu& gpu, int width, int height,
 }
 
 std::optional<std::string> memory_reason(const Gpu& gpu, std::uint64_t needed) {
+  if (!gpu.executes) return std::nullopt;  // the GPU is not here, and neither is its memory
   std::uint64_t largest = 0;
   for (std::uint32_t heap = 0; heap < gpu.memory.memoryHeapCount; ++heap) {
     const vk::MemoryHeap& each = gpu.memory.memoryHeaps[heap];

@@ -60,6 +60,7 @@ vk::raii::RenderPass make_pass(const Gpu& gpu, bool continued) {
 
 vk::raii::Framebuffer make_framebuffer(const Gpu& gpu, const vk::raii::RenderPass& pass,
                                        std::span<const vk::ImageView> views, vk::Extent3D extent) {
+  if (!gpu.executes) return nullptr;
   return {gpu.device,
           vk::FramebufferCreateInfo{.renderPass = *pass,
                                     .attachmentCount = static_cast<std::uint32_t>(views.size()),

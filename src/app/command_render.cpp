@@ -119,7 +119,7 @@ Drawn draw_within_error(const Drawing& drawing, const measure::Plan& plan,
 core::ExitCode describe_data(const Registry& registry, const FrameArguments& arguments) {
   const auto [suite, plan] = choose_data(registry, arguments);
   for (const std::string& line : suite.describe_data(plan.configurations.front())) {
-    fmt::print("{}\n", line);
+    put_lines(line + "\n");
   }
   return core::ExitCode::pass;
 }
@@ -137,7 +137,7 @@ void prepare_process(const RenderArguments& arguments) {
   ::setenv("TRIPTYCH_DUMP", fs::absolute(arguments.dump).c_str(), 1);
 }
 
-core::ExitCode keep(const RenderArguments& arguments, const measure::Suite& suite,
+core::ExitCode keep(const RenderArguments& arguments, measure::SuiteWithTruth& suite,
                     const record::Record& record, const record::Device& device,
                     const core::Image& image,
                     const std::function<judge::TruthPair(const record::Record&)>& truth) {

@@ -21,7 +21,7 @@ namespace {
 
 // Everything that a driver must get right, whatever its speed: ordinary scenes with every
 // technique, hostile scenes, and closed forms.
-constexpr std::array<const char*, 6> plans{"volume/quick",     "volume/stress",
+constexpr std::array<const char*, 6> validation_plans{"volume/quick",     "volume/stress",
                                            "volume/accuracy",  "particles/quick",
                                            "particles/stress", "particles/accuracy"};
 
@@ -47,7 +47,7 @@ record::Checks checks_of(const record::Checks& of_plan) {
 }
 
 Measuring measuring_of(const ValidateArguments& arguments, const std::string& file) {
-  return {.plans = {plans.begin(), plans.end()},
+  return {.plans = {validation_plans.begin(), validation_plans.end()},
           .choice = arguments.choice,
           .devices = arguments.devices,
           .store = file,
@@ -94,7 +94,7 @@ class Validation {
         known_(std::move(known)) {}
 
   void judge_all() {
-    for (const char* typed : plans) {
+    for (const char* typed : validation_plans) {
       const measure::Plan plan = arguments_.choice.load(typed, registry_.find_suite());
       if (!plan.configurations.empty()) results_.push_back(judge_plan(plan));
     }

@@ -16,7 +16,7 @@ void clear_line() {
 void show_loading(const measure::Loading& loading) {
   if (!loading.note.empty()) {
     clear_line();
-    fmt::print(stderr, "{}: {}\n", loading.what, loading.note);
+    say("{}: {}\n", loading.what, loading.note);
     return;
   }
   if (loading.share < 1) {

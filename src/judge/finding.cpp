@@ -199,6 +199,7 @@ std::string kind_of(const Observation& what) {
     if (each.unit == Unit::misses && !alone) continue;  // more code misses more
     kind += " " + each.name;
   }
+  if (what.cause == Cause::device_fault) kind += " " + what.fact("kind");
   if (what.cause == Cause::unknown_values) kind += fmt::format(" {}", fmt::join(what.names, " "));
   for (const Observation& each : what.because) kind += "; " + kind_of(each);
   return kind;

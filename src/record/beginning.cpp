@@ -20,6 +20,12 @@ std::vector<std::string> all_in(const std::vector<Beginning>& parts,
   return {all.begin(), all.end()};
 }
 
+// As they are read back, so that seals hold.
+std::vector<std::string> mended(std::vector<std::string> texts) {
+  for (std::string& each : texts) each = core::mended_utf8(each);
+  return texts;
+}
+
 }  // namespace
 
 bool Beginning::asks_for(std::string_view device) const {
@@ -33,7 +39,8 @@ bool Beginning::asks_for_api(std::string_view api) const {
 }
 
 void to_json(Json& json, const Unusable& unusable) {
-  json = {{"what", unusable.what}, {"reason", unusable.reason}};
+  json = {{"what", core::mended_utf8(unusable.what)},
+          {"reason", core::mended_utf8(unusable.reason)}};
   if (unusable.ended) json["ended"] = *unusable.ended;
 }
 
@@ -43,10 +50,10 @@ void from_json(const Json& json, Unusable& unusable) {
 }
 
 void to_json(Json& json, const Beginning& beginning) {
-  json = {{"host", beginning.host},
-          {"asked", beginning.asked},
-          {"found", beginning.found},
-          {"devices", beginning.devices},
+  json = {{"host", core::mended_utf8(beginning.host)},
+          {"asked", mended(beginning.asked)},
+          {"found", mended(beginning.found)},
+          {"devices", mended(beginning.devices)},
           {"unusable", beginning.unusable}};
 }
 

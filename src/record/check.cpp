@@ -7,18 +7,46 @@
 namespace triptych::record {
 namespace {
 
-constexpr Names<Check, 10> check_names{{
-    {Check::image, "image"},
-    {Check::counters, "counters"},
-    {Check::statistics, "statistics"},
-    {Check::cost, "cost"},
-    {Check::code, "code"},
-    {Check::memory, "memory"},
-    {Check::timing, "timing"},
-    {Check::correlation, "correlation"},
-    {Check::accuracy, "accuracy"},
-    {Check::stress, "stress"},
-}};
+// In the order of the enum. A switch, so that the compiler warns of a check without a name.
+constexpr std::string_view checked_name(Check check) {
+  switch (check) {
+    case Check::image:
+      return "image";
+    case Check::counters:
+      return "counters";
+    case Check::statistics:
+      return "statistics";
+    case Check::cost:
+      return "cost";
+    case Check::code:
+      return "code";
+    case Check::memory:
+      return "memory";
+    case Check::timing:
+      return "timing";
+    case Check::correlation:
+      return "correlation";
+    case Check::accuracy:
+      return "accuracy";
+    case Check::stress:
+      return "stress";
+  }
+  return {};
+}
+
+constexpr std::size_t check_count = [] {
+  std::size_t count = 0;
+  while (!checked_name(static_cast<Check>(count)).empty()) ++count;
+  return count;
+}();
+
+constexpr Names<Check, check_count> check_names = [] {
+  Names<Check, check_count> names{};
+  for (std::size_t i = 0; i < check_count; ++i) {
+    names[i] = {static_cast<Check>(i), checked_name(static_cast<Check>(i))};
+  }
+  return names;
+}();
 
 }  // namespace
 

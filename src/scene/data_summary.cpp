@@ -61,11 +61,14 @@ void add_notes(std::vector<std::string>& lines, const ReadFacts& facts) {
 }
 
 std::string unit_text(const ReadFacts& facts) {
+  if (facts.format.empty()) return {};  // generated
   return facts.unit.empty() ? " (the file states no unit)" : " " + facts.unit;
 }
 
-// Values counted in equal steps of their range: exact to a 65536th of it.
+// Values counted in equal steps of their range: integers exactly if no more than 65536 differ, others
+// to a 65535th of the range.
 struct Histogram {
+  double step = 0;
   std::vector<std::uint64_t> counts = std::vector<std::uint64_t>(65536);
   std::uint64_t finite = 0;
   std::uint64_t other = 0;
@@ -74,7 +77,10 @@ struct Histogram {
 Histogram histogram_of(const Volume& volume) {
   Histogram histogram;
   const double lo = volume.range_lo;
-  const double steps = volume.range_hi > lo ? 65535 / (volume.range_hi - lo) : 0;
+  const double range = volume.range_hi - lo;
+  const bool floats = volume.type == ScalarType::f32 || volume.type == ScalarType::f64;
+  histogram.step = !floats && range <= 65535 ? 1 : range / 65535;
+  const double steps = histogram.step > 0 ? 1 / histogram.step : 0;
   with_scalar_type(volume.type, [&](auto zero) {
     using Scalar = decltype(zero);
     for (std::size_t i = 0; i < volume.voxel_count(); ++i) {
@@ -99,7 +105,7 @@ double percentile_of(const Histogram& histogram, const Volume& volume, double pe
     below += histogram.counts[step];
     if (static_cast<double>(below) >= rank) break;
   }
-  return volume.range_lo + (volume.range_hi - volume.range_lo) * static_cast<double>(step) / 65535;
+  return volume.range_lo + histogram.step * static_cast<double>(step);
 }
 
 void append_picture(std::vector<std::string>& lines, const Volume& volume) {

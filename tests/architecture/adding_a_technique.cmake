@@ -8,7 +8,7 @@ file(COPY ${SOURCE}/CMakeLists.txt ${SOURCE}/cmake ${SOURCE}/src ${SOURCE}/backe
 
 function(configure code said)
   execute_process(
-    COMMAND ${CMAKE_COMMAND} -S ${copy} -B ${FOLDER}/build -G Ninja -DCMAKE_BUILD_TYPE=Debug
+    COMMAND ${CMAKE_COMMAND} -S ${copy} -B ${FOLDER}/build -G Ninja -DCMAKE_BUILD_TYPE=Debug -DTRIPTYCH_UNITY=OFF
             -DCMAKE_CXX_COMPILER=${COMPILER} -DTRIPTYCH_BUILD_TESTS=OFF
     RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   string(REGEX REPLACE "[ \n]+" " " output "${output}")

@@ -7,6 +7,7 @@ import itertools
 import os
 import sys
 import tempfile
+import time
 import unittest
 
 import devtools
@@ -68,6 +69,21 @@ class Everywhere(PageTest):
                 self.assertIn(("slider", "Border between left and right"), told)
             named = {"button", "link", "image", "img", "search", "dialog", "DisclosureTriangle"}
             self.assertEqual([role for role, text in told if role in named and not text], [], name)
+
+    # The Content-Security-Policy allows only the script whose hash it names.
+    def test_a_planted_script_does_not_run(self):
+        for name in made:
+            page = self.opened(name)
+            page.value("""(() => {
+                const script = document.createElement('script');
+                script.textContent = 'window.planted = 1';
+                const image = document.createElement('img');
+                image.setAttribute('onerror', 'window.planted = 2');
+                image.src = 'data:,x';
+                document.body.append(script, image);
+                return 0; })()""")
+            time.sleep(0.3)
+            self.assertEqual(page.value("window.planted === undefined"), True, name)
 
     def test_a_pass_is_small(self):
         self.assertLess(os.path.getsize(made["pass"]), 2_000_000)

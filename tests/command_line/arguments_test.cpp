@@ -12,11 +12,11 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string plan = std::string(tiny_plan) + "step: [1]\n";
+const std::string one_step_plan = std::string(tiny_plan) + "step: [1]\n";
 
 class Arguments : public testing::Test {
  protected:
-  Arguments() { program.write("p.yaml", plan); }
+  Arguments() { program.write("p.yaml", one_step_plan); }
   Program program;
 };
 
@@ -95,7 +95,7 @@ TEST_F(Arguments, WhatIsNoTextIsRefusedWhereItStands) {
   EXPECT_EQ(listed.code, 3);
   EXPECT_THAT(listed.output, HasSubstr("bytes.yaml:2:8: 'data'"));
   // A plan's name is its file's, which may be anything.
-  program.write("p\xff.yaml", plan);
+  program.write("p\xff.yaml", one_step_plan);
   const Result named = program.run("list 'p\xff.yaml' --json");
   EXPECT_EQ(named.code, 0) << named.output;
   EXPECT_FALSE(nlohmann::json::parse(named.output).empty());

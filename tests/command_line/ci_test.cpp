@@ -18,7 +18,7 @@ using test::Result;
 using testing::HasSubstr;
 
 // Told by the environment what to answer.
-constexpr const char* program = R"(#!/bin/sh
+constexpr const char* stand_in_program = R"(#!/bin/sh
 echo "$*" >> calls
 exit ${GATE:-0}
 )";
@@ -35,7 +35,7 @@ class Ci : public testing::Test {
     }
     static_cast<void>(folder.write("ci/environment", ""));
     make("ci/setup", "#!/bin/sh\n");
-    make("build/release/src/app/triptych", program);
+    make("build/release/src/app/triptych", stand_in_program);
   }
 
   // `environment`: NAME=VALUE…

@@ -112,7 +112,7 @@ TEST_F(Compare, TheGateJudgesByABase) {
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --inject crash"), 1, "b crashed");
   expect_verdict(gate("--base nothing"), 3,
                  "--base nothing: is neither an executable program nor NAME=VALUE");
-  expect_verdict(gate("--base /bin/true"), 3, "--base /bin/true: no triptych");
+  expect_verdict(gate("--base /bin/true"), 3, "--base /bin/true: is not a build of triptych");
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --measure"), 3, "excludes");
   expect_verdict(gate("--bisect --base " TRIPTYCH_PROGRAM " --measure"), 125, "excludes");
   expect_verdict(gate("--bisect --no-such-option"), 125, "no-such-option");
@@ -148,7 +148,7 @@ TEST_F(Compare, WrongUsageIsOneLine) {
 TEST_F(Compare, AnotherProgramServesItsSide) {
   expect_verdict(compare(b_as(1), "--b-program " TRIPTYCH_PROGRAM), 0, "PASS: 1 same");
   expect_verdict(compare(b_as(1), "--b-program /bin/true"), 3,
-                 "--b-program /bin/true: no triptych");
+                 "--b-program /bin/true: is not a build of triptych");
 }
 
 TEST_F(Compare, SideBySideNeedsAStoreOfTwoDevices) {

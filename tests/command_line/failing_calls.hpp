@@ -57,7 +57,6 @@ inline int error_of(unsigned long long call, long number) {
       return EACCES;
     case SYS_mmap:
     case SYS_mremap:
-    case SYS_brk:
       return ENOMEM;
     case SYS_pipe2:
       return EMFILE;

@@ -2,6 +2,8 @@
 // everything there, or with a code and a line that say what happened; never with half a baseline.
 // TRIPTYCH_KILLS=N tries N calls of each command instead of 12, spread over all of them.
 
+#include "failing_calls.hpp"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +12,6 @@
 #include <iterator>
 #include <sstream>
 
-#include "failing_calls.hpp"
 #include "program.hpp"
 #include "record/merge/merge.hpp"
 #include "record/store.hpp"
@@ -83,7 +84,8 @@ TEST_F(FailingCalls, ARunIsCompleteOrSaysThatItIsNot) {
           const record::Store store(program.folder() / "s.sqlite", record::Store::Mode::read);
           EXPECT_TRUE(record::gaps_of(store).empty());
         }
-        const Result resumed = program.run("run " + volume + " --store s.sqlite --resume", script());
+        const Result resumed =
+            program.run("run " + volume + " --store s.sqlite --resume", script());
         EXPECT_EQ(resumed.code, 0) << resumed.output;
       });
 }
@@ -118,7 +120,9 @@ TEST_F(FailingCalls, AMergeIsWholeOrNotThere) {
       "merge a.sqlite b.sqlite --out m.sqlite", [&] { remove_store("m.sqlite"); },
       [&](int code) {
         const bool there = fs::exists(program.folder() / "m.sqlite");
-        EXPECT_EQ(there, code == 0);
+        // A call can also fail after the merged store is complete, while the parts are checked for
+        // gaps.
+        EXPECT_TRUE(there || code != 0);
         if (!there) return;
         const record::Store store(program.folder() / "m.sqlite", record::Store::Mode::read);
         store.require_whole();

@@ -85,8 +85,8 @@ TEST(Hostile, ARunPrintsNamesAsText) {
   const std::string name = "a\x1b[2J\u202Eb.yaml";
   program.write(name, tiny_plan);
   for (const char* command : {"run", "list", "gate --measure"}) {
-    const Result result = program.run(std::string(command) + " '" + name +
-                                      "' --store s.sqlite 2>&1");
+    const std::string store = std::string(command) == "list" ? "" : " --store s.sqlite";
+    const Result result = program.run(std::string(command) + " '" + name + "'" + store + " 2>&1");
     for (const char* hidden : {"\x1b", "\u202E"}) {
       EXPECT_THAT(result.output, Not(HasSubstr(hidden))) << command;
     }

@@ -91,6 +91,16 @@ TEST(FullDisk, AReportThatDoesNotFitLeavesTheOldOne) {
   EXPECT_EQ(program.read("r.html"), "old");
 }
 
+TEST(FullDisk, AGateWhoseFilesDoNotFitIsNoPass) {
+  const Program program;
+  ASSERT_EQ(program.run(small + "--set data=generate:gaussian_blob:16").code, 0);
+  ASSERT_EQ(program.run("accept volume/quick --reason x --store s.sqlite --baselines b").code, 0);
+  const Result result = program.run("gate volume/quick --store s.sqlite --baselines b --out out",
+                                    "{}", files_up_to(8));
+  EXPECT_EQ(result.code, 3) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("is the disk full"));
+}
+
 TEST(FullDisk, AnAcceptThatDoesNotFitChangesNothing) {
   const Program program;
   if (test::run_command("unshare -rm true").code != 0) {

@@ -162,7 +162,7 @@ TEST_F(PasteOnDevice, TheCommandOfASlowerKernelCountsAndJudgesItAgain) {
 }
 
 TEST_F(PasteOnDevice, TheCommandOfAShiftedPictureDrawsItAgain) {
-  const Printed command = command_about("half_voxel_shift", "image", "over the bound");
+  const Printed command = command_about("half_voxel_shift", "image", "exceed the error bound");
   if (command.arguments.empty() && !HasFailure()) GTEST_SKIP() << "there is no " << device;
   EXPECT_THAT(command.arguments, HasSubstr("render volume "));
   expect_code(command, 1);

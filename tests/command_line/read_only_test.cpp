@@ -1,5 +1,6 @@
 // A store that cannot be written is judged all the same: an artifact of CI, somebody else's run.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -60,7 +60,7 @@ kill -INT $!; wait $!; code=$?; cat out; exit $code
 TEST_F(Resume, AValidationGoesOn) {
   const auto first_told = [&](const std::string& options) {
     const Result ended = validate_one(program, options);
-    EXPECT_THAT(ended.output, HasSubstr("what was measured is in the store, --resume continues"));
+    EXPECT_THAT(ended.output, HasSubstr("the records so far are in the store; --resume continues"));
     const std::string from = ended.output.substr(ended.output.find("camera="));
     return from.substr(0, from.find(": "));
   };
@@ -74,14 +74,14 @@ TEST_F(Resume, AnInterruptedValidationEndsWithTheLastScreen) {
   const Result ended = validate_one(program, "--junit j.xml --json j.json");
   EXPECT_EQ(ended.code, 1) << ended.output;  // its picture is no right one
   EXPECT_THAT(ended.output, HasSubstr("Triptych   1 device"));
-  EXPECT_THAT(ended.output, HasSubstr("missing rows"));
-  EXPECT_THAT(ended.output, HasSubstr("no run was begun"));
+  EXPECT_THAT(ended.output, HasSubstr("have no record"));
+  EXPECT_THAT(ended.output, HasSubstr("no run was started"));
   EXPECT_THAT(ended.output, HasSubstr("exit 1: "));
   EXPECT_THAT(ended.output, HasSubstr("validation/report.html"));
   EXPECT_THAT(program.read("j.xml"), HasSubstr("volume/quick.image"));
   EXPECT_THAT(program.read("j.xml"), HasSubstr("particles/accuracy.image"));
-  EXPECT_THAT(program.read("j.json"), HasSubstr("missing rows"));
-  EXPECT_THAT(program.read("validation/gate.log"), HasSubstr("missing rows"));
+  EXPECT_THAT(program.read("j.json"), HasSubstr("\"cause\": \"missing\""));
+  EXPECT_THAT(program.read("validation/gate.log"), HasSubstr("have no record"));
 }
 
 TEST_F(Resume, AnInterruptedValidationDoesNotJudgeTheOneBefore) {
@@ -91,7 +91,7 @@ TEST_F(Resume, AnInterruptedValidationDoesNotJudgeTheOneBefore) {
                      "--store validation/validation.sqlite")
                 .code,
             0);
-  EXPECT_THAT(validate_one(program, "--json j.json").output, HasSubstr("no run was begun"));
+  EXPECT_THAT(validate_one(program, "--json j.json").output, HasSubstr("no run was started"));
   EXPECT_THAT(program.read("j.json"), ::testing::Not(HasSubstr("technique=point")));
 }
 

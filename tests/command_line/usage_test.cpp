@@ -80,7 +80,7 @@ TEST(Usage, ASuiteHasNothingToOverride) {
   const Program program;
   for (const char* choice : {"--set nonsense=1", "--shard 9/2"}) {
     expect_refused(program.run(std::string("list volume ") + choice), 3,
-                   "volume is a suite: --set and --shard are for a plan");
+                   "volume is a suite: --set and --shard need a plan");
   }
 }
 
@@ -123,7 +123,7 @@ TEST(Usage, AnInterruptOffersAResumeWhereThereIsOne) {
   expect_refused(program.run("render volume " + hang + " --out picture", script, interrupted), 124,
                  "triptych: interrupted\n");
   const Result run = program.run("run volume/quick " + hang, script, interrupted);
-  EXPECT_NE(run.output.find("interrupted; what was measured is in the store, --resume continues"),
+  EXPECT_NE(run.output.find("interrupted; the records so far are in the store; --resume continues"),
             std::string::npos)
       << run.output;
 }

@@ -15,12 +15,12 @@ using measure::VolumeWork;
 using scene::VoxelFormat;
 using technique::Sampler;
 
-constexpr std::array<int, 3> size{40, 36, 44};
+constexpr std::array<int, 3> volume_size{40, 36, 44};
 
 measure::Work work_of(const char* data, VoxelFormat format, Sampler sampler) {
   scene::VolumeScene scene = small_scene("surfaces");
   scene.grid = std::make_shared<const scene::VoxelGrid>(
-      scene::encode(scene::generate_volume(data, size), format));
+      scene::encode(scene::generate_volume(data, volume_size), format));
   scene.camera = scene::camera_at("orbit_y:1/8", scene.box(), 90);
   return {.technique = "raycast",
           .scene =
@@ -51,7 +51,7 @@ TEST(Halves, StayWithinTheBoundOfTheDataThatTheyRound) {
             work.technique = technique;
             std::get<VolumeWork>(work.scene).scene.shading.enabled = shading;
             if (device.unsupported(work)) continue;
-            scene::Volume exact = scene::generate_volume(data, size);
+            scene::Volume exact = scene::generate_volume(data, volume_size);
             ASSERT_FALSE(scene::fits_halves(exact));
             scene::VolumeScene scene = std::get<VolumeWork>(work.scene).scene;
             const VoxelFormat native = scene::lossless_format(exact);
@@ -118,9 +118,9 @@ TEST(Halves, TakeHalfTheMemoryOfFloats) {
       return held;
     };
     const auto voxels = [](int border) {
-      return static_cast<std::uint64_t>(size[0] + border) *
-             static_cast<std::uint64_t>(size[1] + border) *
-             static_cast<std::uint64_t>(size[2] + border);
+      return static_cast<std::uint64_t>(volume_size[0] + border) *
+             static_cast<std::uint64_t>(volume_size[1] + border) *
+             static_cast<std::uint64_t>(volume_size[2] + border);
     };
     const std::uint64_t saved = bytes_held(VoxelFormat::f32) - bytes_held(VoxelFormat::f16);
     const std::uint64_t expected = 2 * voxels(device.info().api == "opencl" ? 2 : 0);

@@ -46,7 +46,7 @@ class FramePrograms : public testing::Test {
         << printed.output;
     const core::Image image = core::read_exr(folder_.path() / "frame" / "image.exr");
     for (std::size_t channel = 0; channel < 4; ++channel) {
-      EXPECT_EQ(std::stof(found[static_cast<int>(channel) + 1]), image.pixel(7, 8).at(channel));
+      EXPECT_EQ(std::stof(found[channel + 1]), image.pixel(7, 8).at(channel));
     }
   }
 

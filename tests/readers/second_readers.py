@@ -213,6 +213,15 @@ def by_vtk(path, name, all_points=True):
         return Volume(values.reshape(sizes[::-1]), image.GetSpacing())
 
 
+def by_vtk_metaimage(path):
+    head = path.read_bytes()[:4096].decode("latin-1").lower()
+    if "compresseddata = true" in head and "compresseddatasize" not in head:
+        raise Refused("VTK needs CompressedDataSize")
+    if "ndims = 4" in head:
+        raise Refused("VTK reads no fourth dimension")
+    return by_vtk(path, "vtkMetaImageReader")
+
+
 def by_hand_dat(path):
     return Volume(*generated_files.parse_dat(path, Refused))
 
@@ -229,7 +238,7 @@ READERS = {
     ".mmpld": ("particles", by_hand_mmpld, "python3-numpy"),
     ".nrrd": ("volume", by_teem_or_hand_nrrd, "teem-apps, else python3-numpy"),
     ".nii": ("volume", by_nibabel, "python3-nibabel"),
-    ".mha": ("volume", lambda path: by_vtk(path, "vtkMetaImageReader"), "python3-vtk9"),
+    ".mha": ("volume", by_vtk_metaimage, "python3-vtk9"),
     ".vti": ("volume", lambda path: by_vtk(path, "vtkXMLImageDataReader"), "python3-vtk9"),
     ".vtk": ("volume", lambda path: by_vtk(path, "vtkStructuredPointsReader"), "python3-vtk9"),
     ".dat": ("volume", by_hand_dat, "python3-numpy"),

@@ -171,7 +171,7 @@ std::map<std::string, fs::path> files_in(const fs::path& folder) {
 }
 
 bool is_outside(const fs::path& name) {
-  return name.is_absolute() || std::ranges::find(name, fs::path("..")) != name.end();
+  return name.is_absolute() || std::find(name.begin(), name.end(), fs::path("..")) != name.end();
 }
 
 // The first file that is not as the manifest says, and how; empty where all are.
@@ -283,9 +283,13 @@ const std::string& Baselines::problem() const {
   } else {
     try {
       problem = first_change(folder_, manifest());
-      if (problem.empty()) problem = contradiction();
     } catch (const core::InputError& error) {  // what a careless merge leaves
       problem = error.what();
+    }
+    try {
+      if (problem.empty()) problem = contradiction();
+    } catch (const core::InputError&) {
+      // A file with a wrong value is an error, with its line, when a check reads it.
     }
   }
   cache_->problem = std::move(problem);

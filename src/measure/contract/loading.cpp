@@ -1,5 +1,7 @@
 #include "measure/contract/loading.hpp"
 
+#include <set>
+#include <string>
 #include <utility>
 
 namespace triptych::measure {
@@ -11,7 +13,11 @@ class Pace {
       : tell_(std::move(tell)), now_(std::move(now)) {}
 
   void operator()(const Loading& loading) {
-    if (!loading.note.empty()) return tell_(loading);
+    if (!loading.note.empty()) {
+      // Data may be loaded again, for another way to store them.
+      if (notes_.insert(loading.what + ": " + loading.note).second) tell_(loading);
+      return;
+    }
     const auto now = now_();
     if (loading.what != last_.what || loading.share < last_.share) {
       rested_since_ = now;
@@ -35,6 +41,7 @@ class Pace {
   Loading last_{.what = {}, .share = 1};
   std::chrono::steady_clock::time_point rested_since_;
   bool told_ = false;
+  std::set<std::string> notes_;  // that were passed on
 };
 
 }  // namespace

@@ -10,8 +10,7 @@ void check_counted(std::span<const std::uint32_t> counters) {
   });
   if (untouched) {
     throw NotDrawn(
-        "the frame that counts was not drawn: the driver reported it as finished, and its counters "
-        "still hold what they were filled with before it");
+        "the frame of the counters: they still hold what they were filled with before it");
   }
 }
 

@@ -21,7 +21,7 @@ std::size_t pixels_that_differ(const std::vector<Value>& one, const std::vector<
   if (std::memcmp(one.data(), other.data(), one.size() * sizeof(Value)) == 0) return 0;
   std::size_t count = 0;
   for (std::size_t at = 0; at + per_pixel <= one.size(); at += per_pixel) {
-    count += std::memcmp(&one[at], &other[at], per_pixel * sizeof(Value)) != 0 ? 1 : 0;
+    if (std::memcmp(&one[at], &other[at], per_pixel * sizeof(Value)) != 0) ++count;
   }
   return count;
 }
@@ -36,7 +36,7 @@ std::size_t pixels_without_value(const core::Image& image) {
   std::size_t count = 0;
   for (std::size_t at = 0; at + 4 <= image.rgba.size(); at += 4) {
     const std::span pixel = std::span(image.rgba).subspan(at, 4);
-    count += std::ranges::all_of(pixel, [](float each) { return std::isnan(each); }) ? 1 : 0;
+    if (std::ranges::all_of(pixel, [](float each) { return std::isnan(each); })) ++count;
   }
   return count;
 }
@@ -70,10 +70,10 @@ void FrameProof::read(std::string_view what) {
     return;
   }
   if (without_value_ > first_without_value_) {
-    throw NotDrawn(fmt::format(
-        "{} was not drawn: the driver reported it as finished, but {} of {} pixels still hold what "
-        "they were filled with before it ({} in the first frame)",
-        what, without_value_, pixels, first_without_value_));
+    throw NotDrawn(
+        fmt::format("{}: {} of {} pixels still hold what they were filled with before it, {} in "
+                    "the first frame",
+                    what, without_value_, pixels, first_without_value_));
   }
 }
 

@@ -64,7 +64,7 @@ Refused WorkerSlot::try_to_open(const Start& start,
   command.push_back(setup_.device);
   const auto closed = [this](Refused refused) {
     refused.reason.stage = record::Stage::opening;
-    if (refused.reason.subject.empty()) refused.reason.subject = setup_.device;
+    refused.reason.subject = setup_.device;  // a call that failed is named in the detail
     return refused;
   };
   std::unique_ptr<WorkerLink> worker;

@@ -25,7 +25,7 @@ std::string nothing_measured(const Observation& what) {
 }
 
 std::string missing(const Observation& what) {
-  return fmt::format("{:.0f} {} configurations were expected, but {} have no record",
+  return fmt::format("{} of {:.0f} {} configurations have no record: {}", what.names.size(),
                      what.number("wanted"), what.fact("kind"), examples(what.names));
 }
 

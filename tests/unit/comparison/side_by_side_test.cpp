@@ -38,7 +38,7 @@ TEST(SideBySide, IsTheGeometricMeanOverWhatAllMeasured) {
   EXPECT_NEAR(table->rows[1].cells.at("gl:x").ratio, 3, 1e-12);
   EXPECT_EQ(table->rows[1].best, "vulkan:y");
   EXPECT_THAT(to_text(*table), HasSubstr("1.26 (samples ×1.22)"));
-  EXPECT_THAT(to_text(*table), HasSubstr("the least  a 0.0001 M  a 0.000126 M"))
+  EXPECT_THAT(to_text(*table), HasSubstr("best  a 0.0001 M  a 0.000126 M"))
       << "b has fewer configurations";
   EXPECT_EQ(to_json(*table)["rows"][1]["best"], "vulkan:y");
 }

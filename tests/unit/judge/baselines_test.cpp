@@ -1,7 +1,9 @@
 // Accepted files that are gone, edited or strange: told from a device that is new.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/json.hpp"
 #include "fixture.hpp"
@@ -98,6 +100,16 @@ TEST_F(BaselinesTest, APictureIsStillJudgedWithoutThem) {
   std::filesystem::remove(baseline("counters.json"));
   add_run("b", [](record::Record&, core::Image& image) { image.rgba[5] += 0.5F; });
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
+}
+
+// A number that is none, or infinite, would let any error pass.
+TEST_F(BaselinesTest, NumbersThatAreNoneAreRefused) {
+  for (const char* number : {"NaN", "nan", "1e999", "-1", "null", "\"0.1\""}) {
+    rewrite("accuracy.json", fmt::format(R"({{"{}": {{"gl:x": {{"rmse": {}, "arithmetic": 0}}}}}})",
+                                         plain_, number));
+    const Baselines stored(folder_.path() / "baselines", plan);
+    EXPECT_THROW(static_cast<void>(stored.errors(plain_)), core::InputError) << number;
+  }
 }
 
 }  // namespace

@@ -28,6 +28,10 @@ class PacedLoading : public testing::Test {
     }
   }
 
+  void note(const std::string& what, const std::string& sentence) {
+    tell_({.what = what, .share = 1, .note = sentence});
+  }
+
   std::vector<double> told;
 
  private:
@@ -44,6 +48,13 @@ TEST_F(PacedLoading, NothingIsSaidOfShortLoads) {
 TEST_F(PacedLoading, OfLongOnesAWordEveryTwoSecondsAndTheEnd) {
   load("a", milliseconds(10'000), 100);
   EXPECT_THAT(told, ElementsAre(0.2, 0.4, 0.6, 0.8, 1));
+}
+
+TEST_F(PacedLoading, NotesArePassedOnAtOnceAndOnce) {
+  note("a", "guessed");
+  note("a", "guessed");
+  note("b", "guessed");
+  EXPECT_THAT(told, SizeIs(2));
 }
 
 TEST_F(PacedLoading, TimeBetweenLoadsDoesNotCount) {

@@ -335,7 +335,7 @@ TEST_F(Merge, NamesWhatWasNeverBegun) {
 TEST_F(Merge, AnEmptyShardIsAGap) {
   const fs::path file = folder_ / "empty.sqlite";
   Store store(file, Mode::append);
-  Run run = sample_run();
+  record::Run run = sample_run();
   run.configurations = 0;
   store.add_run(run);
   store.begin(run.id, {.host = "a", .found = {"null:scripted"}, .devices = {"null:scripted"}}, {});

@@ -40,7 +40,8 @@ std::string untimed_section(accuracy::AccuracyScene scene = some_scene()) {
   accuracy::evaluate(scene);
   judge::GateResult verdict;
   verdict.accuracies = {scene};
-  return accuracy_section({.prefix = "plan0", .devices = {}, .records = {}, .verdict = &verdict});
+  return accuracy_section({.prefix = "plan0", .devices = {}, .records = {}, .verdict = &verdict})
+      .text();
 }
 
 TEST(AccuracyChart, ShowsWhatLogarithmicAxesCan) {
@@ -76,9 +77,9 @@ TEST(AccuracyChart, DrawsTheFrontOfWhatItShows) {
 TEST(AccuracySection, TellsOrdersTimesAndParts) {
   judge::GateResult verdict;
   PlanData plan{.prefix = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
-  EXPECT_EQ(accuracy_section(plan), "");
+  EXPECT_TRUE(accuracy_section(plan).empty());
   verdict.accuracies = {some_scene()};
-  const std::string text = accuracy_section(plan);
+  const std::string text = accuracy_section(plan).text();
   EXPECT_THAT(text, HasSubstr("2.00 ± 0.00 (3 steps)"));
   EXPECT_THAT(text, HasSubstr("ball &lt;1&gt;"));
   EXPECT_THAT(text, HasSubstr("1 of 5"));  // dominated
@@ -116,7 +117,7 @@ TEST(AccuracySection, ComparesDevicesByTheArea) {
   judge::GateResult verdict;
   verdict.accuracies = {some_scene(), slower};
   const PlanData plan{.prefix = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
-  const std::string text = accuracy_section(plan);
+  const std::string text = accuracy_section(plan).text();
   EXPECT_THAT(text, HasSubstr(">3.00<"));
   EXPECT_THAT(text, HasSubstr(">1.00<"));
 }
@@ -132,7 +133,7 @@ TEST(AccuracySection, TellsPicturesOfOneDataApart) {
   judge::GateResult verdict;
   verdict.accuracies = {scene, finer};
   const PlanData plan{.prefix = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
-  const std::string text = accuracy_section(plan);
+  const std::string text = accuracy_section(plan).text();
   EXPECT_THAT(text, HasSubstr("ball &lt;1&gt;, viewport=128"));
   EXPECT_THAT(text, HasSubstr("viewport 64 → 128, another picture"));
   EXPECT_EQ(accuracy_title(verdict.accuracies, scene), "ball <1>, viewport=64");

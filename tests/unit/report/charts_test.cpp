@@ -89,9 +89,9 @@ TEST(SpeedOfLight, DividesTimesOnOneClock) {
     record.device_clock_trusted = bound;
     plan.records.push_back(record);
   }
-  EXPECT_THAT(speed_of_light_section(plan), HasSubstr(">1.20<"));
+  EXPECT_THAT(speed_of_light_section(plan).text(), HasSubstr(">1.20<"));
   plan.records[0].device_clock_trusted = true;
-  EXPECT_THAT(speed_of_light_section(plan), HasSubstr(">4.00<"));
+  EXPECT_THAT(speed_of_light_section(plan).text(), HasSubstr(">4.00<"));
 }
 
 TEST(TimesSection, SaysWhetherTimesDecided) {
@@ -100,9 +100,9 @@ TEST(TimesSection, SaysWhetherTimesDecided) {
   record.wall_ns = {1e6, 2e6};
   judge::GateResult verdict;
   const PlanData plan{.prefix = "plan", .devices = {}, .records = {record}, .verdict = &verdict};
-  EXPECT_THAT(times_section(plan), HasSubstr("Times: shown, not judged"));
+  EXPECT_THAT(times_section(plan).text(), HasSubstr("Times: shown, not judged"));
   verdict.times_decided = true;
-  EXPECT_THAT(times_section(plan), Not(HasSubstr("not judged")));
+  EXPECT_THAT(times_section(plan).text(), Not(HasSubstr("not judged")));
 }
 
 // What moved stands in sight, the other pairs are folded away.
@@ -115,7 +115,7 @@ TEST(CorrelationSection, FoldsPairsInWhichNothingMoved) {
   quiet.device_b = "gl:quiet";
   moved.points[0].outlier = true;
   const judge::GateResult verdict{.correlations = {moved, quiet}};
-  const std::string text = correlation_section({.prefix = "plan", .verdict = &verdict});
+  const std::string text = correlation_section({.prefix = "plan", .verdict = &verdict}).text();
   const auto folded = text.find("<details>");
   ASSERT_NE(folded, std::string::npos) << text;
   EXPECT_LT(text.find("gl:y against gl:x"), folded);

@@ -124,6 +124,15 @@ TEST(FindingGroups, DevicesChecksVerdictsAndCausesAreApart) {
   EXPECT_EQ(grouped(findings).size(), 5U);
 }
 
+TEST(FindingGroups, FaultsOfADeviceAreApart) {
+  const auto fault = [](const std::string& kind) {
+    return judge::Observation{.cause = judge::Cause::device_fault, .facts = {{"kind", kind}}};
+  };
+  const std::vector<Finding> findings{finding(regression, "gl:x", "", fault("clock_reads_zero")),
+                                      finding(regression, "gl:x", "", fault("teardown_crash"))};
+  EXPECT_EQ(grouped(findings).size(), 2U);
+}
+
 TEST(FindingGroups, AWrongPicturesCountersAreToldWithIt) {
   const std::vector<Finding> findings{
       finding(regression, "gl:x", "step=1"), finding(regression, "gl:x", "step=2"),

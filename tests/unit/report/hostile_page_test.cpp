@@ -26,7 +26,7 @@ const std::set<std::string>& known_tags() {
       "figure", "form", "g",  "h1",     "h2",   "h3",     "h4",      "h5",     "head", "header",
       "html", "img",    "input", "label", "li", "link",   "main",    "meta",   "ol",   "option",
       "output", "p",    "path", "pre",  "rect", "section", "select", "span",   "style", "summary",
-      "svg", "table",   "td", "text",   "th",   "title",  "tr",      "wbr",    "script"};
+      "svg", "code",  "mark",  "table",   "td", "text",   "th",   "title",  "tr",      "wbr",    "script"};
   return tags;
 }
 bool is_known_attribute(const std::string& name) {
@@ -121,6 +121,8 @@ record::Record record_of(const std::string& s, int number, const std::string& im
   record.cost = counts;
   record.prepare_cost = counts;
   record.counted_by = s;
+  record.code[s].statistics = {{s, 3}, {"instructions", 4}};
+  record.code[s].assembly = s;
   record.kernel_hash = s;
   record.data_hash = s;
   record.image = image;

@@ -33,7 +33,7 @@ TEST(Html, MalformedTextIsReplaced) {
   EXPECT_EQ(escape("\xC2"), "\uFFFD");                      // cut off
   EXPECT_EQ(escape("\xC0\xBC"), "\uFFFD\uFFFD");            // '<' in two bytes
   EXPECT_EQ(escape("\xED\xA0\x80"), "\uFFFD\uFFFD\uFFFD");  // half of a pair
-  EXPECT_EQ(escape("\xEF\xBF\xBF"), "\uFFFD");              // no character of XML
+  EXPECT_EQ(escape("\xEF\xBF\xBF"), "\\u{ffff}");           // no character of XML
   EXPECT_EQ(escape("\xF5\x80\x80\x80"), "\uFFFD\uFFFD\uFFFD\uFFFD");
 }
 

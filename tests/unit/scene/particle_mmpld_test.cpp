@@ -66,8 +66,8 @@ std::string file(int version, const std::vector<std::string>& frames) {
   return bytes;
 }
 
-ParticleSet load(const std::string& bytes, ColourKind colour = ColourKind::rgba8,
-                 const std::string& suffix = "") {
+ParticleSet load_mmpld(const std::string& bytes, ColourKind colour = ColourKind::rgba8,
+                       const std::string& suffix = "") {
   const TemporaryFolder folder;
   return load_particles(folder.write("a.mmpld", bytes).string() + suffix, colour);
 }
@@ -79,7 +79,7 @@ TEST(Mmpld, ReadsEveryVersion) {
                                  2, pack(1.F, 2.F, 3.F, 4.F, 5.F, 6.F));
     const std::string other =
         list(version, 2, 1, "", 1, pack(7.F, 8.F, 9.F, 2.F, byte(1), byte(2), byte(3)));
-    const ParticleSet set = load(file(version, {frame(version, {one, other})}));
+    const ParticleSet set = load_mmpld(file(version, {frame(version, {one, other})}));
     EXPECT_THAT(set.spheres,
                 ElementsAre(Sphere{1, 2, 3, 0.5}, Sphere{4, 5, 6, 0.5}, Sphere{7, 8, 9, 2}));
     EXPECT_THAT(set.rgba8, ElementsAre(0xFF3300FFU, 0xFF3300FFU, 0xFF030201U));
@@ -91,10 +91,12 @@ TEST(Mmpld, ReadsEveryVersion) {
 TEST(Mmpld, ReadsEveryKindOfPlace) {
   const std::string shorts = pack(std::int16_t{-1}, std::int16_t{2}, std::int16_t{300});
   const std::string rgba = pack(byte(1), byte(2), byte(3), byte(4));
-  EXPECT_THAT(load(file(100, {frame(100, {list(100, 3, 0, pack(2.F) + rgba, 1, shorts)})})).spheres,
-              ElementsAre(Sphere{-1, 2, 300, 2}));
   EXPECT_THAT(
-      load(file(103, {frame(103, {list(103, 4, 0, pack(2.F) + rgba, 1, pack(0.25, 1e3, -4.0))})}))
+      load_mmpld(file(100, {frame(100, {list(100, 3, 0, pack(2.F) + rgba, 1, shorts)})})).spheres,
+      ElementsAre(Sphere{-1, 2, 300, 2}));
+  EXPECT_THAT(
+      load_mmpld(
+          file(103, {frame(103, {list(103, 4, 0, pack(2.F) + rgba, 1, pack(0.25, 1e3, -4.0))})}))
           .spheres,
       ElementsAre(Sphere{0.25, 1000, -4, 2}));
 }
@@ -122,7 +124,7 @@ TEST(Mmpld, ReadsEveryKindOfColour) {
     SCOPED_TRACE(one.type);
     const std::string bytes = file(
         103, {frame(103, {list(103, 1, one.type, radius + one.header, 1, place + one.colour)})});
-    const ParticleSet set = load(bytes, ColourKind::rgba32);
+    const ParticleSet set = load_mmpld(bytes, ColourKind::rgba32);
     ASSERT_EQ(set.count(), 1U);
     EXPECT_THAT(set.rgba32[0], ElementsAre(FloatEq(one.rgb[0]), FloatEq(one.rgb[1]),
                                            FloatEq(one.rgb[2]), FloatEq(1)));
@@ -133,10 +135,10 @@ TEST(Mmpld, IntensityIsTheFilesOrTheListsRank) {
   const std::string own =
       list(100, 1, 3, pack(1.F, 0.F, 4.F), 2, pack(0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 3.F));
   const std::string plain = list(100, 1, 0, pack(1.F, 0), 1, pack(0.F, 0.F, 0.F));
-  EXPECT_THAT(load(file(100, {frame(100, {own, plain})}), ColourKind::intensity).intensity,
+  EXPECT_THAT(load_mmpld(file(100, {frame(100, {own, plain})}), ColourKind::intensity).intensity,
               ElementsAre(0.25F, 0.75F, 0.5F));
   const std::string two = list(100, 1, 0, pack(1.F, 0), 2, std::string(24, '\0'));
-  EXPECT_THAT(load(file(100, {frame(100, {two})}), ColourKind::intensity).intensity,
+  EXPECT_THAT(load_mmpld(file(100, {frame(100, {two})}), ColourKind::intensity).intensity,
               ElementsAre(0.F, 0.5F));
 }
 
@@ -145,9 +147,9 @@ TEST(Mmpld, PicksAFrame) {
     return frame(102, {list(102, 1, 0, pack(1.F, 0), 1, pack(x, 0.F, 0.F))});
   };
   const std::string bytes = file(102, {at(1), at(2)});
-  EXPECT_EQ(load(bytes).spheres[0][0], 1);
-  EXPECT_EQ(load(bytes, ColourKind::rgba8, "@1").spheres[0][0], 2);
-  EXPECT_THAT([&] { load(bytes, ColourKind::rgba8, "@2"); },
+  EXPECT_EQ(load_mmpld(bytes).spheres[0][0], 1);
+  EXPECT_EQ(load_mmpld(bytes, ColourKind::rgba8, "@1").spheres[0][0], 2);
+  EXPECT_THAT([&] { load_mmpld(bytes, ColourKind::rgba8, "@2"); },
               ThrowsMessage<core::InputError>(HasSubstr("no frame 2; the file has 2")));
 }
 
@@ -157,7 +159,7 @@ TEST(Mmpld, DropsAndCountsWhatIsNoSphere) {
   const std::string data = pack(1.F, 0.F, 0.F, 1.F, 10.F) + pack(nan, 0.F, 0.F, 1.F, 20.F) +
                            pack(2.F, 0.F, inf, 1.F, 30.F) + pack(3.F, 0.F, 0.F, 0.F, 40.F) +
                            pack(4.F, 0.F, 0.F, -1.F, 50.F) + pack(5.F, 0.F, 0.F, 1.F, 60.F);
-  const ParticleSet set = load(
+  const ParticleSet set = load_mmpld(
       file(100, {frame(100, {list(100, 2, 3, pack(0.F, 100.F), 6, data)})}), ColourKind::intensity);
   EXPECT_EQ(set.dropped, 4U);
   EXPECT_THAT(set.spheres, ElementsAre(Sphere{1, 0, 0, 1}, Sphere{5, 0, 0, 1}));
@@ -167,7 +169,7 @@ TEST(Mmpld, DropsAndCountsWhatIsNoSphere) {
 
 TEST(Mmpld, WithoutASphereIsRefused) {
   const std::string flat = list(100, 1, 0, pack(0.F, 0), 3, std::string(36, '\0'));
-  EXPECT_THAT([&] { load(file(100, {frame(100, {flat})})); },
+  EXPECT_THAT([&] { load_mmpld(file(100, {frame(100, {flat})})); },
               ThrowsMessage<core::InputError>(
                   AllOf(HasSubstr("a.mmpld: none of its 3 particles can be drawn"),
                         HasSubstr("radius above 0"))));
@@ -176,15 +178,16 @@ TEST(Mmpld, WithoutASphereIsRefused) {
 TEST(Mmpld, RefusesEveryTruncation) {
   const std::string bytes =
       file(103, {frame(103, {list(103, 1, 3, pack(1.F, 0.F, 1.F), 1, pack(0.F, 0.F, 0.F, 1.F))})});
-  EXPECT_EQ(load(bytes).count(), 1U);
+  EXPECT_EQ(load_mmpld(bytes).count(), 1U);
   for (std::size_t size = 0; size < bytes.size(); ++size) {
-    EXPECT_THROW(load(bytes.substr(0, size)), core::InputError) << size;
+    EXPECT_THROW(load_mmpld(bytes.substr(0, size)), core::InputError) << size;
   }
 }
 
-void expect_refused(const std::string& bytes, const std::string& expectation) {
-  EXPECT_THAT([&] { load(bytes); }, ThrowsMessage<core::InputError>(AllOf(
-                                        HasSubstr("a.mmpld: byte "), HasSubstr(expectation))));
+void expect_mmpld_refused(const std::string& bytes, const std::string& expectation) {
+  EXPECT_THAT(
+      [&] { load_mmpld(bytes); },
+      ThrowsMessage<core::InputError>(AllOf(HasSubstr("a.mmpld: byte "), HasSubstr(expectation))));
 }
 
 TEST(Mmpld, SaysWhatItExpected) {
@@ -193,19 +196,19 @@ TEST(Mmpld, SaysWhatItExpected) {
     return file(100,
                 {frame(100, {list(100, vertex, colour, header, count, std::string(12, '\0'))})});
   };
-  expect_refused("MMPLE" + with(1, 0, 1).substr(5), "byte 0: expected 'MMPLD'");
-  expect_refused(file(104, {frame(104, {})}), "version from 100 to 103, found 104");
-  expect_refused(with(5, 0, 1), "vertex type from 0 to 4, found 5");
-  expect_refused(with(1, 8, 1), "colour type from 0 to 7, found 8");
-  expect_refused(with(1, 0, 2), "where the list's particles was expected");
-  expect_refused(with(1, 0, 0), "expected the frame's end");
-  expect_refused(with(1, 0, 4'294'967'295), "too many; at most 4294967294");
-  expect_refused(with(1, 0, ~std::uint64_t{0}), "too many");
-  expect_refused(file(100, {frame(100, {})}), "expected particles");
-  expect_refused(file(100, {}), "no frame 0; the file has 0");
+  expect_mmpld_refused("MMPLE" + with(1, 0, 1).substr(5), "byte 0: expected 'MMPLD'");
+  expect_mmpld_refused(file(104, {frame(104, {})}), "version from 100 to 103, found 104");
+  expect_mmpld_refused(with(5, 0, 1), "vertex type from 0 to 4, found 5");
+  expect_mmpld_refused(with(1, 8, 1), "colour type from 0 to 7, found 8");
+  expect_mmpld_refused(with(1, 0, 2), "where the list's particles was expected");
+  expect_mmpld_refused(with(1, 0, 0), "expected the frame's end");
+  expect_mmpld_refused(with(1, 0, 4'294'967'295), "too many; at most 4294967294");
+  expect_mmpld_refused(with(1, 0, ~std::uint64_t{0}), "too many");
+  expect_mmpld_refused(file(100, {frame(100, {})}), "expected particles");
+  expect_mmpld_refused(file(100, {}), "no frame 0; the file has 0");
   std::string table = with(1, 0, 1);
   table.replace(60, 8, pack(std::uint64_t{8}));
-  expect_refused(table, "expected frame 0 between byte");
+  expect_mmpld_refused(table, "expected frame 0 between byte");
 }
 
 }  // namespace

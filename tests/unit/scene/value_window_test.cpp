@@ -193,23 +193,26 @@ TEST(LosslessFormat, IntegersThatAreClampedAreRoundedToStepsOfTheWindow) {
   }
 }
 
-void expect_refused(const Volume& volume, std::string_view window, Mapping mapping,
-                    const std::string& words) {
+void expect_window_refused(const Volume& volume, std::string_view window, Mapping mapping,
+                           const std::string& words) {
   EXPECT_THAT([&] { (void)mapped(volume, window, mapping); },
               testing::ThrowsMessage<core::InputError>(testing::HasSubstr(words)));
 }
 
 TEST(Window, SaysWhatIsWrongForTheseVoxels) {
   const Volume zeros = row_of<std::uint8_t>({0, 0, 0, 9}, ScalarType::u8);
-  expect_refused(zeros, "p1..p50", Mapping::linear, "row: the window 0..0 of values 0..9 is empty");
-  expect_refused(zeros, "12..p100", Mapping::linear, "row: the window 12..9 of values 0..9");
-  expect_refused(zeros, "-1..5", Mapping::logarithmic,
-                 "row: mapping log cannot begin a window at -1; begin it above 0, where the values "
-                 "are 9..9");
+  expect_window_refused(zeros, "p1..p50", Mapping::linear,
+                        "row: the window 0..0 of values 0..9 is empty");
+  expect_window_refused(zeros, "12..p100", Mapping::linear, "row: the window 12..9 of values 0..9");
+  expect_window_refused(
+      zeros, "-1..5", Mapping::logarithmic,
+      "row: mapping log cannot begin a window at -1; begin it above 0, where the values "
+      "are 9..9");
   const Volume negative = row_of<float>({-3, -2}, ScalarType::f32);
-  expect_refused(negative, "full", Mapping::logarithmic, "row: mapping log needs values above 0");
+  expect_window_refused(negative, "full", Mapping::logarithmic,
+                        "row: mapping log needs values above 0");
   const Volume none = row_of<float>({std::nanf("")}, ScalarType::f32);
-  expect_refused(none, "p1..p99", Mapping::linear, "row: no voxel has a finite value");
+  expect_window_refused(none, "p1..p99", Mapping::linear, "row: no voxel has a finite value");
 }
 
 }  // namespace

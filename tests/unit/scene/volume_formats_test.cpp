@@ -31,14 +31,16 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-Volume load(const std::string& name, const std::string& bytes, const Component& component = {}) {
+Volume load_as_volume(const std::string& name, const std::string& bytes,
+                      const Component& component = {}) {
   const TemporaryFolder folder;
   folder.write(name, bytes);
   return load_volume(name, {folder.path()}, component);
 }
 
-void expect_refused(const std::string& name, const std::string& bytes, const std::string& message) {
-  EXPECT_THAT([&] { (void)load(name, bytes); },
+void expect_volume_refused(const std::string& name, const std::string& bytes,
+                           const std::string& message) {
+  EXPECT_THAT([&] { (void)load_as_volume(name, bytes); },
               ThrowsMessage<core::InputError>(AllOf(HasSubstr(name), HasSubstr(message))));
 }
 
@@ -51,8 +53,8 @@ std::vector<double> values_of(const Volume& volume) {
 std::string bzip2ed(std::string plain) {
   std::string packed(plain.size() + 1000, '\0');
   auto size = static_cast<unsigned>(packed.size());
-  BZ2_bzBuffToBuffCompress(packed.data(), &size, plain.data(),
-                           static_cast<unsigned>(plain.size()), 1, 0, 0);
+  BZ2_bzBuffToBuffCompress(packed.data(), &size, plain.data(), static_cast<unsigned>(plain.size()),
+                           1, 0, 0);
   packed.resize(size);
   return packed;
 }
@@ -69,8 +71,10 @@ class Nifti {
   Nifti& dims(const std::vector<int>& sizes) {
     for (std::size_t i = 0; i <= sizes.size(); ++i) {
       const int value = i == 0 ? static_cast<int>(sizes.size()) : sizes[i - 1];
-      if (version_ == 1) put<std::int16_t>(40 + 2 * i, static_cast<std::int16_t>(value));
-      else put<std::int64_t>(16 + 8 * i, value);
+      if (version_ == 1)
+        put<std::int16_t>(40 + 2 * i, static_cast<std::int16_t>(value));
+      else
+        put<std::int64_t>(16 + 8 * i, value);
     }
     return *this;
   }
@@ -84,19 +88,25 @@ class Nifti {
     return real(116, 184, 0, intercept);
   }
   Nifti& sform(const std::array<double, 12>& rows) {
-    if (version_ == 1) put<std::int16_t>(254, 1);
-    else put<std::int32_t>(348, 1);
+    if (version_ == 1)
+      put<std::int16_t>(254, 1);
+    else
+      put<std::int32_t>(348, 1);
     for (std::size_t i = 0; i < 12; ++i) real(280, 400, i, rows.at(i));
     return *this;
   }
   Nifti& offset(double value) {
-    if (version_ == 1) put<float>(108, static_cast<float>(value));
-    else put<std::int64_t>(168, static_cast<std::int64_t>(value));
+    if (version_ == 1)
+      put<float>(108, static_cast<float>(value));
+    else
+      put<std::int64_t>(168, static_cast<std::int64_t>(value));
     return *this;
   }
   Nifti& units(int code) {
-    if (version_ == 1) bytes_[123] = static_cast<char>(code);
-    else put<std::int32_t>(500, code);
+    if (version_ == 1)
+      bytes_[123] = static_cast<char>(code);
+    else
+      put<std::int32_t>(500, code);
     return *this;
   }
   [[nodiscard]] std::string with(const std::string& voxels) const { return bytes_ + voxels; }
@@ -108,8 +118,10 @@ class Nifti {
     bytes_.replace(at, raw.size(), raw);
   }
   Nifti& real(std::size_t at_1, std::size_t at_2, std::size_t i, double value) {
-    if (version_ == 1) put<float>(at_1 + 4 * i, static_cast<float>(value));
-    else put<double>(at_2 + 8 * i, value);
+    if (version_ == 1)
+      put<float>(at_1 + 4 * i, static_cast<float>(value));
+    else
+      put<double>(at_2 + 8 * i, value);
     return *this;
   }
 
@@ -132,7 +144,7 @@ TEST(NiftiFiles, AreReadInBothVersionsAndByteOrders) {
                                     .sform({-0.5, 0, 0, 0, 0, 0, 3, 0, 0, 2, 0, 0})
                                     .with(bytes_of_values(values, big));
       for (const std::string& packed : {bytes, gzipped(bytes), bzip2ed(bytes)}) {
-        const Volume volume = load("a.nii", packed);
+        const Volume volume = load_as_volume("a.nii", packed);
         EXPECT_EQ(volume.size, (std::array<int, 3>{2, 3, 4}));
         EXPECT_EQ(volume.spacing, (std::array<double, 3>{0.5, 2, 3}));
         EXPECT_EQ(values_of(volume), std::vector<double>(values.begin(), values.end()));
@@ -146,11 +158,11 @@ TEST(NiftiFiles, AreReadInBothVersionsAndByteOrders) {
 
 TEST(NiftiFiles, ApplyTheirScale) {
   const auto scaled = [](double slope, double intercept) {
-    return load("a.nii", Nifti(1, false)
-                             .dims({3, 1, 1})
-                             .type(2)
-                             .scale(slope, intercept)
-                             .with(std::string("\0\1\2", 3)));
+    return load_as_volume("a.nii", Nifti(1, false)
+                                       .dims({3, 1, 1})
+                                       .type(2)
+                                       .scale(slope, intercept)
+                                       .with(std::string("\0\1\2", 3)));
   };
   EXPECT_THAT(values_of(scaled(0.5, -1)), ElementsAre(-1, -0.5, 0));
   EXPECT_EQ(scaled(0.5, -1).type, ScalarType::f32);
@@ -161,14 +173,14 @@ TEST(NiftiFiles, ApplyTheirScale) {
 
 TEST(NiftiFiles, HaveComponents) {
   const std::string times = Nifti(1, false).dims({2, 1, 1, 3}).type(2).with("abcdef");
-  EXPECT_THAT(values_of(load("a.nii", times)), ElementsAre('a', 'b'));
-  EXPECT_THAT(values_of(load("a.nii", times, {.index = 2})), ElementsAre('e', 'f'));
-  EXPECT_THROW((void)load("a.nii", times, {.index = 3}), core::InputError);
+  EXPECT_THAT(values_of(load_as_volume("a.nii", times)), ElementsAre('a', 'b'));
+  EXPECT_THAT(values_of(load_as_volume("a.nii", times, {.index = 2})), ElementsAre('e', 'f'));
+  EXPECT_THROW((void)load_as_volume("a.nii", times, {.index = 3}), core::InputError);
   const std::string colours = Nifti(1, false).dims({2, 1, 1}).type(128).with("abcdef");
-  EXPECT_THAT(values_of(load("a.nii", colours, {.index = 1})), ElementsAre('b', 'e'));
+  EXPECT_THAT(values_of(load_as_volume("a.nii", colours, {.index = 1})), ElementsAre('b', 'e'));
   const std::string vectors =
       Nifti(1, false).dims({1, 1, 1, 1, 2}).type(16).with(bytes_of_values<float>({3, 4}, false));
-  EXPECT_THAT(values_of(load("a.nii", vectors, {.magnitude = true})), ElementsAre(5));
+  EXPECT_THAT(values_of(load_as_volume("a.nii", vectors, {.magnitude = true})), ElementsAre(5));
 }
 
 TEST(NiftiFiles, MayBePairs) {
@@ -184,38 +196,44 @@ TEST(NiftiFiles, MayBePairs) {
 
 TEST(NiftiFiles, ThatAreBrokenNameTheCause) {
   const auto nifti = [] { return Nifti(1, false).dims({2, 1, 1}).type(2); };
-  expect_refused("a.nii", "short", "has 5 bytes");
-  expect_refused("a.nii", std::string(400, 'x'), "first 4 bytes are not a header size");
-  expect_refused("a.nii", nifti().with("A"), "need 2 bytes of data");
-  expect_refused("a.nii", nifti().type(32).with("AB"), "datatype 32 is not supported");
-  expect_refused("a.nii", nifti().dims({2, 1}).with("AB"), "has 2 dimensions; expected 3 to 7");
-  expect_refused("a.nii", nifti().dims({2, 0, 1}).with("AB"), "size 0 along dimension 2");
-  expect_refused("a.nii", nifti().offset(100).with("AB"), "(vox_offset)");
-  expect_refused("a.nii", nifti().pixdim(1, std::nan("")).with("AB"), "spacing nan");
-  expect_refused("a.nii", Nifti(2, false).dims({32767, 32767, 32767, 32767}).type(64).with(""), "");
+  expect_volume_refused("a.nii", "short", "has 5 bytes");
+  expect_volume_refused("a.nii", std::string(400, 'x'), "first 4 bytes are not a header size");
+  expect_volume_refused("a.nii", nifti().with("A"), "need 2 bytes of data");
+  expect_volume_refused("a.nii", nifti().type(32).with("AB"), "datatype 32 is not supported");
+  expect_volume_refused("a.nii", nifti().dims({2, 1}).with("AB"),
+                        "has 2 dimensions; expected 3 to 7");
+  expect_volume_refused("a.nii", nifti().dims({2, 0, 1}).with("AB"), "size 0 along dimension 2");
+  expect_volume_refused("a.nii", nifti().offset(100).with("AB"), "(vox_offset)");
+  expect_volume_refused("a.nii", nifti().pixdim(1, std::nan("")).with("AB"), "spacing nan");
+  expect_volume_refused("a.nii",
+                        Nifti(2, false).dims({32767, 32767, 32767, 32767}).type(64).with(""), "");
   std::string analyze = nifti().with("AB");
   analyze.replace(344, 4, std::string(4, '\0'));
-  expect_refused("a.nii", analyze, "Analyze 7.5");
+  expect_volume_refused("a.nii", analyze, "Analyze 7.5");
 }
 
 const std::string meta = "ObjectType = Image\nNDims = 3\nDimSize = 2 1 1\nElementSpacing = 1 2 3\n";
 
 TEST(MetaImage, IsReadInAllItsForms) {
-  EXPECT_EQ(load("a.mha", meta + "ElementType = MET_UCHAR\nElementDataFile = LOCAL\nAB").spacing,
+  EXPECT_EQ(load_as_volume("a.mha", meta + "ElementType = MET_UCHAR\nElementDataFile = LOCAL\nAB")
+                .spacing,
             (std::array<double, 3>{1, 2, 3}));
   const std::string shorts = bytes_of_values<std::int16_t>({-3, 500}, true);
   const std::string head = meta + "ElementType = MET_SHORT\nBinaryDataByteOrderMSB = True\n";
-  EXPECT_THAT(values_of(load("a.mha", head + "ElementDataFile = LOCAL\n" + shorts)),
+  EXPECT_THAT(values_of(load_as_volume("a.mha", head + "ElementDataFile = LOCAL\n" + shorts)),
               ElementsAre(-3, 500));
-  EXPECT_THAT(values_of(load("a.mha", head + "CompressedData = True\nElementDataFile = LOCAL\n" +
-                                          gzipped(shorts))),
-              ElementsAre(-3, 500));
-  EXPECT_THAT(values_of(load("a.mha", head + "BinaryData = False\nElementDataFile = LOCAL\n-3 500\n")),
+  EXPECT_THAT(
+      values_of(load_as_volume(
+          "a.mha", head + "CompressedData = True\nElementDataFile = LOCAL\n" + gzipped(shorts))),
+      ElementsAre(-3, 500));
+  EXPECT_THAT(values_of(load_as_volume(
+                  "a.mha", head + "BinaryData = False\nElementDataFile = LOCAL\n-3 500\n")),
               ElementsAre(-3, 500));
   const TemporaryFolder folder;
   folder.write("a.raw", "header" + shorts);
-  folder.write("a.mhd", head + "HeaderSize = -1\nTransformMatrix = 0 1 0 -1 0 0 0 0 1\n"
-                               "ElementDataFile = a.raw\n");
+  folder.write("a.mhd", head +
+                            "HeaderSize = -1\nTransformMatrix = 0 1 0 -1 0 0 0 0 1\n"
+                            "ElementDataFile = a.raw\n");
   const Volume volume = load_volume("a.mhd", {folder.path()});
   EXPECT_THAT(values_of(volume), ElementsAre(-3, 500));
   EXPECT_EQ(volume.facts.orientation, "PRS");
@@ -226,31 +244,37 @@ TEST(MetaImage, IsReadInAllItsForms) {
 }
 
 TEST(MetaImage, HasChannels) {
-  const std::string channels = meta + "ElementNumberOfChannels = 3\nElementType = MET_UCHAR_ARRAY\n"
-                                      "ElementDataFile = LOCAL\nabcdef";
-  EXPECT_THAT(values_of(load("a.mha", channels, {.index = 1})), ElementsAre('b', 'e'));
+  const std::string channels = meta +
+                               "ElementNumberOfChannels = 3\nElementType = MET_UCHAR_ARRAY\n"
+                               "ElementDataFile = LOCAL\nabcdef";
+  EXPECT_THAT(values_of(load_as_volume("a.mha", channels, {.index = 1})), ElementsAre('b', 'e'));
   const std::string times =
       "NDims = 4\nDimSize = 2 1 1 2\nElementSpacing = 1 1 1 9\nElementType = MET_UCHAR\n"
       "ElementDataFile = LOCAL\nabcd";
-  EXPECT_THAT(values_of(load("a.mha", times, {.index = 1})), ElementsAre('c', 'd'));
+  EXPECT_THAT(values_of(load_as_volume("a.mha", times, {.index = 1})), ElementsAre('c', 'd'));
 }
 
 TEST(MetaImage, ThatIsBrokenNamesTheLine) {
-  expect_refused("a.mha", meta, "no line 'ElementDataFile = …'");
-  expect_refused("a.mha", meta + "ElementDataFile = LOCAL\nAB", "no line 'ElementType = …'");
-  expect_refused("a.mha", meta + "ElementType = MET_WORD\nElementDataFile = LOCAL\nAB",
-                 ":5: type 'MET_WORD' is not supported");
-  expect_refused("a.mha", "NDims = 2\nDimSize = 2 1\nElementDataFile = LOCAL\n", ":1: 2 dimensions");
-  expect_refused("a.mha", "ObjectType = Mesh\nElementDataFile = LOCAL\n", ":1: 'Mesh' is not a volume");
-  expect_refused("a.mha", meta + "ElementDataFile =\n", "the data file '' is not there");
-  expect_refused("a.mha", meta + "TransformMatrix = 1 1 0 0 1 0 0 0 1\nElementType = MET_UCHAR\n"
-                                 "ElementDataFile = LOCAL\nAB",
-                 "not perpendicular");
+  expect_volume_refused("a.mha", meta, "no line 'ElementDataFile = …'");
+  expect_volume_refused("a.mha", meta + "ElementDataFile = LOCAL\nAB", "no line 'ElementType = …'");
+  expect_volume_refused("a.mha", meta + "ElementType = MET_WORD\nElementDataFile = LOCAL\nAB",
+                        ":5: type 'MET_WORD' is not supported");
+  expect_volume_refused("a.mha", "NDims = 2\nDimSize = 2 1\nElementDataFile = LOCAL\n",
+                        ":1: 2 dimensions");
+  expect_volume_refused("a.mha", "ObjectType = Mesh\nElementDataFile = LOCAL\n",
+                        ":1: 'Mesh' is not a volume");
+  expect_volume_refused("a.mha", meta + "ElementDataFile =\n", "the data file '' is not there");
+  expect_volume_refused("a.mha",
+                        meta +
+                            "TransformMatrix = 1 1 0 0 1 0 0 0 1\nElementType = MET_UCHAR\n"
+                            "ElementDataFile = LOCAL\nAB",
+                        "not perpendicular");
 }
 
 std::string vti(const std::string& root, const std::string& array, const std::string& after = "") {
   return "<?xml version=\"1.0\"?>\n<!-- > -->\n<VTKFile type=\"ImageData\" " + root +
-         ">\n<ImageData WholeExtent=\"3 4 0 0 0 0\" Spacing=\"1 2 3\">\n<Piece Extent=\"3 4 0 0 0 0\">"
+         ">\n<ImageData WholeExtent=\"3 4 0 0 0 0\" Spacing=\"1 2 3\">\n<Piece Extent=\"3 4 0 0 0 "
+         "0\">"
          "<PointData Scalars=\"s\"><DataArray type=\"Int16\" Name=\"other\" format=\"ascii\">1 2"
          "</DataArray><DataArray type=\"Int16\" Name=\"s\" " +
          array + "</DataArray></PointData></Piece></ImageData>" + after + "</VTKFile>\n";
@@ -258,7 +282,7 @@ std::string vti(const std::string& root, const std::string& array, const std::st
 
 TEST(VtkXml, IsReadInAllItsForms) {
   const auto expect = [](const std::string& text) {
-    const Volume volume = load("a.vti", text);
+    const Volume volume = load_as_volume("a.vti", text);
     EXPECT_THAT(values_of(volume), ElementsAre(-3, 500)) << text;
     EXPECT_EQ(volume.spacing, (std::array<double, 3>{1, 2, 3}));
     EXPECT_THAT(volume.facts.notes, ElementsAre(HasSubstr("array 's' of ")));
@@ -271,8 +295,8 @@ TEST(VtkXml, IsReadInAllItsForms) {
   expect(vti(little + " header_type=\"UInt64\"", "format=\"binary\">BAAAAAAAAAD9//QB"));
   expect(vti(little, "format=\"appended\" offset=\"0\"/><DataArray>",
              "<AppendedData encoding=\"base64\">\n_BAAAAP3/9AE=</AppendedData>"));
-  const std::string raw = bytes_of_values<std::uint32_t>({4}, false) +
-                          bytes_of_values<std::int16_t>({-3, 500}, false);
+  const std::string raw =
+      bytes_of_values<std::uint32_t>({4}, false) + bytes_of_values<std::int16_t>({-3, 500}, false);
   expect(vti(little, "format=\"appended\" offset=\"2\"/><DataArray>",
              "<AppendedData encoding=\"raw\"> _xx" + raw + "</AppendedData>"));
   // Two blocks of 2 bytes.
@@ -281,7 +305,8 @@ TEST(VtkXml, IsReadInAllItsForms) {
     const std::string plain = raw.substr(4 + static_cast<std::size_t>(i) * 2, 2);
     std::array<Bytef, 64> packed{};
     uLongf size = packed.size();
-    ASSERT_EQ(compress(packed.data(), &size, reinterpret_cast<const Bytef*>(plain.data()), 2), Z_OK);
+    ASSERT_EQ(compress(packed.data(), &size, reinterpret_cast<const Bytef*>(plain.data()), 2),
+              Z_OK);
     blocks[i].assign(reinterpret_cast<const char*>(packed.data()), size);
   }
   const auto size_of = [&](int i) { return static_cast<std::uint32_t>(blocks[i].size()); };
@@ -294,41 +319,52 @@ TEST(VtkXml, IsReadInAllItsForms) {
 
 TEST(VtkXml, ThatIsBrokenNamesTheCause) {
   const std::string little = "byte_order=\"LittleEndian\"";
-  expect_refused("a.vti", "<VTKFile type=\"PolyData\"></VTKFile>", "expected <VTKFile type=\"Image");
-  expect_refused("a.vti", "<VTKFile", "a tag is not closed");
-  expect_refused("a.vti", vti(little, "format=\"ascii\">-3"), "need 4 bytes of data");
-  expect_refused("a.vti", vti(little, "format=\"ascii\">-3 x"), "a value of type i16, found 'x'");
-  expect_refused("a.vti", vti(little, "format=\"binary\">BAAAAP3"), "within a group of four");
-  expect_refused("a.vti", vti(little + " compressor=\"vtkLZ4DataCompressor\"", "format=\"binary\">BA=="),
-                 "with the compressor ZLib");
-  expect_refused("a.vti", vti(little + " compressor=\"vtkZLibDataCompressor\"",
-                              "format=\"binary\">/////////////////////w=="),
-                 "cannot be");
-  expect_refused("a.vti", vti(little, "format=\"appended\" offset=\"0\"/><DataArray>"),
-                 "expected <AppendedData>");
+  expect_volume_refused("a.vti", "<VTKFile type=\"PolyData\"></VTKFile>",
+                        "expected <VTKFile type=\"Image");
+  expect_volume_refused("a.vti", "<VTKFile", "a tag is not closed");
+  expect_volume_refused("a.vti", vti(little, "format=\"ascii\">-3"), "need 4 bytes of data");
+  expect_volume_refused("a.vti", vti(little, "format=\"ascii\">-3 x"),
+                        "a value of type i16, found 'x'");
+  expect_volume_refused("a.vti", vti(little, "format=\"binary\">BAAAAP3"),
+                        "within a group of four");
+  expect_volume_refused(
+      "a.vti", vti(little + " compressor=\"vtkLZ4DataCompressor\"", "format=\"binary\">BA=="),
+      "with the compressor ZLib");
+  expect_volume_refused("a.vti",
+                        vti(little + " compressor=\"vtkZLibDataCompressor\"",
+                            "format=\"binary\">/////////////////////w=="),
+                        "cannot be");
+  expect_volume_refused("a.vti", vti(little, "format=\"appended\" offset=\"0\"/><DataArray>"),
+                        "expected <AppendedData>");
 }
 
 TEST(VtkLegacy, IsReadInAllItsForms) {
   const auto file = [](const std::string& kind, const std::string& data) {
-    return "# vtk DataFile Version 3.0\ntitle\n" + kind + "\nDATASET STRUCTURED_POINTS\n"
-           "DIMENSIONS 2 1 1\nSPACING 1 2 3\nORIGIN 0 0 0\nPOINT_DATA 2\n" + data;
+    return "# vtk DataFile Version 3.0\ntitle\n" + kind +
+           "\nDATASET STRUCTURED_POINTS\n"
+           "DIMENSIONS 2 1 1\nSPACING 1 2 3\nORIGIN 0 0 0\nPOINT_DATA 2\n" +
+           data;
   };
   const std::string shorts = bytes_of_values<std::int16_t>({-3, 500}, true);
-  const Volume volume = load("a.vtk", file("BINARY", "SCALARS s short 1\nLOOKUP_TABLE default\n" +
-                                                         shorts + "\nMETADATA\n"));
+  const Volume volume = load_as_volume(
+      "a.vtk",
+      file("BINARY", "SCALARS s short 1\nLOOKUP_TABLE default\n" + shorts + "\nMETADATA\n"));
   EXPECT_THAT(values_of(volume), ElementsAre(-3, 500));
   EXPECT_EQ(volume.spacing, (std::array<double, 3>{1, 2, 3}));
-  EXPECT_THAT(values_of(load("a.vtk", file("ASCII", "SCALARS s short\nLOOKUP_TABLE default\n-3 500\n"))),
+  EXPECT_THAT(values_of(load_as_volume(
+                  "a.vtk", file("ASCII", "SCALARS s short\nLOOKUP_TABLE default\n-3 500\n"))),
               ElementsAre(-3, 500));
-  EXPECT_THAT(values_of(load("a.vtk", file("ASCII", "VECTORS v float\n3 4 0 0 0 1\n"),
-                             {.magnitude = true})),
+  EXPECT_THAT(values_of(load_as_volume("a.vtk", file("ASCII", "VECTORS v float\n3 4 0 0 0 1\n"),
+                                       {.magnitude = true})),
               ElementsAre(5, 1));
-  EXPECT_THAT(values_of(load("a.vtk", file("ASCII", "FIELD f 1\ns 1 2 int\n7 8\n"))),
+  EXPECT_THAT(values_of(load_as_volume("a.vtk", file("ASCII", "FIELD f 1\ns 1 2 int\n7 8\n"))),
               ElementsAre(7, 8));
-  expect_refused("a.vtk", file("ASCII", "SCALARS s bit\n1 1\n"), "type 'bit' is not supported");
-  expect_refused("a.vtk", file("BINARY", "SCALARS s short\nLOOKUP_TABLE default\nab"), "need 4 bytes");
-  expect_refused("a.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\n",
-                 ":4: expected DATASET STRUCTURED_POINTS, found 'dataset polydata'");
+  expect_volume_refused("a.vtk", file("ASCII", "SCALARS s bit\n1 1\n"),
+                        "type 'bit' is not supported");
+  expect_volume_refused("a.vtk", file("BINARY", "SCALARS s short\nLOOKUP_TABLE default\nab"),
+                        "need 4 bytes");
+  expect_volume_refused("a.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\n",
+                        ":4: expected DATASET STRUCTURED_POINTS, found 'dataset polydata'");
 }
 
 TEST(RawVoxelFiles, HaveTheirSizeInTheName) {
@@ -354,21 +390,27 @@ TEST(NrrdComponents, AreAnAxisOfFour) {
     return "NRRD0004\ntype: uint8\nencoding: raw\ndimension: 4\n" + fields + "\n\n" + data;
   };
   const std::string first = nrrd("sizes: 3 2 1 1\nkinds: RGB-color domain domain domain", "abcdef");
-  EXPECT_THAT(values_of(load("a.nrrd", first, {.index = 1})), ElementsAre('b', 'e'));
-  const std::string last = nrrd("sizes: 2 1 1 3\nkinds: domain domain domain time\n"
-                                "spacings: 1 2 3 nan", "abcdef");
-  EXPECT_THAT(values_of(load("a.nrrd", last, {.index = 1})), ElementsAre('c', 'd'));
-  EXPECT_EQ(load("a.nrrd", last).spacing, (std::array<double, 3>{1, 2, 3}));
+  EXPECT_THAT(values_of(load_as_volume("a.nrrd", first, {.index = 1})), ElementsAre('b', 'e'));
+  const std::string last = nrrd(
+      "sizes: 2 1 1 3\nkinds: domain domain domain time\n"
+      "spacings: 1 2 3 nan",
+      "abcdef");
+  EXPECT_THAT(values_of(load_as_volume("a.nrrd", last, {.index = 1})), ElementsAre('c', 'd'));
+  EXPECT_EQ(load_as_volume("a.nrrd", last).spacing, (std::array<double, 3>{1, 2, 3}));
   const std::string middle =
       nrrd("sizes: 2 2 1 2\nspace directions: (1,0,0) none (0,2,0) (0,0,3)", "abcdefgh");
-  EXPECT_THAT(values_of(load("a.nrrd", middle, {.index = 1})), ElementsAre('c', 'd', 'g', 'h'));
-  expect_refused("a.nrrd", nrrd("sizes: 2 2 2 2", std::string(16, 'a')), "expected 3 axes, or 4");
+  EXPECT_THAT(values_of(load_as_volume("a.nrrd", middle, {.index = 1})),
+              ElementsAre('c', 'd', 'g', 'h'));
+  expect_volume_refused("a.nrrd", nrrd("sizes: 2 2 2 2", std::string(16, 'a')),
+                        "expected 3 axes, or 4");
 }
 
 TEST(WideIntegers, BecomeTheSmallestTypeThatHoldsThem) {
   const auto type_of = [](const std::vector<std::int64_t>& values) {
-    return load("a.nrrd", "NRRD0004\ntype: int64\nendian: little\ndimension: 3\nencoding: raw\n"
-                          "sizes: 2 1 1\n\n" + bytes_of_values(values, false));
+    return load_as_volume("a.nrrd",
+                          "NRRD0004\ntype: int64\nendian: little\ndimension: 3\nencoding: raw\n"
+                          "sizes: 2 1 1\n\n" +
+                              bytes_of_values(values, false));
   };
   EXPECT_EQ(type_of({0, 255}).type, ScalarType::u8);
   EXPECT_EQ(type_of({-128, 127}).type, ScalarType::i8);
@@ -414,8 +456,8 @@ TEST(FormatTables, HaveSeedsSecondReadersAndDocumentation) {
 }
 
 TEST(FormatAdvice, NamesTheNearestFormat) {
-  expect_refused("a.dcm", "x", "dcm2niix -o . FOLDER");
-  expect_refused("a.xyzzy", "x", "expected .nrrd .nhdr .nii");
+  expect_volume_refused("a.dcm", "x", "dcm2niix -o . FOLDER");
+  expect_volume_refused("a.xyzzy", "x", "expected .nrrd .nhdr .nii");
   EXPECT_THAT(particle_advice(".xtc"), HasSubstr("gmx trjconv"));
   EXPECT_THAT(particle_advice(""), HasSubstr("expected .pdb"));
 }

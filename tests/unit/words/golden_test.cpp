@@ -99,6 +99,7 @@ judge::Observation everything(judge::Cause cause) {
   what.detail = "DETAIL";
   what.outcome = record::Outcome::crashed;
   what.reason = {.cause = record::Cause::signal, .numbers = {{"signal", 11}}};
+  if (cause == judge::Cause::device_fault) what.facts["kind"] = "clock_reads_zero";
   if (cause == judge::Cause::wrong_image || cause == judge::Cause::reference_changed ||
       cause == judge::Cause::score) {
     what.because = {over_bound(16)};
@@ -117,7 +118,9 @@ TEST(Sentences, OfEveryCause) {
   std::string text;
   for_each_value<judge::Cause>([&](judge::Cause cause) {
     const std::string sentence = words::text_of(everything(cause));
-    if (cause != judge::Cause::none) EXPECT_NE(sentence, "") << judge::name_of(cause);
+    if (cause != judge::Cause::none) {
+      EXPECT_NE(sentence, "") << judge::name_of(cause);
+    }
     text += fmt::format("{}: {}\n", judge::name_of(cause), sentence);
   });
   expect_golden("causes.txt", text);

@@ -1,0 +1,58 @@
+// Verdicts do not depend on the locale or the clock of the machine.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+using testing::HasSubstr;
+
+class Surroundings : public testing::Test {
+ protected:
+  // The plan is measured and accepted in the usual surroundings.
+  void SetUp() override {
+    const std::string given = " --device null:scripted --store s.sqlite";
+    program.write("p.yaml", std::string(tiny_plan) + "step: [0.5, 1]\nchecks: [counters, memory]\n");
+    ASSERT_EQ(program.run("run p.yaml" + given).code, 0);
+    ASSERT_EQ(program.run("accept p.yaml --reason x --store s.sqlite --baselines b").code, 0);
+  }
+  [[nodiscard]] Result judge_again(const std::string& wrapper) const {
+    return program.run(
+        "gate p.yaml --measure --device null:scripted --store other.sqlite --baselines b", "{}",
+        wrapper);
+  }
+
+  Program program;
+};
+
+// German writes 0,5 for 0.5, and Turkish has another capital of i.
+TEST_F(Surroundings, ALocaleChangesNothing) {
+  const std::string usual = program.run("list p.yaml").output;
+  for (const std::string locale : {"de_DE", "tr_TR"}) {
+    const std::string folder = program.folder().string();
+    const std::string made = folder + "/" + locale + ".UTF-8";
+    if (test::run_command("localedef -i " + locale + " -f UTF-8 '" + made + "'").code > 1) {
+      GTEST_SKIP() << "no locales can be made here";
+    }
+    const std::string wrapper = "env LOCPATH='" + folder + "' LC_ALL=" + locale + ".UTF-8";
+    EXPECT_EQ(program.run("list p.yaml", "{}", wrapper).output, usual) << locale;
+    const Result judged = judge_again(wrapper);
+    EXPECT_EQ(judged.code, 0) << locale << judged.output;
+  }
+}
+
+// The latest run is the one that was added last, whatever its date is.
+TEST_F(Surroundings, AClockThatWasSetBackChangesNothing) {
+  if (test::run_command("faketime -f -400d true").code != 0) {
+    GTEST_SKIP() << "faketime is not installed";
+  }
+  ASSERT_EQ(judge_again("").code, 0);
+  const Result judged = judge_again("faketime -f -400d");
+  EXPECT_EQ(judged.code, 0) << judged.output;
+}
+
+}  // namespace
+}  // namespace triptych::command_line
