@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, 16> paths{
     "diagonal_xyz", "diagonal_-xyz", "diagonal_x-yz", "diagonal_xy-z", "path_x",   "path_y",
     "path_z",       "path_sin_x",    "path_sin_y",    "path_sin_z"};
 
-// What every path is laid out around.
+// The box around which every path of the camera is laid out.
 struct Stage {
   dvec3 centre;
   dvec3 size;
@@ -52,8 +52,8 @@ dvec3 unit(const dvec3& v) {
   return v / std::sqrt(glm::dot(v, v));
 }
 
-// The unit vector orthogonal to `forward` that is nearest to +y; where the view is (nearly) along
-// y, to the side that an orbit about x would have up there.
+// The unit vector orthogonal to `forward` that is nearest to +y. If the view is (nearly) along y,
+// it points to the side that an orbit about x would have up at that position.
 dvec3 upright(const dvec3& forward) {
   const bool steep = std::abs(forward.y) > 0.999;
   const dvec3 wish = steep ? dvec3(0, 0, forward.y < 0 ? -1 : 1) : dvec3(0, 1, 0);
@@ -128,7 +128,7 @@ Pose random_pose(const Stage& stage, core::Random& random) {
   return pose;
 }
 
-// The share of the box's 8×8×8 cell centres inside a square frustum.
+// The share of the box's 8×8×8 cell centres that lie inside a square frustum.
 double coverage(const Stage& stage, const Pose& pose) {
   constexpr int cells = 8;
   const dvec3 right = glm::cross(pose.forward, pose.up);
@@ -146,7 +146,7 @@ double coverage(const Stage& stage, const Pose& pose) {
 }
 
 Pose random_view(const Stage& stage, std::uint64_t seed) {
-  // From beyond L/2 + D a view sees most of the box, so that a few draws are enough whatever the
+  // From a distance beyond L/2 + D most of the box is in view, so a few attempts are enough for any
   // box.
   core::Random random(seed);
   Pose pose = random_pose(stage, random);
@@ -158,7 +158,7 @@ Pose random_view(const Stage& stage, std::uint64_t seed) {
   throw core::InputError(fmt::format("camera '{}': expected {}", spec, expected));
 }
 
-// λ of "i/n".
+// λ, from the text "i/n".
 double parse_lambda(std::string_view spec, std::string_view text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string_view::npos) reject(spec, "PATH:i/n");
@@ -201,7 +201,8 @@ Pose pose_of(std::string_view spec, const Stage& stage) {
   return on_path(stage, path, parse_lambda(spec, rest));
 }
 
-// Depths of the box's corners, a hundredth wider; near at least a thousandth of the diagonal.
+// Sets near and far from the depths of the box's corners, widened by a hundredth; near is at least
+// a thousandth of the diagonal.
 void set_depth_range(Camera& camera, const Box& box) {
   double nearest = std::numeric_limits<double>::infinity();
   double farthest = -nearest;

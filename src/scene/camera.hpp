@@ -22,10 +22,11 @@ struct Camera {
   [[nodiscard]] glm::dvec3 ray_direction(int x, int y, int width, int height) const;
 };
 
-// tan(fov/2), of the same bits on every machine: std::tan is left to the C library.
+// tan(fov/2) with the same bits on every machine; std::tan may differ between C libraries.
 [[nodiscard]] double tangent_of_half(double fov_y_deg);
 
-// A camera at `eye` that looks at `target`, y up as far as it can be; the view must not be along y.
+// A camera at `eye` that looks at `target`, with y pointing up as far as possible. It must not look
+// along y.
 [[nodiscard]] Camera looking(const glm::dvec3& eye, const glm::dvec3& target, double fov_y_deg);
 
 struct Box {

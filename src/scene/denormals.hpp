@@ -1,6 +1,6 @@
 #pragma once
-// Denormal floats cost processors that keep them a hundred cycles each, and others take them for 0.
-// What goes to a device has none: they are 0 before, which changes no value by as much as 2⁻¹²⁶.
+// Processors either keep denormal floats, at a cost of a hundred cycles each, or take them for 0.
+// So they are set to 0 before data go to a device, which changes every value by less than 2⁻¹²⁶.
 
 #include <cmath>
 #include <limits>

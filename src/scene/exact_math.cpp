@@ -9,8 +9,8 @@
 namespace triptych::scene {
 namespace {
 
-// Taylor series, Horner's scheme: the coefficients are 1/n! with the sign of the series, correctly
-// rounded by the compiler.
+// A Taylor series by Horner's scheme. The coefficients are 1/n! with the sign of the series,
+// correctly rounded by the compiler.
 template <std::size_t N>
 double horner(const std::array<double, N>& coefficients, double x) {
   double sum = 0;
@@ -18,7 +18,7 @@ double horner(const std::array<double, N>& coefficients, double x) {
   return sum;
 }
 
-// Both for |x| ≤ π/4, where the first omitted term is below 2⁻⁵⁶.
+// Both hold for |x| ≤ π/4, where the first omitted term is below 2⁻⁵⁶.
 double sine_series(double x) {
   static constexpr std::array<double, 9> c{1.0,
                                            -1.0 / 6,
@@ -45,7 +45,7 @@ double cosine_series(double x) {
   return horner(c, x * x);
 }
 
-// sin for 0 ≤ turns ≤ ¼.
+// The sine for 0 ≤ turns ≤ ¼.
 double sine_of_quarter(double turns) {
   constexpr double tau = 2 * std::numbers::pi;
   return turns <= 0.125 ? sine_series(tau * turns) : cosine_series(tau * (0.25 - turns));
@@ -103,7 +103,7 @@ double logarithm(double x) {
 
 double logarithm_of_1_plus(double x) {
   if (x <= -1) return -std::numeric_limits<double>::infinity();
-  // What rounding takes from 1 + x, the quotient gives back (Kahan).
+  // The quotient corrects the rounding of 1 + x (Kahan).
   const double sum = 1 + x;
   return sum == 1 ? x : logarithm(sum) * (x / (sum - 1));
 }

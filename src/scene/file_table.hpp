@@ -5,8 +5,8 @@
 
 namespace triptych::scene {
 
-// The content hash of a table that came from a file, which may hold another one under its name
-// another day; empty for a preset, whose name says all.
+// The content hash of a table that was read from a file, because a file of the same name may have
+// other content on another day. Empty for a preset, which its name describes completely.
 [[nodiscard]] std::string file_table_hash(const TransferFunction& function);
 
 }  // namespace triptych::scene

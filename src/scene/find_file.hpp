@@ -6,7 +6,8 @@
 
 namespace triptych::scene {
 
-// A file as named, or, when the name is relative, the first of that name below `folders`.
+// The file with this name or, if the name is relative, the first file with this name below
+// `folders`.
 [[nodiscard]] std::optional<std::filesystem::path> find_file(
     std::string_view name, const std::vector<std::filesystem::path>& folders);
 

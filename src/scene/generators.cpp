@@ -28,7 +28,7 @@ constexpr ScalarType scalar_type_of() {
   return ScalarType::f32;
 }
 
-// Rounds a value in [0, 1] to the steps of an integer type; floats are taken as they are.
+// Rounds a value in [0, 1] to the steps of an integer type; floats are not changed.
 template <typename T>
 T quantise(double x) {
   if constexpr (std::is_integral_v<T>) {
@@ -38,7 +38,7 @@ T quantise(double x) {
   }
 }
 
-// Fills a volume with voxel(i, j, k).
+// Fills a volume with the values of voxel(i, j, k).
 template <typename T, typename VoxelAt>
 Volume fill(std::array<int, 3> size, double range_hi, VoxelAt&& voxel) {
   Volume volume;
@@ -59,7 +59,7 @@ Volume fill(std::array<int, 3> size, double range_hi, VoxelAt&& voxel) {
   return volume;
 }
 
-// Fills a volume with a field over the unit cube, whose values lie in [0, 1].
+// Fills a volume from a field over the unit cube with values in [0, 1].
 template <typename T, typename Field>
 Volume sample(std::array<int, 3> size, Field&& field) {
   const double top = std::is_integral_v<T> ? static_cast<double>(std::numeric_limits<T>::max()) : 1;
@@ -147,7 +147,8 @@ std::array<Blob, 40> sparse_blobs() {
   core::Random random(20240229);
   std::array<Blob, 40> blobs;
   for (Blob& blob : blobs) {
-    // One draw a statement: the order of evaluation within an expression is the compiler's.
+    // One random number per statement, because the compiler may choose the order of evaluation
+    // within an expression.
     blob.centre.x = random.uniform(0.1, 0.9);
     blob.centre.y = random.uniform(0.1, 0.9);
     blob.centre.z = random.uniform(0.1, 0.9);
@@ -212,7 +213,7 @@ constexpr std::array<Generator, 8> generators{{
     {{"gaussian_blob", "a Gaussian: closed form for every ray"}, gaussian_blob},
 }};
 
-// Throws InputError for what it cannot make.
+// Throws InputError for an unknown name or a size that cannot be made.
 const Generator& generator_of(std::string_view name, std::array<int, 3> size) {
   for (const int n : size) {
     if (n < 1 || n > largest_side) {

@@ -38,10 +38,10 @@ struct GeneratorInfo {
   std::string_view summary;
 };
 
-// The eight above, in that order.
+// The eight generators above, in that order.
 [[nodiscard]] std::vector<GeneratorInfo> volume_generators();
 
-// Throws InputError for an unknown name or a size outside 1…4096 per axis; makes nothing.
+// Throws InputError for an unknown name or a size outside 1…4096 per axis. Generates nothing.
 void check_volume_generator(std::string_view name, std::array<int, 3> size);
 
 // Throws as check_volume_generator does. The volume's name is generate:NAME:SIZE.

@@ -11,12 +11,12 @@ struct Half {
 };
 
 inline constexpr double largest_half = 65504;
-// Below, halves are subnormal, and devices may take those for 0.
+// Halves below this are subnormal, and devices may take them for 0.
 inline constexpr double least_normal_half = 0x1.0p-14;
-// What rounding to the nearest half is off by at most, relative, from the least normal one on.
+// The largest relative error of rounding to the nearest half, for values that are not subnormal.
 inline constexpr double half_roundoff = 0x1.0p-11;
 
-// The nearest, ties to even; from 65520 on infinity.
+// The nearest half; ties go to even, and values from 65520 on become infinity.
 [[nodiscard]] Half to_half(double value);
 
 }  // namespace triptych::scene

@@ -14,34 +14,34 @@ namespace triptych::scene {
 // The largest number of particles: ids are 32 bits wide, and the highest stands for "none".
 inline constexpr std::uint64_t most_particles = 0xFFFFFFFEU;
 
-// Walks over the lines of a text and knows where it is, so that whatever is wrong can be named with
-// file and line. The text must outlive the reader.
+// Walks over the lines of a text and knows its position, so that errors can name the file and the
+// line. The text must outlive the reader.
 class LineReader {
  public:
   LineReader(std::string_view text, std::string file, ProgressSteps progress);
 
   // The next line without its end (LF or CR LF), or nothing after the last one.
   [[nodiscard]] std::optional<std::string_view> next();
-  // The next line; throws InputError "ends where WHAT was expected".
+  // Returns the next line; throws InputError "ends where WHAT was expected" if there is none.
   [[nodiscard]] std::string_view require(std::string_view what);
-  // Whether nothing but blank lines is left. They are taken.
+  // Whether only blank lines are left, which are then skipped.
   [[nodiscard]] bool at_end();
-  // Drops so many lines, all of which must be there.
+  // Skips this many lines; all of them must exist.
   void skip(std::uint64_t count, std::string_view what);
 
-  // Throws InputError at the last line read (or at another one).
+  // Throws InputError that names the line that was read last, or another one.
   [[noreturn]] void reject(const std::string& message) const { reject_at(line_, message); }
   [[noreturn]] void reject_at(int line, const std::string& message) const;
 
-  // The number a word spells; throws "WHAT: expected a number, found 'WORD'". NaN and infinities
-  // are numbers here; whoever takes a place from them drops it.
+  // The number that a word spells; throws "WHAT: expected a number, found 'WORD'". NaN and
+  // infinities are numbers here; callers drop positions that contain them.
   [[nodiscard]] double number(std::string_view word, std::string_view what) const;
   // A count of particles: 0 … most_particles.
   [[nodiscard]] std::uint64_t count(std::string_view word, std::string_view what) const;
   [[nodiscard]] std::int64_t integer(std::string_view word, std::string_view what) const;
 
-  // An upper bound of how many further lines of `shortest` characters there can be: what may be
-  // reserved for a count that a file claims.
+  // An upper bound for how many more lines of at least `shortest` characters there can be: memory
+  // may be reserved for as many, whatever count the file claims.
   [[nodiscard]] std::size_t room(std::uint64_t claimed, std::size_t shortest) const;
 
   [[nodiscard]] int line() const { return line_; }
@@ -49,13 +49,13 @@ class LineReader {
 
  private:
   std::string_view text_;
-  std::size_t begin_ = 0;  // of the line that comes next
+  std::size_t begin_ = 0;  // of the next line
   int line_ = 0;
   std::string file_;
   ProgressSteps progress_;
 };
 
-// As split_words, into a vector that is used again and again.
+// Like split_words, but into a vector that can be reused.
 void split_words_into(std::string_view text, std::vector<std::string_view>& words);
 
 }  // namespace triptych::scene

@@ -20,9 +20,9 @@ Complex eighth_power(Complex z) {
   return squared(squared(squared(z)));
 }
 
-// z⁸ in White and Nylander's sense: with z = r·(sin θ·cos φ, sin θ·sin φ, cos θ), r⁸ at 8θ and 8φ.
-// The multiples of the angles come from complex powers, so that no trigonometric function is
-// needed.
+// z⁸ as defined by White and Nylander: for z = r·(sin θ·cos φ, sin θ·sin φ, cos θ), the result has
+// radius r⁸ and the angles 8θ and 8φ. The multiples of the angles come from complex powers, so that
+// no trigonometric function is needed.
 glm::dvec3 eighth_power(glm::dvec3 z) {
   const double rho = std::sqrt(z.x * z.x + z.y * z.y);
   const Complex theta = eighth_power(Complex{z.z, rho});  // r⁸·(cos 8θ, sin 8θ)

@@ -36,7 +36,7 @@ enum class ColourType : std::uint8_t {
 constexpr std::array<std::size_t, 5> vertex_bytes{0, 12, 16, 6, 24};
 constexpr std::array<std::size_t, 8> colour_bytes{0, 3, 4, 4, 12, 16, 8, 8};
 
-// Numbers at known places; every read is checked against the end.
+// Reads numbers at given positions. Every read is checked against the end of the data.
 class Bytes {
  public:
   Bytes(std::span<const char> content, std::string file)
@@ -79,9 +79,9 @@ class Bytes {
 struct List {
   VertexType vertex = VertexType::none;
   ColourType colour = ColourType::none;
-  float radius = 0;  // of all particles, unless they have their own
-  Rgb rgb{};         // likewise
-  double lo = 0;     // of the intensities
+  float radius = 0;  // for all particles, unless they have their own
+  Rgb rgb{};         // also for all particles, unless they have their own
+  double lo = 0;     // the lower end of the intensities
   double hi = 1;
   std::uint64_t count = 0;
   std::span<const char> data;
@@ -133,8 +133,8 @@ List read_list(Bytes& bytes, int version) {
   return list;
 }
 
-// The file up to the wanted frame; afterwards the bytes stand at its beginning. Returns where the
-// frame ends.
+// Reads the file up to the wanted frame; afterwards the position is at its beginning. Returns the
+// position at which the frame ends.
 std::uint64_t find_frame(Bytes& bytes, std::uint64_t frame, int& version) {
   constexpr std::array<char, 6> magic{'M', 'M', 'P', 'L', 'D', '\0'};
   if (bytes.take<std::array<char, 6>>("'MMPLD'") != magic) {
@@ -200,7 +200,7 @@ double channel(double value) {
 
 struct Colour {
   Rgb rgb{};
-  std::optional<double> intensity;  // the file's own
+  std::optional<double> intensity;  // the particle's own, if the file has it
 };
 
 Colour grey(const List& list, double value) {

@@ -17,13 +17,14 @@ double distance_squared(const Place& a, const Place& b) {
   return sum;
 }
 
-// A k-d tree without pointers: the middle of each range splits it along the axis of its depth. A
-// grid would do for most data, but one far outlier puts everything else into a single cell.
+// A k-d tree without pointers: the middle element of each range splits it along the axis of its
+// depth. A grid would suit most data, but one distant outlier would put all other points into a
+// single cell.
 class Tree {
  public:
   explicit Tree(std::vector<Place>& places) : places_(places) { build(places_, 0); }
 
-  // Squared distance from a place to the nearest one that differs from it.
+  // The squared distance from a position to the nearest one that differs from it.
   [[nodiscard]] double nearest_squared(const Place& from) const {
     double best = std::numeric_limits<double>::infinity();
     search(places_, 0, from, best);

@@ -5,10 +5,11 @@
 
 namespace triptych::scene {
 
-// The median over all distinct places that single precision can hold, as the others become no
-// particles, of the distance to the nearest other one (the upper of the middle two). Nothing where
-// fewer than two are distinct. Of more than 100 000 places as many are asked, evenly spread over
-// them in the order of x. O(n log n) for any arrangement.
+// The median of the distance to the nearest other position, over all distinct positions that single
+// precision can represent (others become no particles). For an even number it is the upper one of
+// the two in the middle. Empty if fewer than two positions are distinct. If there are more than 100
+// 000 positions, it is the median of that many of them, which are evenly spread in the order of x.
+// O(n log n) for any arrangement.
 [[nodiscard]] std::optional<double> median_nearest_distance(
     std::vector<std::array<double, 3>> places);
 

@@ -27,7 +27,8 @@ double cube_root(double x) {
   return exponential(logarithm(x) / 3);
 }
 
-// The radius at which `count` spheres together have `filling` of a volume, overlaps counted twice.
+// The radius at which `count` spheres fill the share `filling` of a volume. Overlaps are counted
+// twice.
 double filling_radius(double filling, double volume, double count) {
   return cube_root(filling * volume / count * 3 / (4 * std::numbers::pi));
 }
@@ -36,7 +37,7 @@ double ball_volume(double radius) {
   return 4 * std::numbers::pi / 3 * radius * radius * radius;
 }
 
-// A place within the unit ball. Rejection, because it needs no function that is not exact.
+// A random position within the unit ball. Rejection sampling needs only exact functions.
 glm::dvec3 place_in_ball(core::Random& random) {
   for (;;) {
     glm::dvec3 place;
@@ -51,8 +52,8 @@ glm::dvec3 place_in_box(core::Random& random, const Box& box) {
   return place;
 }
 
-// A set in the making. Colours come from a sequence of their own, so that the places do not depend
-// on the kind of colour.
+// A set that is being generated. Colours come from a random sequence of their own, so that the
+// positions do not depend on the kind of colour.
 class Maker {
  public:
   Maker(std::uint64_t count, ColourKind colour, const Progress& progress)
@@ -102,7 +103,8 @@ void uniform(Maker& maker) {
   while (maker.left() > 0) maker.add(place_in_box(maker.random(), cube), radius);
 }
 
-// Half of a liquid's volume is filled: as dense as spheres lie that just do not freeze.
+// In a liquid, half of the volume is filled. That is close to the density at which spheres would
+// freeze.
 constexpr double liquid_filling = 0.5;
 
 struct Ball {
@@ -146,7 +148,7 @@ void droplets(Maker& maker) {
 void layer(Maker& maker) {
   static constexpr double in_liquid = 0.95;
   static constexpr double thickness = 8;
-  static constexpr double interface = 0.4;  // how far the liquid's surface is smeared
+  static constexpr double interface = 0.4;  // thickness of the transition between liquid and vapour
   const Box box{glm::dvec3(0), glm::dvec3(5, 5, 40)};
   maker.colour_along(2, box);
   const double middle = box.hi.z / 2;
@@ -166,7 +168,8 @@ void layer(Maker& maker) {
   }
 }
 
-// The target of the plume: its upper face lies at y = 0, the crater is half a ball cut out of it.
+// The target of the plume. Its upper face is at y = 0; the crater is half a ball that was cut out
+// of it.
 struct Slab {
   double half_side = 10;
   double depth = 5;
@@ -177,7 +180,7 @@ struct Slab {
   }
 };
 
-// Sites of a cubic lattice, touching spheres: many exactly equal depths.
+// The sites of a cubic lattice. The spheres touch, so that many depths are exactly equal.
 void add_lattice(Maker& maker, const Slab& slab, double spacing) {
   const auto across =
       static_cast<std::uint64_t>(std::max(1.0, std::floor(2 * slab.half_side / spacing)));
@@ -197,7 +200,8 @@ void add_lattice(Maker& maker, const Slab& slab, double spacing) {
   }
 }
 
-// A place in a cone that opens from the crater upwards. The square makes low heights more likely.
+// A position in a cone that opens upwards from the crater. The square makes low positions more
+// likely.
 glm::dvec3 place_in_plume(core::Random& random, const Slab& slab, double height) {
   const double u = random.uniform();
   const double h = height * u * u;
@@ -237,7 +241,8 @@ void coincident(Maker& maker) {
   const std::uint64_t places = (maker.count() + copies - 1) / copies;
   maker.colour_along(2, cube);
   const double radius = filling_radius(paper_filling, cube_volume, static_cast<double>(places));
-  // The same sequence from its beginning each time: equal places are far apart in the set.
+  // The same random sequence is used from its beginning each time, so that equal positions are far
+  // apart in the set.
   for (std::uint64_t copy = 0; copy < copies; ++copy) {
     core::Random random(place_seed);
     for (std::uint64_t i = 0; i < places && maker.left() > 0; ++i) {
@@ -246,12 +251,13 @@ void coincident(Maker& maker) {
   }
 }
 
-// A wall across the front of the cube, seen from +z, and behind it what nobody sees: in the plane
-// of the wall its spheres leave no gap, as each reaches beyond the corners of its square, so that
-// no ray gets past it. About `seen` spheres are in the wall, in whole rows. The last of all touches
-// the cube's back, so that sets with equal walls have equal boxes and are seen by the same cameras.
+// A wall across the front of the cube, as seen from +z, and spheres behind it that nobody sees. In
+// the plane of the wall its spheres leave no gap, because each one reaches beyond the corners of
+// its square, so no ray passes the wall. About `seen` spheres are in the wall, in complete rows.
+// The very last sphere touches the back of the cube, so that sets with equal walls have equal boxes
+// and are seen by the same cameras.
 void walled(Maker& maker, std::uint64_t seen) {
-  static constexpr double reach = 0.75;  // of a square's edge; its corner is at √½
+  static constexpr double reach = 0.75;  // as a share of a square's edge; the corner is at √½
   maker.colour_along(2, cube);
   const auto rows =
       seen > 1 ? static_cast<std::uint64_t>(std::sqrt(static_cast<double>(seen - 1))) : 0;
@@ -266,7 +272,8 @@ void walled(Maker& maker, std::uint64_t seen) {
   }
   const auto rest = static_cast<double>(maker.left());
   const double small = rest > 1 ? filling_radius(paper_filling, cube_volume, rest) : radius;
-  // Behind the wall's plane and within its sides. A few large ones may not fit into that: smaller.
+  // Behind the plane of the wall and within its sides. A few large spheres might not fit there, so
+  // they are made smaller.
   const double hidden_radius = std::min(small, 0.05 * cube.hi.x);
   const Box behind{
       cube.lo + hidden_radius,
@@ -298,7 +305,7 @@ constexpr std::array<Generator, 7> generators{{
     {{"hidden", "the wall of a tenth as many, the others behind it"}, hidden},
 }};
 
-// Throws InputError for what it cannot make.
+// Throws InputError for an unknown name or a count that cannot be made.
 const Generator& generator_of(std::string_view name, std::uint64_t count) {
   const auto found = std::ranges::find(
       generators, name, [](const Generator& generator) { return generator.info.name; });

@@ -28,13 +28,13 @@
 
 namespace triptych::scene {
 
-// Those above, in that order.
+// The generators above, in that order.
 [[nodiscard]] std::vector<GeneratorInfo> particle_generators();
 
-// Throws InputError for an unknown name or a count out of range; makes nothing.
+// Throws InputError for an unknown name or a count out of range. Generates nothing.
 void check_particle_generator(std::string_view name, std::uint64_t count);
 
-// Throws as check_particle_generator does. The set's name is generate:NAME:COUNT.
+// Throws as check_particle_generator does. The name of the set is generate:NAME:COUNT.
 [[nodiscard]] ParticleSet generate_particles(std::string_view name, std::uint64_t count,
                                              ColourKind colour, const Progress& progress = {});
 

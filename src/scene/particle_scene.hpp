@@ -8,9 +8,10 @@
 
 namespace triptych::scene {
 
-// Headlight: the light stands in the eye. With n the unit normal and d the ray's direction,
-//   c' = c·(ambient + diffuse·|n·d|),
-// opaque. For spheres |n·d| = √(r² − p²)/r, p the distance of the centre from the ray.
+// The light is at the eye. With the unit normal n and the direction d of the ray, an opaque surface
+// has the colour
+//   c' = c·(ambient + diffuse·|n·d|).
+// For spheres, |n·d| = √(r² − p²)/r, where p is the distance of the centre from the ray.
 struct SphereShading {
   double ambient = 0.3;
   double diffuse = 0.7;
@@ -21,14 +22,13 @@ struct SphereShading {
   return static_cast<float>(static_cast<double>(radius) * scale);
 }
 
-// Everything that decides the picture, and nothing about how it is computed.
-//
-// A pixel shows the nearest surface point in front of the eye along the ray through its centre
-// (Camera): where a sphere is entered, or, for an eye inside a sphere, where it is left. Nothing is
-// cut off by a near or a far plane: camera.near only scales the depth buffer, z = near/Z with Z the
-// distance along the view axis (reversed, infinite far plane, 0 where there is nothing); it is a
-// power of two so small that no surface that matters lies before it. On a tie in depth the lowest
-// id is shown.
+// Everything that determines the picture, and nothing about how it is computed.
+// A pixel shows the nearest surface point in front of the eye along the ray through the pixel's
+// centre (Camera). That is where the ray enters a sphere or, if the eye is inside the sphere, where
+// it leaves it. No near or far plane cuts anything off. camera.near only scales the depth buffer:
+// z = near/Z, where Z is the distance along the view axis (reversed depth with an infinite far
+// plane; 0 where there is nothing). It is a power of two that is so small that no surface that
+// matters is nearer. If two depths are equal, the particle with the lowest id is visible.
 struct ParticleScene {
   std::shared_ptr<const ParticleSet> particles;
   TransferFunction intensity_colours;  // for ColourKind::intensity; its opacity is not used
@@ -39,19 +39,19 @@ struct ParticleScene {
   SphereShading shading;
   std::array<float, 4> background{0, 0, 0, 0};  // premultiplied
 
-  // The radius that is drawn.
+  // The radius with which the particle is drawn.
   [[nodiscard]] float radius(std::size_t index) const {
     return scaled_radius(particles->spheres[index][3], radius_scale);
   }
 };
 
-// The camera of the `camera` factor for these particles (camera_at over bounding_box), with `near`
-// as ParticleScene wants it.
+// The camera that the `camera` factor describes for these particles (camera_at with bounding_box),
+// with the value of `near` that ParticleScene requires.
 [[nodiscard]] Camera particle_camera(std::string_view spec, const ParticleSet& set,
                                      double fov_y_deg);
 
-// The largest power of two not above 2⁻²⁴ of the box's diagonal and of the eye's distance from it
-// together.
+// The largest power of two that does not exceed 2⁻²⁴ times the sum of the box's diagonal and the
+// eye's distance from the box.
 [[nodiscard]] double depth_scale(const Box& box, const glm::dvec3& eye);
 
 }  // namespace triptych::scene

@@ -6,11 +6,10 @@
 
 namespace triptych::scene {
 
-// Calls a Progress at most once per hundredth of the work, however often it is told how far the
-// work has come.
+// Calls a Progress at most once for every hundredth of the work, however often it is updated.
 class ProgressSteps {
  public:
-  // `progress` may be empty. Shares are mapped to [begin, end], for work that is part of another.
+  // `progress` may be empty. Shares are mapped to [begin, end] for work that is part of other work.
   ProgressSteps(const Progress& progress, std::uint64_t total, double begin = 0, double end = 1)
       : progress_(progress), total_(std::max<std::uint64_t>(total, 1)), begin_(begin), end_(end) {}
 

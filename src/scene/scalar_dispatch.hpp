@@ -1,5 +1,5 @@
 #pragma once
-// From the run-time scalar type of a volume to code compiled for it.
+// Selects code that was compiled for the scalar type of a volume, which is known only at run time.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace triptych::scene {
 
-// Calls `use` with a zero of the C++ type that stores `type`, and returns what it returns.
+// Calls `use` with a zero of the C++ type in which `type` is stored, and returns its result.
 template <typename Use>
 decltype(auto) with_scalar_type(ScalarType type, Use&& use) {
   switch (type) {
@@ -30,7 +30,7 @@ decltype(auto) with_scalar_type(ScalarType type, Use&& use) {
   return use(double{});
 }
 
-// Element `index` of untyped storage.
+// Element `index` of untyped memory.
 template <typename Scalar>
 Scalar load_scalar(const std::byte* storage, std::size_t index) {
   Scalar value;

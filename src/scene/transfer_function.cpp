@@ -19,14 +19,14 @@ namespace {
 using Entry = std::array<float, 4>;
 using Entries = std::array<Entry, 256>;
 
-// A preset is piecewise linear in the normalised value x between these points.
+// A preset is linear in the normalised value x between these points.
 struct ControlPoint {
   double x = 0;
   std::array<double, 4> rgba{};
 };
 
-// Opacities of a few per cent per voxel: a hundred voxels deep still lets the background through.
-// The lowest eighth, where scanners put air, is exactly transparent.
+// Opacities of a few per cent per voxel, so that the background is visible even through a hundred
+// voxels. The lowest eighth, where scanners put air, is fully transparent.
 constexpr std::array<ControlPoint, 7> haze{{
     {0.00, {0.05, 0.10, 0.30, 0}},
     {0.125, {0.08, 0.20, 0.55, 0}},
@@ -37,8 +37,8 @@ constexpr std::array<ControlPoint, 7> haze{{
     {1.00, {1.00, 0.90, 0.80, 0.060}},
 }};
 
-// Shells at 0.40, 0.54 and from 0.66 up, each opaque within a few voxels, nothing between or below:
-// the lowest third holds the air and the noise of most scans.
+// Shells at 0.40, at 0.54 and from 0.66 on, each opaque within a few voxels, with nothing between
+// or below them: in most scans, the lowest third is air and noise.
 constexpr std::array<ControlPoint, 12> surfaces{{
     {0.00, {0.80, 0.45, 0.30, 0}},
     {0.35, {0.85, 0.52, 0.36, 0}},
@@ -131,8 +131,8 @@ Entries from_text(std::string_view text, const std::string& file) {
   return entries;
 }
 
-// Whether bytes are the start of a text: lines, and all of them of comments or of what numbers are
-// written with.
+// Whether the bytes are the beginning of a text: lines that consist of comments or of the
+// characters of numbers.
 bool starts_a_text(std::string_view bytes) {
   const auto lines = split_lines(bytes);
   return lines.size() > 1 && std::ranges::all_of(lines, [](std::string_view line) {
@@ -145,8 +145,8 @@ bool starts_a_text(std::string_view bytes) {
 Entries from_file(const std::filesystem::path& file) {
   const std::string text = core::read_text(file);
   const auto bytes = std::as_bytes(std::span(text));
-  // A text of 256 entries is longer, as four digits, three blanks and a line end each make 2047
-  // bytes: but one that was cut off may be of any length.
+  // A text with 256 entries is longer, because four digits, three blanks and a line end each are
+  // 2047 bytes. But a text that was cut off can have any length.
   const bool is_table = bytes.size() == 4 * std::tuple_size_v<Entries> && !starts_a_text(text);
   return is_table ? from_bytes(bytes) : from_text(text, file.string());
 }

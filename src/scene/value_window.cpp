@@ -37,7 +37,7 @@ std::string text_of(const Range& range) {
   return fmt::format("{}..{}", range.lo, range.hi);
 }
 
-// Of a volume, what counts: finite values, and of a logarithm positive ones.
+// The values of a volume that count: finite ones, and for a logarithm only positive ones.
 template <typename Scalar>
 class Counted {
  public:
@@ -51,7 +51,8 @@ class Counted {
   [[nodiscard]] bool empty() const { return range_.lo > range_.hi; }
   [[nodiscard]] const Range& range() const { return range_; }
 
-  // The nearest rank. Keeps a copy of the values from the first one asked for.
+  // The percentile by nearest rank. The first call stores a copy of the values, which later calls
+  // use.
   [[nodiscard]] double percentile(double percent) {
     if (values_.empty()) for_each([this](Scalar value) { values_.push_back(value); });
     const auto count = static_cast<double>(values_.size());

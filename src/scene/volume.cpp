@@ -23,15 +23,16 @@ std::size_t count_of(const std::array<int, 3>& size) {
          static_cast<std::size_t>(size[2]);
 }
 
-// Maps values to 0..1 over a range, clamped; NaN and an empty range give 0. The result is never −0,
-// so that equal fields have equal bits.
+// Maps values from a range to 0..1, clamped. NaN gives 0, and so does an empty range. The result is
+// never −0, so that equal fields have equal bits.
 class Normaliser {
  public:
   explicit Normaliser(const Volume& volume)
       : mapping_(volume.mapping),
         least_(volume.range_lo),
         most_(volume.range_hi),
-        // Halved where hi − lo would overflow; by 1 nothing is rounded.
+        // Values are halved if hi − lo would overflow; otherwise they are multiplied by 1, which
+        // rounds nothing.
         unit_(std::isfinite(most_ - least_) ? 1.0 : 0.5),
         lo_(transformed(least_)),
         extent_(transformed(most_) - lo_) {}
@@ -45,7 +46,7 @@ class Normaliser {
   }
 
  private:
-  // Of a logarithmic mapping the range, and so all between its ends, is positive.
+  // For a logarithmic mapping, the whole range is positive.
   [[nodiscard]] double transformed(double value) const {
     return mapping_ == Mapping::logarithmic ? logarithm(value) : value * unit_;
   }
@@ -58,7 +59,7 @@ class Normaliser {
   double extent_;
 };
 
-// Converts element by element, in place where both types have one size.
+// Converts element by element; in place if both types have the same size.
 template <typename From, typename To, typename Convert>
 VoxelBytes convert(VoxelBytes&& voxels, Convert&& each) {
   const std::size_t n = voxels.size() / sizeof(From);
@@ -72,7 +73,8 @@ VoxelBytes convert(VoxelBytes&& voxels, Convert&& each) {
   return std::move(out);
 }
 
-// How an integer of type From is kept as an unsigned one: signed types are shifted to start at 0.
+// How an integer of type From is stored as an unsigned one: signed types are shifted so that they
+// begin at 0.
 template <typename From>
 inline constexpr int shift_of = std::is_signed_v<From> ? -int{std::numeric_limits<From>::min()} : 0;
 
@@ -111,12 +113,12 @@ void encode_float(Volume& volume, VoxelGrid& grid) {
   });
 }
 
-// Whether stored·scale + offset can be the normalised value of every voxel.
+// Whether the normalised value of every voxel can be written as stored·scale + offset.
 bool is_linear(const Volume& volume) {
   return volume.mapping == Mapping::linear && !volume.clipped;
 }
 
-// What f16 takes from integers.
+// What is subtracted from integers before they are stored as f16.
 double whole_part_of_lower_end(const Volume& volume) {
   return std::floor(volume.range_lo);
 }
@@ -304,7 +306,7 @@ bool fits_halves(const Volume& volume) {
   if (!is_linear(volume)) return false;
   return with_scalar_type(volume.type, [&]<typename Scalar>(Scalar) {
     if constexpr (std::is_integral_v<Scalar>) {
-      constexpr double most = 2048;  // all integers up to it are halves
+      constexpr double most = 2048;  // all integers up to this are exact as halves
       const double lower = whole_part_of_lower_end(volume);
       if (volume.range_hi - lower <= most) return true;
       for (std::size_t i = 0; i < volume.voxel_count(); ++i) {

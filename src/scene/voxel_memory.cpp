@@ -15,7 +15,7 @@
 namespace triptych::scene {
 namespace {
 
-// Not /tmp: many systems keep that in memory.
+// Not /tmp, because many systems keep it in memory.
 std::string folder_of_files() {
   const char* named = std::getenv("TMPDIR");
   return named != nullptr && *named != '\0' ? named : "/var/tmp";
@@ -28,7 +28,7 @@ std::string folder_of_files() {
                   folder, bytes >> 20U, std::strerror(code)));
 }
 
-// Open, without a name.
+// Opens a file that has no name.
 int unnamed_file(const std::string& folder, std::size_t bytes) {
   std::string name = folder + "/triptych-voxels-XXXXXX";
   const int file = ::mkostemp(name.data(), O_CLOEXEC);
@@ -37,7 +37,7 @@ int unnamed_file(const std::string& folder, std::size_t bytes) {
   return file;
 }
 
-// The room is taken at once: a page without any would be a SIGBUS later.
+// The disk space is allocated at once: a page without space would cause a SIGBUS later.
 void* map_file(std::size_t bytes) {
   const std::string folder = folder_of_files();
   const int file = unnamed_file(folder, bytes);

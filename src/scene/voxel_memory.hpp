@@ -1,6 +1,6 @@
 #pragma once
-// Where voxels lie: on the heap, or, where they are many, in an unnamed file of which the system
-// holds in memory what there is room for.
+// The memory for voxels: on the heap or, for large volumes, in an unnamed file, of which the
+// operating system keeps in memory as much as there is room for.
 
 #include <cstddef>
 #include <new>
@@ -9,11 +9,12 @@
 
 namespace triptych::scene {
 
-// From this many bytes on in a file. Its pages can go, and no limit on a process' data counts them.
+// From this size on, voxels are stored in a file. The system can write its pages back, and it does
+// not count towards a limit on the data of a process.
 inline constexpr std::size_t least_bytes_in_a_file = std::size_t{512} << 20U;
 
-// Bytes of 0. Throws std::bad_alloc, and of a file IoError where its folder, TMPDIR or else
-// /var/tmp, has no room.
+// Returns memory filled with 0. Throws std::bad_alloc, and for a file IoError if its folder
+// (TMPDIR, or /var/tmp) has no space.
 [[nodiscard]] void* allocate_voxels(std::size_t bytes);
 void free_voxels(void* voxels, std::size_t bytes) noexcept;
 
@@ -25,7 +26,7 @@ struct VoxelAllocator {
     return static_cast<T*>(allocate_voxels(n * sizeof(T)));
   }
   void deallocate(T* voxels, std::size_t n) noexcept { free_voxels(voxels, n * sizeof(T)); }
-  // What resize() adds is 0 as it comes: to write that again would fill a file twice.
+  // What resize() adds is already 0. Writing it again would fill a file twice.
   template <typename U>
   void construct(U* /*fresh*/) noexcept {}
   template <typename U, typename... From>
@@ -35,7 +36,7 @@ struct VoxelAllocator {
   bool operator==(const VoxelAllocator&) const = default;
 };
 
-// Grows only: bytes that were given up keep what they held.
+// Must only grow: if it was made smaller, a later resize() shows the old values instead of 0.
 using VoxelBytes = std::vector<std::byte, VoxelAllocator<std::byte>>;
 
 }  // namespace triptych::scene
