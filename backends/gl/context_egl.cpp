@@ -1,4 +1,5 @@
-// EGL without a window: Mesa's surfaceless platform, and EGL devices (NVIDIA's driver and others).
+// EGL without a window: Mesa's surfaceless platform, and EGL devices (of NVIDIA's driver and
+// others).
 
 #include <fmt/format.h>
 #include <glad/egl.h>
@@ -25,7 +26,7 @@ struct Egl {
   PFNEGLDESTROYCONTEXTPROC destroy_context =
       library.get<PFNEGLDESTROYCONTEXTPROC>("eglDestroyContext");
   PFNEGLMAKECURRENTPROC make_current = library.get<PFNEGLMAKECURRENTPROC>("eglMakeCurrent");
-  // Extensions of the library itself; null where it has none.
+  // Extensions of the library itself; null if it does not have them.
   PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display =
       reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
           get_proc_address("eglGetPlatformDisplayEXT"));
@@ -39,7 +40,7 @@ struct Egl {
   [[nodiscard]] bool has(EGLDisplay display, std::string_view extension) const {
     return is_among(query_string(display, EGL_EXTENSIONS), extension);
   }
-  // Whether the display's device is one that Mesa calls software.
+  // Whether the display belongs to a device that Mesa calls software.
   [[nodiscard]] bool is_software(EGLDisplay display) const {
     EGLAttrib device = 0;
     if (query_display == nullptr || query_device_string == nullptr) return false;
@@ -53,7 +54,7 @@ struct Egl {
   }
 
  private:
-  // Whole words: one extension's name may begin another's.
+  // Compares whole words, because the name of one extension may be the beginning of another.
   static bool is_among(const char* names, std::string_view extension) {
     return names != nullptr &&
            fmt::format(" {} ", names).find(fmt::format(" {} ", extension)) != std::string::npos;
@@ -76,7 +77,7 @@ class EglContext final : public Context {
   EglContext(EGLenum platform, EGLDeviceEXT device, bool debug) {
     open_display(platform, device);
     if (egl_.bind_api(EGL_OPENGL_API) == EGL_FALSE) throw egl_.error("eglBindAPI");
-    // Lost contexts are to be told as such, but not every driver can.
+    // A lost context is to be reported as such, but not every driver can do that.
     handle_ = create_newest(debug, true);
     if (handle_ == EGL_NO_CONTEXT) handle_ = create_newest(debug, false);
     if (handle_ == EGL_NO_CONTEXT) refuse_context();
@@ -93,13 +94,13 @@ class EglContext final : public Context {
   [[nodiscard]] bool computes_on_the_processor() const override {
     return egl_.is_software(display_);
   }
-  // The display stays: it is the process's, shared with every other context on it.
+  // The display is not terminated: it is shared with every other context on it in this process.
   ~EglContext() override { egl_.destroy_context(display_, handle_); }
 
  private:
   [[noreturn]] void refuse_context() {
     const core::ApiError error = egl_.error("eglCreateContext");
-    // So EGL calls a version or profile that the driver does not have.
+    // EGL returns this error if the driver does not have the version or profile.
     if (error.code() == "EGL_BAD_MATCH") throw core::NotSupported("no OpenGL 3.3 core context");
     throw error;
   }
@@ -115,7 +116,7 @@ class EglContext final : public Context {
     }
   }
 
-  // Asked for 3.3, Mesa gives the newest that it has, NVIDIA's driver 3.3.
+  // When asked for 3.3, Mesa creates the newest version that it has; NVIDIA's driver creates 3.3.
   EGLContext create_newest(bool debug, bool robust) {
     static constexpr std::array<std::array<EGLint, 2>, 8> versions{
         {{4, 6}, {4, 5}, {4, 4}, {4, 3}, {4, 2}, {4, 1}, {4, 0}, {3, 3}}};
@@ -131,7 +132,7 @@ class EglContext final : public Context {
         EGL_CONTEXT_MAJOR_VERSION,       major,
         EGL_CONTEXT_MINOR_VERSION,       minor,
         EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
-    // The attribute of EGL 1.5 is refused by displays of EGL 1.4 (softpipe's), this one by none.
+    // Displays of EGL 1.4 (softpipe's) refuse the attribute of EGL 1.5, but all accept this one.
     if (debug && egl_.has(display_, "EGL_KHR_create_context")) {
       attributes.insert(attributes.end(),
                         {EGL_CONTEXT_FLAGS_KHR, EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR});
@@ -145,7 +146,7 @@ class EglContext final : public Context {
   }
 
   void make_current() override {
-    // The bound API is per thread, and another library's use of EGL may have changed it.
+    // The bound API belongs to the thread, and another library may have changed it.
     egl_.bind_api(EGL_OPENGL_API);
     if (egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, handle_) == EGL_FALSE) {
       throw egl_.error("eglMakeCurrent");

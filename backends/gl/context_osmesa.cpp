@@ -1,5 +1,5 @@
-// OSMesa: Mesa's software renderers without a window system. Newer Mesa has dropped it, so its few
-// declarations stand here instead of <GL/osmesa.h>.
+// OSMesa: Mesa's software renderers without a window system. Newer versions of Mesa no longer
+// contain it, so its few declarations are repeated here instead of including <GL/osmesa.h>.
 
 #include <array>
 #include <cstdint>
@@ -72,7 +72,7 @@ class OsmesaContext final : public Context {
   static constexpr int window_edge = 4;
   Osmesa osmesa_;
   OsmesaHandle handle_ = nullptr;
-  // The window that OSMesa insists on; every technique draws into objects of its own.
+  // The window on which OSMesa insists. Every technique draws into objects of its own.
   std::array<std::uint8_t, std::size_t{4} * window_edge * window_edge> window_{};
 };
 

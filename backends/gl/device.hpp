@@ -6,7 +6,8 @@
 
 namespace triptych::gl_backend {
 
-// A device on its context. What it prepares must not outlive it. Throws core::ApiError.
+// Makes a device from its context. The work that it prepares must not outlive it. Throws
+// core::ApiError.
 [[nodiscard]] std::unique_ptr<measure::Device> make_device(record::Device info,
                                                            std::unique_ptr<Context> context);
 

@@ -30,9 +30,10 @@ bool write_all(int fd, std::string_view text) {
   return true;
 }
 
-// The child's whole life. Leaves by _exit: the parent's exit handlers are not the child's to run.
+// Everything that the child does. It leaves by _exit, because it must not run the exit handlers of
+// the parent.
 [[noreturn]] void answer(const std::function<std::string()>& ask, int fd) {
-  // A crash is the parent's to tell; handlers it may have installed would tell it twice.
+  // The parent reports a crash. Handlers that it may have installed would report it a second time.
   for (const int fatal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}) std::signal(fatal, SIG_DFL);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
@@ -47,7 +48,7 @@ bool write_all(int fd, std::string_view text) {
   _exit(exit_exception);
 }
 
-// Reads to the end of the stream; false when `limit` passed first.
+// Reads to the end of the stream; false if `limit` passes before that.
 bool read_all(int fd, std::chrono::milliseconds limit, std::string& text) {
   const auto end = std::chrono::steady_clock::now() + limit;
   std::array<char, 4096> part{};

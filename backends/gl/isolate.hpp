@@ -6,13 +6,14 @@
 namespace triptych::gl_backend {
 
 struct Answer {
-  std::string text;     // what the child returned
-  std::string failure;  // why there is none: "crashed: Segmentation fault"; empty when there is one
+  std::string text;  // what the child returned
+  std::string
+      failure;  // why there is no text: "crashed: Segmentation fault"; empty if there is one
 };
 
-// Runs `ask` in a child of this process, so that whatever it loads cannot take the caller down or
-// stay behind in it. A child that is not done at `limit` is killed. Never throws for what the child
-// does.
+// Runs `ask` in a child of this process, so that a library that it loads can neither crash the
+// caller nor stay loaded in it. A child that has not finished after `limit` is killed. Nothing that
+// the child does makes this throw.
 [[nodiscard]] Answer ask_in_child(const std::function<std::string()>& ask,
                                   std::chrono::milliseconds limit);
 

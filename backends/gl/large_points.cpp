@@ -29,12 +29,12 @@ std::vector<technique::Cell> cells_with_large_points(const Api& gl,
                                                      const scene::ParticleScene& scene,
                                                      const technique::Arrangement& arrangement) {
   std::vector<technique::Cell> cells = arrangement.cells;
-  // No silhouette is larger than the picture it is cut to.
+  // No silhouette is larger than the picture, to which it is clipped.
   const double largest = largest_point(gl);
   const bool all_small = std::max(scene.width, scene.height) + 4 <= largest;
   const double pixel = 2 * scene::tangent_of_half(scene.camera.fov_y_deg) / scene.height;
-  // Between its two tangents a sphere at (a, z) covers 2r√(a² + z² − r²)/(z² − r²) of an axis. A
-  // little more stands for the margins of sprites and points, and rounding.
+  // Between its two tangents, a sphere at (a, z) covers 2r√(a² + z² − r²)/(z² − r²) of an axis. A
+  // little is added for the margins of sprites and points, and for rounding.
   const auto may_be_large = [&](const std::array<float, 4>& sphere) {
     const glm::dvec3 to = glm::dvec3(sphere[0], sphere[1], sphere[2]) - scene.camera.eye;
     const double r = static_cast<double>(sphere[3]);

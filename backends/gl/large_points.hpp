@@ -7,14 +7,14 @@
 
 namespace triptych::gl_backend {
 
-// Pixels to add to the size of a point on this device.
+// The number of pixels to add to the size of a point on this device.
 [[nodiscard]] double point_margin(const Api& gl);
 
 // The largest point that the device draws, in pixels.
 [[nodiscard]] double largest_point(const Api& gl);
 
-// The arrangement's cells, empty but for those with a sphere that may need a larger point: what the
-// camera, which is fixed, leaves to the second draw of `point`.
+// The cells of the arrangement, where those are empty that have no sphere that may need a larger
+// point. With the fixed camera, these are what remains for the second draw of `point`.
 [[nodiscard]] std::vector<technique::Cell> cells_with_large_points(
     const Api& gl, const scene::ParticleScene& scene, const technique::Arrangement& arrangement);
 

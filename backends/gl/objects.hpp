@@ -1,5 +1,6 @@
 #pragma once
-// One move-only owner per kind of GL object. All live and die while their context is current.
+// One move-only owner for each kind of GL object. All are created and destroyed while their context
+// is current.
 
 #include <utility>
 
@@ -8,7 +9,7 @@
 
 namespace triptych::gl_backend {
 
-// An object of glGen…/glDelete…; both take a count and names.
+// An object of a pair glGen…/glDelete…, which both take a count and names.
 template <auto Generate, auto Delete>
 class Object {
  public:
@@ -31,7 +32,7 @@ class Object {
   [[nodiscard]] GLuint get() const noexcept { return name_; }
   [[nodiscard]] GLuint release() noexcept { return std::exchange(name_, 0U); }
 
-  // The memory that was given to it.
+  // The memory that was allocated for it.
   void holds(measure::MemoryLedger::Entry memory) { held_ = std::move(memory); }
 
  private:
@@ -47,7 +48,7 @@ using Framebuffer = Object<&GladGLContext::GenFramebuffers, &GladGLContext::Dele
 using VertexArray = Object<&GladGLContext::GenVertexArrays, &GladGLContext::DeleteVertexArrays>;
 using Query = Object<&GladGLContext::GenQueries, &GladGLContext::DeleteQueries>;
 
-// An object that is made by a call of its own and deleted one by one: shader, program, fence.
+// An object that has its own call for creation and is deleted individually: shader, program, fence.
 template <class Name, auto Delete>
 class Made {
  public:

@@ -9,7 +9,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-// Bindings of technique/particles/occlusion.glsl; the unit is this backend's.
+// The bindings of technique/particles/occlusion.glsl; this backend chooses the texture unit.
 constexpr GLuint binding_before = 8;
 constexpr GLuint binding_now = 9;
 constexpr GLuint binding_farthest = 10;
@@ -25,7 +25,7 @@ GLuint blocks(int pixels) {
 Occlusion::Occlusion(const Api& gl, const measure::ParticleWork& work, std::size_t cells)
     : blocks_{blocks(work.scene.width), blocks(work.scene.height)},
       farthest_(device_buffer(gl, sizeof(GLuint) * blocks_[0] * blocks_[1])) {
-  // Before the first frame everything is taken for visible.
+  // Before the first frame, all cells count as visible.
   const std::vector<GLuint> ones(cells + 1, 1U);
   for (Buffer& each : visible_) each = constant_buffer(gl, std::as_bytes(std::span(ones)));
   const std::vector<Stage> stages =

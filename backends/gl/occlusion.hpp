@@ -8,21 +8,21 @@
 
 namespace triptych::gl_backend {
 
-// What the two passes of occlusion culling keep (technique/particles/occlusion.glsl): which cells
-// the last frame showed, and the farthest depth in each block of pixels.
+// The data that the two passes of occlusion culling keep (technique/particles/occlusion.glsl): the
+// cells that the last frame showed, and the farthest depth in each block of pixels.
 class Occlusion {
  public:
   Occlusion(const Api& gl, const measure::ParticleWork& work, std::size_t cells);
 
-  // Before a frame's first draw: what this frame shows becomes what the last one showed.
+  // Before the first draw of a frame: what the previous frame showed becomes "before".
   void start_frame(const Api& gl);
-  // Between the two draws: the farthest depths of the picture so far.
+  // Between the two draws: computes the farthest depths of the picture so far.
   void find_farthest(const Api& gl, GLuint depth_texture) const;
   [[nodiscard]] const std::string& source() const { return source_; }
 
  private:
   std::array<GLuint, 2> blocks_;
-  std::array<Buffer, 2> visible_;  // before, now
+  std::array<Buffer, 2> visible_;  // of the last frame, of this one
   Buffer farthest_;
   std::string source_;
   Program program_;

@@ -11,7 +11,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-// Bindings of technique/particles/parameters.glsl and storage.glsl.
+// The bindings of technique/particles/parameters.glsl and storage.glsl.
 constexpr GLuint binding_parameters = 0;
 constexpr GLuint binding_transfer = 1;
 constexpr GLuint binding_counters = 2;
@@ -19,11 +19,11 @@ constexpr GLuint binding_spheres = 3;
 constexpr GLuint binding_colours = 4;
 constexpr GLuint binding_ids = 5;
 
-// Writes the bytes of a buffer that begin at `begin`.
+// Writes the part of a buffer that begins at byte `begin`.
 using Fill = std::function<void(std::size_t begin, std::span<std::byte> out)>;
 
-// Goes through a small piece of memory, in multiples of 16 bytes, so that the host holds no copy of
-// the whole. Never empty: a block needs a buffer even where nothing will be read.
+// Fills a buffer through a small piece of memory, in multiples of 16 bytes, so that the host has no
+// copy of the whole. The buffer is never empty, because a block needs one even if nothing is read.
 Buffer filled_buffer(const Api& gl, std::size_t size, const Fill& fill) {
   constexpr std::size_t most_at_once = std::size_t{4} << 20U;
   Buffer buffer(gl);
@@ -49,7 +49,7 @@ Buffer property_buffer(const Api& gl, const technique::Arrangement& arrangement,
       [&](std::size_t begin, std::span<std::byte> out) { arrangement.copy(property, begin, out); });
 }
 
-// 0, 1, 2…
+// A buffer with the numbers 0, 1, 2…
 Buffer number_buffer(const Api& gl, std::size_t count) {
   return filled_buffer(gl, count * sizeof(GLuint), [](std::size_t begin, std::span<std::byte> out) {
     std::vector<GLuint> numbers(out.size() / sizeof(GLuint));

@@ -8,22 +8,22 @@
 
 namespace triptych::gl_backend {
 
-// What the shared sources of particles read (technique/particles), on the device.
+// The data on the device that the shared sources for particles (technique/particles) read.
 class ParticleData {
  public:
   ParticleData(const Api& gl, const measure::ParticleWork& work,
                const technique::Arrangement& arrangement);
 
-  // Makes the data what bindings 0, 1 and 3…5 of the shared sources stand for, and the vertex
-  // attributes 0…2. Attribute 3, by the instance, is its number with the base counted in, for
-  // devices whose shaders are not told the base.
+  // Binds the data to bindings 0, 1 and 3…5 of the shared sources, and to the vertex attributes
+  // 0…2. Attribute 3 advances with the instance and is its number including the base, for devices
+  // whose shaders do not know the base.
   void bind(const Api& gl) const;
 
   [[nodiscard]] const Buffer& spheres() const noexcept { return spheres_; }
   [[nodiscard]] const Buffer& colours() const noexcept { return colours_; }
   [[nodiscard]] const Buffer& ids() const noexcept { return ids_; }
 
-  // Frames from now on are seen from this scene's camera.
+  // From now on, frames are seen from the camera of this scene.
   void look_from(const Api& gl, const measure::ParticleWork& work,
                  const technique::Arrangement& arrangement) const;
 
@@ -43,9 +43,9 @@ class ParticleData {
 class ParticleCounters {
  public:
   explicit ParticleCounters(const Api& gl);
-  // Sets all to zero and makes them binding 2.
+  // Sets all counters to zero and binds them to binding 2.
   void start(const Api& gl) const;
-  // All rows; the device has finished counting.
+  // All rows. The device must have finished counting.
   [[nodiscard]] std::vector<std::uint32_t> read(const Api& gl) const;
 
  private:

@@ -7,13 +7,13 @@
 
 namespace triptych::gl_backend {
 
-// Why these particles and this picture are beyond what every particle technique needs; empty when
-// they are not. `storage`: the particles are read as storage blocks.
+// Why these particles and this picture exceed what every particle technique needs; empty if they do
+// not. `storage`: the particles are read from storage blocks.
 [[nodiscard]] std::optional<std::string> particles_unsupported(const Api& gl,
                                                                const measure::ParticleWork& work,
                                                                bool storage);
 
-// Whether there are tessellation shaders.
+// Whether the device has tessellation shaders.
 [[nodiscard]] inline bool has_tessellation(const Api& gl) {
   return gl.VERSION_4_0 != 0 || gl.ARB_tessellation_shader != 0;
 }

@@ -1,4 +1,4 @@
-// What a device must have for sprites.
+// What a device needs for sprites.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 namespace triptych::gl_backend {
 namespace {
 
-// Blocks that a stage reads or counts in: storage.glsl has three, the counters are one.
+// The number of blocks from which a stage reads or in which it counts: storage.glsl has three, and
+// the counters are one.
 struct StageBlocks {
   GLenum type;
   GLenum limit;

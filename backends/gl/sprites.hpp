@@ -1,6 +1,6 @@
 #pragma once
-// Techniques that draw spheres on sprites: what the stages before the pixel are differs, the rest
-// is common.
+// Techniques that draw spheres on sprites. They differ in the stages before the fragment stage; the
+// rest is common.
 
 #include <memory>
 #include <optional>
@@ -13,24 +13,24 @@
 
 namespace triptych::gl_backend {
 
-// One way in which particles become sprites.
+// One way to turn particles into sprites.
 struct SpriteDraw {
   GLenum mode = GL_POINTS;
-  bool instanced = false;             // a particle is an instance of four vertices, else a vertex
-  bool large_only = false;            // for cells that may hold spheres beyond the largest point
-  std::vector<ParticleStage> stages;  // those before the pixel stage
+  bool instanced = false;   // a particle is an instance of four vertices, otherwise a vertex
+  bool large_only = false;  // for cells that may contain spheres larger than the largest point
+  std::vector<ParticleStage> stages;  // the stages before the fragment stage
 };
 using Sprites = std::vector<SpriteDraw>;
 
-// Stages that several techniques have.
+// Stages that several techniques use.
 [[nodiscard]] ParticleStage attribute_stage();
-// A vertex stage that finds its particle by the instance.
+// A vertex stage that finds its particle by the number of the instance.
 [[nodiscard]] ParticleStage instance_stage(const Api& gl, std::string_view file);
-// One patch per particle, one quad per particle.
+// One patch for each particle, one quad for each particle.
 [[nodiscard]] Sprites tessellated(std::string_view define);
 [[nodiscard]] Sprites from_geometry_stage(bool screen_aligned);
 
-// Why this cannot be drawn here by these stages; empty when it can.
+// Why these stages cannot draw the work on this device; empty if they can.
 [[nodiscard]] std::optional<std::string> sprites_unsupported(const Api& gl,
                                                              const measure::ParticleWork& work,
                                                              const Sprites& sprites);
@@ -38,7 +38,7 @@ using Sprites = std::vector<SpriteDraw>;
                                                     const measure::ParticleWork& work,
                                                     const Sprites& sprites);
 
-// A technique whose sprites depend on the context at most.
+// A technique whose sprites depend on nothing but the context.
 template <Sprites (*describe)(const Api& gl)>
 [[nodiscard]] ParticleTechnique sprite_technique() {
   return {[](const Api& gl, const measure::ParticleWork& work) {

@@ -1,6 +1,6 @@
 #pragma once
-// The techniques that the catalogue has for this API; each is implemented in the file of its name.
-// All functions are called with the context current.
+// The techniques of the catalogue for this API. Each is implemented in the file that has its name.
+// All functions are called while the context is current.
 
 #include <memory>
 #include <optional>
@@ -15,7 +15,7 @@
 namespace triptych::gl_backend {
 
 struct VolumeTechnique {
-  // Beyond volume_unsupported(): what this technique alone needs.
+  // What this technique needs in addition to volume_unsupported().
   std::optional<std::string> (*unsupported)(const Api& gl, const measure::VolumeWork& work);
   std::unique_ptr<measure::Prepared> (*prepare)(Context& context, Stamps stamps,
                                                 const measure::VolumeWork& work);

@@ -14,20 +14,20 @@ struct Elapsed {
   std::optional<double> device_ns;
 };
 
-// Where the device's time stamps stand.
+// When the device takes its time stamps.
 enum class Stamps : std::uint8_t {
   in_stream,  // right before and after the work, as GPUs execute them
   finished    // the work is finished before the second is asked for: software renderers run compute
               // and their stamps on different threads, and stamps in stream read about nothing
 };
 
-// Times work by the wall and by the device.
+// Measures work by the wall clock and by the device's clock.
 class Stopwatch {
  public:
   Stopwatch(const Api& gl, Stamps stamps);
 
-  // `submit` makes the GL calls to be timed; the wall clock runs from before them until the device
-  // has signalled a fence behind them, waited for without spinning.
+  // `submit` makes the GL calls that are timed. The wall clock runs from before them until the
+  // device has signalled a fence after them; the wait for it does not spin.
   template <class Submit>
   [[nodiscard]] Elapsed time(Submit&& submit) {
     start();
@@ -52,11 +52,11 @@ void wait_for_device(const Api& gl);
 
 struct Statistic {
   GLenum target = 0;
-  std::string_view name;  // as record::Counts has it
+  std::string_view name;  // as in record::Counts
 };
 
-// The driver's pipeline statistics of some calls, for the stages they use; what it cannot tell is
-// absent.
+// The driver's pipeline statistics for some calls and the stages that they use. A statistic that
+// the driver cannot count is absent.
 class Statistics {
  public:
   Statistics(const Api& gl, std::span<const Statistic> wanted);

@@ -20,7 +20,7 @@ bool holds(const Api& gl, const std::array<int, 3>& size, scene::VoxelFormat for
   return accepted != 0;
 }
 
-// What the voxels of a device may take.
+// How much memory the voxels may take on a device.
 technique::Room room_of(const Api& gl, const measure::VolumeWork& work) {
   const scene::VoxelGrid& grid = *work.scene.grid;
   if (is_packed(work)) {

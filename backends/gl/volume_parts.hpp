@@ -1,5 +1,5 @@
 #pragma once
-// A volume of which the device holds one part at a time (technique/volume/parts.hpp).
+// A volume that is on the device one part at a time (technique/volume/parts.hpp).
 
 #include <memory>
 #include <span>
@@ -12,24 +12,24 @@
 
 namespace triptych::gl_backend {
 
-// For technique raycast.
+// For the technique raycast.
 [[nodiscard]] technique::Cut cut_of(const Api& gl, std::string_view technique,
                                     const measure::VolumeWork& work);
 
-// Whether one texture holds a volume.
+// Whether one texture can hold a volume.
 [[nodiscard]] bool holds_whole(const Api& gl, const std::array<int, 3>& size,
                                scene::VoxelFormat format);
 
 // Moves part after part to where the shader reads it.
 class VolumeParts {
  public:
-  // `map`: technique::brick_map.
+  // `map` is the result of technique::brick_map.
   VolumeParts(const Api& gl, const measure::VolumeWork& work,
               const std::vector<technique::Part>& parts, std::span<const std::int32_t> map);
 
   [[nodiscard]] int count() const noexcept { return static_cast<int>(passes_.size()); }
-  // The n-th part's parameters behind the others, and where any are read its voxels: into the
-  // texture that is bound, or as cells.
+  // Moves the parameters of the n-th part behind the others and, if voxels are read, its voxels:
+  // into the bound texture, or as cells.
   void move(const Api& gl, int n, const Buffer& parameters, const Buffer* cells) const;
 
  private:
@@ -38,7 +38,7 @@ class VolumeParts {
   std::shared_ptr<const scene::VoxelGrid> grid_;
   technique::Layers layers_;
   std::vector<technique::PartPass> passes_;
-  std::size_t place_;  // of a part's in the parameters
+  std::size_t place_;  // where the parameters of a part are among the parameters
   measure::MemoryLedger::Entry moved_;
 };
 

@@ -62,7 +62,7 @@ record::Counts counters_of(const ParticleWork& work) {
           {"visible_ids", std::min(particles, pixels)}};
 }
 
-// Invocations of one compute pass, or of the fragment stage.
+// The invocations of one compute pass, or of the fragment stage.
 std::uint64_t invocations_of(const VolumeWork& work) {
   return static_cast<std::uint64_t>(pixels_of(work.scene));
 }
@@ -79,7 +79,7 @@ int stride_of(const ParticleWork& work) {
   return work.options.extra_work_stride;
 }
 
-// Everything that decides a picture, and nothing about how it is computed.
+// Everything that determines a picture, and nothing about how it is computed.
 std::string camera_key(const scene::Camera& c) {
   return fmt::format("{} {} {} {} {} {} {} {}", c.eye.x, c.eye.y, c.eye.z, c.forward.x, c.forward.y,
                      c.forward.z, c.up.x, c.fov_y_deg);
@@ -117,7 +117,8 @@ core::Image slopes(int width, int height, const std::string& key, double fault) 
   return image;
 }
 
-// One particle after the other, every tenth pixel empty; a fault shows in ids and depth too.
+// One particle after the other, with every tenth pixel empty. An injected fault also changes ids
+// and depth.
 void add_particles(core::Image& image, std::uint32_t fault) {
   for (std::size_t i = 0; i < image.pixel_count(); ++i) {
     const bool empty = i % 10 == 0;

@@ -1,6 +1,6 @@
 #pragma once
-// What a scripted device says that it did: numbers and pictures made from the work alone, the same
-// every time.
+// What a scripted device claims to have done: numbers and pictures that follow from the work alone
+// and are the same every time.
 
 #include <cstdint>
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace triptych::null_backend {
 
-// The leading digits of the text's hash.
+// A number from the leading digits of the text's hash.
 [[nodiscard]] std::uint64_t number_of(const std::string& text);
 
-// What times and counts are made of: about the samples that a raycaster would take, or the
-// fragments that sprites would cover.
+// The basis of times and counts: about as many samples as a raycaster would take, or as many
+// fragments as sprites would cover.
 [[nodiscard]] double samples_of(const measure::Work& work);
 // The injected slowdown, as a share of the frame; 0 for none.
 [[nodiscard]] double extra_share(const measure::Work& work);
@@ -22,11 +22,11 @@ namespace triptych::null_backend {
 [[nodiscard]] record::Counts counters_of(const measure::Work& work);
 [[nodiscard]] record::Counts statistics_of(const measure::Work& work);
 
-// Slopes in x and y whose strength and ground depend on the scene; an injected fault of the
-// technique shows in it as it would in a picture. Particles also have depth and ids.
+// Slopes in x and y whose strength and offset depend on the scene. An injected fault of the
+// technique changes it as it would change a real picture. Particles also have depth and ids.
 [[nodiscard]] core::Image pattern(const measure::Work& work);
 
-// What device code would be compiled for this work.
+// A key for the device code that would be compiled for this work.
 [[nodiscard]] std::string code_key(const measure::Work& work);
 
 }  // namespace triptych::null_backend

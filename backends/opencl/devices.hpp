@@ -1,5 +1,5 @@
 #pragma once
-// What the ICD loader lists.
+// The platforms and devices that the ICD loader lists.
 
 #include <vector>
 
@@ -18,11 +18,11 @@ struct Search {
   std::vector<measure::Broken> broken;
 };
 
-// Never throws because of a driver: a platform or device that fails is named in `broken`.
+// Never throws because of a driver: a platform or device that fails is listed in `broken`.
 [[nodiscard]] Search find_devices();
 
-// "pocl" for "Portable Computing Language"; for a platform not known here, its name in small
-// letters and digits.
+// "pocl" for "Portable Computing Language"; for an unknown platform, its name in lower-case letters
+// and digits.
 [[nodiscard]] std::string driver_of(std::string_view platform_name);
 
 }  // namespace triptych::opencl_backend

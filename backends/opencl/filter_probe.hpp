@@ -5,9 +5,9 @@
 
 namespace triptych::opencl_backend {
 
-// Largest error of the device's trilinear sampler over seeded random places, as a share of the
-// difference between neighbouring voxels, which here is the format's whole range.
-// Throws core::NotSupported where the device has no image format for these voxels.
+// The largest error of the device's trilinear sampler at seeded random positions, as a share of the
+// difference between neighbouring voxels, which here is the whole range of the format. Throws
+// core::NotSupported if the device has no image format for these voxels.
 [[nodiscard]] double probe_filter(const Session& session, Programs& programs,
                                   scene::VoxelFormat format);
 

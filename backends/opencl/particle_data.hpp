@@ -14,16 +14,17 @@ struct ParticleData {
   std::size_t cell_count = 0;
   cl::Buffer parameters;  // technique::ParticleParameters
   cl::Buffer spheres;     // float4
-  cl::Buffer colours;     // one or four words each, by kind
+  cl::Buffer colours;     // one or four words each, depending on the kind
   cl::Buffer ids;
   cl::Buffer cells;  // technique::Cell
-  cl::Buffer table;  // of the transfer function
+  cl::Buffer table;  // the table of the transfer function
 };
 
-// What is drawn from now on is seen from this scene's camera; done on return.
+// From now on, frames are seen from the camera of this scene. The upload has finished when this
+// returns.
 void look_from(const Session& session, const ParticleData& data, const measure::ParticleWork& work);
 
-// Arranges and uploads; done on return.
+// Arranges the particles and uploads them. The upload has finished when this returns.
 [[nodiscard]] ParticleData upload(const Session& session, const measure::ParticleWork& work);
 
 }  // namespace triptych::opencl_backend

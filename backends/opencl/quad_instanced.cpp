@@ -1,4 +1,5 @@
-// Ray-aligned quads. Without a rasterizer's stages all ways to make them are this one.
+// Ray-aligned quads. Without the stages of a rasterizer, all techniques that draw such quads are
+// this one.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"
 

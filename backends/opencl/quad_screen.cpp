@@ -1,4 +1,4 @@
-// Screen-aligned quads around the silhouettes: what a geometry shader makes elsewhere.
+// Screen-aligned quads around the silhouettes, which other APIs make in a geometry shader.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"
 

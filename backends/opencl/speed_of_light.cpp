@@ -1,4 +1,4 @@
-// The fetches and look-ups of raycast alone: the same kernel, built to sum what it reads.
+// Only the fetches and table look-ups of raycast: the same kernel, built to sum what it reads.
 #include "backends/opencl/techniques.hpp"
 #include "backends/opencl/volume_frames.hpp"
 

@@ -1,4 +1,5 @@
-// Spheres binned into tiles and resolved per pixel, without sprites.
+// Spheres are sorted into tiles, and each pixel finds the nearest one in its tile. There are no
+// sprites.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"
 

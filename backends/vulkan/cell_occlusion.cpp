@@ -5,7 +5,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-// Bindings of technique/particles/occlusion.glsl, and of shaders/farthest.comp.
+// The bindings of technique/particles/occlusion.glsl and of shaders/farthest.comp.
 enum OcclusionBinding : std::uint32_t {
   before_binding = 8,
   now_binding,
@@ -19,7 +19,7 @@ std::uint32_t blocks(std::uint32_t pixels) {
   return (pixels + block_edge - 1) / block_edge;
 }
 
-// Before the first frame everything is taken for seen.
+// Before the first frame, all cells count as visible.
 Buffer all_seen(const Gpu& gpu, std::uint32_t cells) {
   const std::vector<std::uint32_t> ones(cells + 1, 1U);
   return make_buffer(

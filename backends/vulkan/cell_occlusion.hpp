@@ -7,19 +7,20 @@
 namespace triptych::vulkan_backend {
 
 // What occlusion culling remembers from frame to frame, and the farthest depth of each block of
-// pixels. The camera of a prepared scene stands still: from the second frame on the first pass
-// draws all that can be seen and the second nothing, so that the order of drawing is the
-// arrangement's.
+// pixels. The camera of a prepared scene does not move. So from the second frame on, the first pass
+// draws everything that is visible and the second pass nothing, and the order of drawing is that of
+// the arrangement.
 class CellOcclusion {
  public:
-  // `layout` holds the bindings of occlusion_bindings().
+  // `layout` contains the bindings of occlusion_bindings().
   CellOcclusion(const Gpu& gpu, const Layout& layout, std::uint32_t cells, vk::Extent3D extent,
                 const Specialization& constants);
 
   void bind(vk::DescriptorSet set) const;
-  // What was seen now becomes what was seen before.
+  // What was visible in this frame becomes what was visible before.
   void start_frame(const vk::raii::CommandBuffer& commands) const;
-  // `depth` lies in eTransferSrcOptimal. The set must be bound for compute.
+  // `depth` must be in the layout eTransferSrcOptimal. The descriptor set must be bound for
+  // compute.
   void find_farthest(const vk::raii::CommandBuffer& commands, const Image& depth) const;
 
  private:

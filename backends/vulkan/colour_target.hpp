@@ -1,15 +1,15 @@
 #pragma once
-// Drawing into a single image of colours.
+// Drawing into a single colour image.
 
 #include "backends/vulkan/memory.hpp"
 
 namespace triptych::vulkan_backend {
 
-// What such a draw can count.
+// The statistics that mean something for such a draw.
 [[nodiscard]] vk::QueryPipelineStatisticFlags draw_statistics();
 
-// `begins`: with zeros (eClear) or with anything (eDontCare). Leaves the target ready to be copied
-// from.
+// `begins`: the pass begins with zeros (eClear) or with undefined content (eDontCare). Afterwards
+// the target is ready to be copied from.
 [[nodiscard]] vk::raii::RenderPass colour_pass(const Gpu& gpu, vk::Format format,
                                                vk::AttachmentLoadOp begins);
 
@@ -17,8 +17,8 @@ namespace triptych::vulkan_backend {
                                                        const vk::raii::RenderPass& pass,
                                                        const Image& target);
 
-// Fills the framebuffer's one target, which is of such a format, with NaN. Fresh memory may hold
-// what was right before.
+// Fills the only target of the framebuffer, which has this format, with NaN. Fresh memory may
+// contain a picture that was right before.
 void mark_unwritten(const Gpu& gpu, vk::Format format, const vk::raii::Framebuffer& framebuffer,
                     vk::Extent3D extent);
 

@@ -12,11 +12,11 @@ namespace triptych::vulkan_backend {
 struct Candidate {
   vk::raii::PhysicalDevice physical;
   record::Device info;
-  std::string reason;  // why it cannot be used; empty when it can
+  std::string reason;  // why it cannot be used; empty if it can
 };
 
-// All physical devices in the loader's order, with ids "vulkan:<driver>"; where a driver lists
-// several devices the second is "#2", and so on. Throws core::ApiError.
+// All physical devices in the order of the loader, with ids "vulkan:<driver>". If a driver lists
+// several devices, the second one is "#2", and so on. Throws core::ApiError.
 [[nodiscard]] std::vector<Candidate> candidates(std::vector<vk::raii::PhysicalDevice> devices);
 
 }  // namespace triptych::vulkan_backend

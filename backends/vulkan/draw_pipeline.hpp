@@ -1,6 +1,6 @@
 #pragma once
-// Graphics pipelines as the techniques here need them: one viewport, a scissor set at draw time, no
-// face culling, one sample.
+// Graphics pipelines as the techniques need them: one viewport, a scissor that is set at draw time,
+// no face culling, one sample per pixel.
 
 #include <optional>
 #include <string_view>
@@ -20,15 +20,15 @@ struct DrawState {
   std::vector<vk::VertexInputBindingDescription> vertex_bindings;  // empty: no vertex buffers
   std::vector<vk::VertexInputAttributeDescription> vertex_attributes;
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
-  std::uint32_t patch_points = 1;  // of ePatchList
+  std::uint32_t patch_points = 1;  // for ePatchList
   std::uint32_t colour_targets = 1;
-  std::optional<vk::CompareOp> depth;  // tested and written where given
+  std::optional<vk::CompareOp> depth;  // depth is tested and written if this is given
   vk::Extent3D extent;
-  std::vector<vk::Format> formats;  // of the render pass's attachments, in its order
+  std::vector<vk::Format> formats;  // of the attachments of the render pass, in its order
 };
 
-// All stages get the same specialization constants. The gpu's own (Pipelines): made where there is
-// none of the kind yet.
+// All stages get the same specialization constants. The Gpu owns the pipeline (Pipelines); it is
+// created if there is none of this kind yet.
 [[nodiscard]] vk::Pipeline draw_pipeline(const Gpu& gpu, const Layout& layout,
                                          const vk::raii::RenderPass& pass, const DrawState& state,
                                          const Specialization& constants);

@@ -19,14 +19,14 @@ namespace {
 
 constexpr int edge = 8;  // voxels
 constexpr std::size_t places = 8192;
-constexpr std::uint32_t group_size = 64;  // filter_probe.comp
-using Sample = std::array<float, 4>;      // place in voxels, value
+constexpr std::uint32_t group_size = 64;  // as in filter_probe.comp
+using Sample = std::array<float, 4>;      // position in voxels, value
 
 vk::FormatFeatureFlags features(const Gpu& gpu, scene::VoxelFormat format) {
   return gpu.physical.getFormatProperties(texture_format(format)).optimalTilingFeatures;
 }
 
-// 0 and 1 of the format's range.
+// Voxels that are the 0 or the 1 of the format's range.
 scene::VoxelGrid random_voxels(scene::VoxelFormat format) {
   scene::VoxelGrid grid{.format = format, .size = {edge, edge, edge}};
   grid.data.resize(std::size_t{edge} * edge * edge * scene::bytes_of(format));
@@ -90,7 +90,7 @@ double trilinear(const scene::VoxelGrid& grid, const Sample& place) {
   return value;
 }
 
-// Fills in the values as the device samples them.
+// Fills in the values that the device samples.
 void sample_on_device(const Gpu& gpu, const Image& volume, std::vector<Sample>& samples) {
   const auto bytes = std::as_writable_bytes(std::span(samples));
   using enum vk::DescriptorType;

@@ -6,16 +6,16 @@
 
 namespace triptych::vulkan_backend {
 
-// Whether images of this format can be sampled, and filtered linearly.
+// Whether images of this format can be sampled with linear filtering.
 [[nodiscard]] bool can_sample(const Gpu& gpu, scene::VoxelFormat format);
 [[nodiscard]] bool can_filter(const Gpu& gpu, scene::VoxelFormat format);
 
-// The largest error of the device's trilinear filter over some thousand random places among random
-// black and white voxels, against double precision, as a share of the voxels' difference. Absent
-// where the format cannot be filtered.
+// The largest error of the device's trilinear filter at some thousand random positions among random
+// black and white voxels. It is compared with double precision and given as a share of the
+// difference of the voxels. Empty if the format cannot be filtered.
 [[nodiscard]] std::optional<double> probe_filter(const Gpu& gpu, scene::VoxelFormat format);
 
-// technique::allowed_filter_error, of the weights that the device tells.
+// technique::allowed_filter_error for the precision of the weights that the device reports.
 [[nodiscard]] double allowed_filter_error(const Gpu& gpu, scene::VoxelFormat format);
 
 }  // namespace triptych::vulkan_backend

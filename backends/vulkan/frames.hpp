@@ -7,24 +7,24 @@
 
 namespace triptych::vulkan_backend {
 
-// What a technique draws, recorded once per purpose and submitted again and again.
+// The work of a technique, which is recorded once for each purpose and submitted repeatedly.
 class Frames {
  public:
-  // `statistics` are the pipeline statistics that mean something for this kind of work. Both
-  // recordings are made here.
+  // `statistics` are the pipeline statistics that mean something for this kind of work. The
+  // constructor makes both recordings.
   Frames(const Gpu& gpu, vk::QueryPipelineStatisticFlags statistics, const Recording& timed);
 
   [[nodiscard]] bool can_count() const noexcept { return counters_.has_value(); }
   void record_counters(const Recording& counting);
 
-  // Submits the recording for this purpose. Fills in times and statistics; counters are the
-  // caller's, where its counting build left them.
+  // Submits the recording for this purpose and fills in times and statistics. The caller reads the
+  // counters, which its counting build has written.
   [[nodiscard]] measure::Frame submit(measure::Purpose purpose) const;
 
  private:
   struct Recorded {
     vk::raii::CommandBuffer commands;
-    vk::raii::QueryPool queries;  // null where there is nothing to query
+    vk::raii::QueryPool queries;  // null if nothing is queried
   };
   [[nodiscard]] Recorded record(const Recording& work, vk::QueryType type, bool queried) const;
   [[nodiscard]] std::optional<double> device_ns() const;

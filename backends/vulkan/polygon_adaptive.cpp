@@ -1,4 +1,5 @@
-// Ray-aligned polygons with 4 to 16 corners by the projected radius, tessellated.
+// Ray-aligned polygons with 4 to 16 corners, depending on the projected radius; made by
+// tessellation.
 #include "backends/vulkan/sprite_frames.hpp"
 #include "backends/vulkan/techniques.hpp"
 

@@ -1,4 +1,4 @@
-// Ray-aligned polygons of a given number of corners, tessellated.
+// Ray-aligned polygons with a given number of corners; made by tessellation.
 #include "backends/vulkan/sprite_frames.hpp"
 #include "backends/vulkan/techniques.hpp"
 

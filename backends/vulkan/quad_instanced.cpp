@@ -1,4 +1,4 @@
-// Ray-aligned quads made by the vertex shader from storage buffers, one instance each.
+// Ray-aligned quads that the vertex shader makes from storage buffers, one instance each.
 #include "backends/vulkan/sprite_frames.hpp"
 #include "backends/vulkan/techniques.hpp"
 

@@ -1,4 +1,4 @@
-// Quads across the ray to the centre, made by a geometry shader.
+// Quads that are perpendicular to the ray through the centre; made by a geometry shader.
 #include "backends/vulkan/sprite_frames.hpp"
 #include "backends/vulkan/techniques.hpp"
 

@@ -1,4 +1,4 @@
-// Screen-aligned quads around the silhouettes, made by a geometry shader.
+// Screen-aligned quads around the silhouettes; made by a geometry shader.
 #include "backends/vulkan/sprite_frames.hpp"
 #include "backends/vulkan/techniques.hpp"
 

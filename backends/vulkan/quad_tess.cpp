@@ -1,4 +1,4 @@
-// Ray-aligned quads made by a tessellation shader.
+// Ray-aligned quads; made by a tessellation shader.
 #include "backends/vulkan/sprite_frames.hpp"
 #include "backends/vulkan/techniques.hpp"
 

@@ -1,4 +1,5 @@
-// The fetches and look-ups of raycast alone: the same kernel, specialised to sum what it reads.
+// Only the fetches and table look-ups of raycast: the same kernel, specialised to sum what it
+// reads.
 #include "backends/vulkan/compute_frames.hpp"
 #include "backends/vulkan/techniques.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// One file per technique of the catalogue, of its name.
+// Each technique of the catalogue is implemented in the file that has its name.
 
 #include <memory>
 

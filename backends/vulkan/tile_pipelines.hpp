@@ -12,7 +12,7 @@ namespace triptych::vulkan_backend {
 // The compute passes of technique/particles/tiles.glsl.
 enum class TilePass : std::uint8_t { cells, bin, place, fill, resolve, settle, index };
 
-// Constants of shaders/particle_prelude.glsl and, behind them, of shaders/tiles_prelude.glsl.
+// The constants of shaders/particle_prelude.glsl, followed by those of shaders/tiles_prelude.glsl.
 struct TileConstants {
   ParticleConstants common;
   std::int32_t culling = 0;
@@ -32,12 +32,12 @@ class TilePipelines {
   std::vector<vk::Pipeline> pipelines_;
 };
 
-// What colours the picture; `state` says all but the stages.
+// The pipeline that colours the picture. `state` describes everything but the stages.
 [[nodiscard]] vk::Pipeline tiles_show(const Gpu& gpu, const Layout& layout,
                                       const vk::raii::RenderPass& pass, DrawState state,
                                       const Specialization& constants);
 
-// Of the timed build.
+// The hash of the build that is timed.
 [[nodiscard]] std::string tiles_hash(const Specialization& constants);
 
 }  // namespace triptych::vulkan_backend

@@ -25,7 +25,7 @@ technique::Room image_room(const Gpu& gpu, const technique::Layers& slices,
   return {0, "the reach of images of this format, of which the device has none"};
 }
 
-// What the voxels of a device may take.
+// How much memory the voxels may take on a device.
 technique::Room room_of(const Gpu& gpu, const measure::VolumeWork& work) {
   const scene::VoxelFormat format = work.scene.grid->format;
   if (is_packed(work)) {
@@ -50,7 +50,8 @@ technique::Cut cut_of(const Gpu& gpu, std::string_view technique, const measure:
   if (technique::has_long_rays(work.scene)) {
     return {.parts = {}, .reason = std::string(technique::long_rays_in_parts)};
   }
-  // Output, counters and pauses; bricks and quadrature, where they are not read as texels.
+  // The output, the counters and the pauses; also the bricks and the quadrature if they are not
+  // read as texels.
   const std::uint32_t needed = is_packed(work) ? 3 : 5;
   const std::uint32_t most = gpu.properties.limits.maxPerStageDescriptorStorageBuffers;
   if (needed > most) {

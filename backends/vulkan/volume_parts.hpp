@@ -1,5 +1,5 @@
 #pragma once
-// A volume of which the device holds one part at a time (technique/volume/parts.hpp).
+// A volume that is on the device one part at a time (technique/volume/parts.hpp).
 
 #include <array>
 #include <memory>
@@ -13,25 +13,26 @@
 
 namespace triptych::vulkan_backend {
 
-// For technique raycast and compute shaders.
+// For the technique raycast and for compute shaders.
 [[nodiscard]] technique::Cut cut_of(const Gpu& gpu, std::string_view technique,
                                     const measure::VolumeWork& work);
 
-// Whether one image does.
+// Whether one image can hold a volume.
 [[nodiscard]] bool holds_whole(const Gpu& gpu, const std::array<int, 3>& size,
                                scene::VoxelFormat format);
 
 // Moves part after part to where the shader reads it.
 class VolumeParts {
  public:
-  // `parameters` (technique::raycast_parameters) have room for technique::PartParameters behind
-  // them; `map`: technique::brick_map.
+  // `parameters` (technique::raycast_parameters) must have room for technique::PartParameters at
+  // the end. `map` is the result of technique::brick_map.
   VolumeParts(const Gpu& gpu, const measure::VolumeWork& work,
               std::span<const technique::Part> parts, std::span<const std::int32_t> map,
               std::vector<std::byte> parameters);
 
   [[nodiscard]] int count() const noexcept { return static_cast<int>(passes_.size()); }
-  // The n-th part's parameters and, where any are read, its voxels: into the image, or as cells.
+  // Moves the parameters of the n-th part and, if voxels are read, its voxels: into the image, or
+  // as cells.
   void move(int n, const Buffer& parameters, const Image* image, const Buffer* cells);
 
  private:
