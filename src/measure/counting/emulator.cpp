@@ -25,12 +25,12 @@ std::string short_version(std::string_view text) {
   return std::string(text.substr(0, text.find_first_not_of("0123456789", text.find('.') + 1)));
 }
 
-// Valgrind shows an AVX2 processor where the machine has one, whatever else that can do.
+// Valgrind simulates an AVX2 processor if the machine has AVX2, whatever else the machine can do.
 std::string_view processor_name() {
   return cpu_features().find("avx2") != std::string::npos ? "AVX2" : "SSE";
 }
 
-// Beside the program where it was built, or where it was installed; empty where it is missing.
+// The file beside the program, where it was built or installed; empty if it is missing.
 std::string tool_file() {
   std::error_code error;
   const fs::path own = fs::read_symlink("/proc/self/exe", error).parent_path();
@@ -48,18 +48,20 @@ std::variant<Emulator, std::string> look() {
   return fmt::format("{}: that takes an x86-64 processor", cannot);
 #endif
   const auto version = output_of({"valgrind", "--version"});
-  if (!version) return fmt::format("{}: valgrind is not to be started; install valgrind", cannot);
+  if (!version) return fmt::format("{}: valgrind cannot be started; install valgrind", cannot);
   const std::string tool = tool_file();
   if (tool.empty()) {
     return fmt::format("{}: Valgrind's tool triptych_counter is missing; build it", cannot);
   }
   Emulator found{
       .name = fmt::format("valgrind {} {}", short_version(*version), processor_name()),
-      // By a tool's name Valgrind looks for what to preload: nothing, or malloc would be another's.
-      // Drivers write code at run time. Nothing is to be freed for a leak check at the end.
+      // Valgrind uses the name of the tool to find what it preloads. With "none" it preloads
+      // nothing; otherwise it would replace malloc.
+      // Drivers write code at run time, so Valgrind must watch for changed code. Nothing is to be
+      // freed for a leak check at the end.
       .command = {tool, "--tool=none", "--quiet", "--smc-check=all-non-file",
                   "--run-libc-freeres=no", "--run-cxx-freeres=no"},
-      // A tool is a program of its own, started by a launcher that it looks up here.
+      // A tool is a separate program, which looks up the path of Valgrind's launcher here.
       .environment = {"VALGRIND_LAUNCHER=/usr/bin/valgrind",
                       "VALGRIND_LIB=" TRIPTYCH_VALGRIND_FOLDER}};
   std::vector<std::string> trial = found.command;

@@ -16,11 +16,12 @@ namespace {
 constexpr std::array<const char*, TRIPTYCH_COUNTS> names{"device_code", "driver",      "libc",
                                                          "program",     "allocations", "misses"};
 
-// What memory is asked for by; freeing is not counted.
+// Functions that allocate memory; calls that free it are not counted.
 constexpr std::array<const char*, 6> allocators{"malloc",        "calloc",         "realloc",
                                                 "aligned_alloc", "posix_memalign", "memalign"};
 
-// False natively, where a request is five instructions that do nothing.
+// Sends a request to the emulator. Natively, the request is five instructions without effect, and
+// the result is false.
 bool request(unsigned operation, std::uintptr_t value) {
   return VALGRIND_DO_CLIENT_REQUEST_EXPR(0, VG_USERREQ_TOOL_BASE('T', 'Y') + operation, value, 0, 0,
                                          0, 0) == TRIPTYCH_COUNTS;
@@ -51,7 +52,8 @@ record::Counts InstructionCounter::between(const Snapshot& before, const Snapsho
   return counts;
 }
 
-// Asleep, this thread executes the few hundred instructions of falling asleep and waking.
+// Even when it sleeps, this thread executes the few hundred instructions of falling asleep and
+// waking up.
 void InstructionCounter::wait_until_quiet() const {
   constexpr std::uint64_t own = 2000;
   constexpr std::chrono::milliseconds pause{2};

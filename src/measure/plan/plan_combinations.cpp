@@ -11,8 +11,8 @@
 namespace triptych::measure {
 namespace {
 
-// Loading data costs most, and mapping their values is part of it; then building a pipeline, then
-// moving the camera.
+// Loading data takes longest, and mapping their values is a part of it; then follow building a
+// pipeline and moving the camera.
 int speed_of(const Factor& factor) {
   if (factor.name == "data" || factor.name == "window" || factor.name == "mapping") return 0;
   if (factor.name == "viewport") return 2;
@@ -89,7 +89,7 @@ std::vector<std::string> Combinations::varied() const {
   return varied;
 }
 
-// The slowest, where the suite has any.
+// The values of the slowest factor, if the suite has factors.
 const std::vector<std::string>& Combinations::data_of(const Block& block) {
   static const std::vector<std::string> none{""};
   return block.empty() || block.front().factor != "data" ? none : block.front().values;
@@ -101,7 +101,7 @@ bool Combinations::has(const Block& block, const Configuration& configuration) {
   });
 }
 
-// As an odometer: the last axis turns at every step.
+// Like an odometer: the last axis changes at every step.
 void Combinations::for_each_of(const std::string& data, const Use& use) const {
   for (auto block = blocks_.begin(); block != blocks_.end(); ++block) {
     if (!contains(data_of(*block), data)) continue;

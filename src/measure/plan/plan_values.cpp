@@ -15,7 +15,7 @@
 namespace triptych::measure {
 namespace {
 
-// Levenshtein's distance: insertions, deletions and replacements of single characters.
+// The Levenshtein distance: insertions, deletions and replacements of single characters.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -31,15 +31,15 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-// One spelling per number: the shortest that reads back as the same double, so that 0.5, .5 and
-// 5e-1 are one value. Empty when the text is not a finite number.
+// Every number has one spelling, the shortest that reads back as the same double, so that 0.5, .5
+// and 5e-1 are one value. Empty if the text is not a finite number.
 std::optional<double> parse_number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const bool whole = error == std::errc() && end == text.data() + text.size();
   if (!whole || !std::isfinite(number)) return std::nullopt;
-  return number == 0 ? 0 : number;  // no −0
+  return number == 0 ? 0 : number;  // −0 becomes 0
 }
 
 std::string canonical_number(const Factor& factor, const PlacedText& value) {
@@ -64,19 +64,20 @@ std::string canonical_choice(const Factor& factor, const PlacedText& value) {
                                      suggestion(value.text, factor.levels)));
 }
 
-// A configuration is one line, of a list, a table or a baseline, and part of JSON and XML.
+// A value has no control characters and no ends of lines, because a configuration is one line of a
+// list, a table or a baseline, and part of JSON and XML.
 std::string canonical_text(const Factor& factor, const PlacedText& value) {
   if (value.text.empty() || !core::is_line(value.text)) {
     throw core::InputError(value.place,
-                           fmt::format("'{}': a value is not empty and is UTF-8 without line "
-                                       "breaks and control characters; found {}",
+                           fmt::format("'{}': a value must be one line of UTF-8 without "
+                                       "control characters; found {}",
                                        factor.name, core::json_text(value.text)));
   }
   return value.text;
 }
 
 std::string canonical(const Suite& suite, const Factor& factor, const PlacedText& value) {
-  // "auto" may be the default of a factor of any kind, and may then be said aloud.
+  // A factor of any kind may have the default "auto", which may then also be written.
   if (value.text == factor.standard) return standard_of(factor);
   std::string text;
   switch (factor.kind) {
@@ -102,8 +103,8 @@ bool stands_for_several(const Factor& factor, const PlacedText& value) {
   return value.text == "auto" && !factor.automatic.empty();
 }
 
-// "PATH:*/n" of a factor of texts as PATH:0/n … PATH:(n−1)/n, "auto" as the factor's automatic
-// levels, at the same place.
+// Replaces "PATH:*/n" of a text factor by PATH:0/n to PATH:(n−1)/n, and "auto" by the factor's
+// automatic levels. All get the place of the text that they replace.
 std::vector<PlacedText> with_ranges(const Factor& factor, const std::vector<PlacedText>& values) {
   constexpr std::string_view all = ":*/";
   constexpr int most = 10'000;

@@ -16,8 +16,8 @@
 namespace triptych::measure {
 namespace {
 
-// The library's own JSON, into a string. Numbers that JSON has no word for (the variation of times
-// that are all 0) are left out, since the library would print them all the same.
+// Writes the library's own JSON into a string. Numbers that JSON cannot express (the variation of
+// times that are all 0) are left out, because the library would print them anyway.
 class StringReporter : public benchmark::JSONReporter {
  public:
   StringReporter() {
@@ -53,7 +53,7 @@ class StringReporter : public benchmark::JSONReporter {
   benchmark::IterationCount executed_ = 0;
 };
 
-// Forgets what was registered, whatever happens in between.
+// Unregisters the benchmark, whatever happens in between.
 class Registration {
  public:
   Registration() = default;
@@ -73,9 +73,9 @@ BenchmarkResult run_registered(const std::string& name, int frames) {
           .entries = nlohmann::json::parse(reporter.text()).at("benchmarks")};
 }
 
-// The library knows no exceptions, and aborts when one repetition of several says that it failed:
-// the first exception is kept, the remaining iterations do nothing, and it is thrown again
-// afterwards.
+// The library does not handle exceptions, and aborts when one of several repetitions reports an
+// error. So the first exception is stored, the remaining iterations do nothing, and the exception
+// is thrown again afterwards.
 class Guarded {
  public:
   template <typename Body>
@@ -111,7 +111,7 @@ double maximum(const std::vector<double>& values) {
 }  // namespace
 
 void initialize_benchmarks() {
-  // What the command line says wins over the environment.
+  // Options on the command line override the environment.
   std::array<std::string, 11> words{"triptych",
                                     "--benchmark_filter=all",
                                     "--benchmark_list_tests=false",
@@ -128,7 +128,7 @@ void initialize_benchmarks() {
   int count = static_cast<int>(arguments.size());
   arguments.push_back(nullptr);
   benchmark::Initialize(&count, arguments.data());
-  // The library keeps the pointer to the program's name for its report.
+  // The library stores the pointer to the program's name for its report.
   benchmark::BenchmarkReporter::Context::executable_name = "triptych";
 }
 

@@ -32,20 +32,21 @@ const Factor& factor_of(const Suite& suite, std::string_view name) {
   return *found;
 }
 
-// Its levels but for the one by which data bring their own: it stands for another of them.
+// The levels of a factor, except for "own", with which data choose their own value: that is one of
+// the other levels.
 std::vector<std::string> levels_of(const Suite& suite, std::string_view name) {
   std::vector<std::string> levels = factor_of(suite, name).levels;
   std::erase(levels, "own");
   return levels;
 }
 
-// "camera=…,data=…" of all that the request leaves as it is.
+// "camera=…,data=…": all factors that the request does not change.
 std::string scene_of(const Suite& suite, Configuration configuration) {
   for (const char* name : chosen_factors) configuration[name] = factor_of(suite, name).standard;
   return configuration_key(suite, configuration);
 }
 
-// No more digits than the text of a plan needs, and never more than the value.
+// Rounded down, with no more digits than a plan needs.
 double rounded_down(double value) {
   const double unit = std::exp2(std::floor(std::log2(value)) - 8);
   return std::floor(value / unit) * unit;
@@ -55,7 +56,7 @@ std::string text_of_step(double step) {
   return fmt::format("{}", rounded_down(step));
 }
 
-// The candidates of a plan's scenes.
+// Searches the candidates for the scenes of a plan.
 class Search {
  public:
   Search(SuiteWithTruth& suite, const RequestedError& request, Truths& truths,
@@ -67,7 +68,7 @@ class Search {
         limits_{factor_of(suite, "step").minimum, factor_of(suite, "step").maximum},
         step_error_(accuracy::step_share * request.error) {}
 
-  // Its candidates, or why there are none.
+  // Adds the candidates for a scene, or the reason why there are none.
   void add(const Configuration& scene, ErrorRequest& result) {
     const std::string name = scene_of(suite_, scene);
     const accuracy::LimitPicture* limit = truths_.limit_of(record_of(scene));
@@ -106,7 +107,7 @@ class Search {
   }
 
  private:
-  // A step, what it errs by, and the picture that says so.
+  // A step, its error, and the picture from which the error was computed.
   struct Found {
     double step = 0;
     double error = 0;
@@ -134,17 +135,19 @@ class Search {
     limit_of_few_pixels_ = suite_.limit(coarse).image;
   }
 
-  // Of the candidate's quadrature: guessed on few pixels, held against the whole picture.
+  // The longest step with the quadrature of the candidate: estimated from few pixels, then checked
+  // with the whole picture.
   [[nodiscard]] Found longest_step(Configuration candidate, const core::Image& limit) {
     const std::string viewport = std::exchange(candidate["viewport"], few_pixels_);
     accuracy::StepLimits limits = limits_;
-    // A step longer than a cell cuts none of it.
+    // A step that is longer than a cell does not cut any cell.
     if (candidate.at("quadrature") == "cells") limits.longest = std::min(limits.longest, 1.0);
     const accuracy::StepError guess = accuracy::longest_step(step_error_, limits, [&](double step) {
       candidate["step"] = text_of_step(step);
       return error(limit_of_few_pixels_, suite_.truth(candidate, {}).truth);
     });
-    // Few pixels tell little of many; but an error far beyond the request is beyond it on all.
+    // Few pixels say little about many. But an error that exceeds the request by this factor
+    // exceeds it for all pixels.
     constexpr double far = 4;
     if (!(guess.error <= far * step_error_)) return {guess.step, guess.error, few_pixels_};
     candidate["viewport"] = viewport;
@@ -164,7 +167,7 @@ class Search {
       candidate["skip"] = skip;
       plan.configurations.push_back(candidate);
     }
-    // No other has samples to merge, nor any other skip.
+    // Other quadratures have no samples that could be merged, and only one way to skip.
     if (candidate.at("quadrature") != "midpoint") return;
     const double merged = rounded_down(accuracy::merging_share * request_.error);
     candidate["skip"] = "bricks";
@@ -182,7 +185,7 @@ class Search {
   core::Image limit_of_few_pixels_;
 };
 
-// What a device made of a scene.
+// The results of one device for a scene.
 struct Group {
   std::vector<accuracy::TimedError> cases;
   std::vector<accuracy::PictureErrors> errors;
@@ -226,7 +229,7 @@ ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite, const Reques
     if (suite.missing_data(scene).empty()) {
       search.add(scene, result);
     } else {
-      result.plan.configurations.push_back(scene);  // told of as skipped when it is measured
+      result.plan.configurations.push_back(scene);  // is reported as skipped when it is measured
     }
   }
   return result;
@@ -238,7 +241,7 @@ std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records
   std::map<std::pair<std::string, std::string>, Group> groups;
   for (const record::Record& record : records) {
     if (record.outcome == record::Outcome::skipped) continue;
-    // As it was asked for: candidates may take other levels where it says "auto".
+    // As it was requested. Candidates may have other levels for factors that are "auto".
     const auto asked = record::parse_factor_list(record.configuration);
     Group& group = groups[{record.device, scene_of(suite, asked)}];
     if (record.outcome != record::Outcome::measured || record.image.empty()) continue;

@@ -61,7 +61,7 @@ bool device_clock_holds(std::span<const Block> blocks) {
   return true;
 }
 
-// A side with the worker that serves it just now.
+// A side, with the worker that currently serves it.
 class Interleaved::Slot {
  public:
   Slot(Side side, const SideOptions& of, const InterleavedOptions& options,
@@ -74,7 +74,7 @@ class Interleaved::Slot {
   [[nodiscard]] const Hello& hello() const { return hello_; }
   [[nodiscard]] const record::Reason& why_closed() const { return slot_.why_closed(); }
 
-  // As WorkerSlot::open. Further workers rest on the first one's verdict on the clocks.
+  // Like WorkerSlot::open. Later workers use the clocks as the first one calibrated them.
   bool open() {
     return slot_.open(
         [this] {
@@ -87,7 +87,7 @@ class Interleaved::Slot {
 
   void close() { slot_.finish(); }
 
-  // Throws SideEnded unless a message of the wanted kind comes back.
+  // Throws SideEnded unless the answer is a message of the expected kind.
   template <typename As>
   auto ask(const Message& message, As as, const OnLoading& on_loading) {
     if (!open()) throw SideEnded(side_, record::Outcome::failed, why_closed());
@@ -109,7 +109,7 @@ class Interleaved::Slot {
     give_up(record::Outcome::failed, {.cause = record::Cause::bad_answer});
   }
 
-  // Throws SideEnded for an outcome that is none of a measured configuration.
+  // Throws SideEnded unless the outcome is that of a measured configuration.
   void require_measured(record::Outcome outcome, const record::Reason& reason) {
     if (outcome == record::Outcome::measured) return;
     if (outcome == record::Outcome::lost) slot_.vacate();
@@ -123,7 +123,7 @@ class Interleaved::Slot {
     return batch;
   }
 
-  // The times of so many frames.
+  // The times of this many frames.
   Batch draw(int frames) {
     Batch drawn = batch(to_message(Frames{.count = frames}));
     if (drawn.wall_ns.size() != static_cast<std::size_t>(frames)) {
@@ -160,7 +160,7 @@ Interleaved::Interleaved(InterleavedOptions options, const SideOptions& a, const
   }
   slots_[0] = std::make_unique<Slot>(Side::a, a, options_, interrupts_);
   slots_[1] = std::make_unique<Slot>(Side::b, b, options_, interrupts_);
-  // Clocks are calibrated one after the other: neither disturbs the other's.
+  // Clocks are calibrated one after the other, so that neither side disturbs the other.
   for (const auto& each : slots_) {
     if (!each->open()) throw record::NotMeasured(record::Outcome::skipped, each->why_closed());
   }

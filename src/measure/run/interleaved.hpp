@@ -1,9 +1,9 @@
 #pragma once
-// Two workers that alternate on one machine, so that whatever slows the machine down slows both.
-// Blocks of batches in random order, A B B A or B A A B: a drift that is linear over four batches
-// cancels out of their difference. Short batches are taken so several times, and the least of each
-// of the four counts: what disturbs one side's processor and not the other's comes and goes within
-// tens of milliseconds, and only adds.
+// Two workers that take turns on one machine, so that whatever slows down the machine slows down
+// both. A block has four batches in the random order A B B A or B A A B, so that a drift that is
+// linear over the four batches cancels out of the difference. If batches are short, a block takes
+// the four batches several times and uses the minimum for each of the four. What disturbs the
+// processor of only one side lasts for tens of milliseconds, and it can only make a batch slower.
 
 #include <array>
 #include <chrono>
@@ -27,9 +27,9 @@ namespace triptych::measure {
 enum class Side : std::uint8_t { a, b };
 [[nodiscard]] std::string_view name_of(Side side);
 
-// One side failed to do its part of one configuration: not supported, an error, its worker dead,
-// late or lost. What was asked of both sides is over; the next configuration gets a new worker
-// where one is needed.
+// One side failed to do its part of a configuration: it is not supported, there was an error, or
+// the worker died, was too late or lost the device. The work of both sides on this configuration
+// has ended. For the next one, new workers are started where they are needed.
 class SideEnded : public record::NotMeasured {
  public:
   SideEnded(Side side, record::Outcome outcome, record::Reason reason)
@@ -40,72 +40,74 @@ class SideEnded : public record::NotMeasured {
   Side side_;
 };
 
-// Mean time of a frame in each of a side's two batches, the least of those that a block took so.
+// The mean time of a frame in each of the two batches of a side. If a block took the batches
+// several times, the minimum.
 struct SideTimes {
   std::array<double, 2> wall_ns{};
-  std::optional<std::array<double, 2>> device_ns;  // where the device told it of every frame
+  std::optional<std::array<double, 2>> device_ns;  // if the device reported it for every frame
 };
 
 struct Block {
-  bool b_first = false;  // B A A B
+  bool b_first = false;  // the order is B A A B
   SideTimes a;
   SideTimes b;
 };
 
 enum class SideClock : std::uint8_t { wall, device };
 
-// d = ½(ln b₁ + ln b₂ − ln a₁ − ln a₂) of each block. Device times must be there for
-// SideClock::device; a time of nothing counts as a nanosecond.
+// d = ½(ln b₁ + ln b₂ − ln a₁ − ln a₂) for each block. SideClock::device requires that the blocks
+// have device times. A time of 0 counts as one nanosecond.
 [[nodiscard]] std::vector<double> differences(std::span<const Block> blocks, SideClock clock);
 
-// Whether the device times of both sides can be true at all (plausible(),
-// measure/protocol/clock.hpp).
+// Whether the device times of both sides are plausible (plausible(), measure/protocol/clock.hpp).
 [[nodiscard]] bool device_clock_holds(std::span<const Block> blocks);
 
 struct InterleavedOptions {
   std::string suite;
-  std::vector<std::string> kinds;        // of work that the plan needs: their clocks are calibrated
-  std::chrono::seconds limit{60};        // of one answer; a worker past it is killed
-  std::chrono::seconds start_limit{60};  // of opening a device and calibrating its clocks
-  // Shorter frames are batched, as many on either side, until a batch lasts this long.
+  std::vector<std::string> kinds;  // kinds of work in the plan, for which the clocks are calibrated
+  std::chrono::seconds limit{60};  // for one answer; a worker that exceeds it is killed
+  std::chrono::seconds start_limit{60};  // for opening a device and calibrating its clocks
+  // Frames that are shorter are drawn in batches, of the same number on both sides, so that a batch
+  // lasts this long.
   double least_batch_ns = 1e6;
-  // The four batches are taken again until a block lasts this long.
+  // A block repeats its four batches until it lasts this long.
   double least_block_ns = 40e6;
-  std::uint64_t seed = 1;  // of the blocks' orders
+  std::uint64_t seed = 1;  // for the orders of the blocks
 };
 
 class Interleaved {
  public:
-  // Opens both. Throws InputError for an environment that forbids measuring, record::NotMeasured
-  // with the reason when a side cannot be opened.
+  // Opens both sides. Throws InputError for environment variables that must not be set while
+  // measuring, and record::NotMeasured with the reason if a side cannot be opened.
   Interleaved(InterleavedOptions options, const SideOptions& a, const SideOptions& b);
   ~Interleaved();
   Interleaved(const Interleaved&) = delete;
   Interleaved& operator=(const Interleaved&) = delete;
 
-  // Device and clocks, as the first worker of the side told them.
+  // The device and its clocks, as the first worker of the side reported them.
   [[nodiscard]] const Hello& hello(Side side) const;
 
-  // All that follow throw SideEnded, and Interrupted when a signal asks to stop.
+  // All functions below throw SideEnded, and Interrupted if a signal asks the program to stop.
 
-  // Both sides prepare the configuration, keep it and draw a few frames: warm, and for knowing how
-  // many make a batch by `clock`, and how many batches a block. What was held before is released.
+  // Both sides prepare the configuration, keep it and draw a few frames. This warms them up and
+  // determines, with `clock`, the number of frames in a batch and how often a block repeats its
+  // batches. What was held before is released.
   void hold(const Configuration& configuration,
             const std::array<std::vector<std::string>, 2>& faults, SideClock clock,
             const OnLoading& on_loading = {});
   [[nodiscard]] int frames_per_batch() const noexcept { return frames_per_batch_; }
-  // How often a block takes its four batches.
+  // How often a block repeats its four batches.
   [[nodiscard]] int times_per_block() const noexcept { return times_per_block_; }
-  // One block of what is held.
+  // Measures one block of the configuration that is held.
   [[nodiscard]] Block block();
   void release();
 
-  // Both workers leave and new ones are opened; nothing is held.
+  // Both workers exit and new ones are started; nothing is held afterwards.
   void restart();
 
  private:
   class Slot;
-  // The four batches once more; of each what it took now counts where `block` has no less.
+  // Takes the four batches again, and stores each new time in `block` if it is smaller.
   void take_batches(Block& block);
   [[nodiscard]] Slot& slot(Side side) const { return *slots_.at(side == Side::a ? 0 : 1); }
 

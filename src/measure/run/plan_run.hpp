@@ -18,16 +18,16 @@ namespace triptych::measure {
 
 class Report;
 
-// Every record is in the store as soon as it is made. measure_all() throws what run_plans()
+// Every record is written to the store as soon as it exists. measure_all() throws what run_plans()
 // throws.
 class PlanRun {
  public:
   using Tell = std::function<void(const Progress&)>;
 
-  // All must live as long.
+  // All arguments must outlive this object.
   PlanRun(const RunContext& context, const std::vector<std::string>& devices, const Tell& tell);
 
-  // Everything by the whole protocol; what a resumed run holds is left alone.
+  // Measures everything by the complete protocol, except for what a resumed run already contains.
   [[nodiscard]] RunResult measure_all();
 
  private:

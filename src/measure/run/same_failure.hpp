@@ -1,6 +1,7 @@
 #pragma once
-// A fault of a driver that ends its worker meets many configurations, and each costs a worker or
-// the whole limit. What two have shown is not tried on the rest.
+// A fault in a driver that ends the worker concerns many configurations, and each of them costs a
+// worker or the whole time limit. What two configurations have shown is therefore not tried with
+// the rest.
 
 #include <map>
 #include <optional>
@@ -17,19 +18,20 @@ namespace triptych::measure {
 // The failures of one device in one plan.
 class SameFailure {
  public:
-  // `varied`: the factors that the reason names, in which the plan's configurations differ.
+  // `varied`: the factors that have more than one value in the plan; the reason names their levels.
   explicit SameFailure(std::vector<std::string> varied) : varied_(std::move(varied)) {}
 
   void saw(const Configuration& configuration, const record::Record& record);
 
   struct Foretold {
     record::Outcome outcome;
-    record::Reason
-        reason;  // as of those that were tried, marked as not tried, with what they share
+    record::Reason reason;  // that of the configurations that were tried, marked as not tried, with
+                            // the levels that they share
   };
-  // How the configuration would end: as one that crashed, hung or lost the device, if it differs
-  // from that one only in factors that were seen not to matter – two that ended in the same way
-  // differ in them alone – and nothing that differs so was measured. Nothing: try it.
+  // How the configuration would end. It is foretold to end like one that crashed, hung or lost the
+  // device if two conditions hold: it differs from that one only in factors that do not matter
+  // (those in which two configurations differ that ended in the same way), and no configuration
+  // that differs only in such factors was measured. nullopt: try it.
   [[nodiscard]] std::optional<Foretold> foretold(const Configuration& configuration) const;
 
  private:

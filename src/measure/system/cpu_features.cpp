@@ -9,7 +9,7 @@
 namespace triptych::measure {
 namespace {
 
-// LLVM's x86 and ARM vector units; the rest of the flags says nothing about generated code.
+// The vector units of x86 and ARM that LLVM uses. Other flags have no effect on generated code.
 bool changes_code(std::string_view flag) {
   static constexpr std::string_view prefixes[] = {"avx", "sse4", "fma", "f16c",
                                                   "bmi", "amx",  "sve", "asimd"};

@@ -25,12 +25,13 @@ std::optional<Value> value_of(const fs::path& file) {
   return std::nullopt;
 }
 
-// Virtual machines may show a count that stands at 0.
+// In a virtual machine, a counter may exist and stay at 0.
 bool counts(const fs::path& file) {
   return value_of<std::uint64_t>(file).value_or(0) > 0;
 }
 
-// The entries of a folder that begin so, in the order of their names; none where it is not there.
+// The entries of a folder whose names begin with `prefix`, sorted by name; none if the folder does
+// not exist.
 std::vector<fs::path> entries(const fs::path& folder, std::string_view prefix) {
   std::set<fs::path> found;
   std::error_code error;
@@ -42,10 +43,10 @@ std::vector<fs::path> entries(const fs::path& folder, std::string_view prefix) {
 
 }  // namespace
 
-// One meter over the frames: from its first renewal to its last.
+// The reading of one meter over several frames, from its first update to its last.
 class EnergyMeters::Span {
  public:
-  // Between frames: what the meter says after so many of them.
+  // Called between frames, with the value of the meter after this many frames.
   void see(std::uint64_t microjoules, int frames, double ns, std::uint64_t range) {
     if (seen_ && microjoules != last_) {
       if (renewed_) {
@@ -92,8 +93,9 @@ std::vector<std::string> EnergyMeters::names() const {
   return names;
 }
 
-// Of a package's parts the memory alone is no share of the package; `psys`, the whole machine, is
-// no part of anything else here, and would count the packages twice.
+// Of the parts of a package only the memory is used: it is the only one that the package's own
+// meter does not include. `psys` is the whole machine; it includes the packages, which would be
+// counted twice.
 void EnergyMeters::find_processors(const fs::path& system) {
   for (const fs::path& zone : entries(system / "class/powercap", "intel-rapl:")) {
     const std::string name = value_of<std::string>(zone / "name").value_or("");
@@ -123,7 +125,7 @@ void EnergyMeters::find_intel_cards(const fs::path& system) {
   }
 }
 
-// By the functions' names and types of nvml.h, version 12; a result of 0 is success.
+// Uses the names and types of the functions in nvml.h, version 12. A result of 0 means success.
 void EnergyMeters::find_nvidia_cards(const fs::path& nvml) {
   using Card = struct nvmlDevice_st*;
   void* library = ::dlopen(nvml.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);

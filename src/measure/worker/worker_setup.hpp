@@ -1,6 +1,6 @@
 #pragma once
-// How a device's worker is started: its command, natively or under the emulator, its environment
-// and its cache folder.
+// How the worker of a device is started: its command (natively or under the emulator), its
+// environment and its cache folder.
 
 #include <chrono>
 #include <string>
@@ -13,22 +13,24 @@ namespace triptych::measure {
 
 struct SideOptions {
   std::string device;
-  // Starts a worker; the device id is appended. It must call serve_worker with
-  // Process::child_request_fd and child_answer_fd (measure/system/process.hpp).
+  // The command that starts a worker; the device id is appended. The program must call serve_worker
+  // with Process::child_request_fd and child_answer_fd (measure/system/process.hpp).
   std::vector<std::string> command;
-  // "NAME=VALUE" each, over what a worker gets anyway; there before any driver is loaded.
+  // Each is "NAME=VALUE". They are set in addition to what every worker gets, before any driver is
+  // loaded.
   std::vector<std::string> environment = {};
 };
 
-// Compiling for the first time takes the emulator minutes where it takes a processor seconds.
+// Compiling for the first time takes minutes under the emulator, where it takes seconds natively.
 inline constexpr std::chrono::seconds counted_limit{600};
 
-// Code is kept apart where it is made for another processor, as under the emulator, or with other
-// variables: drivers do not put all that changes it into their caches' keys.
+// The name of a cache folder. Code has a folder of its own if it is compiled for another processor,
+// as under the emulator, or with other environment variables: drivers do not include everything
+// that changes the code in the keys of their caches.
 [[nodiscard]] std::string cache_name(const SideOptions& side, bool counted);
 
-// `counted`: under the emulator, where there is one. `limit`: of opening the device; under the
-// emulator it is counted_limit.
+// `counted`: under the emulator, if there is one. `limit`: the time for opening the device; under
+// the emulator it is counted_limit.
 [[nodiscard]] WorkerSetup worker_setup(const SideOptions& side, bool counted,
                                        const CacheFolder& cache, std::chrono::milliseconds limit);
 
