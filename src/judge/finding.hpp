@@ -1,5 +1,5 @@
 #pragma once
-// Findings of the judge, as data. report/words/ makes a sentence of each cause. Nothing compares
+// Findings of the judge, as data. report/words/ turns each cause into a sentence. Nothing compares
 // `detail`, which quotes drivers, libraries and people. docs/report.md lists the causes for other
 // programs.
 
@@ -23,26 +23,27 @@ using record::name_of;
 enum class Verdict : std::uint8_t {
   pass,
   improved,      // passes, and is better than the baseline beyond doubt
-  advisory,      // worth knowing, decides nothing: times, another driver version
+  advisory,      // worth knowing but decides nothing: times, another driver version
   skipped,       // the device cannot do this; the cause says why
-  waived,        // a regression that is known: waivers.json or a file of expectations has it
-  cannot_judge,  // no baseline, nothing measured, other data: never a pass
+  waived,        // a known regression, listed in waivers.json or in a file of expectations
+  cannot_judge,  // no baseline, nothing measured, other data; never a pass
   regression
 };
 [[nodiscard]] std::string_view name_of(Verdict verdict);
 
-// One per sentence. The comments name what comes with it: numbers in quotes, facts in <angles>.
+// There is one cause for each sentence. The comments list what comes with it: numbers in quotes,
+// facts in <angles>.
 enum class Cause : std::uint8_t {
   none,
   // Of any check.
   as_stored,           // "values" that equal the stored ones; names: those that were not compared
   values_changed,      // changes
-  unknown_values,      // names: of values without a stored counterpart
-  not_stored,          // names: configurations of which nothing is stored
-  no_stored_device,    // nothing is stored of this device or driver version
+  unknown_values,      // names: values without a stored counterpart
+  not_stored,          // names: configurations without stored values
+  no_stored_device,    // nothing is stored for this device or driver version
   not_reported,        // the device or the technique reports nothing of the kind
   no_longer_reported,  // names: configurations that reported it when they were accepted
-  untimed,             // the run was not timed, so that it was not read
+  untimed,             // the run was not timed, so this was not read
   // Of a run as a whole.
   ended,               // a record that was not measured: outcome, reason
   no_run,              // no run was begun
@@ -50,13 +51,13 @@ enum class Cause : std::uint8_t {
   no_required_device,  // <glob>
   device_missing,      // <sibling>: a device that was accepted with the same driver version
   listing_failed,      // <what>; reason
-  no_description,      // <run>: of a device that it has records of
+  no_description,      // <run>: it has records of a device that it does not describe
   checks_lost,         // names: checks of the baselines that the plan does not ask for
   missing,             // names: configurations without a record; "wanted" of them, <kind>
-  extra,               // names: configurations that the plan lacks
+  extra,               // names: configurations that are not in the plan
   other_plan,          // <run> <plan> <hash> <now>
-  other_data,          // <hash> <accepted>: not the data that were accepted
-  data_changed,        // <hash> <now>: not the data that were measured
+  other_data,          // <hash> <accepted>: the data differ from those that were accepted
+  data_changed,        // <hash> <now>: the data differ from those that were measured
   no_baselines,        // <folder>
   nothing_decided,     // of a device
   device_fault,        // found apart from any configuration: <kind> <subject> <last_words>; detail
@@ -66,16 +67,16 @@ enum class Cause : std::uint8_t {
   within_bound,
   pixels_over_bound,
   not_finite,
-  other_surface,  // another particle, or the right one at another depth
+  other_surface,  // another particle is visible, or the right one at another depth
   size_differs,
   empty_image,
-  no_image,           // the record holds none
+  no_image,           // the record contains none
   unreadable_image,   // detail
   no_reference,       // detail
-  reference_changed,  // because: how; without: by its hash
+  reference_changed,  // because: how; if empty: its hash changed
   reference_as_stored,
   devices_agree,     // <other> "rms" "allowed"
-  devices_disagree,  // likewise
+  devices_disagree,  // as for devices_agree
   // Of statistics.
   other_driver_statistics,  // <driver_version> changes names
   // Of cost and memory.
@@ -105,9 +106,9 @@ enum class Cause : std::uint8_t {
   // Of accuracy.
   error,              // "rmse" "bound"
   unknown_error,      // detail
-  not_comparable,     // of another size, or not finite
-  no_limit,           // no scene of the plan has one
-  no_limit_any_more,  // an error is stored of a scene that has none
+  not_comparable,     // the sizes differ, or a value is not finite
+  no_limit,           // no scene of the plan has a limit
+  no_limit_any_more,  // an error is stored for a scene that has no limit now
   order,              // "order" "half_width" "stored_order" "stored_half_width"
   no_order,           // "stored_order" "stored_half_width"
   // Of stress cases.
@@ -115,7 +116,7 @@ enum class Cause : std::uint8_t {
   farther_device,  // <other> "rms" "allowed" "rmse" "rmse_of_other"
   pixels_differ,   // <levels> of the other image; detail: what is expected
   no_other_image,  // <levels>; detail
-  not_inside,      // detail; this image does not lie in the other one
+  not_inside,      // detail; this image is not a part of the other one
   other_colour,    // detail
   not_counted,     // detail; <counter> <levels>
   count_too_large  // detail; <counter> <of> <levels> "count" "factor" "unit"
@@ -127,8 +128,8 @@ enum class Against : std::uint8_t {
   nothing,
   reference,      // the reference image
   stored_image,   // the image that was accepted
-  baseline,       // values that the same driver version was accepted with
-  other_devices,  // values that other devices or driver versions were accepted with
+  baseline,       // accepted values of the same driver version
+  other_devices,  // accepted values of other devices or driver versions
   expectation,    // what a stress case expects
 };
 [[nodiscard]] std::string_view name_of(Against against);
@@ -136,17 +137,17 @@ enum class Against : std::uint8_t {
 // The next step for the reader.
 enum class Advice : std::uint8_t {
   none,
-  accept,  // `command` does it
+  accept,  // with `command`
   run_again,
-  resume,        // `command` does it
-  restore_data,  // or accept: `command`
+  resume,        // with `command`
+  restore_data,  // or accept with `command`
   restore_or_run_again,
-  restore_baselines,  // from version control, or start over: `command`
+  restore_baselines,  // from version control, or begin anew with `command`
   count,              // or leave the check out
-  judge_more,         // or accept: `command`
+  judge_more,         // or accept with `command`
   more_time,          // a longer --limit
   times,              // --times makes times decide
-  repair_driver,      // or state that the machine lacks it: `command`
+  repair_driver,      // or state with `command` that the machine lacks it
   remove_entry,       // from the file of expectations
   remove_waiver
 };
@@ -160,43 +161,43 @@ struct Advised {
 enum class Unit : std::uint8_t { count, instructions, bytes, misses, allocations };
 [[nodiscard]] std::string_view name_of(Unit unit);
 
-// A value that is not what it was compared with.
+// A value that differs from the one with which it was compared.
 struct Change {
   std::string name;
   Unit unit = Unit::count;
-  std::optional<double> before = {};            // none: there was no such value
-  std::optional<double> now = {};               // none: it is missing
-  std::map<std::string, double> accepted = {};  // by device, where several were compared with
-  double allowed = 0;                           // difference
+  std::optional<double> before = {};            // empty: there was no such value
+  std::optional<double> now = {};               // empty: it is missing
+  std::map<std::string, double> accepted = {};  // by device, if it was compared with several
+  double allowed = 0;                           // the allowed difference
 };
 
 struct Observation {
   Cause cause = Cause::none;
   Against against = Against::nothing;
-  std::map<std::string, double> numbers = {};  // finite; the unit is in the name
+  std::map<std::string, double> numbers = {};  // finite; the unit is part of the name
   std::vector<Change> changes = {};
-  std::vector<std::string> names = {};            // of configurations, values or devices
+  std::vector<std::string> names = {};            // names of configurations, values or devices
   std::map<std::string, std::string> facts = {};  // identifiers
-  std::string detail = {};                        // what a library or an exception says
+  std::string detail = {};                        // what a library or an exception said
   record::Outcome outcome = record::Outcome::measured;
   record::Reason reason = {};
   std::vector<Observation> because = {};
 
-  [[nodiscard]] double number(const std::string& name) const;  // 0 where there is none
+  [[nodiscard]] double number(const std::string& name) const;  // 0 if there is no such number
   [[nodiscard]] const std::string& fact(const std::string& name) const;
 };
-// Equal for observations of one cause, whatever their numbers and texts are.
+// This text is equal for observations with one cause, whatever their numbers and texts are.
 [[nodiscard]] std::string kind_of(const Observation& what);
-// Infinities and NaN are left out: JSON has none, and missing is not zero.
+// Infinities and NaN are left out: JSON cannot express them, and missing is not zero.
 void set_number(Observation& what, const std::string& name, double value);
 
 // How a waiver or a file of expectations changed a finding.
 struct Excuse {
   enum class Of : std::uint8_t {
     nothing,
-    waived,      // by waivers.json
+    waived,      // waivers.json lists it
     expired,     // a waiver for it has expired
-    known,       // by a file of expectations
+    known,       // a file of expectations lists it
     unexpected,  // a skip or a pass that the file does not expect
   };
   Of of = Of::nothing;
@@ -211,34 +212,36 @@ enum class Again : std::uint8_t {
   not_drawn,
   flake,  // right the second time
   slow,   // a timeout that was right the second time: slow, or it hangs at times
-  other   // Finding::again says what
+  other   // see Finding::again
 };
 [[nodiscard]] std::string_view name_of(Again again);
 
-// One answer about one configuration on one device (both empty where the finding is about the whole
-// plan).
+// One result about one configuration on one device. Both are empty if the finding is about the
+// whole plan.
 struct Finding : Observation {
   Check check = Check::image;
   Verdict verdict = Verdict::pass;
   std::string test = {};  // test id, Record::test_id
   std::string device = {};
   std::string configuration = {};
-  // What of the device and configuration, where that is not all of it: "program", "step=0.5"; of a
-  // correlation also by which device.
+  // The part of the device and configuration that the finding is about, if it is not about all:
+  // "program", "step=0.5". For a correlation it also contains the other device.
   std::string subject = {};
   Advised advice = {};
   std::vector<std::string> injected = {};  // faults that `run --inject` put into it
-  // Of a regression on a driver version that was never accepted: the devices that were accepted
-  // with its configuration, the same one with another version among them.
+  // For a regression on a driver version that was never accepted: the accepted devices that have
+  // its configuration, which may include the same device with another version.
   std::vector<std::string> accepted_on = {};
-  bool measured_before = false;  // of a skip: the device measured it when it was accepted
+  bool measured_before = false;  // for a skip: the device measured it when it was accepted
   Excuse excuse = {};
   Again drawn_again = Again::not_drawn;
-  std::vector<Observation> again = {};  // what was found then, where that is another cause
+  // What was found the second time, if the cause is another one.
+  std::vector<Observation> again = {};
 };
-// Likewise, with the excuse and the injected faults.
+// The same, with the excuse and the injected faults.
 [[nodiscard]] std::string kind_of(const Finding& finding);
-// Whether it says how a program ended: by an error, a crash, a timeout or a lost device.
+// Whether the finding is about a program that ended by an error, a crash, a timeout or a lost
+// device.
 [[nodiscard]] bool ended_a_program(const Finding& finding);
 
 }  // namespace triptych::judge

@@ -1,6 +1,6 @@
 #pragma once
-// What a run set out to measure, which is stored before the first configuration is measured. With it
-// the reader of a store can distinguish a complete run from one that was cut short or lost rows.
+// What a run set out to measure. It is stored before the first configuration is measured, so that a
+// reader of the store can distinguish a complete run from one that was cut short or lost rows.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -14,21 +14,21 @@ namespace triptych::record {
 
 // A loader, platform, driver or device that was found to be unusable while devices were listed.
 struct Unusable {
-  // "OpenCL platform Clover"; if the process that asked ended, its API, "vulkan", and what of it in
-  // parentheses, "gl (EGL)".
+  // "OpenCL platform Clover". If the process that listed devices ended, its API, "vulkan", with the
+  // part of it in parentheses if there are several, "gl (EGL)".
   std::string what;
-  std::string reason = {};  // what the loader or driver says
-  // How the process that asked crashed, hung or answered nonsense: nobody knows which devices it
-  // would have listed.
+  std::string reason = {};  // what the loader or driver said
+  // How the process that listed devices crashed, hung or answered nonsense. Nobody knows which
+  // devices it would have listed.
   std::optional<Reason> ended = {};
   bool operator==(const Unusable&) const = default;
 
-  // Of a process that ended.
+  // For a process that ended.
   [[nodiscard]] std::string api() const { return what.substr(0, what.find(' ')); }
 };
 
 // One command's part of a run: what it was asked for and what it found. A run that was resumed or
-// merged has several.
+// merged has several parts.
 struct Beginning {
   std::string host = {};
   std::vector<std::string> asked = {};    // globs over device ids; empty: all
@@ -37,7 +37,8 @@ struct Beginning {
   std::vector<Unusable> unusable = {};
   bool operator==(const Beginning&) const = default;
 
-  // Whether the command would have measured a device with this id, and some device of this API.
+  // Whether the command would have measured a device with this id, and whether it would have
+  // measured any device of this API.
   [[nodiscard]] bool asks_for(std::string_view device) const;
   [[nodiscard]] bool asks_for_api(std::string_view api) const;
 };
@@ -47,10 +48,10 @@ void from_json(const nlohmann::json& json, Unusable& unusable);
 void to_json(nlohmann::json& json, const Beginning& beginning);
 void from_json(const nlohmann::json& json, Beginning& beginning);
 
-// The different parts, in an order that does not depend on the order of the argument.
+// The parts without duplicates, in an order that does not depend on the order of the argument.
 [[nodiscard]] std::vector<Beginning> joined(std::vector<Beginning> parts);
 
-// Ids of the devices that the parts together set out to measure, or found.
+// The ids of the devices that all parts together set out to measure, or found.
 [[nodiscard]] std::vector<std::string> devices_of(const std::vector<Beginning>& parts);
 [[nodiscard]] std::vector<std::string> found_in(const std::vector<Beginning>& parts);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What may be judged of a run. A plan says which of them it is for; the judge answers each.
+// What can be judged about a run. A plan lists its checks, and the judge has an answer for each.
 
 #include <cstdint>
 #include <set>
@@ -15,8 +15,8 @@ enum class Check : std::uint8_t {
   cost,         // instructions per frame, by driver version
   code,         // what a GPU's compiler reports of its output, exact by driver version
   memory,       // bytes allocated on the device, exact
-  timing,       // shown; decides only on request
-  correlation,  // cost of one device along the line of another's
+  timing,       // shown; affects the verdict only on request
+  correlation,  // the cost on one device as a function of the cost on another
   accuracy,     // orders of convergence and error against run time
   stress        // scores of hostile scenes
 };
@@ -25,7 +25,7 @@ enum class Check : std::uint8_t {
 
 using Checks = std::set<Check>;
 [[nodiscard]] Checks every_check();
-// "image,counters"; empty text for none. Throws InputError for a name that is no check.
+// "image,counters"; empty for no checks. Throws InputError for an unknown name.
 [[nodiscard]] std::string text_of(const Checks& checks);
 [[nodiscard]] Checks checks_of(std::string_view text);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which records have a picture to be judged.
+// Which records have an image that can be judged.
 
 #include "record/record.hpp"
 

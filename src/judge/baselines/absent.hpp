@@ -1,5 +1,6 @@
 #pragma once
-// Which devices a machine is meant to lack, as baselines/absent.json says: reviewed, as waivers are.
+// The devices that a machine is meant to lack, from baselines/absent.json, which is reviewed as
+// waivers are.
 
 #include <filesystem>
 #include <string>
@@ -9,13 +10,13 @@ namespace triptych::judge {
 
 struct Absent {
   std::string device = {};  // glob over device ids
-  std::string host = "*";  // glob over machines' names
+  std::string host = "*";   // glob over names of machines
   std::string reason = {};
-  std::string expiry = {};  // ISO date; from that day on it excuses nothing. Empty: never
+  std::string expiry = {};  // ISO date from which on it excuses nothing; empty: never
 };
 
-// [{device, reason}, …], each with a `host` and an `expiry` where it has one; none where there is
-// no such file. Throws InputError with file and line for other keys, a blank reason, or an entry
+// Reads [{device, reason}, …]; an entry may also have a `host` and an `expiry`. Without such a file
+// there are none. Throws InputError with file and line for other keys, a blank reason, or an entry
 // that excuses every device on every machine.
 [[nodiscard]] std::vector<Absent> read_absent(const std::filesystem::path& file);
 

@@ -29,9 +29,10 @@ struct Accepted {
   record::Run run;
   record::Checks checks;
   std::vector<record::Record> measured;
-  std::vector<record::Record> skipped;            // to be dropped
+  std::vector<record::Record> skipped;            // to be dropped from the baselines
   std::map<std::string, record::Device> devices;  // by id
-  // Configurations and scenes the run has any record of; used only when everything is replaced.
+  // The configurations and scenes of which the run has a record; used only if everything is
+  // replaced.
   bool replaces_all = false;
   std::set<std::string> configurations;
   std::set<std::string> scenes;
@@ -43,7 +44,7 @@ void drop_all_but(Json& object, const std::set<std::string>& kept) {
   }
 }
 
-// {configuration: …}, without those that go.
+// {configuration: …}, without the configurations that are removed.
 Json& table_of(Json& table, const Accepted& accepted) {
   if (!table.is_object()) table = Json::object();
   if (accepted.replaces_all) drop_all_but(table, accepted.configurations);
@@ -68,7 +69,7 @@ void update_memory(const Accepted& accepted, Update& update) {
   }
 }
 
-// Each record's error against the limit of its scene, on the device it was measured on.
+// The error of each record against the limit of its scene, on the device that measured it.
 void update_errors(const record::Store& store, const Accepted& accepted,
                    const AcceptRequest& request, Update& update) {
   Json& table = table_of(update.value(), accepted);
@@ -84,7 +85,8 @@ void update_errors(const record::Store& store, const Accepted& accepted,
   }
 }
 
-// What each configuration scored on each device of the run; one that failed has a score too.
+// The score of each configuration on each device of the run. A configuration that failed also has a
+// score.
 void update_scores(const record::Store& store, const Accepted& accepted,
                    const AcceptRequest& request, Update& update) {
   Json& table = table_of(update.value(), accepted);
@@ -96,15 +98,16 @@ void update_scores(const record::Store& store, const Accepted& accepted,
   }
 }
 
-// What no two process runs agree on is shown by the gate, and not stored.
+// The counts that are stored. Counts that differ between two process runs are shown by the gate and
+// not stored.
 record::Counts kept_of(record::Counts cost) {
   cost.erase("libc");
   cost.erase("program");
   return cost;
 }
 
-// Counts of another emulator are another kind of number: they replace all that is stored, which
-// those of --only may not.
+// Counts by another emulator are different quantities. They replace everything that is stored,
+// which those of --only must not do.
 void update_cost(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::cost(device));
   bool counted = false;
@@ -157,7 +160,7 @@ void update_code(const Accepted& accepted, const record::Device& device, NextFol
 void update_statistics(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::statistics(device));
   update.object()["device"] = device.statistics_key();
-  // What a run did not look at leaves what is known of this driver version.
+  // Statistics that the run did not calibrate keep what is known about this driver version.
   for (const auto& [statistic, worth] : device.statistics_calibration) {
     update.object()["calibration"][statistic] = worth;
   }
@@ -206,7 +209,8 @@ void update_image(const record::Record& record, const core::Image& reference, Ne
   next.files[name] = std::move(bytes);
 }
 
-// Pictures are large: kept of the plans that people measure by, whose report shows them.
+// Images are large. They are stored only for plans that measure times, because their report shows
+// them.
 void update_images(const Accepted& accepted, const AcceptRequest& request, NextFolder& next) {
   const bool keeps =
       accepted.checks.contains(Check::image) && accepted.checks.contains(Check::timing);
@@ -219,7 +223,8 @@ void update_images(const Accepted& accepted, const AcceptRequest& request, NextF
     if (done.insert(record.scene).second) {
       const core::Image reference = request.truth(record);
       if (keeps) update_image(record, reference, next);
-      // Other devices' voxel formats have their own hashes of the data; they hold with the truth.
+      // The voxel formats of other devices have hashes of their own for the data, which stay valid
+      // as long as the reference image does.
       Json& entry = table[record.scene];
       const Json hash = reference_hash(reference);
       if (!entry.is_object() || entry.value("reference", Json()) != hash) {
@@ -254,7 +259,8 @@ record::Checks all_of(record::Checks checks, const record::Checks& more) {
   return checks;
 }
 
-// With what was accepted on each machine of the run. A set that is part of another says nothing more.
+// Adds the drivers that were accepted on each machine of the run. A set that is contained in
+// another one is left out.
 Json machines_of(const Accepted& accepted, const Manifest& stored) {
   std::vector<std::set<std::string>> machines = stored.machines;
   for (const record::Beginning& begun : accepted.run.begun) {
@@ -278,7 +284,7 @@ Json machines_of(const Accepted& accepted, const Manifest& stored) {
 }
 
 void write_manifest(const Accepted& accepted, const Manifest& stored, NextFolder& next) {
-  // A part of a run says nothing of the plan as a whole.
+  // A part of a run says nothing about the plan as a whole.
   const bool whole = accepted.replaces_all || stored.plan_hash.empty();
   Json devices = stored.devices;
   for (const auto& [id, device] : accepted.devices) {
@@ -355,8 +361,8 @@ Accepted select(const record::Store& store, const std::string& run, const Accept
   return accepted;
 }
 
-// The truth is drawn from the data that are here now: with another's hash beside it, it would be a
-// baseline that no run can meet.
+// The reference image is drawn from the present data. If the run used data with another hash, the
+// result would be a baseline that no run can meet.
 void refuse_other_data(const Accepted& accepted, const AcceptRequest& request) {
   if (!request.data_hash) return;
   for (const record::Record& record : accepted.measured) {
@@ -370,7 +376,7 @@ void refuse_other_data(const Accepted& accepted, const AcceptRequest& request) {
   }
 }
 
-// A shard, a run with --set or one that was cut short would take the rest of the plan with it.
+// A shard, a run with --set or a run that was cut short would delete the rest of the plan.
 void refuse_part(const Accepted& accepted, const Baselines& stored, const std::string& run,
                  const AcceptRequest& request) {
   if (!accepted.replaces_all || request.drop) return;
@@ -388,7 +394,8 @@ void refuse_part(const Accepted& accepted, const Baselines& stored, const std::s
       request.store_option));
 }
 
-// A run that was cut short before there are any baselines would make those of a part of the plan.
+// If there are no baselines yet, a run that was cut short would make baselines for only a part of
+// the plan.
 void refuse_incomplete(const record::Store& store, const Accepted& accepted,
                        const AcceptRequest& request) {
   if (!accepted.replaces_all || request.drop) return;
@@ -409,7 +416,7 @@ void refuse_incomplete(const record::Store& store, const Accepted& accepted,
   }
 }
 
-// Everything that is stored and as it was accepted; nothing where that is to be dropped.
+// Everything that is stored, as it was accepted; empty if it is to be dropped.
 NextFolder next_of(const Baselines& stored, const AcceptRequest& request) {
   NextFolder next{.folder = stored.folder(), .files = {}, .lines = {}};
   if (!stored.problem().empty()) {

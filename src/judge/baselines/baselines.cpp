@@ -22,13 +22,13 @@ namespace {
 
 struct StoredImage {
   ReferenceHash reference;
-  std::map<std::string, std::string> data;  // content hashes by Layout::data_key
+  std::map<std::string, std::string> data;  // content hashes, by Layout::data_key
 };
 
 template <typename Value>
 using ByName = std::map<std::string, Value>;
 
-// {name: value, …}; empty when the file is missing.
+// Reads {name: value, …}; empty if the file is missing.
 template <typename Value, typename Read>
 ByName<Value> read_members(const core::JsonNode& node, const Read& read) {
   ByName<Value> result;
@@ -42,7 +42,8 @@ ByName<Value> read_table(const fs::path& path, const Read& read) {
   return file ? read_members<Value>(file->root(), read) : ByName<Value>{};
 }
 
-// {"device": …, "configurations": {name: value, …}}. A file must not speak for another device.
+// Reads {"device": …, "configurations": {name: value, …}}. The file must be about the expected
+// device.
 template <typename Value, typename Read>
 ByName<Value> read_device_table(const fs::path& path, std::string_view device, const Read& read) {
   const auto file = core::JsonFile::read(path);
@@ -160,7 +161,7 @@ auto find_optional(const Table& table, const std::string& name) {
                               : std::optional(found->second);
 }
 
-// The JSON files of a subfolder, by their stems.
+// The JSON files of a subfolder, by their names without ending.
 std::map<std::string, fs::path> files_in(const fs::path& folder) {
   std::map<std::string, fs::path> files;
   if (!fs::is_directory(folder)) return files;
@@ -174,7 +175,7 @@ bool is_outside(const fs::path& name) {
   return name.is_absolute() || std::find(name.begin(), name.end(), fs::path("..")) != name.end();
 }
 
-// The first file that is not as the manifest says, and how; empty where all are.
+// The first file that differs from the manifest, and how; empty if there is none.
 std::string first_change(const fs::path& folder, const Manifest& manifest) {
   for (const auto& [name, hash] : manifest.files) {
     const fs::path file = folder / name;
@@ -230,7 +231,7 @@ struct Baselines::Cache {
   std::optional<std::vector<Waiver>> waivers;
   std::optional<std::vector<Absent>> absent;
 
-  // {configuration: …} of a whole file.
+  // A whole file of the form {configuration: …}.
   template <typename Value, typename Read>
   const ByName<Value>& table(std::optional<ByName<Value>>& known, const char* file,
                              const Read& read) {
@@ -243,7 +244,7 @@ struct Baselines::Cache {
   const ByName<StoredImage>& stored_images() {
     return table(images, Layout::images, read_stored_image);
   }
-  // The calibration lies in the same file; one that was accepted without has none.
+  // The calibration is in the same file; a driver that was accepted without calibration has none.
   const ByName<record::StatisticWorth>& calibration_of(const fs::path& path) {
     const auto known = calibrations.find(path);
     if (known != calibrations.end()) return known->second;
@@ -277,7 +278,7 @@ const std::string& Baselines::problem() const {
   if (cache_->problem) return *cache_->problem;
   std::string problem;
   if (!fs::is_directory(folder_)) {
-    // There is nothing to be wrong.
+    // There are no baselines, so nothing can be wrong with them.
   } else if (!fs::exists(folder_ / Layout::manifest)) {
     problem = std::string(Layout::manifest) + " is gone";
   } else {
@@ -296,8 +297,9 @@ const std::string& Baselines::problem() const {
   return *cache_->problem;
 }
 
-// Nothing proves the manifest, which proves the other files: what it says of them must be so. A
-// device or driver that it leaves out would count as new, and a check as not asked for.
+// Nothing proves the manifest, which proves the other files. So what it says about them is compared
+// with them: a device or driver that the manifest leaves out would count as new, and a check as not
+// requested.
 std::string Baselines::contradiction() const {
   const Manifest& manifest = this->manifest();
   std::set<std::string> drivers;
@@ -377,7 +379,7 @@ std::map<std::string, StoredError> Baselines::errors(const std::string& configur
 }
 
 std::map<std::string, std::uint64_t> Baselines::scores(const std::string& configuration) const {
-  // The same shape as counts: names and whole numbers.
+  // The table has the same form as one of counts: names and integers.
   return find_optional(cache_->table(cache_->scores, Layout::scores, read_counts), configuration)
       .value_or(record::Counts{});
 }

@@ -45,10 +45,10 @@ namespace triptych::judge {
 struct Manifest {
   std::string plan_hash;
   std::uint64_t configurations = 0;
-  std::map<std::string, std::set<std::string>> devices;  // id → Device::statistics_key()
+  std::map<std::string, std::set<std::string>> devices;  // device id → Device::statistics_key()
   std::map<std::string, std::string> files;              // name → content hash
-  record::Checks checks;                                 // of the plan as it was accepted
-  // Drivers that were accepted on one machine, by Device::statistics_key(): where one of them is
+  record::Checks checks;  // the checks of the plan when it was accepted
+  // Drivers that were accepted on one machine, by Device::statistics_key(). If one of them is
   // found, the others are expected.
   std::vector<std::set<std::string>> machines;
 };
@@ -60,10 +60,10 @@ struct StoredTiming {
   std::string kernel_hash;
 };
 
-// Of a configuration on a device: its picture against the limit of its scene.
+// The error of a configuration on a device: its image compared with the limit of its scene.
 struct StoredError {
   double rmse = 0;
-  double arithmetic = 0;  // against the truth on its own lattice
+  double arithmetic = 0;  // the error against the reference image on its own lattice
 };
 
 struct StoredCost {
@@ -71,10 +71,10 @@ struct StoredCost {
   record::Counts prepare;
 };
 
-// All that is stored of a driver version's cost.
+// Everything that is stored about the cost of a driver version.
 struct DriverCost {
   std::string device;          // id
-  std::string driver_version;  // as the driver gives it
+  std::string driver_version;  // as the driver reports it
   std::string counted_by;
   std::map<std::string, StoredCost> configurations;
 };
@@ -91,36 +91,37 @@ using StoredCounters = std::map<std::string, std::map<std::string, std::uint64_t
 
 class Baselines {
  public:
-  // The folder need not exist. Files are read when they are first asked for. Throws InputError with
-  // file and line for one that is corrupt.
+  // The folder need not exist. A file is read when it is first needed. Throws InputError with file
+  // and line if it is corrupt.
   Baselines(std::filesystem::path root, std::string_view plan);
 
-  // They are there, and every file is as it was accepted.
+  // Whether there are baselines, and every file is as it was accepted.
   [[nodiscard]] bool present() const;
-  // Of what is there, which file is gone, edited or not of it; one line, empty where none is.
+  // Which file is missing, was edited or does not belong to the baselines; one line, empty if all
+  // are right.
   [[nodiscard]] const std::string& problem() const;
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   [[nodiscard]] const Manifest& manifest() const;
-  // nullopt where none is kept.
+  // nullopt if no image is stored.
   [[nodiscard]] std::optional<core::Image> image(const std::string& scene) const;
-  // Of the reference as it was accepted; nullopt: the scene never was.
+  // The hash of the reference image that was accepted; nullopt if the scene never was.
   [[nodiscard]] std::optional<ReferenceHash> reference(const std::string& scene) const;
-  // Content hash of the data that the record's scene was accepted with, in the record's voxel
-  // format; empty where that is not known.
+  // The content hash of the data with which the record's scene was accepted, in the record's voxel
+  // format; empty if it is not known.
   [[nodiscard]] std::string data_hash(const record::Record& record) const;
-  // Of every device; nullopt: the configuration was never accepted.
+  // The counters of every device; nullopt if the configuration was never accepted.
   [[nodiscard]] std::optional<StoredCounters> counters(const std::string& configuration) const;
-  // Whether this device counted anything in it.
+  // Whether this device has accepted counters for the configuration.
   [[nodiscard]] bool was_measured(const std::string& device,
                                   const std::string& configuration) const;
   // By device id.
   [[nodiscard]] std::map<std::string, record::Counts> memory(
       const std::string& configuration) const;
-  // By device id; empty: never accepted.
+  // By device id; empty if the configuration was never accepted.
   [[nodiscard]] std::map<std::string, StoredError> errors(const std::string& configuration) const;
-  // Likewise: what a stress case scored.
+  // The scores of a stress case, by device id; empty if the configuration was never accepted.
   [[nodiscard]] std::map<std::string, std::uint64_t> scores(const std::string& configuration) const;
-  // Of this driver version; nullptr: nothing is stored. Lives as long as these Baselines.
+  // The costs of this driver version; nullptr if none are stored. Valid as long as this object.
   [[nodiscard]] const DriverCost* cost(const record::Device& device) const;
   // By Device::statistics_key().
   [[nodiscard]] const std::map<std::string, DriverCost>& cost_of_all_drivers() const;
@@ -131,25 +132,26 @@ class Baselines {
   [[nodiscard]] std::optional<record::Counts> statistics(const record::Device& device,
                                                          const std::string& configuration) const;
   [[nodiscard]] bool has_statistics(const record::Device& device) const;
-  // The same configuration's statistics on every stored driver, by Device::statistics_key().
+  // The statistics of the configuration on every stored driver, by Device::statistics_key().
   [[nodiscard]] std::map<std::string, record::Counts> statistics_of_all_drivers(
       const std::string& configuration) const;
-  // Device::statistics_calibration of a stored driver, by Device::statistics_key(); empty where
-  // nobody looked.
+  // Device::statistics_calibration of each stored driver, by Device::statistics_key(); empty for
+  // one that was not calibrated.
   [[nodiscard]] std::map<std::string, record::StatisticWorth> statistics_calibration(
       const std::string& driver) const;
-  // By configuration; empty: nothing stored of this device key.
+  // By configuration; empty if nothing is stored for this device key.
   [[nodiscard]] const std::map<std::string, StoredTiming>& timings(
       const record::Device& device) const;
-  // Configurations that have counters stored: what a complete run must hold.
+  // Configurations with stored counters: a complete run must contain them.
   [[nodiscard]] std::vector<std::string> configurations() const;
   [[nodiscard]] const std::vector<Waiver>& waivers() const;
-  // absent.json beside waivers.json: devices that machines are meant to lack.
+  // The content of absent.json, which is beside waivers.json: devices that machines are meant to
+  // lack.
   [[nodiscard]] const std::vector<Absent>& absent() const;
   [[nodiscard]] std::filesystem::path absent_file() const { return root_ / "absent.json"; }
 
  private:
-  // What the manifest says of the files, and is not so; empty where all is.
+  // What the manifest says about the files although it is not true; empty if everything is true.
   [[nodiscard]] std::string contradiction() const;
 
   std::filesystem::path root_;
@@ -158,44 +160,47 @@ class Baselines {
   std::shared_ptr<Cache> cache_;
 };
 
-// Half the width of ln t of one run's frames: 1.4826 of their median absolute deviation, a normal
-// distribution's σ, but no less than one step of the clock, nor than what the medians of two quiet
-// process runs of the same program differ by, 0.5 % (docs/how-we-measure.md), which the frames of
-// one cannot show.
+// Half the width of ln t for the frames of one run: 1.4826 times their median absolute deviation,
+// which is σ for a normal distribution. It is at least one step of the clock, and at least 0.5 %:
+// the medians of two undisturbed process runs of the same program differ by that much
+// (docs/how-we-measure.md), which the frames of one process cannot show.
 [[nodiscard]] double log_spread(std::vector<double> times_ns);
 
-// The checks of the run's plan; of a run that keeps none, what every plan can be held to.
+// The checks of the run's plan. For a run that does not store them, the checks that apply to every
+// plan.
 [[nodiscard]] record::Checks checked_in(const record::Run& run);
 
 struct AcceptRequest {
   std::string plan;
-  std::string argument = {};      // as of GateRequest
-  std::string store_option = {};  // likewise
+  std::string argument = {};      // as in GateRequest
+  std::string store_option = {};  // as in GateRequest
   std::string reason;             // must not be blank
   std::string only;               // glob over configuration keys; empty: all
   std::string date;               // ISO
-  // Stored configurations that the run has no record of go, and so does what is not as it was
-  // accepted; else such a run or such files are refused. With `only`: what is stored of
-  // configurations goes where their device skips them now.
+  // Stored configurations of which the run has no record are removed, and so are stored files that
+  // are not as they were accepted. Otherwise such a run or such files are refused. With `only`:
+  // what is stored for a configuration is removed if the device now skips it.
   bool drop = false;
-  // The truth of a scene, as for the gate.
+  // The reference image of a scene, as for the gate.
   std::function<core::Image(const record::Record&)> truth;
   // As GateRequest::data_hash.
   std::function<std::string(const record::Record&)> data_hash = {};
-  // The limit of a record's scene, nullptr where it has none; nothing: no errors are stored.
+  // The limit of a record's scene, nullptr if it has none. An empty function: no errors are stored.
   std::function<const accuracy::LimitPicture*(const record::Record&)> limit = {};
-  // Scores every record of the run by both; nothing: no scores are stored.
+  // With these, every record of the run is scored. nullopt: no scores are stored.
   std::optional<StressTruths> stress = {};
-  // Told of each file that lies aside, then of "" when all do and nothing has taken effect yet.
+  // Called with the name of each file after it was written beside the old folder, and then with ""
+  // when all are written and nothing has taken effect yet.
   std::function<void(const std::string&)> on_written = {};
 };
 
-// Writes what a run measured as the new baselines; returns one line per changed file, each followed
-// by its changed values ("  PATH: OLD → NEW", the first 40 of a file). Refuses (InputError) a blank
-// reason, a run with injected faults, one that measured nothing, holds a part of what is stored
-// (see `drop`; with `only` nothing else changes), or was measured on other data than there are now.
-// What is kept is what the run's plan checks. All or nothing: the new folder is written beside the
-// old one and takes its place at the end. One accept at a time, else IoError.
+// Writes the measurements of a run as the new baselines. Returns one line for each changed file,
+// followed by its changed values ("  PATH: OLD → NEW", the first 40 of a file). Throws InputError
+// for a blank reason, a run with injected faults, a run that measured nothing, a run that contains
+// only a part of what is stored (see `drop`; with `only` nothing else changes), and a run on other
+// data than there are now. Only what the run's plan checks is stored. Either everything changes or
+// nothing: the new folder is written beside the old one and replaces it at the end. A second accept
+// at the same time throws IoError.
 [[nodiscard]] std::vector<std::string> accept(const record::Store& store, const std::string& run,
                                               const std::filesystem::path& root,
                                               const AcceptRequest& request);

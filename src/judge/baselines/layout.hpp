@@ -1,5 +1,5 @@
 #pragma once
-// The names of the files within baselines/<suite>/<plan>/, for the reader and the writer alike.
+// The names of the files in baselines/<suite>/<plan>/, for reading and writing.
 
 #include <filesystem>
 #include <string>
@@ -36,13 +36,14 @@ struct Layout {
   [[nodiscard]] static std::string timings(const record::Device& device) {
     return "timings/" + device.key_hash() + ".json";
   }
-  // What an image's entry calls the content hash of its data. The same data has one per voxel
-  // format, and devices prefer different formats.
+  // The name of the content hash of the data in the entry of an image. The same data have a hash
+  // for each voxel format, and devices prefer different formats.
   [[nodiscard]] static std::string data_key(const record::Record& record) {
     const auto voxel = record.factors.find("voxel");
     return voxel == record.factors.end() ? "data" : "data_" + voxel->second;
   }
-  // Where `accept` writes before it takes the folder's place; left behind only by a kill.
+  // The folder into which `accept` writes before it replaces the other one. It remains only if
+  // `accept` was killed.
   [[nodiscard]] static std::filesystem::path aside(const std::filesystem::path& folder) {
     return folder.parent_path() / ("." + folder.filename().string() + ".accepting");
   }

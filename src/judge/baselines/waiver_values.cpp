@@ -12,7 +12,7 @@
 namespace triptych::judge {
 namespace {
 
-// A day that there is.
+// Whether the day exists.
 bool is_iso_date(std::string_view text) {
   constexpr std::string_view shape = "dddd-dd-dd";
   const bool written_so = std::ranges::equal(
@@ -53,7 +53,7 @@ std::string expiry_of(const core::JsonNode& entry) {
 }
 
 bool matches_everything(std::string_view glob) {
-  // Shaped as ids of devices, tests and configurations are.
+  // Texts in the form of ids of devices, tests and configurations.
   constexpr std::array<std::string_view, 4> samples{"a:b#12", "zz9:q", "v.w.xyz.a:b#12",
                                                     "k=5,z=q_7"};
   return std::ranges::all_of(

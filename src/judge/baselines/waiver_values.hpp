@@ -1,5 +1,5 @@
 #pragma once
-// Values of entries that excuse something, whichever file they are in.
+// Values in entries that excuse something, in whichever file they are.
 
 #include <initializer_list>
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace triptych::judge {
 
-// A key that nobody reads would leave an entry that excuses more than it says.
+// Refuses unknown keys: an entry with a key that nobody reads would excuse more than it says.
 void refuse_other_keys(const core::JsonNode& entry, std::initializer_list<std::string_view> known);
-// Not blank.
+// Must not be blank.
 [[nodiscard]] std::string reason_of(const core::JsonNode& entry);
-// A day of the calendar.
+// Must be a day of the calendar.
 [[nodiscard]] std::string expiry_of(const core::JsonNode& entry);
-// A glob that leaves nothing out, however it is spelled: it matches texts that have nothing in
+// Whether a glob excludes nothing, however it is written: it matches texts that have nothing in
 // common.
 [[nodiscard]] bool matches_everything(std::string_view glob);
 

@@ -28,7 +28,7 @@ Waiver read_entry(const core::JsonNode& entry) {
   return waiver;
 }
 
-// What excuses everything hides everything that is found later.
+// An entry that excuses everything would hide everything that is found later.
 void refuse_without_limits(const core::JsonNode& entry, const Waiver& waiver) {
   if (matches_everything(waiver.device) && matches_everything(waiver.test) &&
       matches_everything(waiver.configuration)) {
@@ -56,7 +56,7 @@ std::vector<Waiver> read_waivers(const std::filesystem::path& file) {
   const auto json = core::JsonFile::read(file);
   if (!json) return result;
   for (const core::JsonNode& entry : json->root().elements()) {
-    static_cast<void>(entry.at("expiry"));  // by hand nothing is excused for ever
+    static_cast<void>(entry.at("expiry"));  // what people write must not excuse for ever
     result.push_back(read_entry(entry));
     refuse_without_limits(entry, result.back());
   }

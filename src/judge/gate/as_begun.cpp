@@ -1,5 +1,5 @@
-// Whether the run is what it set out to be, on all devices that its machine should have, for all
-// checks that its baselines hold.
+// Checks whether the run is complete: whether it has everything that it set out to measure, on all
+// devices that its machine should have, for all checks in its baselines.
 
 #include <algorithm>
 #include <iterator>
@@ -18,7 +18,7 @@ bool applies(const Absent& entry, const record::Run& run, const std::string& tod
   });
 }
 
-// Whether somebody said that this machine has no such device, or no devices of such an API.
+// Whether this machine was declared to lack this device, or all devices of its API.
 bool is_excused(const RunView& view, const std::string& device) {
   if (core::any_glob_matches(view.request.without_devices, device)) return true;
   return std::ranges::any_of(view.baselines.absent(), [&](const Absent& entry) {
@@ -26,7 +26,7 @@ bool is_excused(const RunView& view, const std::string& device) {
   });
 }
 
-// A command that would have measured it, had it been there.
+// Whether one of the run's commands would have measured the device if it had been there.
 bool is_asked_for(const RunView& view, const std::string& device) {
   const bool judged = view.request.devices.empty() ||
                       core::any_glob_matches(view.request.devices, device);
@@ -63,8 +63,8 @@ std::map<std::string, std::string> ids_of_drivers(const Manifest& manifest) {
   return ids;
 }
 
-// Devices by id that were accepted on a machine of this one's kind and are not listed here, each
-// with a device that tells of the kind.
+// Devices that were accepted on a machine of the same kind and are not listed here, by id. With
+// each comes a device that shows which kind of machine it is.
 std::map<std::string, std::string> gone_devices(const RunView& view) {
   const Manifest& manifest = view.baselines.manifest();
   const std::map<std::string, std::string> ids = ids_of_drivers(manifest);
@@ -101,8 +101,8 @@ void report_gone_devices(const RunView& view, std::vector<Finding>& findings) {
   }
 }
 
-// A device without a description matches no stored key, so that findings about it would only
-// advise.
+// A device without a description matches no stored key, so findings about it would only be
+// advisory.
 void report_undescribed(const RunView& view, std::vector<Finding>& findings) {
   std::set<std::string> described;
   for (const auto& entry : view.store.devices(view.run.id)) described.insert(entry.device.id);
@@ -118,8 +118,8 @@ void report_undescribed(const RunView& view, std::vector<Finding>& findings) {
   }
 }
 
-// A plan that no longer asks for a check passes whatever that check would have found. Times affect
-// no verdict unless they are asked to.
+// A plan that no longer requests a check passes whatever that check would have found. Times affect
+// no verdict unless that is requested.
 void report_lost_checks(const RunView& view, std::vector<Finding>& findings) {
   if (!view.baselines.present() || view.run.checks.empty()) return;
   std::vector<std::string> lost;

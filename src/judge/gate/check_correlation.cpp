@@ -21,13 +21,14 @@ Finding about_device(const DeviceCost& device, Verdict verdict, Observation what
 
 // --- accepted devices: stored residuals ----------------------------------------------------------
 
-// A device's configurations that were held against some other device, and what of them moved.
+// The configurations of a device that were compared with some other device, and those of them that
+// moved.
 struct Moved {
   const DeviceCost* device = nullptr;
   std::vector<const record::Record*> records;
-  std::vector<double> by;        // of each; 0: it did not, or no pair's residual shows it
-  std::set<std::string> held;    // names of the devices that it was held against
-  std::set<std::string> beside;  // of those whose residual with this one moved
+  std::vector<double> by;        // for each; 0: it did not move, or no pair's residual shows it
+  std::set<std::string> held;    // names of the devices with which it was compared
+  std::set<std::string> beside;  // names of those whose residual with this device moved
 };
 
 Repeatability repeatability_of(const ConfigurationCost& cost) {
@@ -38,8 +39,8 @@ CostChange change_of(const ConfigurationCost& cost) {
   return change_of(*cost.stored, cost.now);
 }
 
-// Accepted devices that were counted by the same: those of the run, or what is stored of others
-// where the run has none.
+// Accepted devices that were counted by the same emulator: those of the run, and stored ones that
+// are not in the run.
 std::vector<const DeviceCost*> partners_of(const DeviceCost& device,
                                            const std::vector<DeviceCost>& devices) {
   std::vector<const DeviceCost*> here;
@@ -51,14 +52,15 @@ std::vector<const DeviceCost*> partners_of(const DeviceCost& device,
   return here.empty() ? stored : here;
 }
 
-// The residual r of the two left r0. What is not in the run is what was stored of it, exactly.
+// Whether the residual r of the two differs from r0. For a device that is not in the run, r is
+// exactly what was stored.
 bool left_residual(const ConfigurationCost& own, const ConfigurationCost& other) {
   const Repeatability none{0, 0};
   return residual_moved(change_of(other), other.record ? repeatability_of(other) : none,
                         change_of(own), repeatability_of(own));
 }
 
-// A device is named for what itself changed since it was accepted.
+// A finding names the device that itself changed since it was accepted.
 Moved movements_of(const DeviceCost& device, const std::vector<DeviceCost>& devices) {
   Moved moved{&device, {}, {}, {}, {}};
   const std::vector<const DeviceCost*> partners = partners_of(device, devices);
@@ -127,8 +129,8 @@ void add_fit(Observation& what, const CorrelationLine& line) {
   set_number(what, "pearson", line.pearson);
 }
 
-// Of a new device, which accepted one can judge it: the line with the least scatter, the admitted
-// before the others; nullptr: none is stored.
+// The accepted device that can judge a new one: the line with the least scatter, where accepted
+// lines come before refused ones; nullptr if none is stored.
 const CorrelationPair* nearest(const DeviceCost& device,
                                const std::vector<CorrelationPair>& pairs) {
   const CorrelationPair* best = nullptr;
@@ -199,15 +201,16 @@ void judge_new(const DeviceCost& device, std::vector<CorrelationPair>& pairs,
 
 // --- pairs ---------------------------------------------------------------------------------------
 
-// Two accepted devices of the run, or one of the run with what is accepted. Two new ones are shown.
+// Pairs of two accepted devices in the run, or of one in the run and an accepted one. Pairs of two
+// new devices are only shown.
 std::vector<CorrelationPair> pairs_by_cost(const std::vector<DeviceCost>& devices) {
   std::vector<CorrelationPair> pairs;
   for (std::size_t a = 0; a < devices.size(); ++a) {
     for (std::size_t b = a + 1; b < devices.size(); ++b) {
       if (devices[a].counted_by != devices[b].counted_by) continue;
       const bool b_is_known = devices[b].accepted() && !devices[a].accepted();
-      if (!devices[a].measured) continue;  // then neither is b
-      // What is not in the run is seen beside a new device only.
+      if (!devices[a].measured) continue;  // then b was not measured either
+      // A device that is not in the run is shown only beside a new device.
       if (!devices[b].measured && !b_is_known) continue;
       pairs.push_back(b_is_known ? pair_of(devices[b], devices[a])
                                  : pair_of(devices[a], devices[b]));
@@ -231,7 +234,7 @@ void mark_outliers(const Moved& moved, std::vector<CorrelationPair>& pairs) {
   }
 }
 
-// Devices of the run without a cost: one line each.
+// One line for each device of the run without a cost.
 void report_uncounted(const CorrelationInput& input, const std::vector<DeviceCost>& devices,
                       std::vector<Finding>& findings) {
   std::set<std::string> told;

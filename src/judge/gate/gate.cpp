@@ -21,8 +21,8 @@ bool asked_for(const GateRequest& request, const std::string& device) {
   return request.devices.empty() || core::any_glob_matches(request.devices, device);
 }
 
-// The record's data are not those that were accepted under the same name, or not those that are
-// here now: its numbers are compared with none.
+// The record's data differ from those that were accepted under the same name, or from the present
+// ones. Its numbers are then not compared with any others.
 std::optional<Observation> other_data(const RunView& view, const record::Record& record) {
   if (record.data_hash.empty()) return std::nullopt;
   const std::string accepted =
@@ -51,7 +51,7 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
   for (auto& entry : store.devices(run)) {
     if (asked_for(request, entry.device.id)) view.devices.emplace(entry.device.id, entry.device);
   }
-  // A device that was to be measured is judged though nothing of it is there.
+  // A device that was to be measured is judged even if there is nothing about it.
   for (const std::string& id : record::devices_of(view.run.begun)) {
     record::Device unknown;
     unknown.id = id;
@@ -59,7 +59,7 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
   }
   for (record::Record& record : store.records(run)) {
     if (record.plan != request.plan || !asked_for(request, record.device)) continue;
-    // A device the store does not describe matches no stored key.
+    // A device that the store does not describe matches no stored key.
     record::Device unknown;
     unknown.id = record.device;
     view.devices.try_emplace(record.device, unknown);
@@ -72,8 +72,8 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
   return view;
 }
 
-// A configuration that this device has measured before is missed when it is skipped. With a setting
-// that overrides what the driver can do (MESA_GL_VERSION_OVERRIDE) it is another device.
+// A configuration that this device measured before is missing if it is now skipped. With a setting
+// that overrides what the driver can do (MESA_GL_VERSION_OVERRIDE), it counts as another device.
 bool measured_before(const RunView& view, const record::Record& record) {
   const bool overridden = std::ranges::any_of(
       view.device(record).environment,
@@ -84,8 +84,8 @@ bool measured_before(const RunView& view, const record::Record& record) {
   return code != nullptr && code->configurations.contains(record.configuration);
 }
 
-// Everything but measured, once, under the first check asked for. What failed in a stress case is
-// told by its score.
+// Reports all records that were not measured, once each, under the first check that is requested. A
+// stress case that failed is reported by its score.
 void report_outcomes(const RunView& view, std::vector<Finding>& findings) {
   const Check check = *view.checks.begin();
   const bool scored = view.checks.contains(Check::stress);
@@ -166,7 +166,7 @@ void report_missing(const RunView& view, const record::Device& device,
                                                                 view.request.store_option)}));
 }
 
-// Every device must have a record, of whatever outcome, of every configuration of the plan, of
+// Every device must have a record, with any outcome, for every configuration of the plan and for
 // every accepted one, and no others.
 void report_rows(const RunView& view, std::vector<Finding>& findings) {
   const std::vector<std::string> planned =
@@ -190,7 +190,7 @@ void report_rows(const RunView& view, std::vector<Finding>& findings) {
   }
 }
 
-// What is judged is what was asked for.
+// The run must be the one that was asked for.
 void report_other_plan(const RunView& view, const std::string& run,
                        std::vector<Finding>& findings) {
   if (view.request.plan_hash.empty() || view.records.empty()) return;
@@ -233,14 +233,14 @@ void append(std::vector<Finding>& findings, std::vector<Finding> more) {
   std::ranges::move(more, std::back_inserter(findings));
 }
 
-// What the checks add to, in their order.
+// What the checks fill in, one after the other.
 struct Judging {
   const RunView& view;
   GateResult& result;
   WrongImages wrong = {};
 };
 
-// A wrong image voids its time, so images are compared for a check of times too.
+// The time of a wrong image means nothing, so images are also compared for a check of times.
 void judge_images(Judging& all) {
   const bool wanted = all.view.checks.contains(Check::image);
   const bool for_times = all.view.baselines.present() && all.view.request.truth &&
@@ -251,10 +251,11 @@ void judge_images(Judging& all) {
   all.wrong = std::move(images.wrong);
 }
 
-// One row per check, in the order in which they are judged. A test holds it to record::every_check.
+// One row for each check, in the order in which they are judged. A test compares the rows with
+// record::every_check.
 struct CheckRow {
   Check check;
-  bool against_baselines;  // there is nothing to judge without them
+  bool against_baselines;  // without baselines there is nothing to judge
   void (*judge)(Judging&);
 };
 constexpr std::array check_rows{
@@ -337,8 +338,8 @@ void report_what_is_there(const RunView& view, GateResult& result) {
   if (!view.baselines.present()) report_no_baselines(view, result.findings);
 }
 
-// A device that measured and of which all is advice or skips has not passed. Without baselines that
-// is said of all of them.
+// A device that measured something but has only advisory findings and skips has not passed. Without
+// baselines, this is true of all devices.
 void report_nothing_decided(const RunView& view, GateResult& result) {
   if (!view.request.decides_each_device || !view.baselines.present()) return;
   for (const std::string& device : result.nothing_decided()) {
@@ -348,12 +349,12 @@ void report_nothing_decided(const RunView& view, GateResult& result) {
   }
 }
 
-// What was right before, by the program as it is, tells a driver's fault from one of ours.
+// If this program was right before, the fault is the driver's and not ours.
 void tell_where_accepted(const RunView& view, std::vector<Finding>& findings) {
   if (!view.baselines.present()) return;
   for (Finding& each : findings) {
     if (each.verdict != Verdict::regression || each.configuration.empty()) continue;
-    const auto device = view.devices.find(each.device);  // there is none of a scene itself
+    const auto device = view.devices.find(each.device);  // a scene itself has no device
     if (device == view.devices.end() || view.knows_driver(device->second)) continue;
     std::set<std::string> devices;
     const auto stored = view.baselines.counters(each.configuration).value_or(StoredCounters{});
@@ -367,7 +368,7 @@ void tell_where_accepted(const RunView& view, std::vector<Finding>& findings) {
 }  // namespace
 
 void sort_findings(std::vector<Finding>& findings) {
-  // What changed most is named first; what has no ratio comes by its name.
+  // The largest change is named first; changes without a ratio are sorted by name.
   const auto change = [](const Finding& finding) {
     const auto ratio = finding.numbers.find("ratio");
     return ratio == finding.numbers.end() ? 0.0 : -std::abs(std::log(ratio->second));

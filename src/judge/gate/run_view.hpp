@@ -1,5 +1,5 @@
 #pragma once
-// What every check sees of a run, and how each check is called.
+// What every check knows about a run, and the function of each check.
 
 #include <map>
 #include <set>
@@ -17,9 +17,9 @@ struct RunView {
   const GateRequest& request;
   record::Run run;
   std::set<Check> checks;
-  std::vector<record::Record> records;               // of the devices asked for
+  std::vector<record::Record> records;               // of the requested devices
   std::map<std::string, record::Device> devices;     // by id
-  std::vector<const record::Record*> measured;       // into `records`
+  std::vector<const record::Record*> measured;       // pointers into `records`
   std::vector<const record::Record*> of_other_data;  // measured, but of data that are not
                                                      // here, or not what was accepted
 
@@ -28,25 +28,25 @@ struct RunView {
   }
   // Whether this version of the device's driver was accepted.
   [[nodiscard]] bool knows_driver(const record::Device& device) const;
-  // For findings that belong to no device: the test id without one.
+  // The test id of findings that belong to no device.
   [[nodiscard]] std::string plan_test(Check check) const;
-  // The plan as commands take it.
+  // The plan as commands accept it.
   [[nodiscard]] std::string argument() const;
-  // Advice whose command makes or renews the baselines.
+  // Advice with the command that creates or renews the baselines.
   [[nodiscard]] Advised accept(Advice advice = Advice::accept) const;
 };
 
 [[nodiscard]] Finding finding_about(const record::Record& record, Check check, Verdict verdict,
                                     Observation what, Advised advice = {});
-// Of a device as a whole: no configuration.
+// About a device as a whole, without a configuration.
 [[nodiscard]] Finding finding_about(const RunView& view, const record::Device& device, Check check,
                                     Verdict verdict, Observation what, Advised advice = {});
 [[nodiscard]] Finding finding_about(const RunView& view, Check check, Verdict verdict,
                                     Observation what, Advised advice = {});
-// Worst first, then by device and configuration.
+// The worst first, then by device and configuration.
 void sort_findings(std::vector<Finding>& findings);
 
-// (device, configuration) → what is wrong with its image: its time means nothing.
+// (device, configuration) → what is wrong with its image. The time of such a record means nothing.
 using WrongImages = std::map<std::pair<std::string, std::string>, Observation>;
 
 struct ImageFindings {
@@ -72,24 +72,25 @@ struct AccuracyFindings {
   std::vector<Finding> findings;
   std::vector<accuracy::AccuracyScene> scenes;
 };
-// Without baselines there are no findings, yet scenes.
+// Without baselines there are no findings, but scenes.
 [[nodiscard]] AccuracyFindings check_accuracies(const RunView& view);
 
-// A finding per record that has a score, those that failed among them.
+// One finding for each record that has a score, including records that failed.
 [[nodiscard]] std::vector<Finding> check_stress(const RunView& view);
 
-// Whether the run is what it set out to be, on all devices that its machine should have, by a plan
-// that asks for all that its baselines hold.
+// Checks whether the run has everything that it set out to measure, on all devices that its machine
+// should have, and whether the plan requests all checks of its baselines.
 void report_as_begun(const RunView& view, std::vector<Finding>& findings);
 
-// Whether waivers.json excuses what this check may find about the record, today.
+// Whether waivers.json excuses today what this check may find about the record.
 [[nodiscard]] bool is_waived(const RunView& view, const record::Record& record, Check check);
 
-// Turns regressions that waivers.json excuses into waived ones; says where a waiver has expired.
+// Turns regressions that waivers.json excuses into waived ones, and reports waivers that have
+// expired.
 void apply_waivers(const RunView& view, std::vector<Finding>& findings);
 
-// Holds findings against GateRequest::known: what is known to fail is waived, what passes in spite
-// of it improved, a skip that is not known cannot be judged.
+// Compares findings with GateRequest::known: what is known to fail becomes waived; what passes
+// although it is known to fail becomes improved; a skip that is not known cannot be judged.
 void apply_known(const RunView& view, std::vector<Finding>& findings);
 
 }  // namespace triptych::judge

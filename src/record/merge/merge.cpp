@@ -21,14 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Each open store takes three files and a share of the memory. More are merged in groups, and those
-// in turn.
+// Each open store needs three files and a share of the memory. More stores than this are merged in
+// groups, and then the results of the groups.
 constexpr std::size_t most_at_once = 64;
-constexpr int source_cache_kib = 96 << 10;  // all sources together
+constexpr int source_cache_kib = 96 << 10;  // for all sources together
 constexpr int out_cache_kib = 96 << 10;
 constexpr std::chrono::seconds busy_limit{10};
 
-// Stores that are not what was asked for, removed with this.
+// Intermediate stores, which the destructor removes.
 class Aside {
  public:
   explicit Aside(const fs::path& out) : out_(out) {}
@@ -56,7 +56,7 @@ class Aside {
   std::vector<fs::path> files_;
 };
 
-// Errors of writing are said of the name that was asked for: what is written aside is removed.
+// Errors of writing name the file that was asked for, because intermediate files are removed.
 template <typename Action>
 decltype(auto) on_new_store(const fs::path& out, Action&& action) {
   try {
@@ -69,13 +69,13 @@ decltype(auto) on_new_store(const fs::path& out, Action&& action) {
   }
 }
 
-// A file to merge from, by the run that it has for each plan.
+// A file to merge from, with the run that it has for each plan.
 struct Input {
   fs::path file;
   std::vector<std::string> runs;
 };
 
-// One merge into one file aside, on the way to `out`.
+// One merge into one intermediate file on the way to `out`.
 class Writing {
  public:
   Writing(const std::vector<Input>& inputs, const fs::path& file, const fs::path& out)
@@ -86,7 +86,7 @@ class Writing {
     for (const Input& each : inputs) {
       Source& source = sources_.emplace_back(
           Source{each.file, open_store_file(each.file, Store::Mode::read, busy_limit)});
-      // One view of the file for all queries, whoever writes meanwhile.
+      // All queries see the same state of the file, even if another process writes to it.
       on_store(each.file, [&] {
         source.database.exec(fmt::format("PRAGMA cache_size = -{}", share));
         source.database.exec("BEGIN");
@@ -94,7 +94,7 @@ class Writing {
     }
   }
 
-  // What becomes of the records of each run.
+  // Returns what became of the records of each run.
   std::vector<RecordCounts> write(const std::vector<Input>& inputs, const std::vector<Run>& runs,
                                   DataSeen& data, const RecordCopy::Tell& tell) {
     return on_new_store(out_file_, [&] {
@@ -119,7 +119,7 @@ class Writing {
   }
 
  private:
-  // What has a record is under way no more.
+  // A configuration that has a record is no longer in flight.
   void copy_begun(const std::vector<std::string>& parts, const std::string& run) {
     MergedRows rows(
         sources_,
@@ -136,7 +136,7 @@ class Writing {
     }
   }
 
-  // Rows that are large, each read once it is known to be taken.
+  // Copies rows that are large; each is read only after it is known to be taken.
   void copy_named(const std::string& table, const std::vector<std::string>& key,
                   const std::vector<std::string>& content) {
     const int keys = static_cast<int>(key.size());
@@ -178,7 +178,7 @@ void require_no_store(const fs::path& out) {
                            "is there already: give another name, or remove it when all that it "
                            "holds is in the stores that are merged");
   }
-  // SQLite would take it for the new store's.
+  // SQLite would take it for the log of the new store.
   if (fs::exists(out.string() + "-wal", ignored) && !fs::is_empty(out.string() + "-wal", ignored)) {
     throw core::InputError({.file = out.string() + "-wal"},
                            "is the log of a store that is gone: remove it, or give another name");
@@ -196,14 +196,16 @@ void add(const std::vector<RecordCounts>& part, std::vector<RecordCounts>& sum) 
   }
 }
 
-// Writes records and pictures of all inputs to a file aside, by as many steps as it takes.
+// Writes the records and images of all inputs to an intermediate file, in as many steps as
+// necessary.
 struct Stepwise {
   const std::vector<Run>& runs;
   const RecordCopy::Tell& tell;
   const fs::path& out;
   Aside& aside;
   DataSeen data;
-  std::vector<RecordCounts> counts;  // of what was left out in any step, of records in the last
+  // What was left out in any step, and the records of the last one.
+  std::vector<RecordCounts> counts;
 
   fs::path merge(std::vector<Input> inputs) {
     while (inputs.size() > most_at_once) {
@@ -227,9 +229,9 @@ struct Stepwise {
   }
 };
 
-// Last, as only records tell how many configurations there are. Without a log, which the file would
-// have to be made whole from; it gets the mode in which others append to it, and from then on
-// outlives a loss of power.
+// Done last, because only the records tell how many configurations there are. The file has no log,
+// from which it would otherwise have to be restored. It then gets the mode in which others append
+// to it, and from then on survives a loss of power.
 void add_runs(const fs::path& file, const fs::path& out, const std::vector<MergedRun>& runs) {
   on_new_store(out, [&] {
     SQLite::Database store = open_new_store_file(file);
@@ -251,7 +253,7 @@ void add_runs(const fs::path& file, const fs::path& out, const std::vector<Merge
 
 namespace {
 
-// Those that it set out to measure, and those that it says anything of.
+// The devices that the run set out to measure, and those about which it has records.
 std::set<std::string> devices_in(const Store& store, const Run& run) {
   const std::vector<std::string> begun = devices_of(run.begun);
   std::set<std::string> devices(begun.begin(), begun.end());
@@ -282,7 +284,7 @@ std::vector<Gap> gaps_of(const Store& store) {
   const auto is_empty = [](const Run& run) {
     return run.configurations == 0 && !run.begun.empty();
   };
-  // A shard of several plans may be empty for the smaller ones, but not for all of them.
+  // A shard of several plans may be empty for small plans, but not for all.
   if (!runs.empty() && std::ranges::all_of(runs, is_empty)) {
     for (const Run& run : runs) gaps.push_back({run.plan, "", 0, 0});
   }

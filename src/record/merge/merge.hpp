@@ -1,5 +1,5 @@
 #pragma once
-// Stores into one: shards of a plan, from several hosts and devices, become one run of it.
+// Merges stores into one: shards of a plan, from several hosts and devices, become one run.
 
 #include <cstdint>
 #include <filesystem>
@@ -12,15 +12,15 @@
 
 namespace triptych::record {
 
-// What a store's latest run of a plan has no record of yet.
+// The part of a plan of which a store's latest run has no record yet.
 struct Gap {
   std::string plan;
-  std::string device;  // empty: none was begun
+  std::string device;  // empty: no run was begun
   std::uint64_t records = 0;
-  std::uint64_t configurations = 0;  // that there are to be; 0: the run was to measure nothing
-  std::vector<std::string> missing = {};  // their keys, where the run says which they are
+  std::uint64_t configurations = 0;       // to be measured; 0: the run was to measure nothing
+  std::vector<std::string> missing = {};  // the keys of the missing ones, if the run lists them
 };
-// None in a shard that is complete. A store whose shards are all empty is a gap of each plan.
+// A complete shard has none. A store whose shards are all empty has a gap for each plan.
 [[nodiscard]] std::vector<Gap> gaps_of(const Store& store);
 
 struct MergeResult {
@@ -28,19 +28,20 @@ struct MergeResult {
     Run run;
     RecordCounts counts;
   };
-  std::vector<Plan> plans;       // by name
-  std::uint64_t older_runs = 0;  // left out: of each plan a store gives its latest run
+  std::vector<Plan> plans;  // by name
+  // Left out, because only the latest run of each plan in a store is merged.
+  std::uint64_t older_runs = 0;
 };
 
-// Writes a store of one run for each plan: its id and start are the earliest of its parts', its
-// system's facts are all of theirs. Of two records of one configuration and device one without
-// an injected fault is kept, then one that was measured, else the one of the smaller seal; of a
-// device's clocks likewise. Which stores are merged first, or twice, makes no difference to a byte.
-// Memory does not grow with records, nor with stores.
-//
-// `out` appears when all is written; one that is there already is refused. Throws InputError where
-// stores have different texts of a plan, or checks; a device that is another; or data of one name
-// and another content. Errors of reading and writing are Store's.
+// Writes a store with one run for each plan. Its id and its start are the earliest of its parts',
+// and its system facts are those of all parts. Of two records of one configuration and device, one
+// without an injected fault is kept; then one that was measured; otherwise the one with the smaller
+// seal. The same holds for the clocks of a device. The order of the stores makes no difference to a
+// single byte, and neither does merging a store twice. The need for memory does not grow with the
+// number of records or stores.
+// `out` appears when everything is written; an existing file is refused. Throws InputError if
+// stores have different texts or checks for a plan, a different device with the same id, or data
+// with the same name and other content. Errors of reading and writing are those of Store.
 [[nodiscard]] MergeResult merge_stores(const std::vector<std::filesystem::path>& stores,
                                        const std::filesystem::path& out,
                                        const RecordCopy::Tell& tell = {});

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Between what several machines say of themselves.
+// Separates what several machines say about themselves.
 constexpr std::string_view separator = " | ";
 
 void add_parts(std::string_view text, std::set<std::string>& parts) {
@@ -29,7 +29,7 @@ void add_parts(std::string_view text, std::set<std::string>& parts) {
   }
 }
 
-// All that either says, each once.
+// Everything that either text contains, once.
 std::string all_of(const std::string& a, const std::string& b) {
   if (a == b) return a;
   std::set<std::string> parts;
@@ -76,7 +76,7 @@ void add(const Run& run, Run& sum) {
 
 using Devices = std::map<std::string, Found<Store::DeviceEntry>>;
 
-// One device is described by one of its parts, whichever; it tells of clocks what it saw.
+// A device is described by any one of its parts. Its clocks are those that the part calibrated.
 void add(Store::DeviceEntry entry, const fs::path& file, Devices& devices) {
   const std::string id = entry.device.id;
   const auto found = devices.find(id);
@@ -97,7 +97,7 @@ void add(Store::DeviceEntry entry, const fs::path& file, Devices& devices) {
   }
 }
 
-// A plan's run while stores are read.
+// The run of a plan while stores are being read.
 struct Growing {
   Found<Run> first;
   Run sum;

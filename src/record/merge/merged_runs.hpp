@@ -1,5 +1,5 @@
 #pragma once
-// Which runs and devices a merge has, and what may not be merged.
+// Which runs and devices a merge contains, and what must not be merged.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,12 +10,12 @@
 
 namespace triptych::record {
 
-// A plan's run and the parts that it is made of.
+// The run of a plan, and the parts that it consists of.
 struct MergedRun {
   Run run;
-  std::vector<std::string> parts;           // id of the run in each store, empty where it has none
+  std::vector<std::string> parts;           // the id of the run in each store, empty if it has none
   std::vector<Store::DeviceEntry> devices;  // by id
-  std::vector<std::string> planned;         // keys of configurations of any part, sorted
+  std::vector<std::string> planned;         // keys of the configurations of all parts, sorted
 };
 
 struct MergedRuns {
@@ -23,7 +23,7 @@ struct MergedRuns {
   std::uint64_t older = 0;      // runs that are not the latest of their plan in a store
 };
 
-// Throws InputError as merge_stores().
+// Throws InputError as merge_stores() does.
 [[nodiscard]] MergedRuns merged_runs(const std::vector<std::filesystem::path>& stores);
 
 }  // namespace triptych::record

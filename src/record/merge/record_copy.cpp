@@ -14,7 +14,7 @@
 namespace triptych::record {
 namespace {
 
-// Columns that the merge looks at, in front of the others.
+// The columns that the merge reads; they come before the others.
 constexpr std::array<std::string_view, 8> named{"configuration", "device",    "outcome", "injected",
                                                 "seal",          "data_hash", "suite",   "seq"};
 namespace column {
