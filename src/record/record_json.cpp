@@ -90,8 +90,9 @@ void decode(const Json& json, Executable& value) {
 template <typename T>
 requires std::is_integral_v<T>
 void decode(const Json& json, T& value) {
-  // A number below zero is refused too: every integer of a record counts something. Written from
-  // here it is a signed or an unsigned JSON number, read from text always an unsigned one.
+  // A number below zero is refused too, because every integer of a record counts something. A
+  // number that was written here is a signed or unsigned JSON number; one that was read from text
+  // is always unsigned.
   const bool natural =
       json.is_number_unsigned() || (json.is_number_integer() && json.get<std::int64_t>() >= 0);
   if (!natural ||
@@ -165,7 +166,7 @@ void visit_fields(auto& trust, Visit&& visit) requires
   visit("verdict", trust.verdict);
 }
 
-// Enums are not in the lists: they travel by their names.
+// Enumerations are not in the lists, because they are stored by their names.
 template <typename Visit>
 void visit_fields(auto& reason, Visit&& visit) requires
     std::is_same_v<std::remove_cvref_t<decltype(reason)>, Reason> {
@@ -258,7 +259,7 @@ void read_fields(const Json& json, T& value) {
   visit_fields(value, [&](const char* name, auto& field) { read(json, name, field); });
 }
 
-// An enum by its name; one that is absent keeps its value.
+// An enumeration by its name. If it is absent, the variable keeps its value.
 template <typename Enum>
 void read_name(const Json& json, const char* name, Enum& value, Enum (*named)(std::string_view)) {
   std::string text(name_of(value));

@@ -18,7 +18,8 @@
 namespace triptych::record {
 namespace {
 
-// What is committed meanwhile, and all before it, outlives a loss of power.
+// While this object lives, commits wait for the disk: they, and all earlier ones, survive a loss of
+// power.
 class WaitsForDisk {
  public:
   explicit WaitsForDisk(SQLite::Database& database) : database_(database) {
@@ -38,7 +39,8 @@ struct Store::State {
   std::filesystem::path file;
   SQLite::Database database;
 
-  // All or nothing. The lock is taken at once: a reader that turned writer could not wait for it.
+  // Runs `action` in one transaction. The lock is taken at the beginning, because a reader that
+  // becomes a writer could not wait for it.
   template <typename Action>
   void write(Action&& action) {
     on_store(file, [&] {
@@ -67,8 +69,8 @@ const std::filesystem::path& Store::file() const {
   return state_->file;
 }
 
-// SQLite reads around most damage without a word. quick_check walks through every page: 0.2 s of a
-// processor for a store of 50 MB. It does not compare indexes with their tables.
+// SQLite works around most damage without reporting it. quick_check walks through every page, which
+// takes 0.2 s for a store of 50 MB. It does not compare indexes with their tables.
 void Store::require_whole() const {
   on_store(state_->file, [&] {
     SQLite::Statement row(state_->database, "PRAGMA quick_check(1)");
@@ -213,7 +215,7 @@ std::vector<Store::DeviceEntry> Store::devices(std::string_view run) const {
 
 std::vector<Record> Store::records(std::string_view run) const {
   return on_store(state_->file, [&] {
-    // One view of the file for all queries, whoever writes meanwhile.
+    // All queries see the same state of the file, even if another process writes to it.
     SQLite::Transaction snapshot(state_->database, SQLite::TransactionBehavior::DEFERRED);
     return read_records(state_->database, run);
   });

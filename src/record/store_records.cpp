@@ -1,4 +1,4 @@
-// Records in the tables of docs/store.md.
+// Writes records to the tables of docs/store.md and reads them.
 
 #include "record/store_records.hpp"
 
@@ -18,8 +18,8 @@
 namespace triptych::record {
 namespace {
 
-// The same columns in the same order for writing and reading. What a record can derive (clock,
-// frames, medians) is written beside them for people's queries and never read back.
+// The same columns in the same order for writing and reading. What can be derived from a record
+// (clock, frames, medians) is also written, for queries by people, and never read back.
 constexpr std::string_view record_columns =
     "run, suite, plan, configuration, scene, technique, device, outcome, cause, stage, "
     "numbers, subject, code, not_tried, shared_levels, detail, last_words, injected, "
@@ -39,7 +39,7 @@ std::string numbers_text(const Reason& reason) {
   return reason.numbers.empty() ? "{}" : core::json_text(core::Json(reason).at("numbers"));
 }
 
-// Numbers that are not finite are written as text.
+// Numbers that are not finite are stored as text.
 std::map<std::string, double> numbers_of(const std::string& text) {
   return core::Json{{"numbers", core::Json::parse(text)}}.get<Reason>().numbers;
 }
@@ -63,7 +63,7 @@ std::int64_t insert_row(const SQLite::Database& database, const Record& r) {
   return database.getLastInsertRowid();
 }
 
-// A record as its row has it, which is not yet all.
+// A record as it is in its row, which does not contain all of it.
 struct Row {
   std::int64_t seq = 0;
   std::string seal;
@@ -102,8 +102,8 @@ void insert_samples(const SQLite::Database& database, std::int64_t record, std::
 
 using RecordsBySeq = std::unordered_map<std::int64_t, Record*>;
 
-// Calls `read(record, row)` for every row of a table under the run's records; `columns` are those
-// behind the first, which names the record.
+// Calls `read(record, row)` for every row of a table that belongs to the run's records. The first
+// column names the record; `columns` are the others.
 template <typename Read>
 void read_rows(const SQLite::Database& database, std::string_view table, std::string_view columns,
                std::string_view order, std::string_view run, const RecordsBySeq& records,
@@ -177,7 +177,7 @@ void require_record_seal(const Row& row, const Record& record) {
                fmt::format("the record of {} on {}", record.configuration, record.device));
 }
 
-// A record's rows in one other table, by a statement that is prepared once.
+// The rows of a record in another table, read by a statement that is prepared once.
 class RowsOf {
  public:
   RowsOf(const SQLite::Database& database, std::string_view table, std::string_view columns,
@@ -198,7 +198,7 @@ class RowsOf {
   SQLite::Statement rows_;
 };
 
-// What a record has in the other tables.
+// The parts of a record that are in other tables.
 class PartsOf {
  public:
   explicit PartsOf(const SQLite::Database& database)

@@ -16,7 +16,7 @@ namespace {
 
 using core::Json;
 
-// As Json prints it: text that is not UTF-8 must not stop a run (see record.hpp).
+// As Json prints it, because text that is not UTF-8 must not stop a run (see record.hpp).
 std::string text_of(const std::map<std::string, std::string>& map, const char* field,
                     const Json& owner) {
   return map.empty() ? "{}" : core::json_text(owner.at(field));
@@ -41,7 +41,7 @@ Run read_run(SQLite::Statement& row) {
   return run;
 }
 
-// Runs in the order of read_run.
+// Selects runs, with their columns in the order of read_run.
 std::string select_runs(std::string_view rest) {
   return fmt::format(
       "SELECT id, plan, started_at, system, checks, plan_hash, configurations, begun, planned_hash, "

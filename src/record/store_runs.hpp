@@ -1,6 +1,6 @@
 #pragma once
-// Runs and their devices in and out of the store's tables; transactions are the caller's. Used by
-// store.cpp, and by a merge, whose store is not yet one.
+// Writes runs and their devices to the store's tables and reads them. Callers handle the
+// transactions. Used by store.cpp, and by a merge, which writes to a file that is not a Store yet.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -15,25 +15,25 @@
 
 namespace triptych::record {
 
-// What is already there under the same key is replaced, also by insert_device.
+// An existing entry with the same key is replaced; insert_device does the same.
 void insert_run(const SQLite::Database& database, const Run& run);
-// Keys of configurations that the run is to measure, which may be there already.
+// Adds the keys of configurations that the run is to measure; some may already exist.
 void insert_planned(const SQLite::Database& database, const std::string& run,
                     std::span<const std::string> configurations);
 [[nodiscard]] std::vector<std::string> read_planned(const SQLite::Database& database,
                                                     std::string_view run);
-// Run::planned_hash of the sorted keys.
+// Run::planned_hash for the sorted keys.
 [[nodiscard]] std::string hash_of_planned(std::span<const std::string> configurations);
-// Store::latest_run.
+// See Store::latest_run.
 [[nodiscard]] std::optional<Run> latest_run_in(const SQLite::Database& database,
                                                std::string_view plan);
-// Store::runs.
+// See Store::runs.
 [[nodiscard]] std::vector<Run> read_runs(const SQLite::Database& database);
 
-// The run must be there.
+// The run must exist.
 void insert_device(const SQLite::Database& database, const std::string& run, const Device& device,
                    const std::vector<ClockTrust>& clocks);
-// Store::devices.
+// See Store::devices.
 [[nodiscard]] std::vector<Store::DeviceEntry> read_devices(const SQLite::Database& database,
                                                            std::string_view run);
 

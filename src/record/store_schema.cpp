@@ -10,10 +10,10 @@
 namespace triptych::record {
 namespace {
 
-constexpr int application_id = 0x54524950;  // "TRIP": tells a store from other SQLite files
+constexpr int application_id = 0x54524950;  // "TRIP": distinguishes a store from other SQLite files
 
-// docs/store.md explains the tables. STRICT keeps a column to its type for whoever else writes
-// here. A number that is NaN is kept as NULL, which is what SQLite makes of it.
+// docs/store.md explains the tables. STRICT restricts columns to their types for other programs
+// that write here. NaN is stored as NULL, because SQLite turns it into that.
 constexpr const char* schema = R"sql(
 CREATE TABLE run (
   seq INTEGER PRIMARY KEY,
@@ -265,7 +265,8 @@ void require_our_schema(const SQLite::Database& database, const std::filesystem:
                                                 : "measure again, or use the older Triptych"));
 }
 
-// Two processes may find the same blank file: the second waits for the lock and finds it filled.
+// Two processes may find the same blank file. The second one waits for the lock, and then finds the
+// tables.
 void create_schema(SQLite::Database& database) {
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::EXCLUSIVE);
   if (!is_blank(database)) return;

@@ -37,7 +37,7 @@ std::vector<std::string> other_columns(const SQLite::Database& database) {
   return columns;
 }
 
-// As a writer has them: seq, run, then all but seq as they are read.
+// In the order of the writer: seq, run, and then all columns but seq as they are read.
 std::vector<std::string> columns_with(const std::vector<std::string>& others) {
   std::vector<std::string> columns{"seq", "run"};
   columns.insert(columns.end(), named.begin(), named.end() - 1);
@@ -54,9 +54,9 @@ bool has_fault(const Query& record) {
   return !record.text(column::injected).empty();
 }
 
-// What a device did counts more than what it did with an injected fault, measured or not. A record
-// that was measured counts more than one that was not: a job is sent again for that. Else any rule
-// will do that has no order of stores in it.
+// A record without an injected fault is preferred to one with it, whether it was measured or not.
+// Then a record that was measured is preferred to one that was not, because a job is sent again for
+// that reason. For the rest any rule will do that does not depend on the order of the stores.
 bool is_before(const Query& a, const Query& b) {
   if (has_fault(a) != has_fault(b)) return has_fault(b);
   const int rank_a = rank_of(a.text(column::outcome));
@@ -64,7 +64,7 @@ bool is_before(const Query& a, const Query& b) {
   return rank_a != rank_b ? rank_a < rank_b : a.text(column::seal) < b.text(column::seal);
 }
 
-// What the content of data depends on, as a device resolved it.
+// The factors, as the device resolved them, on which the content of data depends.
 std::string add_factors(RowBatch& rows, Query& factors, std::int64_t record) {
   std::string data;
   while (factors.step()) {
@@ -151,7 +151,7 @@ void RecordCopy::prepare_parts() {
   }
 }
 
-// Reading and writing take as long: the next batch is read while one is written.
+// Reading takes as long as writing, so the next batch is read while one is written.
 RecordCounts RecordCopy::copy(const std::vector<std::string>& runs, const std::string& run) {
   const std::string select =
       fmt::format("SELECT {}, {} FROM record WHERE run = ?1 ORDER BY configuration, device",
@@ -161,7 +161,7 @@ RecordCounts RecordCopy::copy(const std::vector<std::string>& runs, const std::s
   last_configuration_.clear();
   std::array<Batch, 2> batches;
   for (Batch& each : batches) each.parts.resize(parts_.size());
-  std::future<void> writing;  // a future waits when it goes
+  std::future<void> writing;  // the destructor of a future waits
   for (std::size_t turn = 0;; turn = 1 - turn) {
     fill(batches[turn], rows, run, counts);
     if (writing.valid()) writing.get();
