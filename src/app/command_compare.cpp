@@ -45,7 +45,7 @@ measure::SideOptions parse_side(std::string_view option, const std::string& text
   return side;
 }
 
-// Of the latest run of each plan: what it measured, device beside device.
+// Compares all devices of the latest run of each plan with each other.
 core::ExitCode show_apis(const CompareArguments& arguments) {
   const Comparing& comparing = arguments.comparing;
   if (comparing.store.empty()) {

@@ -21,7 +21,7 @@ struct ExportArguments {
   bool json = false;
 };
 
-// As the stores name it, or as the file that was run.
+// The plan's name in the stores, or the name of the file that was run.
 std::string plan_in(const std::vector<record::Store>& stores, const std::string& plan) {
   const bool named = std::ranges::any_of(
       stores, [&](const record::Store& each) { return each.latest_run(plan).has_value(); });

@@ -70,8 +70,8 @@ std::vector<std::string> gate_job() {
   return main_job;
 }
 
-// The plans as they are now: one that cannot be read is judged by nothing. One that is left without
-// what it is made for goes.
+// The plans as they are now. A plan that cannot be read is not judged. A plan that has lost the
+// check for which it is made is left out.
 std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry& registry) {
   record::Checks asked;
   for (const std::string& name : arguments.checks) asked.insert(record::check(name));
@@ -112,7 +112,8 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
   return request;
 }
 
-// Nothing is stored and nothing is held against what is: each device against itself by the base.
+// Nothing is stored, and nothing is compared with baselines: each device is compared with itself as
+// the base draws.
 core::ExitCode judge_by_base(const GateArguments& arguments) {
   const Registry registry = make_registry();
   const measure::Listing listing = measure::name_a_compiler(arguments.devices)
@@ -135,7 +136,7 @@ core::ExitCode judge_by_base(const GateArguments& arguments) {
 bool has_compilers(const GateArguments& arguments, const Registry& registry,
                    const JudgedPlan& judged) {
   if (!arguments.measure) {
-    if (!std::filesystem::exists(arguments.store)) return true;  // which is an error of its own
+    if (!std::filesystem::exists(arguments.store)) return true;  // reported as an error later
     const record::Store store(arguments.store, record::Store::Mode::read);
     return store.latest_run(judged.plan.name).has_value();
   }
@@ -206,7 +207,7 @@ void refuse_bad_files(const GateArguments& arguments) {
                            {{"--junit", arguments.junit}, {"--markdown", arguments.markdown}});
 }
 
-// For `git bisect run`: what is no verdict on a commit is skipped by it.
+// For `git bisect run`: a commit on which no verdict is possible is skipped.
 core::ExitCode gate(const GateArguments& arguments) {
   const measure::Stopwatch since;
   const auto judged = [&] {

@@ -15,12 +15,12 @@ namespace triptych::app {
 namespace {
 
 struct ListArguments {
-  std::string plan;  // or a suite
+  std::string plan;  // or the name of a suite
   PlanChoice choice;
   bool json = false;
 };
 
-// "raycast | speed_of_light", "0.015625 to 4096 | own", or nothing where words alone cannot say.
+// "raycast | speed_of_light" or "0.015625 to 4096 | own"; empty if the values cannot be listed.
 std::string levels_text(const measure::Factor& factor) {
   const std::string words = fmt::format("{}", fmt::join(factor.levels, " | "));
   if (factor.kind != measure::FactorKind::number) return words;
@@ -94,7 +94,7 @@ core::Json json_of(const measure::Suite& suite, const std::vector<CountedPlan>& 
   return json;
 }
 
-// What a plan of the suite may hold, and the plans that come with it.
+// What a plan of the suite may contain, and the plans that come with the suite.
 core::ExitCode list_suite(const measure::Suite& suite, const Registry& registry, bool as_json) {
   const std::vector<CountedPlan> plans = plans_of(suite, registry);
   if (as_json) {

@@ -1,4 +1,4 @@
-// merge: what a farm measured, as if one machine had.
+// merge: combines what several machines measured, as if one machine had measured it.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,7 +20,7 @@ struct MergeArguments {
   std::vector<std::string> stores;
   std::string out;
   bool check = false;
-  std::vector<std::string> plans;  // that each store has to hold
+  std::vector<std::string> plans;  // that each store must contain
 };
 
 void tell_left_out(const record::RecordCounts& counts) {
@@ -77,7 +77,7 @@ std::vector<std::string> gaps_in(const record::Store& store,
   return told;
 }
 
-// Whether no store has a gap; names those there are.
+// Returns whether no store has a gap, and prints the gaps.
 bool tell_gaps(const MergeArguments& arguments) {
   bool complete = true;
   for (const std::string& file : arguments.stores) {
@@ -105,7 +105,7 @@ core::ExitCode merge(const MergeArguments& arguments) {
         fmt::format("nothing to merge: there is no run in {}", fmt::join(arguments.stores, ", ")));
   }
   core::require_writable(std::filesystem::path(arguments.out).parent_path());
-  // On a terminal, now and then.
+  // On a terminal, the count is updated from time to time.
   const auto count = [last =
                           std::chrono::steady_clock::time_point()](std::uint64_t records) mutable {
     const auto now = std::chrono::steady_clock::now();
@@ -121,7 +121,7 @@ core::ExitCode merge(const MergeArguments& arguments) {
     put("{} older runs were left out: each store contributes the latest run of a plan\n",
                result.older_runs);
   }
-  // What no device of a shard has is no gap in the whole.
+  // A configuration that no device of a shard has is no gap in the whole run.
   if (!tell_gaps(arguments)) {
     put("These records are missing in {} unless another store has them\n", arguments.out);
   }

@@ -28,9 +28,9 @@ namespace fs = std::filesystem;
 struct ReduceArguments {
   FrameArguments frame = {.out = "reduced"};
   std::string against;
-  int limit_s = 0;  // 0: as the first frame asks for
+  int limit_s = 0;  // 0: as the first frame needs
   int frames = 500;
-  bool truth = true;  // render has it; here it is always so
+  bool truth = true;  // an option of `render` that `reduce` always uses
 };
 
 measure::RunOptions options_of(const ReduceArguments& arguments) {
@@ -41,7 +41,8 @@ measure::RunOptions options_of(const ReduceArguments& arguments) {
           .program = version()};
 }
 
-// Other counters are wrong only against the other device's, which `render` does not draw on.
+// Counters are wrong only in comparison with those of the other device, which `render` does not
+// draw on.
 std::string command_for(const OneFrame& frame, const ReduceArguments& arguments,
                         const reduction::Failure& failure, const record::Record& record,
                         const record::Device& device) {
@@ -58,7 +59,8 @@ std::string command_for(const OneFrame& frame, const ReduceArguments& arguments,
   return report::text_of(command);
 }
 
-// What is right, what was drawn where anything was, and what another program needs to draw it.
+// Writes the right image, the image that was drawn (if there is one), and what another program
+// needs to draw it.
 std::vector<std::string> write_frame(const OneFrame& frame, const reduction::Trial& trial,
                                      measure::Truths& truths, const fs::path& out) {
   const record::Record& record = trial.last();
@@ -99,7 +101,7 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   const Registry registry = make_registry();
   const OneFrame frame = choose_frame(registry, arguments.frame);
   const fs::path out(arguments.frame.out);
-  // Beside no frame it is somebody else's.
+  // A README without frame.json beside it belongs to somebody else.
   if (fs::exists(out / "frame.json")) fs::remove(out / "README.md");
   report::remove_frame(out);
   const core::TemporaryFolder folder;

@@ -36,7 +36,8 @@ struct RenderArguments {
   std::string dump;  // a folder; empty: none
 };
 
-// Writes the truth and the difference beside the picture, and says whether it is right.
+// Writes the reference image and the difference beside the image, and says whether the image is
+// right.
 core::ExitCode hold_against_truth(const core::Image& image, const judge::TruthPair& pair,
                                   const fs::path& out) {
   const report::HeldAgainstTruth held = report::write_difference(out, image, pair);
@@ -78,7 +79,8 @@ Drawn draw_one(const Drawing& drawing, const measure::Plan& plan) {
   return {run, drawing.store.records(run).at(0)};
 }
 
-// The fastest by short trials; where none can be drawn, what the first one says.
+// Draws with the fastest technique, found by short trials. If none can be drawn, the result is that
+// of the first.
 Drawn draw_the_fastest(const Drawing& drawing, const measure::Plan& plan) {
   if (drawing.arguments.error) {
     throw core::InputError(
@@ -97,7 +99,8 @@ Drawn draw_the_fastest(const Drawing& drawing, const measure::Plan& plan) {
   return {fastest.run, fastest};
 }
 
-// The fastest that keeps the requested error; of a device that could draw nothing, why.
+// Draws with the fastest settings that keep the requested error. If the device could draw nothing,
+// the result has the reason.
 Drawn draw_within_error(const Drawing& drawing, const measure::Plan& plan,
                         measure::Truths& truths) {
   const auto wanted = accuracy::parse_requested_error(*drawing.arguments.error);
@@ -128,7 +131,7 @@ void require_option(const std::string& value, std::string_view name) {
   if (value.empty()) throw core::InputError(fmt::format("{} is required", name));
 }
 
-// Tools see the names of objects and passes, and what drivers are given is written to the folder.
+// Gives names to objects and passes for tools, and makes drivers' inputs be written to the folder.
 void prepare_process(const RenderArguments& arguments) {
   ::setenv("TRIPTYCH_LABELS", "1", 1);
   if (arguments.dump.empty()) return;

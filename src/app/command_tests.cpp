@@ -1,5 +1,5 @@
-// What CTest needs: the list of tests, made when tests are run by asking which devices are here,
-// and the command behind each of them.
+// What CTest needs: the list of tests, which is made when tests are run by asking which devices
+// this machine has, and the command of each test.
 
 #include <fmt/format.h>
 
@@ -55,7 +55,7 @@ core::ExitCode start(const std::string& store) {
 struct CheckArguments {
   std::string plan;
   std::string check;   // by name
-  std::string device;  // id; empty: all
+  std::string device;  // empty: all devices
   std::string store;
 };
 
@@ -71,8 +71,8 @@ judge::GateResult judge_store(const CheckArguments& arguments, const record::Sto
   return judge_named(store, run->id, default_baselines().string(), request);
 }
 
-// Files that are not here are no fault of a device or a driver, whatever it measured when they
-// were: what only they keep from being judged is a skip, with the same reason.
+// Missing files are no fault of a device or driver, even if it measured them when they existed.
+// Findings that could not be judged only because of them become skips with the same reason.
 void excuse_absent_data(const CheckArguments& arguments, const Registry& registry,
                         const record::Store& store, judge::GateResult& result) {
   const auto undecided = [](const judge::Finding& finding) {
@@ -102,8 +102,8 @@ void excuse_absent_data(const CheckArguments& arguments, const Registry& registr
   }
 }
 
-// Judges the plan's latest run in the store. Skips where nothing was judged, and where a failure
-// would be that of a slow or noisy machine or of files that are not here.
+// Judges the plan's latest run in the store. The test is skipped if nothing was judged, or if the
+// cause of a failure is a slow or noisy machine or a missing file.
 core::ExitCode check(const CheckArguments& arguments) {
   const Registry registry = make_registry();
   record::Store store = open_to_judge(arguments.store);

@@ -39,7 +39,8 @@ comparison::ComparisonCommand command_of(const Comparing& comparing, const std::
       .plan = typed, .sides = comparing.sides, .varied = plan.varied};
   for (const std::string& each : comparing.faults)
     command.sides += " --inject " + core::shell_quoted(each);
-  // What the command line set to one value is no longer varied, but must be said again.
+  // A factor that the command line sets to one value no longer varies, but printed commands must
+  // repeat it.
   for (const auto& [factor, values] : comparing.choice.overrides()) {
     if (std::ranges::find(command.varied, factor) == command.varied.end()) {
       command.varied.push_back(factor);
@@ -60,7 +61,7 @@ class Comparer {
         store_(store.empty() ? (folder_.emplace().path() / "compared.sqlite").string() : store,
                record::Store::Mode::append),
         truths_(registry.find_suite(), store_) {
-    store_.require_whole();  // truths come from it
+    store_.require_whole();  // reference images are read from it
   }
 
   [[nodiscard]] Told compare(const Comparing& comparing, const std::string& typed) {
@@ -136,7 +137,7 @@ std::vector<std::string> worker_of(const std::string& option, const std::string&
     throw core::InputError(fmt::format("{} {}: is not an executable program", option, program));
   }
   const std::string file = fs::absolute(program).string();
-  // A driver may have printed something before.
+  // A driver may have printed something before the version.
   const std::string told = measure::output_of({file, "--version"}).value_or("");
   if (("\n" + told).find("\ntriptych ") == std::string::npos) {
     throw core::InputError(fmt::format(

@@ -33,7 +33,8 @@ std::string outcome_text(const record::Record& record) {
                  : "measured";
 }
 
-// On a terminal with the time left, elsewhere of configurations that are done.
+// On a terminal the line also shows the time left; elsewhere there is a line for configurations
+// that are done.
 void print_progress(const measure::Progress& progress) {
   if (progress.loading) return show_loading(*progress.loading);
   const std::string what = progress.record != nullptr ? outcome_text(*progress.record) : "";
@@ -47,7 +48,8 @@ void print_progress(const measure::Progress& progress) {
   }
 }
 
-// A factor belongs to one suite, an error to its scenes.
+// An option for a factor or an error applies to a single plan: a factor belongs to one suite, and
+// an error to the scenes of a plan.
 void refuse_for_several(const Measuring& measuring) {
   if (measuring.plans.size() < 2) return;
   if (!measuring.choice.set.empty()) {
@@ -98,7 +100,7 @@ measure::RunOptions options_of(const Measuring& measuring, const record::Beginni
           .program = version()};
 }
 
-// Where and with what plans are measured.
+// Where plans are measured, and with what.
 struct Bench {
   const Measuring& measuring;
   const Registry& registry;
@@ -138,7 +140,7 @@ std::vector<measure::RunResult> measure_on(const Bench& bench,
   return results;
 }
 
-// What keeps the requested error, and of it the fastest per scene and device.
+// Measures what keeps the requested error, and the fastest of that for each scene and device.
 Measured measure_within_error(const Bench& bench, const measure::Plan& plan) {
   const auto wanted = accuracy::parse_requested_error(*bench.measuring.error);
   measure::SuiteWithTruth& suite = bench.registry.suite(plan.suite);
@@ -168,8 +170,9 @@ void tell_the_fastest(const Bench& bench, const measure::Plan& plan, const std::
   }
 }
 
-// Compilers are asked by plans that check their code alone, and where nobody names a device such a
-// plan leaves out the processor's: its instructions are counted by the plans that check cost.
+// Devices that only compile are used by plans that check their code, and by no others. If the user
+// names no device, such a plan leaves out devices that are the processor: the plans that check cost
+// count their instructions.
 std::vector<std::string> devices_of(const measure::Listing& listing,
                                     const std::vector<std::string>& globs, bool compiled) {
   std::vector<std::string> chosen = measure::choose_devices(listing, globs);
@@ -180,7 +183,7 @@ std::vector<std::string> devices_of(const measure::Listing& listing,
     const bool fits = compiled ? !globs.empty() || !computes_here : device->compiles_for.empty();
     if (fits) fit.push_back(id);
   }
-  // Who names nothing else gets skips that say why.
+  // If the user names only devices that do not fit, they are skipped with the reason.
   if (fit.empty() && !globs.empty()) return chosen;
   return fit;
 }
@@ -193,7 +196,7 @@ measure::Listing listing_for(const Measuring& measuring, const Registry& registr
              : registry.devices();
 }
 
-// Plans that only compile are measured on other devices than plans that draw.
+// Plans that only compile have other devices than plans that draw.
 std::vector<measure::RunResult> measure_each(const Measuring& measuring, const Registry& registry,
                                              const std::vector<measure::Plan>& plans,
                                              const measure::Listing& listing,

@@ -1,6 +1,6 @@
 #pragma once
-// What commands write on a terminal: answers on stdout; progress, notes and errors on stderr, where
-// nobody's refusal to take them ends a run.
+// What commands write to a terminal: answers on stdout; progress, notes and errors on stderr. If
+// stderr cannot be written, the run continues.
 
 #include <fmt/format.h>
 
@@ -16,8 +16,9 @@
 
 namespace triptych::app {
 
-// Names and messages may come from anywhere: as a terminal can show them, and cut where they are
-// endless. What moves the cursor or ends a line stands in the format.
+// Names and messages may come from any source. They are printed so that a terminal shows them as
+// text, and very long ones are cut. Only the format contains characters that move the cursor or end
+// a line.
 template <typename Arg>
 auto shown(const Arg& arg) {
   if constexpr (std::convertible_to<const Arg&, std::string_view>) {
@@ -50,25 +51,26 @@ void put(fmt::format_string<Args...> format, Args&&... args) {
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stdout));
 }
 
-// A text that is laid out already, in lines: what a terminal would obey in it becomes escapes.
+// For a text that already consists of lines: everything in it that a terminal would obey is printed
+// as an escape.
 inline void put_lines(std::string_view text, std::FILE* to = stdout) {
   const std::string lines = core::printable_lines(text);
   static_cast<void>(std::fwrite(lines.data(), 1, lines.size(), to));
 }
 
-// Whether a terminal shows it.
+// Whether the output is shown by a terminal.
 [[nodiscard]] bool watched();
-// Of a terminal, what show() left there.
+// On a terminal, removes the line that show() has left.
 void clear_line();
 
-// Progress: a line that rewrites itself on a terminal, a line per step elsewhere.
+// Shows progress: one line that is rewritten on a terminal, and a line for each step elsewhere.
 template <typename... Args>
 void show(fmt::format_string<Args...> format, Args&&... args) {
   clear_line();
   say(format, std::forward<Args>(args)...);
   if (!watched()) say("\n");
 }
-// Gone at the end.
+// The line disappears when loading has ended.
 void show_loading(const measure::Loading& loading);
 
 }  // namespace triptych::app

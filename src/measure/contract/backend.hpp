@@ -1,6 +1,6 @@
 #pragma once
-// The contract between everything above and one API. A backend is spoken to in techniques, never in
-// API commands: devices → open → supports → prepare → frame → image.
+// The interface between everything above and one API. A backend is given techniques, never commands
+// of the API: devices → open → supports → prepare → frame → image.
 
 #include <cstdint>
 #include <memory>
@@ -26,16 +26,16 @@ struct VolumeWork {
   technique::RaycastOptions options;
 };
 
-// Its images carry depth (Z, distance along the view axis) and ids; its counters are
+// The images have depth (Z, the distance along the view axis) and ids. The counters are
 // technique::particle_counts.
 struct ParticleWork {
   scene::ParticleScene scene;
   technique::ParticleOptions options;
-  // From where the frame before the first was drawn, which Culling::occlusion remembers; nothing:
-  // from where the others are.
+  // The camera of the frame before the first one, which Culling::occlusion remembers; if empty, it
+  // is the camera of the others.
   std::optional<scene::Camera> camera_before = {};
 
-  // The work of that frame.
+  // The work of the frame before the first one.
   [[nodiscard]] ParticleWork before() const {
     ParticleWork work = *this;
     if (camera_before) work.scene.camera = *camera_before;
@@ -43,14 +43,13 @@ struct ParticleWork {
   }
 };
 
-// What is to be drawn and how. The kind of scene is the one that the technique's suite in the
-// catalogue says.
+// What is to be drawn, and how. The catalogue says which kind of scene the technique's suite has.
 struct Work {
   std::string technique;  // catalogue id
   std::variant<VolumeWork, ParticleWork> scene;
 };
 
-// A frame is made for one purpose only.
+// A frame has only one purpose.
 enum class Purpose : std::uint8_t {
   timing,      // nothing is counted
   statistics,  // pipeline statistics are queried; its time is never used
@@ -58,14 +57,15 @@ enum class Purpose : std::uint8_t {
 };
 
 struct Frame {
-  // Steady clock from submitting the work to knowing it done. Read-back is outside.
+  // Time on the steady clock from submitting the work until it is known to be finished. Reading
+  // back is not included.
   double wall_ns = 0;
-  std::optional<double> device_ns;  // only for Purpose::timing, where the device tells
-  record::Counts counts;            // statistics or counters; what cannot be told is absent
+  std::optional<double> device_ns;  // only for Purpose::timing, if the device reports it
+  record::Counts counts;            // statistics or counters; what cannot be counted is absent
 };
 
-// A technique with its scene, ready to be drawn again and again: data uploaded, device code
-// compiled. Destroying it frees everything on the device.
+// A technique with its scene, ready to be drawn repeatedly: the data are uploaded and the device
+// code is compiled. Destroying it frees everything on the device.
 class Prepared {
  public:
   Prepared() = default;
@@ -74,42 +74,44 @@ class Prepared {
   virtual ~Prepared() = default;
 
   // Overwrites everything that a frame leaves behind (image, ids, depth, counters) with values that
-  // no frame leaves: until the next frame is drawn, image() reads NaN in every channel. A frame
-  // that leaves the values of an earlier one is found by this. Never called within what is timed or
-  // counted.
+  // no frame leaves: until the next frame is drawn, image() returns NaN in every channel. This
+  // reveals a frame that was not drawn and left the values of an earlier one. It is never called
+  // within what is timed or counted.
   virtual void poison() = 0;
   // Draws one frame and waits for it without spinning. Throws ApiError, DeviceLost, NotDrawn.
   [[nodiscard]] virtual Frame frame(Purpose purpose) = 0;
-  // The picture of the last frame, read back.
+  // The image of the last frame, read back.
   [[nodiscard]] virtual core::Image image() = 0;
-  // Hash of the device code of the timed build, with the options it was built with.
+  // The hash of the device code of the timed build and the options with which it was built.
   [[nodiscard]] virtual std::string kernel_hash() const = 0;
 };
 
-// The path a backend takes when a plan leaves `voxel` and `sampler` out: its fastest that holds the
-// image bound.
+// The path that a backend takes if a plan does not set `voxel` and `sampler`: the fastest one that
+// keeps the image bound.
 struct VolumePath {
   scene::VoxelFormat voxel = scene::VoxelFormat::f32;
   technique::Sampler sampler = technique::Sampler::manual;
 };
 
-// What the choice of a path rests on.
+// What the choice of a path depends on.
 struct VolumeKind {
-  scene::VoxelFormat native = scene::VoxelFormat::f32;  // the smallest that holds the data exactly
+  // The smallest format that represents the data exactly.
+  scene::VoxelFormat native = scene::VoxelFormat::f32;
   std::array<int, 3> size{1, 1, 1};
-  std::optional<technique::Sampler> sampler = std::nullopt;  // that a plan names
-  // One filtered value a sample is all that is asked for: no shading, no cells, no doubles.
+  std::optional<technique::Sampler> sampler = std::nullopt;  // the one that a plan names
+  // One filtered value for each sample is sufficient: there is no shading, and neither cells nor
+  // doubles are needed.
   bool filter_suffices = true;
   [[nodiscard]] bool may_be_packed() const {
     return sampler.value_or(technique::Sampler::packed) == technique::Sampler::packed;
   }
 };
 
-// What a device's rasterizer leaves open: which fragments an edge covers.
+// What the API leaves to the device's rasterizer: which fragments an edge covers.
 struct Rasterizer {
   int sub_pixel_bits = 8;  // vertices are moved to a grid of 2⁻ᵇ pixel
-  double point_margin =
-      0;  // pixels by which points are larger than their squares, and may be again
+  // Pixels by which points are larger than their squares, and may be again.
+  double point_margin = 0;
   double largest_point = 0;  // pixels, without the margin; larger sprites are quads
 };
 
@@ -128,24 +130,25 @@ class Device {
 
   [[nodiscard]] virtual const record::Device& info() const = 0;
 
-  // Empty when the device can do it, else the reason: a feature it lacks, a limit the scene exceeds
-  // (both numbers named), memory it does not have.
+  // Empty if the device can do it. Otherwise the reason: a feature that it lacks, a limit that the
+  // scene exceeds (with both numbers), or memory that it does not have.
   [[nodiscard]] virtual std::optional<std::string> unsupported(const Work& work) const = 0;
 
-  // `native` is the smallest format that holds the data exactly.
+  // `native` is the smallest format that represents the data exactly.
   [[nodiscard]] virtual VolumePath default_path(const VolumeKind& volume) const = 0;
 
-  // Largest error of this device's trilinear filter, as a share of the difference between
-  // neighbouring voxels, found by a probe when the device was opened; 0 within rounding for
-  // Sampler::manual.
+  // The largest error of this device's trilinear filter, as a share of the difference between
+  // neighbouring voxels. A probe measured it when the device was opened. For Sampler::manual it is
+  // 0 except for rounding.
   [[nodiscard]] virtual double filter_weight_error(const VolumePath& path) const = 0;
 
-  // Nothing where there is none.
+  // nullopt if the device has no rasterizer.
   [[nodiscard]] virtual std::optional<Rasterizer> rasterizer() const { return std::nullopt; }
 
-  // Bytes that the backend holds on the device now, as "buffers" and "images"; as "moved" those
-  // that every frame of what is prepared moves there (technique/volume/parts.hpp). What a driver
-  // takes for itself is not among them. Empty where nobody counts them.
+  // The bytes that the backend currently has allocated on the device, as "buffers" and "images".
+  // "moved" are those that every frame of the prepared work moves there
+  // (technique/volume/parts.hpp). Memory that the driver allocates for itself is not included.
+  // Empty if the backend does not count them.
   [[nodiscard]] virtual record::Counts memory() const { return {}; }
 
   // Throws NotSupported, ApiError, DeviceLost.
@@ -160,11 +163,11 @@ class Device {
   }
 };
 
-// What a loader says of one platform or device that cannot be used.
+// What a loader says about a platform or device that cannot be used.
 struct Broken {
   std::string what;                          // "OpenCL platform Clover"
-  std::string reason;                        // what the loader or the driver says
-  std::optional<record::Reason> ended = {};  // how the process ended that asked
+  std::string reason;                        // what the loader or the driver said
+  std::optional<record::Reason> ended = {};  // how the process that asked has ended
 };
 
 struct Listing {
@@ -180,10 +183,10 @@ class Backend {
   virtual ~Backend() = default;
 
   [[nodiscard]] virtual std::string_view api() const = 0;
-  // Everything the loaders list. Never throws: a platform that is broken or empty costs only itself
-  // and is named in `broken`; no loader at all gives one `broken` entry.
+  // Everything that the loaders list. Never throws: a platform that is broken or empty is listed in
+  // `broken` and does not affect the others. If there is no loader, there is one `broken` entry.
   [[nodiscard]] virtual Listing list() const = 0;
-  // Throws NotSupported when there is no such device, ApiError when it cannot be opened.
+  // Throws NotSupported if there is no such device, ApiError if it cannot be opened.
   [[nodiscard]] virtual std::unique_ptr<Device> open(std::string_view device_id) const = 0;
 };
 

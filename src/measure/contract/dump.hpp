@@ -1,6 +1,6 @@
 #pragma once
-// What drivers are given, as files: `render --dump FOLDER`. Backends call write_dump() where device
-// code is compiled and where buffers are uploaded.
+// Writes what drivers are given to files, for `render --dump FOLDER`. Backends call write_dump()
+// where device code is compiled and where buffers are uploaded.
 
 #include <cstddef>
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace triptych::measure {
 
-// Of the environment variable TRIPTYCH_DUMP; nothing where nothing is to be written.
+// The value of the environment variable TRIPTYCH_DUMP; nullopt if nothing is to be written.
 [[nodiscard]] std::optional<std::filesystem::path> dump_folder();
 
 // Writes a file into the folder and appends `about` as one line to what-was-given.txt in it, which

@@ -13,18 +13,19 @@ class NotDrawn : public core::Error {
   using core::Error::Error;
 };
 
-// The driver did not give a frame's pipeline statistics although it was asked to wait for them. The
-// image and all else of the frame may be right.
+// The driver did not provide a frame's pipeline statistics although it was asked to wait for them.
+// The image and everything else may be right.
 class StatisticsNotReady : public core::ApiError {
  public:
   using ApiError::ApiError;
 };
 
-// What backends fill buffers with in Prepared::poison(): NaN as a float. No counter reaches it.
+// The value with which backends fill buffers in Prepared::poison(). As a float it is NaN, and no
+// counter reaches it.
 inline constexpr std::uint32_t poison_word = 0xFFFFFFFF;
 
-// Throws NotDrawn when all of a frame's counters still hold poison_word. Some that do are left to
-// the comparison with the expected counts.
+// Throws NotDrawn if all counters of a frame still contain poison_word. If only some of them do,
+// the comparison with the expected counts finds it.
 void check_counted(std::span<const std::uint32_t> counters);
 
 }  // namespace triptych::measure

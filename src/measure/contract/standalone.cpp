@@ -9,7 +9,7 @@
 namespace triptych::measure {
 namespace {
 
-// Shader sources are written as few lines of C: a string literal for so many of their characters.
+// Shader sources are written as few lines of C: one string literal for this many characters.
 constexpr std::size_t characters_of_a_line = 4000;
 
 std::string escaped(char c) {

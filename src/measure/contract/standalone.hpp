@@ -10,10 +10,10 @@
 
 namespace triptych::measure {
 
-// "static const uint32_t NAME[N] = {…};", in few long lines; zeros fill the last word.
+// "static const uint32_t NAME[N] = {…};" in a few long lines. The last word is padded with zeros.
 [[nodiscard]] std::string c_words(std::string_view name, std::span<const std::byte> bytes);
 
-// "static const char NAME[] = …;", a text as a string literal per line of it.
+// "static const char NAME[] = …;" with string literals for the text.
 [[nodiscard]] std::string c_text(std::string_view name, std::string_view text);
 
 // The template with each "@NAME@" replaced. Throws std::out_of_range for a name without a value.

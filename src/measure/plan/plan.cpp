@@ -30,7 +30,7 @@ const Factor& factor_of(const Suite& suite, const PlacedText& name) {
       name.place, fmt::format("unknown factor '{}'{}", name.text, suggestion(name.text, known)));
 }
 
-// What a block of a plan says.
+// The content of a block of a plan.
 struct BlockText {
   ValuesByFactor values;
   std::set<std::string> automatic;  // factors with "auto" among their values
@@ -42,7 +42,7 @@ struct BlockText {
   }
 };
 
-// Sets, or sets anew, what the entries name.
+// Sets the values that the entries name; existing values are replaced.
 void set_values(const Suite& suite, const std::vector<PlanEntry>& entries, BlockText& block) {
   for (const PlanEntry& entry : entries) {
     block.set(suite, factor_of(suite, entry.factor), entry.values);
@@ -53,7 +53,7 @@ void apply(const Overrides& overrides, const Suite& suite, BlockText& block) {
   std::vector<std::string> seen;
   for (const auto& [name, texts] : overrides) {
     const core::FilePlace place{.file = "--set " + name};
-    // A variable of its own: GCC 14 takes the reference for one into what was passed, and warns.
+    // A separate variable, because GCC 14 takes the reference for one into the argument, and warns.
     const PlacedText placed_name{.text = name, .place = place};
     const Factor& factor = factor_of(suite, placed_name);
     if (std::ranges::find(seen, name) != seen.end()) {
@@ -71,8 +71,8 @@ void apply(const Overrides& overrides, const Suite& suite, BlockText& block) {
 
 struct PlanSource {
   std::string name;
-  std::string file;   // what errors call it
-  std::string suite;  // of a short name; empty for a file
+  std::string file;   // the name in errors
+  std::string suite;  // for a short name; empty for a file
   std::string yaml;
 };
 
@@ -128,7 +128,8 @@ const Suite& suite_of(const PlanSource& source, const PlanText& text, const Find
   }
 }
 
-// Where the factor of the most values got them: what to shorten when there are too many.
+// The place at which the factor with the most values got them. It is what the user should shorten
+// if there are too many.
 core::FilePlace longest_place(const PlanSource& source, const ValuesByFactor& values,
                               const std::vector<const std::vector<PlanEntry>*>& entries,
                               const Overrides& overrides) {
@@ -146,18 +147,18 @@ core::FilePlace longest_place(const PlanSource& source, const ValuesByFactor& va
   return place;
 }
 
-// More in one run is a slip of the pen: at a tenth of a second each these would take a day.
+// A run with more than this is a mistake: at a tenth of a second each, they would take a day.
 constexpr std::size_t most_configurations = 1'000'000;
-// Each line is written and forgotten: a list may be longer than what is held to be run, but it must
-// end on the same day.
+// Listing needs no memory for the configurations, so a list may be longer than a run, but it must
+// also end within a day.
 constexpr std::size_t most_listed = 100'000'000;
 
-// What a plan's text says, before any configuration is made.
+// The content of a plan's text, before any configurations are made.
 struct OpenPlan {
   Plan plan;  // without configurations
   const Suite& suite;
   Combinations combinations;
-  std::vector<core::FilePlace> places;  // by block, of the longest list in it
+  std::vector<core::FilePlace> places;  // of the longest list in each block
 };
 
 Plan plan_of(const std::string& name, const Suite& suite, const Combinations& combinations) {

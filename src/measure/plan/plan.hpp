@@ -1,5 +1,5 @@
 #pragma once
-// Plans: factors and their values in YAML; all combinations are made.
+// Plans: factors and their values in YAML, of which all combinations are measured.
 
 #include <functional>
 #include <set>
@@ -18,17 +18,17 @@ struct Plan {
   std::string name;  // "volume/quick", or the file's name without its ending
   std::string suite;
   std::string summary;  // one line
-  std::vector<Configuration>
-      configurations;               // in order: data varies slowest, then pipelines, then views
+  // In order: data vary slowest, then pipelines, then views.
+  std::vector<Configuration> configurations;
   std::vector<std::string> varied;  // factors with more than one value
-  // What its runs are judged by. Only what they need is measured: no clock is read where timing is
-  // not among them, and where cost is, workers run under the emulator.
+  // The checks by which its runs are judged. Only what they need is measured: clocks are read only
+  // for timing, and workers run under the emulator only for cost.
   record::Checks checks = standard_checks();
-  // Of its text: another plan of the same name has another. Empty where it has no text.
+  // The hash of its text, which distinguishes plans of the same name. Empty if it has no text.
   std::string hash;
   std::string argument = {};         // as it was typed
   std::set<std::string> named = {};  // factors that its text or an override names
-  // Those of which it says "auto": the fastest of their levels is asked for.
+  // The factors with the value "auto", which asks for the fastest of their levels.
   std::set<std::string> automatic = {};
 
   [[nodiscard]] static record::Checks standard_checks();
@@ -43,32 +43,32 @@ struct Plan {
 using Overrides = std::vector<std::pair<std::string, std::vector<std::string>>>;
 using FindSuite = std::function<Suite&(std::string_view name)>;  // throws InputError
 
-// `name_or_file`: "SUITE/PLAN" or a YAML file. Throws InputError with file, line and column for an
-// unknown or duplicate factor, a wrong type or level (the nearest known name is suggested), an
-// empty list, a duplicate value, and for more than a million configurations. Of a shard only its
-// own configurations are held.
+// `name_or_file` is "SUITE/PLAN" or a YAML file. Throws InputError with file, line and column for
+// an unknown or duplicate factor, a wrong type or level (with the nearest known name), an empty
+// list, a duplicate value, and for more than a million configurations. For a shard, only its own
+// configurations are stored.
 [[nodiscard]] Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
                              const FindSuite& find_suite, const Shard& shard = {});
 
-// The same plan without its configurations, each handed to `use` in their order. Throws as load_plan
-// does, but only for more than a hundred million configurations.
+// The same plan without its configurations, which are passed to `use` in their order. Throws as
+// load_plan does, but only for more than a hundred million configurations.
 Plan list_plan(std::string_view name_or_file, const Overrides& overrides,
                const FindSuite& find_suite, const Shard& shard,
                const std::function<void(const Suite&, const Configuration&)>& use);
 
-// The name under which a plan's runs are stored: of a short name itself, of a file its name without
-// the ending. Reads nothing.
+// The name under which a plan's runs are stored: a short name itself, or the name of a file without
+// its ending. Reads nothing.
 [[nodiscard]] std::string plan_name(std::string_view name_or_file);
 
-// The suite's defaults with the overrides, as a plan of its own. Throws as load_plan does.
+// A plan that consists of the suite's defaults and the overrides. Throws as load_plan does.
 [[nodiscard]] Plan default_plan(const Suite& suite, const Overrides& overrides);
 
-// Canonical "factor=value,…" of the factors that differ from the suite's defaults, always with
-// `technique`, `data` and `camera`, sorted by name: identifies a configuration within its suite.
+// Canonical "factor=value,…" of the factors that differ from the suite's defaults, and always
+// `technique`, `data` and `camera`, sorted by name. It identifies a configuration within its suite.
 [[nodiscard]] std::string configuration_key(const Suite& suite, const Configuration& configuration);
 
-// The kinds of work that its configurations are (technique::name_of), each once: those whose clocks
-// its times need.
+// The kinds of work in its configurations (technique::name_of), each once. The times need the
+// clocks for these kinds.
 [[nodiscard]] std::vector<std::string> work_kinds(const Plan& plan);
 
 }  // namespace triptych::measure

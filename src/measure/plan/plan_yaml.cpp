@@ -11,7 +11,7 @@
 namespace triptych::measure {
 namespace {
 
-// yaml-cpp counts from 0.
+// yaml-cpp counts lines and columns from 0.
 core::FilePlace place_of(const std::string& file, const YAML::Mark& mark) {
   if (mark.is_null()) return {.file = file};
   return {.file = file, .line = mark.line + 1, .column = mark.column + 1};
@@ -22,7 +22,7 @@ core::FilePlace place_of(const std::string& file, const YAML::Mark& mark) {
   throw core::InputError(place_of(file, node.Mark()), message);
 }
 
-// Hears where documents begin, and nothing of what they hold.
+// Notices where documents begin, and ignores their contents.
 class DocumentStarts : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark& mark) override { last_ = mark; }
@@ -44,9 +44,9 @@ class DocumentStarts : public YAML::EventHandler {
   YAML::Mark last_;
 };
 
-// Where yaml-cpp finds a token at the root that begins nothing, such as a comma, it leaves the
-// token where it is and tells of an empty document, again and again: LoadAll fills the memory with
-// them. So the second document is asked for, and no third.
+// If yaml-cpp finds a token at the root that begins nothing, such as a comma, it leaves the token
+// where it is and reports an empty document, again and again, with which LoadAll fills the memory.
+// So only the second document is asked for, and no third.
 void refuse_second_document(const std::string& yaml, const std::string& file) {
   std::istringstream stream(yaml);
   YAML::Parser parser(stream);
@@ -123,8 +123,8 @@ record::Checks checks_of(const std::vector<PlacedText>& names) {
   return checks;
 }
 
-// The places of keys, to refuse one that is there twice: yaml-cpp keeps every pair of a mapping,
-// also those whose key was there before.
+// Remembers the places of keys, to refuse duplicate ones: yaml-cpp stores every pair of a mapping,
+// even if its key was there before.
 class Keys {
  public:
   void add(const PlacedText& key) {

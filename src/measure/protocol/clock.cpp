@@ -14,9 +14,10 @@ namespace {
 
 constexpr int most_frames = 8;
 constexpr int least_frames = 3;
-constexpr double budget_ns = 0.5e9;  // of all calibration frames; a slow device takes the fewest
+// For all calibration frames; a slow device draws as few as possible.
+constexpr double budget_ns = 0.5e9;
 
-// The ratio of a clock that has none.
+// Stands for the ratio of a clock that was never written.
 constexpr double never_written = -1;
 
 record::ClockTrust without_time(technique::Work kind, std::string verdict) {
@@ -36,7 +37,8 @@ std::string percent(double ratio) {
   return fmt::format("{:.1f} %", 100 * ratio);
 }
 
-// The scheduler may wake us late once; a clock has no such excuse for reading too much.
+// The scheduler may wake the thread up late once, which makes a ratio smaller. Nothing excuses a
+// clock that shows too much.
 bool believable(const std::vector<double>& ratios) {
   const auto low = std::ranges::count_if(
       ratios, [](double ratio) { return !(ratio >= ClockLimits::least_ratio); });
@@ -63,8 +65,8 @@ std::string verdict_of(const record::ClockTrust& trust, double wall_ns, std::siz
                      is_short ? ", but frames this short tell little" : "");
 }
 
-// Finer steps along the rays are the same kind of work, only more of it; so are more pixels of the
-// same particles. False when this work cannot grow.
+// Finer steps along the rays, or more pixels of the same particles, are the same kind of work.
+// Returns false if this work cannot be made longer.
 bool lengthen(Work& work, double factor) {
   if (auto* volume = std::get_if<VolumeWork>(&work.scene)) {
     constexpr double finest_step_voxels = 1e-3;
@@ -83,18 +85,18 @@ bool lengthen(Work& work, double factor) {
   return true;
 }
 
-// The work with frames long enough, as far as it can be had.
+// Prepares the work with frames that are long enough, as far as that is possible.
 std::unique_ptr<Prepared> prepare_long_enough(Device& device, Work work) {
   constexpr int most_attempts = 4;
   std::unique_ptr<Prepared> prepared = device.prepare(work);
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    // Only the second frame is warm, but one that is short though cold will not get longer.
+    // Only the second frame is warm, but a cold frame that is short will not become longer.
     double frame_ns = prepared->frame(Purpose::timing).wall_ns;
     if (!(frame_ns < ClockLimits::least_frame_ns)) {
       frame_ns = prepared->frame(Purpose::timing).wall_ns;
       if (!(frame_ns < ClockLimits::least_frame_ns)) break;
     }
-    // Half as long again as asked, since the part that does not grow was in the frame too.
+    // Half as much again as is missing, because the frame also contains a part that does not grow.
     const double missing = 1.5 * ClockLimits::least_frame_ns / std::max(frame_ns, 1e3);
     if (!lengthen(work, std::clamp(missing, 2.0, 64.0)) || device.unsupported(work)) break;
     prepared.reset();
@@ -152,15 +154,16 @@ record::ClockTrust calibrate_clock(Device& device, Suite& suite, technique::Work
   } catch (const core::DeviceLost&) {
     throw;
   } catch (const core::Error& error) {
-    // The wall clock still serves; each configuration will show what else is wrong.
+    // The wall clock can still be used. If something else is wrong, the configurations will show
+    // it.
     return without_time(kind, fmt::format("not calibrated: {}", error.what()));
   }
 }
 
-// Two limits tell ticks of another length from a clock that leaves work out. The first is beyond
-// the wall time. The second is a constant share of it: launches and waits vary from frame to frame
-// by more than a twentieth, and a clock that leaves out the work itself reads less than a fiftieth
-// (lavapipe around dispatches, 0.0003).
+// Two limits distinguish ticks of a wrong length from a clock that leaves out work. Either the
+// device time exceeds the wall time, or it is a constant share of it: launches and waits vary from
+// frame to frame by more than a twentieth. A clock that leaves out the work itself shows less than
+// a fiftieth (lavapipe around dispatches: 0.0003).
 std::optional<record::DeviceFault> clock_fault(const record::ClockTrust& trust) {
   using enum record::DeviceFaultKind;
   constexpr double steady = 1.05;
@@ -186,7 +189,7 @@ std::optional<record::DeviceFault> clock_fault(const record::ClockTrust& trust) 
 
 bool plausible(const std::vector<double>& device_ns, const std::vector<double>& wall_ns) {
   if (device_ns.empty() || device_ns.size() != wall_ns.size()) return false;
-  constexpr double tick_ns = 2e3;  // microsecond timers, one tick off at either end
+  constexpr double tick_ns = 2e3;  // timers with microseconds, and one tick of error at either end
   std::size_t low = 0;
   for (std::size_t i = 0; i < device_ns.size(); ++i) {
     if (!(device_ns[i] > 0)) return false;

@@ -23,16 +23,16 @@ class FrameProof {
   explicit FrameProof(Prepared& prepared, bool image_is_judged = true)
       : prepared_(prepared), image_is_judged_(image_is_judged) {}
 
-  // Overwrites the outputs. What is drawn until the next check() is one frame to it. Throws
-  // NotDrawn where the outputs could not be overwritten, which is looked at the first time.
+  // Overwrites the outputs. Everything that is drawn until the next check() counts as one frame.
+  // The first call also checks whether the outputs were overwritten, and throws NotDrawn if they
+  // were not.
   void start();
-  // Throws NotDrawn where nothing was drawn since start(), or where the image differs from that of
-  // the first check; `what`, "timed frame 3 of 8", names the frame in the message. Returns the
-  // image.
+  // Throws NotDrawn if nothing was drawn since start(), or if the image differs from that of the
+  // first check. `what` names the frame in the message, "timed frame 3 of 8". Returns the image.
   const core::Image& check(std::string_view what);
-  // For frames whose image need not repeat the first's bit for bit: frames of the build that
+  // For frames whose image need not equal the first one bit for bit: frames of the build that
   // counts, and frames after a jump of the camera, which draw what the frame before did not show.
-  // Throws NotDrawn where more pixels are without a value than in the first.
+  // Throws NotDrawn if more pixels have no value than in the first frame.
   void check_drawn(std::string_view what);
 
   // The image of the next check() is the one that later ones have to repeat, instead of the

@@ -53,9 +53,10 @@ bool is_trusted(technique::Work kind, const std::vector<record::ClockTrust>& clo
   });
 }
 
-// The timed frames. A device that told no time for one of them told none: a list with holes would
-// pair the wrong values. The benchmark's real time is the wall time, device time a key beside it:
-// whether that is to be believed is known only when all frames are there.
+// The timed frames. If the device reported no time for one of them, it counts as having reported
+// none, because a list with gaps would pair the wrong values. The benchmark's real time is the wall
+// time, and device time is an additional key: whether it can be believed is known only after all
+// frames.
 core::Json time_into(record::Record& record, FrameProof& proof, int frames, const std::string& name,
                      double& work_ns) {
   std::vector<std::optional<double>> device_ns;
@@ -80,8 +81,8 @@ core::Json time_into(record::Record& record, FrameProof& proof, int frames, cons
   return std::move(result.entries);
 }
 
-// Counts are the same for every frame, so they belong to every entry that speaks of a frame; a
-// spread (stddev, cv) of them would say nothing.
+// Counts are the same for every frame, so they belong to every entry about a frame. Their spread
+// (stddev, cv) would mean nothing.
 void add_counts(core::Json& entries, const record::Counts& counts) {
   for (core::Json& entry : entries) {
     const std::string aggregate = entry.value("aggregate_name", "");
@@ -138,7 +139,8 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
     record.counters = draw(Purpose::counters).counts;
     proof.check_drawn("the frame of the counters");
   }
-  // The same commands once more: a driver that executes them only once has been right so far.
+  // The same commands are submitted again, because a driver that executes them only once has been
+  // right so far.
   static_cast<void>(draw(Purpose::timing));
   check("the second frame");
   record.image = image_hash(result.image);

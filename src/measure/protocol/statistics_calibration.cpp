@@ -33,7 +33,7 @@ std::shared_ptr<const scene::ParticleSet> particles_of(std::vector<std::array<fl
   return set;
 }
 
-// As seen from the origin along −z. No culling: a compute pass of its own would be counted with
+// As seen from the origin along −z. Without culling, because its compute pass would be counted with
 // the draw by one API and not by the other.
 ParticleWork seen_from_origin(std::vector<std::array<float, 4>> spheres, int width, int height,
                               double fov_y_deg) {
@@ -48,7 +48,7 @@ ParticleWork seen_from_origin(std::vector<std::array<float, 4>> spheres, int wid
   return work;
 }
 
-// The sprite of a sphere around the eye is the viewport, corner for corner.
+// The sprite of a sphere around the eye is the whole viewport.
 ParticleWork around_the_eye() {
   return seen_from_origin({{0, 0, 0, 1}}, 66, 50, 60);
 }
@@ -57,8 +57,8 @@ constexpr int small_columns = 10;
 constexpr int small_rows = 10;
 constexpr std::uint64_t small_sprites = std::uint64_t{small_columns} * small_rows;
 
-// A grid of spheres of 5 pixels in cells of 7 × 6.2, so that no sprite reaches another or the
-// border and each lies otherwise to the pixels than its neighbours.
+// A grid of spheres with a size of 5 pixels in cells of 7 × 6.2 pixels, so that no sprite touches
+// another one or the border, and each has another position relative to the pixels.
 ParticleWork many_small() {
   constexpr int width = 70;
   constexpr int height = 62;
@@ -79,11 +79,11 @@ ParticleWork many_small() {
   return seen_from_origin(std::move(spheres), width, height, fov_y_deg);
 }
 
-// What `sprites` quads in sight are made of, by the technique that makes them.
+// What `sprites` visible quads consist of, depending on the technique that makes them.
 record::Counts counts_of(std::string_view technique, std::uint64_t sprites) {
   record::Counts counts{{"clipping_invocations", 2 * sprites},
                         {"clipping_primitives", 2 * sprites}};
-  if (technique == "quad_instanced") {  // a strip of four vertices per instance
+  if (technique == "quad_instanced") {  // each instance is a strip of four vertices
     counts["input_assembly_vertices"] = 4 * sprites;
     counts["input_assembly_primitives"] = 2 * sprites;
     counts["vertex_invocations"] = 4 * sprites;
@@ -122,7 +122,8 @@ std::vector<CalibrationScene> draw_scenes() {
   return scenes;
 }
 
-// One invocation per pixel: both sides are whole work groups of any size in use.
+// One invocation for each pixel. Both sides are multiples of all sizes of work groups that are
+// used.
 CalibrationScene compute_scene(int width, int height) {
   VolumeWork volume;
   volume.scene.grid = std::make_shared<const scene::VoxelGrid>(
@@ -147,8 +148,8 @@ std::optional<std::uint64_t> find_count(const record::Counts& counts, const std:
   return found == counts.end() ? std::optional<std::uint64_t>{} : found->second;
 }
 
-// Adds the readings of one scene; none where the device tells no statistics at all. A technique
-// without our own counter of fragments leaves the driver's unjudged.
+// Adds the readings of one scene, or none if the device reports no statistics at all. If the
+// technique has no counter of fragments, the driver's number is not judged.
 void read_scene(Device& device, const CalibrationScene& scene, Readings& readings) {
   const auto prepared = device.prepare(scene.work);
   const record::Counts first = prepared->frame(Purpose::statistics).counts;
@@ -175,13 +176,13 @@ std::string text_of(const std::optional<std::uint64_t>& count) {
   return count ? fmt::format("{}", *count) : "nothing";
 }
 
-// The counter of ours that the statistic is in every scene; empty where none is.
+// The counter of Triptych to which the statistic is equal in every scene; empty if there is none.
 std::string counted_by_us(const std::vector<CalibrationReading>& readings) {
   for (const auto& [name, value] : readings.front().ours) {
     const bool same = std::ranges::all_of(readings, [&](const CalibrationReading& each) {
       return find_count(each.ours, name) == each.first;
     });
-    // A statistic that is always 0 counts nothing, though a counter of ours may be 0, too.
+    // A statistic that is always 0 counts nothing, even if one of Triptych's counters is also 0.
     const bool any = std::ranges::any_of(
         readings, [](const CalibrationReading& each) { return each.first.value_or(0) > 0; });
     if (same && any) return name;
@@ -272,14 +273,14 @@ Calibration calibrate_statistics(Device& device, technique::Work kind,
                            .subject = std::string(technique::name_of(kind)),
                            .detail = error.what()});
       }
-      // The configurations to come will show what else is wrong.
+      // The configurations that follow will show what else is wrong.
       for (const auto& [name, value] : scene.expected) {
         unknown.emplace(name, record::StatisticWorth{
                                   .worth = record::Worth::unknown,
                                   .detail = fmt::format("{} ({})", error.what(), scene.name)});
       }
     }
-    // A device that told nothing of the first scene tells nothing of the others: OpenCL.
+    // A device that reports nothing for the first scene reports nothing for the others: OpenCL.
     if (readings.empty() && unknown.empty()) break;
   }
   Calibration calibration;
@@ -290,7 +291,7 @@ Calibration calibrate_statistics(Device& device, technique::Work kind,
                        .detail = fmt::format("every one of {} statistics", readings.size())});
   }
   for (const auto& [name, each] : readings) calibration[name] = calibration_verdict(each);
-  // What failed in one scene is not vouched for by the others.
+  // If one scene failed, the others prove nothing about its statistics.
   for (const auto& [name, reason] : unknown) calibration[name] = reason;
   return calibration;
 }

@@ -1,8 +1,8 @@
 #pragma once
 // What a driver's pipeline statistics are worth. Vulkan and GL leave most of these numbers to the
-// implementation, and drivers use the freedom; so scenes of which every number is known are drawn
-// once when a device is opened, and each statistic gets a verdict. Only what both drivers count
-// exactly is ever compared between them (judge/gate/check_statistics.cpp).
+// implementation, and drivers make use of that. So when a device is opened, scenes are drawn of
+// which every number is known, and each statistic gets a verdict. Numbers of two drivers are
+// compared only if both count exactly (judge/gate/check_statistics.cpp).
 
 #include <cstdint>
 #include <map>
@@ -15,38 +15,38 @@
 
 namespace triptych::measure {
 
-// A scene to calibrate with, and what a driver that counts exactly says of it.
+// A scene for calibration, and the numbers that a driver reports if it counts exactly.
 struct CalibrationScene {
   std::string name;  // for people: "one quad over 66×50 pixels"
   Work work;
   record::Counts expected;
-  // Whether the fragments are to be learnt from a counters frame (our own counter `fragments`).
+  // Whether the number of fragments comes from a counters frame (Triptych's counter `fragments`).
   bool counts_fragments = false;
 };
 
-// Those of one kind of work. Widths and heights of what is drawn are no multiples of 4: a driver
-// that counts whole stamps of pixels shows.
+// The scenes for one kind of work. Widths and heights are no multiples of 4, so that a driver that
+// counts whole blocks of pixels is detected.
 [[nodiscard]] std::vector<CalibrationScene> calibration_scenes(technique::Work kind);
 
-// One statistic in one scene: `first` in one frame, `again` in the next; nothing where the device
-// told other statistics of that frame but not this one.
+// One statistic in one scene: `first` in one frame and `again` in the next. nullopt if the device
+// reported other statistics of that frame but not this one.
 struct CalibrationReading {
   std::string scene;
   std::uint64_t expected = 0;
   std::optional<std::uint64_t> first;
   std::optional<std::uint64_t> again;
-  record::Counts ours = {};  // our own counters of the scene
+  record::Counts ours = {};  // Triptych's counters for the scene
 };
 
-// What the statistic is worth; `proportional` takes at least two scenes, and `inflated` is never
-// too low. Precondition: at least one reading, and expected > 0 in each.
+// What the statistic is worth. `proportional` needs at least two scenes, and `inflated` is never
+// too low. There must be at least one reading, and expected > 0 in each.
 [[nodiscard]] record::StatisticWorth calibration_verdict(
     const std::vector<CalibrationReading>& readings);
 
-// Statistic → verdict, for every statistic of the scenes that the device can draw. Empty for a
-// device that tells no statistics of any of them (OpenCL). An error of the API while a scene is
-// drawn makes the statistics of that scene `unknown`. Statistics that are all 0 or never become
-// available are added to `faults`. Throws DeviceLost.
+// The verdict for every statistic of the scenes that the device can draw. Empty for a device that
+// reports no statistics for any of them (OpenCL). If the API reports an error while a scene is
+// drawn, its statistics are `unknown`. Statistics that are all 0 or never become available are
+// added to `faults`. Throws DeviceLost.
 [[nodiscard]] std::map<std::string, record::StatisticWorth> calibrate_statistics(
     Device& device, technique::Work kind, std::vector<record::DeviceFault>* faults = nullptr);
 
