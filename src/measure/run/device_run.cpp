@@ -66,7 +66,8 @@ Done DeviceRun::perform(const Configuration& configuration, const std::string& k
   return done;
 }
 
-// What fails under the emulator says nothing of the device: other plans draw the same natively.
+// A failure under the emulator says nothing about the device: other plans draw the same
+// configuration natively.
 void DeviceRun::only_counted(record::Record& record) const {
   if (record.outcome == record::Outcome::measured) {
     record.counted_by = std::get<Emulator>(find_emulator()).name;
@@ -98,7 +99,8 @@ void DeviceRun::finish() {
   context_.store.add_device(context_.run, *known_, clocks_);
 }
 
-// A resumed run goes on with the clocks it began with: records of one run rest on one verdict.
+// A resumed run continues with the clocks with which it began, so that all records of a run depend
+// on one calibration.
 void DeviceRun::remember() {
   for (auto& entry : context_.store.devices(context_.run)) {
     if (entry.device.id != device_) continue;
@@ -118,7 +120,8 @@ Protocol DeviceRun::protocol() const {
     protocol.picture = context_.plan.judges_pictures();
     protocol.counters = context_.plan.judges_counters();
   }
-  // A plan for pictures alone asks for each of them: that two are alike is what it tests.
+  // A plan for images only measures each configuration, because it tests whether two images are
+  // equal.
   protocol.measure_every = protocol.measure_every || !context_.plan.timed();
   return protocol;
 }
@@ -130,7 +133,7 @@ Job DeviceRun::job(const Configuration& configuration, const std::string& key) c
           .faults = faults_for(context_.options.faults, key, device_)};
 }
 
-// What a record is of.
+// Enters what the record is about.
 void DeviceRun::sign(const Job& job, const std::string& key, record::Record& record) const {
   record.run = context_.run;
   record.suite = context_.plan.suite;
@@ -143,12 +146,13 @@ void DeviceRun::sign(const Job& job, const std::string& key, record::Record& rec
   if (record.factors.empty()) record.factors = job.configuration;
 }
 
-// A driver may keep what it compiled, some MB for a configuration at first; what grows by more for
-// most configurations is never freed. Peaks: what is freed does not raise them again.
+// A driver may keep what it compiled, which at first is some MB for each configuration. If memory
+// grows by more for most configurations, it is never freed. Peaks are used, because memory that is
+// freed does not raise them again.
 void DeviceRun::watch_memory(std::uint64_t peak_bytes) {
   constexpr std::size_t least_configurations = 8;
   constexpr std::uint64_t most_growth = std::uint64_t{16} << 20U;
-  if (!peaks_.empty() && peak_bytes < peaks_.back()) peaks_.clear();  // another worker's
+  if (!peaks_.empty() && peak_bytes < peaks_.back()) peaks_.clear();  // those of another worker
   peaks_.push_back(peak_bytes);
   const bool known = std::ranges::any_of(known_->faults, [](const record::DeviceFault& each) {
     return each.kind == record::DeviceFaultKind::memory_grows;

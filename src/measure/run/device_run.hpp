@@ -18,7 +18,7 @@
 
 namespace triptych::measure {
 
-// What every part of one run shares.
+// What all parts of one run share.
 struct RunContext {
   const Plan& plan;
   const Suite& suite;
@@ -26,65 +26,64 @@ struct RunContext {
   const RunOptions& options;
   InterruptGuard& interrupts;
   std::string run;
-  std::vector<std::string> kinds;  // of work whose clocks are needed
+  std::vector<std::string> kinds;  // kinds of work whose clocks are needed
 };
 
-// One configuration on one device: what came of it, and the share of its time that was the
-// device's.
+// The result of one configuration on one device, and the share of the time that the device took.
 struct Done {
   record::Record record;
   std::vector<std::byte> exr = {};
-  std::map<std::string, std::string> listings = {};  // disassembly by its content hash
+  std::map<std::string, std::string> listings = {};  // disassembly by the hash of its content
   double work_ns = 0;
 };
 
-// A worker that died is replaced by another for the next configuration; one that cannot be started
-// twice in a row is not tried again.
+// A worker that died is replaced for the next configuration. If it cannot be started twice in a
+// row, it is not tried again.
 class DeviceRun {
  public:
   DeviceRun(const RunContext& context, std::string device);
 
-  // How an exchange ended that brought no answer.
+  // How a request ended that got no answer.
   struct Ended {
     record::Outcome outcome;
     record::Reason reason;
   };
 
-  // All throw Interrupted, and InputError when the device is no longer the one that the run began
-  // with.
+  // All functions throw Interrupted, and InputError if the device is no longer the one with which
+  // the run began.
 
-  // The whole protocol.
+  // Measures the configuration by the complete protocol.
   [[nodiscard]] Done perform(const Configuration& configuration, const std::string& key,
                              const OnLoading& on_loading);
 
-  // How it is said to have ended, without asking the device for it.
+  // Records how the configuration is said to end, without asking the device.
   [[nodiscard]] Done pass_by(const Configuration& configuration, const std::string& key,
                              const Ended& why) const;
 
-  // Lets the worker leave in peace.
+  // Lets the worker exit normally.
   void finish();
 
-  // Opening the driver and calibrating its clocks is the device's work, not ours.
+  // Opening the driver and calibrating its clocks counts as the device's time, not as overhead.
   [[nodiscard]] double opening_ns() const { return slot_.opening_ns(); }
 
  private:
   [[nodiscard]] SideOptions side() const;
   void remember();
   [[nodiscard]] Protocol protocol() const;
-  // As WorkerSlot::open.
+  // See WorkerSlot::open.
   bool ensure_worker();
   void greet(const Hello& hello);
   [[nodiscard]] Job job(const Configuration& configuration, const std::string& key) const;
   void sign(const Job& job, const std::string& key, record::Record& record) const;
   [[nodiscard]] Done ask(const Job& job, const OnLoading& on_loading);
-  // Where there is no answer the worker is gone.
+  // If there is no answer, the worker is gone.
   [[nodiscard]] std::variant<Answer, Ended> exchange(const Message& message,
                                                      const OnLoading& on_loading);
 
-  // Notes a worker whose memory grows from configuration to configuration.
+  // Reports a worker whose memory grows from configuration to configuration.
   void watch_memory(std::uint64_t peak_bytes);
   void only_counted(record::Record& record) const;
-  // Of a plan that counts, why nothing can be counted here; else nothing.
+  // For a plan that counts instructions, why that is not possible here; otherwise nullopt.
   [[nodiscard]] std::optional<record::Reason> no_emulator() const;
 
   const RunContext& context_;
@@ -93,7 +92,7 @@ class DeviceRun {
   WorkerSlot slot_;
   std::optional<record::Device> known_;
   std::vector<record::ClockTrust> clocks_;
-  std::vector<std::uint64_t> peaks_;  // of the worker's memory, configuration by configuration
+  std::vector<std::uint64_t> peaks_;  // peaks of the worker's memory, for each configuration
 };
 
 }  // namespace triptych::measure

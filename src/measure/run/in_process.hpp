@@ -1,6 +1,6 @@
 #pragma once
-// One frame drawn by this process itself, with nothing before it: what debuggers and tools that
-// record the calls of an API need.
+// Draws one frame in this process, with nothing before it, as debuggers and tools that record the
+// calls of an API need it.
 
 #include <span>
 #include <string>
@@ -21,10 +21,10 @@ struct FrameInProcess {
   record::Device device;
 };
 
-// Draws the plan's one configuration: opens the device, prepares it, draws one frame and reads its
-// image. Nothing is calibrated, counted or repeated. Where RenderDoc is loaded into the process,
-// its capture holds the frame and nothing else; the file is named after `capture`. Throws as the
-// device's functions do.
+// Draws the only configuration of the plan: opens the device, prepares it, draws one frame and
+// reads its image. Nothing is calibrated, counted or repeated. If RenderDoc is loaded into the
+// process, its capture contains the frame and nothing else, and the file is named after `capture`.
+// Throws what the device's functions throw.
 [[nodiscard]] FrameInProcess draw_in_process(const Backend& backend, std::string_view device_id,
                                              Suite& suite, const Plan& plan,
                                              std::span<const InjectedFault> faults,

@@ -8,7 +8,8 @@
 
 namespace triptych::measure {
 
-// Tells how far the plan is, with the time left as the mean of what was done foretells it.
+// Reports the progress of the plan, with the time left as it follows from the mean of what was
+// done.
 class Report {
  public:
   Report(std::size_t total, const PlanRun::Tell& tell)
@@ -68,8 +69,8 @@ void count(const record::Record& record, RunResult& result) {
   }
 }
 
-// What frames of another configuration told, which were this one's too; its own benchmark's entry
-// there is none.
+// Takes over the results of another configuration's frames, which are valid for this one too. The
+// entry of the other one's benchmark is not taken over.
 void take_over(record::Record& record, const record::Record& measured) {
   record.wall_ns = measured.wall_ns;
   record.device_ns = measured.device_ns;
@@ -142,7 +143,7 @@ void PlanRun::stop_if_asked() {
   if (const auto signal = context_.interrupts.take()) throw Interrupted(*signal);
 }
 
-// The work of a device that a resumed run has not done yet.
+// The configurations that a resumed run has not yet measured on a device.
 std::vector<const Configuration*> PlanRun::pending(const std::string& device,
                                                    Report& report) const {
   std::vector<const Configuration*> result;
@@ -165,7 +166,7 @@ void PlanRun::measure(const std::string& device, const Configuration& configurat
   const std::string key = configuration_key(context_.suite, configuration);
   Done done = attempt(device, configuration, key, report);
   if (done.record.outcome == record::Outcome::measured) share_frames(done.record);
-  // The image first: a record must never name one that is not there.
+  // The image is added first, because a record must never name an image that does not exist.
   if (!done.exr.empty()) context_.store.add_image(done.record.image, done.exr);
   for (const auto& [hash, text] : done.listings) context_.store.add_listing(hash, text);
   context_.store.add_record(done.record);
@@ -175,7 +176,7 @@ void PlanRun::measure(const std::string& device, const Configuration& configurat
   report.done(done.record);
 }
 
-// A driver may take the machine with it, and would again with each --resume.
+// A driver may crash the machine, and would do so again with each --resume.
 Done PlanRun::attempt(const std::string& device, const Configuration& configuration,
                       const std::string& key, Report& report) {
   if (const auto end = failures_of(device).foretold(configuration)) {
@@ -191,25 +192,26 @@ Done PlanRun::attempt(const std::string& device, const Configuration& configurat
   try {
     return on(device).perform(
         configuration, key, [&](const Loading& loading) { report.loading(device, key, loading); });
-  } catch (...) {  // an end that is known, and no fault of the configuration
+  } catch (...) {  // a known end that is no fault of the configuration
     context_.store.unbegin_record(context_.run, key, device);
     throw;
   }
 }
 
-// A record of other frames tells what they told; one of its own may have to tell others.
+// A record that uses other frames takes over their results. A record with its own frames is kept,
+// because others may use it.
 void PlanRun::share_frames(record::Record& record) {
   if (record.same_as.empty()) {
     record::Record& kept = measured_[{record.device, record.configuration}];
     kept = record;
-    kept.benchmark_json.clear();  // the largest part, and never taken over
+    kept.benchmark_json.clear();  // the largest part, which is never taken over
   } else {
     take_over(record, measured_.at({record.device, record.same_as}));
   }
 }
 
-// Of the plan, on the run's devices, and not to be drawn again: what it is resumed with may be less
-// than it began with.
+// Whether the record belongs to the plan and the run's devices, and is not to be drawn again. A
+// resumed run may be continued with a smaller plan than it began with.
 bool PlanRun::is_ours(const record::Record& record) const {
   return std::ranges::find(devices_, record.device) != devices_.end() &&
          !context_.options.again.contains({record.device, record.configuration}) &&

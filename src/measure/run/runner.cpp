@@ -22,14 +22,14 @@
 namespace triptych::measure {
 namespace {
 
-// The kinds of work of which clocks and statistics have to be calibrated.
+// The kinds of work for which clocks and statistics have to be calibrated.
 std::vector<std::string> kinds_of(const Plan& plan, const Protocol& protocol) {
   const bool asked = protocol.timed || protocol.statistics;
   return plan.timed() && asked ? work_kinds(plan) : std::vector<std::string>{};
 }
 
-// A file's runs are known by its name alone. Where its text is not the one that a run began with,
-// the run must hold nothing that the plan would not measure now.
+// A plan from a file is known only by its name. If the text is not the one with which a run began,
+// the run must not contain anything that the plan would not measure now.
 void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& suite,
                          const record::Store& store) {
   if (run.plan_hash == plan.hash) return;
@@ -46,8 +46,8 @@ void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& 
   }
 }
 
-// The id of the run to add to: a new one, or the plan's latest when it is to be resumed. What is to
-// be measured is in the store before anything is.
+// The id of the run to which records are added: a new one, or the plan's latest if it is resumed.
+// The store knows what is to be measured before anything is measured.
 std::string open_run(const PlannedRun& planned, const std::vector<std::string>& devices,
                      record::Store& store) {
   const auto& [plan, suite, options] = planned;
@@ -79,7 +79,7 @@ void refuse_bad_options(const RunOptions& options) {
   for (const InjectedFault& each : options.faults) check_fault(each.fault);
 }
 
-// Progress of several parts at once as one: sums, and the longest time left.
+// Combines the progress of several parallel parts: sums, and the longest time left.
 class JointProgress {
  public:
   explicit JointProgress(const PlanRun::Tell& tell) : tell_(tell) {}
@@ -119,14 +119,14 @@ void add(const RunResult& part, RunResult& sum) {
   sum.overhead_ns += part.overhead_ns;
 }
 
-// A device of a run.
+// One device of a run.
 struct Part {
   const RunContext* context;
   std::string device;
 };
 
-// Where no time is measured devices cannot disturb each other. Each part has a connection of its
-// own to the store. The first error of one is thrown when all have ended.
+// If no times are measured, devices cannot disturb each other. Each part has its own connection to
+// the store. If parts fail, the first error is thrown after all have ended.
 std::vector<RunResult> measure_side_by_side(const std::vector<Part>& parts, std::size_t at_once,
                                             const PlanRun::Tell& on_progress) {
   JointProgress joint(on_progress);
@@ -166,8 +166,9 @@ std::size_t processors() {
   return std::max(1U, std::thread::hardware_concurrency());
 }
 
-// Without those that would be empty. Each has pieces from all over the plan, for neighbours take
-// about as long; within a piece they share their data.
+// Divides a plan into parts, without empty ones. Each part has pieces from the whole plan, because
+// neighbouring configurations take about the same time. Within a piece, configurations share their
+// data.
 std::vector<Plan> parts_of(const Plan& plan, std::size_t count) {
   constexpr std::size_t pieces_each = 8;
   constexpr std::size_t longest_piece = 16;

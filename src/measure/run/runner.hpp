@@ -1,5 +1,6 @@
 #pragma once
-// Runs a plan: one worker process per device, supervised; records are stored as they are made.
+// Runs a plan with one supervised worker process for each device. Records are stored as soon as
+// they are made.
 
 #include <array>
 #include <chrono>
@@ -24,21 +25,22 @@ namespace triptych::measure {
 
 struct RunOptions {
   Protocol protocol;
-  // Of one configuration; a worker past it is killed and replaced.
+  // The time limit of one configuration. A worker that exceeds it is killed and replaced.
   std::chrono::seconds limit = record::standard_limit;
-  std::chrono::seconds start_limit{60};  // of opening a device and calibrating its clocks
-  bool resume = false;  // continue the plan's latest run: what has a record is left alone
-  // Device and configuration of records that a resumed run holds and yet draws again.
+  std::chrono::seconds start_limit{60};  // for opening a device and calibrating its clocks
+  bool resume = false;                   // continue the plan's latest run and keep its records
+  // Device and configuration of records that a resumed run contains and nevertheless draws again.
   std::set<std::pair<std::string, std::string>> again = {};
   std::vector<InjectedFault> faults;
-  // Workers at once, of one device too, where nothing is timed; 0: one of each device, as many
-  // devices as there are processors.
+  // The number of workers at once if nothing is timed, where one device may have several. 0: one
+  // for each device, for as many devices as there are processors.
   int jobs = 0;
-  std::vector<std::string> worker_command;           // as SideOptions::command
-  std::vector<std::string> worker_environment = {};  // as SideOptions::environment
-  // What the command was asked for and found; its devices are those that are measured.
+  std::vector<std::string> worker_command;           // see SideOptions::command
+  std::vector<std::string> worker_environment = {};  // see SideOptions::environment
+  // What the command was asked for and what it found. Its devices are the ones that are measured.
   record::Beginning begun = {};
-  std::string program = {};  // the version, with its commit, that a run says; empty: the version
+  // The version with its commit, which is written to the run; empty: the version only.
+  std::string program = {};
 };
 
 struct Progress {
@@ -47,52 +49,55 @@ struct Progress {
   int done = 0;
   int total = 0;
   std::chrono::seconds left{0};
-  const record::Record* record = nullptr;  // of the configuration just done
-  std::optional<Loading> loading;          // else: of the configuration under way
+  const record::Record* record = nullptr;  // the configuration that was just done
+  std::optional<Loading> loading;          // otherwise, of the configuration that is being measured
 };
 
 struct RunResult {
   std::string run;  // id in the store
-  // What the run holds of the plan on its devices: with `resume`, from before too.
+  // What the run contains about the plan on its devices; with `resume`, including earlier records.
   int measured = 0;
-  int taken_over =
-      0;  // of those, by another configuration's frames (measure/contract/equivalents.hpp)
+  // Of those, taken over from another configuration's frames (measure/contract/equivalents.hpp).
+  int taken_over = 0;
   int skipped = 0;
   int failed = 0;        // failed, crashed, hung or lost
-  int there_before = 0;  // of all these, those that a resumed run held already
+  int there_before = 0;  // of all these, the number that a resumed run already contained
   double wall_ns = 0;
-  double devices_ns = 0;   // wall clock of all devices' parts: more than wall_ns, side by side
-  double overhead_ns = 0;  // of devices_ns, what was neither opening devices, preparing nor frames
+  // Wall-clock time of all devices' parts; more than wall_ns if they ran in parallel.
+  double devices_ns = 0;
+  // The part of devices_ns outside of opening devices, preparing and drawing.
+  double overhead_ns = 0;
 };
 
-// In a few lines: the plan's run in the store's file, and how it went.
+// A few lines about the plan's run in the file of the store, and its result.
 [[nodiscard]] std::string describe(const RunResult& result, const std::string& plan,
                                    const std::string& store);
 
-// One plan of those that are measured together.
+// One of the plans that are measured together.
 struct PlannedRun {
   const Plan& plan;
   const Suite& suite;
   const RunOptions& options;
 };
 
-// Every configuration of each plan on every device, devices one after the other so that none
-// disturbs another's timing. A crash, a hang or a lost device costs one configuration; a device
-// whose worker cannot be started twice in a row costs the device, each of its configurations failed
-// with the reason. One result per plan, each of a run of its own. Throws InputError for an unknown
-// fault, for an environment that forbids measuring, and for a resumed run whose device has changed
-// or that holds what its plan, changed since, does not measure; IoError when the store cannot be
+// Measures every configuration of each plan on every device, with one device after the other, so
+// that none disturbs the times of another. A crash, a hang or a lost device costs one
+// configuration. If the worker of a device cannot be started twice in a row, all remaining
+// configurations of the device fail with that reason. There is one result for each plan, and each
+// is a run of its own. Throws InputError for an unknown fault, for environment variables that must
+// not be set while measuring, for a resumed run whose device has changed, and for a resumed run
+// that contains something that the changed plan does not measure; IoError if the store cannot be
 // written; Interrupted.
 [[nodiscard]] std::vector<RunResult> run_plans(
     std::span<const PlannedRun> runs, const std::vector<std::string>& devices, record::Store& store,
     const std::function<void(const Progress&)>& on_progress);
 
-// Faults of these runs that are meant for none of their configurations on these devices: who
-// injects one and sees a pass would think that it was not caught.
+// Faults of these runs that apply to none of their configurations on these devices. A user who
+// injects a fault and sees a pass would otherwise think that it was not found.
 [[nodiscard]] std::vector<InjectedFault> faults_that_hit_nothing(
     std::span<const PlannedRun> runs, const std::vector<std::string>& devices);
 
-// A plan on two sides, each into a run of its own.
+// One plan on two sides; each side is written to its own run.
 struct SidesRun {
   const Plan& plan;
   const Suite& suite;
@@ -100,12 +105,12 @@ struct SidesRun {
   std::array<RunOptions, 2> options;
 };
 
-// Side by side where nothing is timed, else one after the other. Throws as run_plans().
+// In parallel if nothing is timed, otherwise one after the other. Throws as run_plans().
 [[nodiscard]] std::array<RunResult, 2> run_sides(
     const SidesRun& sides, record::Store& store,
     const std::function<void(const Progress&)>& on_progress);
 
-// One alone.
+// Runs a single plan.
 [[nodiscard]] RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices,
                                  const Suite& suite, record::Store& store,
                                  const RunOptions& options,

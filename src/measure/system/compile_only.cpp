@@ -17,10 +17,10 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Driver {
-  std::string_view id;    // what device ids begin with, the family follows
+  std::string_view id;    // the beginning of device ids; the family follows
   std::string_view name;  // short name of the driver
-  std::string_view stub;  // library with the stub of the kernel interface; empty: none is needed
-  std::string_view icd;   // start of the name of the Vulkan driver's file; empty: no Vulkan driver
+  std::string_view stub;  // the library with the stub of the kernel interface; empty: not needed
+  std::string_view icd;   // how the name of the Vulkan driver's file begins; empty: no such driver
 };
 constexpr std::array<Driver, 4> drivers{{
     {"vulkan:radv-", "radv", "", "radeon_icd"},
@@ -29,7 +29,7 @@ constexpr std::array<Driver, 4> drivers{{
     {"opencl:rusticl-", "rusticl", "libamdgpu_noop_drm_shim.so", ""},
 }};
 
-// Chips by which the stub of nouveau knows a generation.
+// The chips that the stub of nouveau uses for a generation.
 struct Chip {
   std::string_view family;
   std::string_view chipset;
@@ -85,7 +85,8 @@ std::string file_in(const fs::path& folder, std::string_view start, std::string_
   return found.empty() ? std::string() : found.front();
 }
 
-// Beside the driver files that are named, else where Vulkan's loader looks.
+// Looks beside the driver files that are named in the environment, otherwise where Vulkan's loader
+// looks.
 std::string find_icd(std::string_view start, std::span<const std::string> overrides) {
   std::vector<fs::path> folders;
   for (const char* variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
@@ -170,7 +171,8 @@ std::vector<std::string> compile_only_environment(std::string_view device_id,
   const auto device = compile_only(device_id);
   if (!device) return {};
   const Driver& driver = *driver_of(device_id);
-  // Nothing may come from a cache: what is found there is not compiled, and reports nothing.
+  // Caches are turned off: a program that comes from a cache is not compiled, and nothing is
+  // reported about it.
   std::vector<std::string> environment{"MESA_SHADER_CACHE_DISABLE=true"};
   if (!driver.icd.empty()) {
     const std::string icd = find_icd(driver.icd, overrides);
@@ -180,7 +182,7 @@ std::vector<std::string> compile_only_environment(std::string_view device_id,
                       driver.icd, driver.name == "nvk" ? " of Debian 13 or later" : ""));
     }
     environment.push_back("VK_DRIVER_FILES=" + icd);
-    environment.push_back("VK_ICD_FILENAMES=" + icd);  // what loaders before 1.3.207 read
+    environment.push_back("VK_ICD_FILENAMES=" + icd);  // read by loaders before 1.3.207
   }
   if (driver.name == "radv") environment.push_back("RADV_FORCE_FAMILY=" + device->family);
   if (!driver.stub.empty()) add_stub(driver, device->family, overrides, environment);

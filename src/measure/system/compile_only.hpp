@@ -1,7 +1,7 @@
 #pragma once
-// Devices that only compile: the compiler of a GPU that is not here, asked for by its family, such
-// as `vulkan:radv-navi31`. RADV needs no device at all; the other drivers find one in Mesa's stub
-// of the kernel interface (package mesa-drm-shim), which executes nothing.
+// Devices that only compile: the compiler for a GPU that this machine does not have, which is named
+// by its family, such as `vulkan:radv-navi31`. RADV needs no device at all. The other drivers find
+// one in Mesa's stub of the kernel interface (package mesa-drm-shim), which executes nothing.
 
 #include <optional>
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace triptych::measure {
 
-// Why nothing but compiling may be asked of such a device.
+// Why such a device can be used only for compiling.
 inline constexpr std::string_view only_compiles =
     "this device only compiles: nothing is executed on it";
 
@@ -24,20 +24,20 @@ struct CompileOnly {
 // named; the driver decides whether it supports it.
 [[nodiscard]] std::optional<CompileOnly> compile_only(std::string_view device_id);
 
-// The devices that a gate compiles for where nobody names any: families that cover the market.
+// The devices for which the gate compiles if the user names none: families that cover the market.
 [[nodiscard]] std::vector<std::string> usual_compile_only_devices();
 
-// The variables, "NAME=VALUE" each, that a worker of such a device needs; none for another device.
-// `overrides` are the variables that a worker gets anyway: they may say where drivers are. Throws
-// core::NotSupported naming the package that has what is missing.
+// The variables ("NAME=VALUE") that a worker of such a device needs; none for other devices.
+// `overrides` are the variables that a worker gets anyway, which may say where drivers are. Throws
+// core::NotSupported with the package that has what is missing.
 [[nodiscard]] std::vector<std::string> compile_only_environment(
     std::string_view device_id, std::span<const std::string> overrides = {});
 
-// The family that drivers of this process compile for: "" where their devices execute. `driver`:
-// its short name. Devices that compute on the processor are never concerned.
+// The family for which the drivers of this process compile; empty if their devices execute code.
+// `driver` is its short name. Devices that compute on the processor are never affected.
 [[nodiscard]] std::string compiled_family(std::string_view driver);
 
-// `id` of a driver's device as one that only compiles for `family`.
+// The id for a driver's device that only compiles for `family`.
 [[nodiscard]] std::string compile_only_id(std::string_view api, std::string_view driver,
                                           std::string_view family);
 

@@ -14,16 +14,16 @@ namespace {
 
 constexpr std::array error_signals{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
 
-// A stack that has overflowed leaves no room for a handler.
+// The handler needs its own stack, because a stack that has overflowed has no room for it.
 constexpr std::size_t handler_stack_bytes = std::size_t{64} << 10U;
 
 void say(std::string_view text) {
-  // Nobody is left to be told where this fails.
+  // If this fails, nobody can be told.
   static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
 }
 
-// Only functions that a signal handler may call. backtrace() loads a library when it is first
-// called, hence a call before any signal.
+// Calls only functions that a signal handler may call. backtrace() loads a library at its first
+// call, so it is called once before any signal.
 void write_stack() {
   constexpr int most_frames = 24;
   constexpr int own_frames = 3;  // this function, the handler and the kernel's trampoline
@@ -36,7 +36,7 @@ void write_stack() {
 
 void on_error(int signal) {
   write_stack();
-  // The default action was restored before the handler ran: this ends the process by the signal.
+  // The default action was restored before the handler ran, so this ends the process by the signal.
   std::raise(signal);
 }
 

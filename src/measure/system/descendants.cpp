@@ -19,7 +19,7 @@
 namespace triptych::measure {
 namespace {
 
-// 0 where the process is gone. Its name, between parentheses, may hold anything.
+// 0 if the process is gone. Its name, in parentheses, may contain any characters.
 pid_t parent_of(pid_t pid) {
   std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
   std::string text;
@@ -44,12 +44,12 @@ std::vector<pid_t> children_of(pid_t parent) {
   return children;
 }
 
-// One per process, as the children are.
+// There is one in each process, as for the children.
 struct Children {
   std::mutex mutex;
   bool inherits = false;
-  std::set<pid_t> from_before;  // of whoever replaced itself by this program
-  std::set<pid_t> started;      // by us, not reaped yet
+  std::set<pid_t> from_before;  // children of the program that replaced itself by this one
+  std::set<pid_t> started;      // started by this process and not yet reaped
 };
 
 Children& children() {
@@ -57,8 +57,9 @@ Children& children() {
   return all;
 }
 
-// Of those inherited. What one of them leaves behind is inherited in its turn: again, until there
-// are none, but not for ever where somebody starts new ones faster than they can be killed.
+// Kills the processes that were inherited. What one of them leaves behind is inherited in its turn,
+// so this repeats until there are none, but not for ever: somebody may start processes faster than
+// they can be killed.
 void kill_orphans(const Children& all) {
   constexpr int most_rounds = 200;
   for (int round = 0; round < most_rounds; ++round) {
@@ -85,7 +86,8 @@ void inherit_orphans() {
   all.inherits = ::prctl(PR_SET_CHILD_SUBREAPER, 1) == 0;
 }
 
-// Under the lock, or another thread could take the new child for one that was inherited.
+// Under the lock, because another thread could otherwise take the new child for one that was
+// inherited.
 int start_child(const std::function<int(pid_t*)>& spawn, pid_t& pid) {
   Children& all = children();
   const std::scoped_lock lock(all.mutex);

@@ -1,7 +1,7 @@
 #pragma once
-// What a worker leaves behind. A driver may start processes that leave the worker's process group
-// (setsid), which no signal to the group reaches. On Linux the supervisor becomes their parent when
-// the worker ends (PR_SET_CHILD_SUBREAPER), and kills them then.
+// Ends processes that a worker leaves behind. A driver may start processes that leave the worker's
+// process group (setsid), so that no signal to the group reaches them. On Linux the supervisor
+// becomes their parent when the worker ends (PR_SET_CHILD_SUBREAPER), and then kills them.
 
 #include <sys/types.h>
 
@@ -9,15 +9,16 @@
 
 namespace triptych::measure {
 
-// Makes this process the one that inherits what its descendants leave behind; to be called before a
-// worker is started. Processes that are this process's children already are left alone for ever.
+// Makes this process the one that inherits what its descendants leave behind. Call it before a
+// worker is started. Processes that are already children of this process are never touched.
 void inherit_orphans();
 
-// Calls spawn(&pid), which starts a child that the caller reaps, and returns what it returns: 0, or
-// an error code where nothing was started.
+// Calls spawn(&pid), which starts a child that the caller reaps. Returns the result of spawn: 0, or
+// an error code if nothing was started.
 [[nodiscard]] int start_child(const std::function<int(pid_t*)>& spawn, pid_t& pid);
-// That child was reaped. When it was the last of those, every process that was inherited meanwhile is
-// killed and reaped: while other workers live, nobody can tell whose process it is.
+// The child was reaped. If it was the last one, every process that was inherited in the meantime is
+// killed and reaped. While other workers live, nobody can tell to which of them such a process
+// belongs.
 void forget_child(pid_t pid) noexcept;
 
 }  // namespace triptych::measure

@@ -30,7 +30,7 @@ std::string variable(const char* name) {
   return value == nullptr ? std::string() : std::string(value);
 }
 
-// A place for caches, and the folder in it.
+// A place for caches, and the folder within it.
 struct CachePlace {
   std::filesystem::path root;
   std::string name;
@@ -44,7 +44,7 @@ std::vector<CachePlace> cache_places() {
   if (const std::string home = variable("HOME"); !home.empty()) {
     places.push_back({std::filesystem::path(home) / ".cache", "triptych"});
   }
-  // A name of this user's own: the folder for temporary files is everybody's.
+  // The name contains the user, because all users share the folder for temporary files.
   std::error_code error;
   const auto temporary = std::filesystem::temp_directory_path(error);
   if (!error) places.push_back({temporary, core::name_of_this_user()});
@@ -60,7 +60,7 @@ std::string as_file_name(std::string_view device_id) {
   return name;
 }
 
-// The lock file in the folder, locked; empty when the folder is in use.
+// The lock file of the folder, locked; empty if the folder is in use.
 FileDescriptor try_lock(const core::PrivateFolder& folder) {
   FileDescriptor lock(
       ::openat(folder.fd(), "lock", O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600));
@@ -84,7 +84,7 @@ std::string_view name_in(std::string_view entry) {
   return entry.substr(0, entry.find('='));
 }
 
-// Whether the text goes on with NAME=: a comma before it ends the value before.
+// Whether the text continues with NAME=, so that a comma before it ends the previous value.
 bool begins_a_variable(std::string_view text) {
   const auto letter = [](char c) {
     return std::isalpha(static_cast<unsigned char>(c)) || c == '_';

@@ -1,6 +1,6 @@
 #pragma once
-// The environment that drivers are run in: defaults that they need to work well in a worker
-// process, what must not reach one, and what forbids measuring.
+// The environment variables of drivers: defaults that they need to work well in a worker process,
+// variables that must not reach a worker, and variables that must not be set while measuring.
 
 #include <filesystem>
 #include <optional>
@@ -14,23 +14,23 @@
 
 namespace triptych::measure {
 
-// A variable given to workers unless the user has set it.
+// A variable that workers get unless the user has set it.
 struct EnvironmentDefault {
   std::string_view name;
   std::string_view value;  // "{cache}" stands for the worker's own cache folder
-  std::string_view api;    // prefix of the device ids concerned
+  std::string_view api;    // prefix of the ids of the devices that get it
   std::string_view reason;
 };
 [[nodiscard]] std::span<const EnvironmentDefault> environment_defaults();
 
-// A cache folder that belongs to one worker at a time, kept from run to run so that drivers find
-// what they compiled before: $XDG_CACHE_HOME/triptych (or ~/.cache/triptych, or the folder for
-// temporary files) /<device>-<n>, n the first that nobody else holds. Held until destroyed, across
-// the worker's replacements. Drivers load compiled code from it: only folders that are this user's
-// alone are used (core/private_folder.hpp).
+// A cache folder that belongs to one worker at a time. It is kept from run to run, so that drivers
+// find what they compiled before: $XDG_CACHE_HOME/triptych (or ~/.cache/triptych, or the folder for
+// temporary files) /<device>-<n>, where n is the first number that nobody else uses. It is held
+// until this object is destroyed, also when the worker is replaced. Drivers load compiled code from
+// it, so only folders that belong to this user alone are used (core/private_folder.hpp).
 class CacheFolder {
  public:
-  // Throws IoError that says why when no such folder can be used anywhere.
+  // Throws IoError with the reason if no such folder can be used anywhere.
   explicit CacheFolder(std::string_view device_id);
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
@@ -39,26 +39,26 @@ class CacheFolder {
   FileDescriptor lock_;
 };
 
-// The folder of that name beside those of the workers, where the first of these places is usable.
-// Throws IoError as CacheFolder does.
+// The folder of that name beside those of the workers, in the first of these places that can be
+// used. Throws IoError as CacheFolder does.
 [[nodiscard]] core::PrivateFolder cache_folder(const std::string& name);
 
-// The whole environment of a worker for this device, "NAME=VALUE" each: the caller's own without
-// what would change how benchmarks are run (BENCHMARK_*), with the defaults it lacks. `overrides`,
-// "NAME=VALUE" each, win over both; "{cache}" in one stands for the folder.
+// The complete environment of a worker for this device, as "NAME=VALUE": the caller's own without
+// variables that change how benchmarks are run (BENCHMARK_*), with the defaults that are missing.
+// `overrides` ("NAME=VALUE") replace both; "{cache}" in a value stands for the folder.
 [[nodiscard]] std::vector<std::string> worker_environment(
     std::string_view device_id, const CacheFolder& cache,
     std::span<const std::string> overrides = {});
 
-// "NAME=VALUE,…" → each; a value may hold commas that no NAME= follows. Throws core::InputError
-// that begins with `where`.
+// Splits "NAME=VALUE,…". A value may contain commas that are not followed by NAME=. Throws
+// core::InputError with a message that begins with `where`.
 [[nodiscard]] std::vector<std::string> parse_environment(std::string_view text,
                                                          const std::string& where);
 
-// Why nothing may be measured in this process's environment; nullopt: it may. (LP_PERF turns off
-// parts of llvmpipe's work: what is timed would not be what is drawn.)
+// Why nothing may be measured with the environment variables of this process; nullopt if it may.
+// (LP_PERF turns off parts of llvmpipe's work, so what is timed would not be what is drawn.)
 [[nodiscard]] std::optional<std::string> forbids_measuring();
-// The same of a worker's environment, "NAME=VALUE" each.
+// The same for the environment of a worker, as "NAME=VALUE".
 [[nodiscard]] std::optional<std::string> forbids_measuring(
     std::span<const std::string> environment);
 

@@ -3,11 +3,12 @@
 
 namespace triptych::measure {
 
-// While it lives, a capture by RenderDoc's in-application interface (renderdoc_app.h), of whichever
-// device is used. Does nothing where RenderDoc is not loaded into the process: it never loads it.
+// While this object lives, RenderDoc captures the frames of whichever device is used, through its
+// in-application interface (renderdoc_app.h). It does nothing if RenderDoc is not loaded into the
+// process, and never loads it.
 class FrameCapture {
  public:
-  // `file`: where captures go, without the extension; empty: where RenderDoc puts them.
+  // `file`: the path for captures, without the extension; empty: RenderDoc chooses it.
   explicit FrameCapture(const std::string& file);
   FrameCapture(const FrameCapture&) = delete;
   FrameCapture& operator=(const FrameCapture&) = delete;

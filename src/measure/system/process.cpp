@@ -28,8 +28,8 @@ struct Pipe {
   FileDescriptor write;
 };
 
-// Both ends lie above every number the child uses, so that no dup2 in the child overwrites
-// another's source.
+// Both ends get numbers above all those that the child uses, so that no dup2 in the child
+// overwrites the source of another.
 FileDescriptor raised(FileDescriptor low) {
   constexpr int above_childs_numbers = 16;
   FileDescriptor high(::fcntl(low.get(), F_DUPFD_CLOEXEC, above_childs_numbers));
@@ -52,8 +52,8 @@ void set_non_blocking(const FileDescriptor& fd) {
   }
 }
 
-// By number: the header of glibc 2.36 declares pidfd_open without C linkage. Close-on-exec by
-// nature.
+// Called by its number, because the header of glibc 2.36 declares pidfd_open without C linkage. The
+// descriptor is always close-on-exec.
 FileDescriptor open_pid_fd(pid_t pid) {
   return FileDescriptor(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
 }
@@ -83,8 +83,8 @@ class FileActions {
   posix_spawn_file_actions_t actions_{};
 };
 
-// A group of its own, no blocked signal, and the default action for those the parent may have
-// changed.
+// The child gets its own process group, no blocked signals, and the default action for signals that
+// the parent may have changed.
 class Attributes {
  public:
   Attributes() {
@@ -112,7 +112,7 @@ class Attributes {
   posix_spawnattr_t attributes_{};
 };
 
-// posix_spawn takes char* for historical reasons and writes to none of them.
+// posix_spawn takes char* for historical reasons and does not write to them.
 std::vector<char*> pointers(const std::vector<std::string>& texts) {
   std::vector<char*> result;
   result.reserve(texts.size() + 1);
@@ -186,18 +186,19 @@ Process::Process(const std::vector<std::string>& command,
 Process::~Process() {
   if (exit_) return;
   kill();
-  // A process that sleeps inside a driver cannot be reaped even so; it is not worth hanging for.
+  // A process that sleeps inside a driver cannot be reaped even then, and that is no reason to hang
+  // here.
   constexpr std::chrono::seconds patience{10};
   try {
     if (wait(patience)) return;
   } catch (const core::Error&) {
-    // Nothing is left to be done about a child that cannot be waited for.
+    // If waiting for a child fails, there is nothing left to do.
   }
   forget_child(pid_);
 }
 
 void Process::kill() noexcept {
-  // The group outlives its leader while a grandchild (a driver's linker) still runs.
+  // The group outlives its leader while a grandchild (such as a driver's linker) is running.
   if (pid_ > 0) ::kill(-pid_, SIGKILL);
 }
 
@@ -213,7 +214,8 @@ std::optional<Exit> Process::wait(std::chrono::milliseconds limit) {
     if (ready == 0) return std::nullopt;
     if (errno != EINTR) fail("cannot wait for a worker", errno);
   }
-  kill();  // what the child left behind; until it is reaped its number cannot be anyone else's
+  // This kills what the child left behind. Until the child is reaped, no other process gets its id.
+  kill();
   int status = 0;
   if (::waitpid(pid_, &status, 0) != pid_) fail("cannot reap a worker", errno);
   forget_child(pid_);

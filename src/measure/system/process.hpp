@@ -1,6 +1,6 @@
 #pragma once
-// A child process with three pipes, owned: whatever happens, it is killed and reaped, its
-// descriptors closed. Linux (posix_spawn, pidfd).
+// A child process with three pipes. It belongs to the object: whatever happens, it is killed and
+// reaped, and its descriptors are closed. Linux only (posix_spawn, pidfd).
 
 #include <sys/types.h>
 
@@ -31,7 +31,7 @@ class FileDescriptor {
   int fd_ = -1;
 };
 
-// How a process ended: by a signal (signal != 0) or by itself.
+// How a process ended: by a signal (signal != 0), or by itself.
 struct Exit {
   int code = 0;
   int signal = 0;
@@ -39,18 +39,18 @@ struct Exit {
 // "killed by SIGSEGV (Segmentation fault)", "exited with code 3".
 [[nodiscard]] std::string describe(const Exit& exit);
 
-// The child reads requests at `child_request_fd` and writes answers at `child_answer_fd`; its
-// standard input is empty, its standard output and error both end in the log pipe, so that nothing
-// a driver prints can mix with the answers. No other descriptor of ours reaches it. It leads a
-// process group of its own: what it starts dies with it, and what leaves the group dies with the
-// last process of this kind (descendants.hpp).
+// The child reads requests from `child_request_fd` and writes answers to `child_answer_fd`. Its
+// standard input is empty. Its standard output and standard error both go to the log pipe, so that
+// nothing that a driver prints can mix with the answers. It gets no other descriptor of this
+// process. It leads its own process group: the processes that it starts die with it, and those that
+// leave the group die with the last process of this kind (descendants.hpp).
 class Process {
  public:
   static constexpr int child_request_fd = 3;
   static constexpr int child_answer_fd = 4;
 
-  // `command` is looked up in PATH; `environment` is the child's whole environment, "NAME=VALUE"
-  // each. Throws IoError when it cannot be started.
+  // `command` is searched for in PATH; `environment` is the complete environment of the child
+  // ("NAME=VALUE"). Throws IoError if it cannot be started.
   Process(const std::vector<std::string>& command, const std::vector<std::string>& environment);
   ~Process();
   Process(const Process&) = delete;
@@ -62,11 +62,11 @@ class Process {
   [[nodiscard]] int log_fd() const noexcept { return log_.get(); }          // non-blocking
   [[nodiscard]] int pid_fd() const noexcept { return pid_fd_.get(); }  // readable once it has ended
 
-  // SIGKILL to the whole group.
+  // Sends SIGKILL to the whole group.
   void kill() noexcept;
-  // Closes the requests, by which a child that waits for one knows that it may leave.
+  // Closes the requests. A child that waits for one then knows that it may exit.
   void close_requests() noexcept { request_.reset(); }
-  // Waits for the end and reaps; nullopt when it has not ended in time.
+  // Waits until the child has ended and reaps it; nullopt if it has not ended in time.
   [[nodiscard]] std::optional<Exit> wait(std::chrono::milliseconds limit);
 
  private:
@@ -78,8 +78,8 @@ class Process {
   FileDescriptor pid_fd_;
 };
 
-// The first 4 KiB that a short program prints, in this process's environment and the variables;
-// nullopt where it cannot be started, fails or takes more than 20 seconds.
+// The first 4 KiB of the output of a short program, with the environment of this process and the
+// given variables. nullopt if it cannot be started, fails or takes more than 20 seconds.
 [[nodiscard]] std::optional<std::string> output_of(const std::vector<std::string>& command,
                                                    std::vector<std::string> variables = {});
 

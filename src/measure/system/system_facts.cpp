@@ -15,8 +15,8 @@
 namespace triptych::measure {
 namespace {
 
-// The value of the first line "KEY<blanks><separator> VALUE", quotes taken off; empty when there is
-// none.
+// The value in the first line "KEY<blanks><separator> VALUE", without quotation marks; empty if
+// there is none.
 std::string value_in(const char* file, std::string_view key, char separator) {
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);) {
@@ -37,7 +37,8 @@ std::string first_line(const char* file) {
   return line;
 }
 
-// Cores this process may run on: what the drivers' thread pools see, not what the machine has.
+// The cores on which this process may run. That is what the drivers' thread pools see, and it may
+// be fewer than the machine has.
 int usable_cores() {
   cpu_set_t cores;
   CPU_ZERO(&cores);

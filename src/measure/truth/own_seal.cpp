@@ -24,7 +24,7 @@ std::string text_of(const std::array<std::uint8_t, 32>& hash) {
   return {hash.begin(), hash.end()};
 }
 
-// Empty where there is none that only this user can read.
+// Empty if there is no key that only this user can read.
 std::string read_key(const core::PrivateFolder& folder) {
   const FileDescriptor file(::openat(folder.fd(), "key", O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
   struct stat status{};
@@ -35,7 +35,8 @@ std::string read_key(const core::PrivateFolder& folder) {
   return got == static_cast<ssize_t>(key_bytes) ? key : std::string();
 }
 
-// Written aside and linked: of several processes that make one at once, all use the first.
+// The key is written to another file and then linked. If several processes create one at the same
+// time, all use the first.
 void make_key(const core::PrivateFolder& folder) {
   std::string key(key_bytes, '\0');
   if (::getrandom(key.data(), key.size(), 0) != static_cast<ssize_t>(key.size())) return;
