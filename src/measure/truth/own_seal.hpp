@@ -1,7 +1,7 @@
 #pragma once
-// Tells reference images that this user's own program drew from those that came with a store. A
-// store's seals are hashes that anybody can compute: whoever gives a store away could widen a bound
-// in it until every image lies within.
+// Distinguishes reference images that this user's own program drew from those that came with a
+// store. The seals of a store are hashes that anybody can compute, so a person who gives a store
+// away could widen a bound in it until every image is within it.
 
 #include <optional>
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace triptych::measure {
 
-// HMAC-SHA256 (RFC 2104) of a reference image with its bound, under a random key that lies in this
-// user's cache folder and is made when it is first needed. nullopt where no such folder can be used:
-// then nothing can be recognized, and every reference image is drawn again.
+// HMAC-SHA256 (RFC 2104) of a reference image with its bound. The key is random; it is in this
+// user's cache folder and is created when it is first needed. nullopt if no such folder can be
+// used: then nothing is recognized, and every reference image is drawn again.
 [[nodiscard]] std::optional<std::string> own_seal(const record::TruthImage& truth);
 
 // HMAC-SHA256 in hexadecimal digits.

@@ -12,8 +12,8 @@
 namespace triptych::measure {
 namespace {
 
-// Every record with this text has the same truth and bound; cheaper than Suite::truth_key, which
-// loads the data to know that it has not changed.
+// Every record with this text has the same reference image and bound. It is cheaper than
+// Suite::truth_key, which loads the data to find out whether they have changed.
 std::string memory_key(const record::Record& record) {
   std::string key = record.suite + " " + record.scene;
   for (const char* factor : {"ert", "adapt", "voxel", "precision", "ray"}) {
@@ -24,7 +24,7 @@ std::string memory_key(const record::Record& record) {
   return key;
 }
 
-// The value of the key, made where there is none.
+// The value for the key; it is made if there is none.
 template <typename Value, typename Make>
 const Value& known_or_made(std::map<std::string, Value>& known, const std::string& key,
                            const Make& make) {
@@ -58,7 +58,7 @@ std::string Truths::data_hash_of(const record::Record& record) {
     try {
       return suite_(record.suite).data_hash(record.factors);
     } catch (const core::Error&) {
-      return {};  // whoever wants the truth is told why there are none
+      return {};  // the caller that asks for the reference image reports why there are none
     }
   });
 }
@@ -80,7 +80,8 @@ accuracy::TruthPair Truths::kept(const std::string& scene, const std::string& ve
     drawn.own_seal = own_seal(drawn).value_or("");
     store_.set_truth(drawn);
   } catch (const core::IoError&) {
-    // One that cannot be kept – the store is read-only, the disk full – is as true.
+    // If it cannot be stored, because the store is read-only or the disk is full, the image is
+    // still valid.
   }
   return rendered;
 }
@@ -100,7 +101,8 @@ const accuracy::LimitPicture* Truths::limit_of(const record::Record& record) {
 accuracy::LimitPicture Truths::find_or_render_limit(const record::Record& record,
                                                     const std::string& key) {
   SuiteWithTruth& suite = suite_(record.suite);
-  // Among the truths: a scene's name of its own, and its uncertainty for a bound.
+  // Stored like a reference image, with its own name for the scene, and its uncertainty as the
+  // bound.
   accuracy::TruthPair pair = kept("limit of " + record.suite, key, [&]() -> accuracy::TruthPair {
     Limit limit = suite.limit(record.factors);
     return {std::move(limit.image), std::move(limit.uncertainty)};

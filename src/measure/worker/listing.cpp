@@ -39,7 +39,7 @@ Listing from_json(const core::Json& json) {
   return listing;
 }
 
-// Starts this program as `command`, says `request` and returns its one answer.
+// Starts this program as `command`, sends `request` and returns its only answer.
 WorkerLink::Reply ask_once(const std::vector<std::string>& command, const std::string& device_id,
                            const Message& request, std::chrono::seconds limit) {
   InterruptGuard interrupts;
@@ -77,7 +77,7 @@ bool any_matches(const std::vector<std::string>& globs, const std::string& id) {
       globs, [&](const std::string& glob) { return ::fnmatch(glob.c_str(), id.c_str(), 0) == 0; });
 }
 
-// Asks the driver whether it compiles for the family of this device, and adds what it answers.
+// Asks the driver whether it compiles for the family of this device, and adds the result.
 void list_compiler(const std::string& id, Listing& listing) {
   const std::string api = id.substr(0, id.find(':'));
   const auto refuse = [&](std::string reason) {
@@ -103,7 +103,7 @@ void list_compiler(const std::string& id, Listing& listing) {
   }
 }
 
-// Says why no device of the listing is one that `glob` asks for.
+// Throws an error that says why no device of the listing matches `glob`.
 [[noreturn]] void refuse_devices(const Listing& listing, std::string_view glob) {
   if (listing.devices.empty()) {
     throw core::NotSupported(
@@ -189,7 +189,8 @@ Greeting greet(const record::Device& device, const std::string& suite) {
 }
 
 void answer_listing(const Backend& backend) {
-  // To answer and leave before the question was put would close the pipe on the one who asks.
+  // If it answered and exited before it was asked, the pipe of the process that asks would be
+  // closed.
   static_cast<void>(receive(Process::child_request_fd));
   send(Process::child_answer_fd, {.json = as_json(backend.list()), .binary = {}});
 }

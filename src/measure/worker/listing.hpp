@@ -1,6 +1,6 @@
 #pragma once
-// Which devices are here. Every API is asked in a process of its own (own_program.hpp), so that a
-// driver that crashes or hangs while it is being listed costs only itself.
+// Lists the devices of this machine. Every API is asked in a process of its own (own_program.hpp),
+// so that a driver that crashes or hangs while it is listed affects nothing else.
 
 #include <optional>
 #include <string>
@@ -21,17 +21,17 @@ namespace triptych::measure {
 // Returns whether a glob is the full name of a device that only compiles.
 [[nodiscard]] bool name_a_compiler(const std::vector<std::string>& globs);
 
-// Ids of the devices that match any of the globs (all for none), in listing order. Throws
-// core::NotSupported naming what is there when a glob matches nothing.
+// The ids of the devices that match any of the globs (all if there are no globs), in the order of
+// the listing. Throws core::NotSupported with the devices that there are if a glob matches none.
 [[nodiscard]] std::vector<std::string> choose_devices(const Listing& listing,
                                                       const std::vector<std::string>& globs);
 
-// The one device that the glob matches, which an option asks for. Throws core::NotSupported as
-// above, core::InputError where there are several.
+// The only device that the glob matches, as an option requires it. Throws core::NotSupported as
+// above, and core::InputError if several devices match.
 [[nodiscard]] std::string choose_device(const Listing& listing, std::string_view option,
                                         const std::string& glob);
 
-// What a device says of itself once it is open; its clocks are calibrated on the suite's work.
+// What a device reports when it is open. Its clocks are calibrated with the work of the suite.
 struct Greeting {
   record::Device device;
   std::vector<record::ClockTrust> clocks;
@@ -39,7 +39,7 @@ struct Greeting {
 };
 [[nodiscard]] Greeting greet(const record::Device& device, const std::string& suite);
 
-// What the process started for one API does: waits to be asked, then sends its listing.
+// What the process for one API does: it waits until it is asked, and then sends its listing.
 void answer_listing(const Backend& backend);
 
 }  // namespace triptych::measure

@@ -67,7 +67,7 @@ void write_all(int fd, const void* data, std::size_t size) {
   }
 }
 
-// Reads exactly size bytes; fewer only at the end of the pipe.
+// Reads exactly this many bytes; fewer only at the end of the pipe.
 std::size_t read_all(int fd, void* data, std::size_t size) {
   auto* next = static_cast<std::byte*>(data);
   std::size_t done = 0;
@@ -88,8 +88,8 @@ bool is(const Message& message, std::string_view type) {
   return message.json.is_object() && message.json.value("type", "") == type;
 }
 
-// What a message lacks is the fault of its sender, not of the reader: a typed error, not a JSON
-// one.
+// If a message lacks something, its sender is wrong and not the reader, so the error is a typed one
+// and not one of JSON.
 template <typename Read>
 auto reading(std::string_view type, Read read) {
   try {

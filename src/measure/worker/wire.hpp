@@ -34,17 +34,18 @@ struct Message {
   std::vector<std::byte> binary;
 };
 
-// Writes the whole message; throws IoError when the other side is gone.
+// Writes the whole message; throws IoError if the other side is gone.
 void send(int fd, const Message& message);
-// Blocks for one message; nullopt when the other side has closed. Throws IoError when it closes
-// within a message, InputError for bytes that are no message.
+// Waits for one message; nullopt if the other side has closed the pipe. Throws IoError if it closed
+// the pipe within a message, InputError for bytes that are not a message.
 [[nodiscard]] std::optional<Message> receive(int fd);
 
-// Puts messages together from the pieces a pipe gives.
+// Combines the pieces that a pipe returns into messages.
 class MessageBuffer {
  public:
   void append(std::span<const std::byte> bytes);
-  // The next whole message, if it is there. Throws InputError for bytes that are no message.
+  // The next complete message, if it has arrived. Throws InputError for bytes that are not a
+  // message.
   [[nodiscard]] std::optional<Message> next();
   [[nodiscard]] bool empty() const noexcept { return bytes_.empty(); }
 
@@ -54,10 +55,10 @@ class MessageBuffer {
 
 struct Start {
   std::string suite;
-  std::vector<std::string> kinds;  // technique::name_of
-  std::vector<record::ClockTrust>
-      clocks;              // a worker that replaces another need not calibrate again
-  bool statistics = true;  // else the driver crashed when they were read: nobody asks for them
+  std::vector<std::string> kinds;  // see technique::name_of
+  // A worker that replaces another one need not calibrate again.
+  std::vector<record::ClockTrust> clocks;
+  bool statistics = true;  // false: the driver crashed when they were read, so nobody asks for them
 };
 
 struct Hello {
@@ -67,27 +68,27 @@ struct Hello {
 
 struct Refused {
   record::Reason reason;
-  // For something that the device lacks.
+  // Whether the device lacks something.
   [[nodiscard]] bool unsupported() const { return reason.cause == record::Cause::not_supported; }
-  // Else the worker has greeted.
+  // If false, the worker has greeted.
   [[nodiscard]] bool is_one() const { return reason.cause != record::Cause::none; }
 };
 
 struct Job {
-  std::string name;  // of the benchmark
+  std::string name;  // the name of the benchmark
   Configuration configuration;
   Protocol protocol;
   std::vector<std::string> faults;
 };
 
 struct Answer {
-  record::Record record;  // what is known below the plan; `factors` with every "auto" resolved
-  double worker_ns = 0;   // from job read to answer ready
-  std::map<std::string, std::string> listings = {};  // disassembly by its content hash
+  record::Record record;  // what is known without the plan; in `factors` every "auto" is resolved
+  double worker_ns = 0;   // from reading the job until the answer is ready
+  std::map<std::string, std::string> listings = {};  // disassembly by the hash of its content
   std::vector<std::byte> exr;
 };
 
-// Replaces what is held already.
+// Replaces what is held at that time.
 struct Hold {
   Configuration configuration;
   std::vector<std::string> faults;
@@ -99,13 +100,12 @@ struct Frames {
 
 struct Release {};
 
-// What came of one of them. Of a configuration that cannot be held, or failed in a frame, nothing
-// is held any longer.
+// The answer to one of them. After a failure nothing is held any longer.
 struct Batch {
   record::Outcome outcome = record::Outcome::measured;
-  record::Reason reason;          // for every outcome but measured
-  std::vector<double> wall_ns;    // one per frame drawn
-  std::vector<double> device_ns;  // empty where the device did not tell it of each
+  record::Reason reason;          // for every outcome except measured
+  std::vector<double> wall_ns;    // one for each frame
+  std::vector<double> device_ns;  // empty if the device did not report it for every frame
 };
 
 [[nodiscard]] Message to_message(const Start& start);
@@ -119,7 +119,7 @@ struct Batch {
 [[nodiscard]] Message to_message(const Release& release);
 [[nodiscard]] Message to_message(const Batch& batch);
 
-// Empty when the message is of another type. Throw InputError when it lacks something.
+// nullopt if the message has another type. They throw InputError if it lacks something.
 [[nodiscard]] std::optional<Start> as_start(const Message& message);
 [[nodiscard]] std::optional<Hello> as_hello(const Message& message);
 [[nodiscard]] std::optional<Refused> as_refused(const Message& message);

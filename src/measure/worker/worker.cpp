@@ -31,8 +31,8 @@
 namespace triptych::measure {
 namespace {
 
-// Of this process since it began. Not ru_maxrss: that one survives exec, so that a worker would
-// start with its supervisor's peak.
+// The peak of this process since it began. Not ru_maxrss, which survives exec, so that a worker
+// would begin with the peak of its supervisor.
 std::uint64_t peak_memory_bytes() {
   std::ifstream lines("/proc/self/status");
   for (std::string line; std::getline(lines, line);) {
@@ -50,7 +50,7 @@ technique::Work kind_named(std::string_view name) {
   throw core::InputError(fmt::format("unknown kind of work '{}'", name));
 }
 
-// With what only the work says.
+// Adds what only the work decides to the protocol.
 Protocol protocol_for(const Job& job, const Work& work, bool has_statistics) {
   Protocol protocol = job.protocol;
   protocol.statistics = protocol.statistics && has_statistics;
@@ -61,12 +61,13 @@ Protocol protocol_for(const Job& job, const Work& work, bool has_statistics) {
   return protocol;
 }
 
-// The input is broken, which is not the device's fault: the configuration is skipped.
+// The input is broken, which is not the device's fault, so the configuration is skipped.
 struct BadInput : core::NotSupported {
   using NotSupported::NotSupported;
 };
 
-// Out of host memory, with the limit that --memory or the user's limits set for a worker.
+// Host memory is exhausted. The reason contains the limit that --memory or the user's limits set
+// for a worker.
 record::Reason out_of_memory(const std::string& data) {
   record::Reason reason{.cause = record::Cause::out_of_memory, .subject = data};
   rlimit limit{};
@@ -80,8 +81,8 @@ record::Reason api_reason(record::Cause cause, const core::ApiError& error) {
   return {.cause = cause, .subject = error.call(), .code = error.code(), .detail = error.what()};
 }
 
-// Every typed error ends here, as the outcome of one configuration. `data`: what may have taken
-// too much memory.
+// Turns every typed error into the outcome of one configuration. `data` is what may have needed too
+// much memory.
 template <typename Act, typename OnFailure>
 void outcome_of(const Act& act, const std::string& data, const OnFailure& on_failure) {
   using record::Cause;
@@ -113,12 +114,12 @@ class Worker {
         info_(device_->info()),
         clocks_(std::move(clocks)) {}
 
-  // With the calibrations of the kinds of work that were calibrated here.
+  // Includes the calibrations for the kinds of work that were calibrated here.
   [[nodiscard]] const record::Device& info() const { return info_; }
   [[nodiscard]] const std::vector<record::ClockTrust>& clocks() const { return clocks_; }
 
-  // Of a kind with a known clock the supervisor knows the calibration too.
-  // `statistics`: they are read, too.
+  // For a kind of work whose clock is known, the supervisor also knows the calibration of
+  // statistics. `statistics`: whether statistics are read.
   void calibrate_for(const std::vector<std::string>& kinds, bool statistics) {
     has_statistics_ = statistics;
     if (!info_.compiles_for.empty()) return;
@@ -188,7 +189,7 @@ class Worker {
         [&] { act(batch); }, data_,
         [&](record::Outcome outcome, record::Reason reason) {
           batch = {.outcome = outcome, .reason = std::move(reason), .wall_ns = {}, .device_ns = {}};
-          // Freeing objects of a lost device is what drivers are worst at.
+          // Freeing the objects of a lost device is what drivers do worst.
           if (outcome == record::Outcome::lost) {
             static_cast<void>(held_.release());
           } else {
@@ -198,8 +199,8 @@ class Worker {
     return batch;
   }
 
-  // A driver that changed the arithmetic of this process has failed in the configuration during
-  // which it did: data that are generated later would not be those that were accepted.
+  // If a driver changes the arithmetic of this process, the configuration during which that
+  // happened has failed: data that are generated later would differ from the accepted ones.
   template <typename OnFailure>
   void blame_arithmetic(const OnFailure& on_failure) {
     std::string changed = restore_arithmetic();
@@ -210,7 +211,7 @@ class Worker {
                        .detail = "the driver changed the arithmetic of the host: " + changed});
   }
 
-  // Of a configuration that was not measured nothing may look as if it had been.
+  // Removes everything that would look as if the configuration had been measured.
   static void conclude(Answer& answer, record::Outcome outcome, record::Reason reason) {
     record::Record record;
     record.factors = std::move(answer.record.factors);
@@ -222,7 +223,7 @@ class Worker {
     answer.listings.clear();
   }
 
-  // What the device can do of it. Resolves the configuration's "auto" levels.
+  // The part of the work that the device supports. Resolves the configuration's "auto" levels.
   Work supported_work(Configuration& configuration, const std::vector<std::string>& faults) {
     const auto data = configuration.find("data");
     data_ = data == configuration.end() ? "none" : data->second;
@@ -235,7 +236,8 @@ class Worker {
     return work;
   }
 
-  // Broken input is no fault of the device's: a skip that says where it is broken.
+  // Broken input is not the device's fault: the configuration is skipped, and the reason says where
+  // the input is broken.
   Work work_or_skip(Configuration& configuration, const std::vector<std::string>& faults) {
     try {
       return supported_work(configuration, faults);
@@ -307,7 +309,7 @@ class Worker {
     }
   }
 
-  // Under the emulator: nothing that would need a clock.
+  // Runs under the emulator, so it needs no clock.
   void count(const Job& job, const Work& work, Configuration configuration, Answer& answer) {
     if (!counter_) counter_ = InstructionCounter::of_this_process();
     if (!counter_) throw core::NotSupported("this worker's instructions are not counted");
@@ -330,24 +332,27 @@ class Worker {
   record::Device info_;
   std::vector<record::ClockTrust> clocks_;
   std::optional<InstructionCounter> counter_;
-  std::optional<EnergyMeters> meters_;  // found where a loop asks for them: they load a library
+  // Searched for when a loop needs them, because that loads a library.
+  std::optional<EnergyMeters> meters_;
   std::unique_ptr<Prepared> held_;
-  std::optional<FrameProof> proof_;  // of the one that is held
+  std::optional<FrameProof> proof_;  // for the configuration that is held
   Equivalents equivalents_;
-  bool has_statistics_ = true;      // the driver reports statistics without a fault
-  std::string changed_arithmetic_;  // by the driver while the device was opened and calibrated
-  std::string data_;                // of the configuration that is being worked on
-  double measuring_ns_ = 0;         // of the last job: what measure() accounts for itself
+  bool has_statistics_ = true;  // the driver reports statistics without a fault
+  // What the driver changed while the device was opened and calibrated.
+  std::string changed_arithmetic_;
+  std::string data_;         // the data of the current configuration
+  double measuring_ns_ = 0;  // for the last job: the time that measure() accounts for itself
 };
 
-// A worker without a supervisor would hold the device for nobody, even from within a driver's call.
+// Without this, a worker whose supervisor has died would keep the device, even within a call of the
+// driver.
 void die_with_parent() {
   const pid_t parent = ::getppid();
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) std::raise(SIGKILL);
 }
 
-// A process that a driver starts must not keep our pipes open after us.
+// A process that a driver starts must not keep our pipes open after this process has ended.
 void keep_to_ourselves(int fd) {
   if (const int flags = ::fcntl(fd, F_GETFD); flags >= 0) ::fcntl(fd, F_SETFD, flags | FD_CLOEXEC);
 }
@@ -388,7 +393,8 @@ int serve(const Backend& backend, std::string_view device_id, const FindSuite& f
   send(answer_fd, to_message(Hello{.device = worker.info(), .clocks = worker.clocks()}));
 
   while (const auto message = receive(request_fd)) {
-    // Freeing objects of a lost device is what drivers are worst at: leave without it.
+    // Freeing the objects of a lost device is what drivers do worst, so the process exits without
+    // it.
     if (serve_one(worker, *message, answer_fd) == record::Outcome::lost) ::_exit(0);
   }
   return 0;
@@ -432,7 +438,7 @@ int serve_worker(const Backend& backend, std::string_view device_id, const FindS
   try {
     send(answer_fd, to_message(refused));
   } catch (const core::Error&) {
-    // Nobody is left to be told.
+    // Nobody is left who could be told.
   }
   return static_cast<int>(core::ExitCode::usage);
 }

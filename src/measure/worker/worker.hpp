@@ -9,12 +9,13 @@
 
 namespace triptych::measure {
 
-// The worker's side: serves one device over the two file descriptors until the first is closed.
-// Returns the process's exit code.
+// The worker's side: serves one device over the two file descriptors until the first one is closed.
+// Returns the exit code of the process.
 [[nodiscard]] int serve_worker(const Backend& backend, std::string_view device_id,
                                const FindSuite& find_suite, int request_fd, int answer_fd);
 
-// What is known of the data and of the path it takes, for judging the image.
+// Records what is known about the data and the path that is used, which is needed to judge the
+// image.
 void describe_work(const Work& work, const Device& device, record::Record& record);
 
 }  // namespace triptych::measure

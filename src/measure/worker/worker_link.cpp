@@ -16,7 +16,8 @@
 namespace triptych::measure {
 namespace {
 
-// Reads all there is from a non-blocking descriptor; false once the other side has closed it.
+// Reads everything that is available from a non-blocking descriptor; false if the other side has
+// closed it.
 template <typename Take>
 bool drain(int fd, Take take) {
   std::array<char, 65536> piece;
@@ -32,7 +33,7 @@ bool drain(int fd, Take take) {
   }
 }
 
-// By a signal that no driver raises.
+// Whether the process was ended by a signal that no driver raises.
 bool is_ordered(const Exit& exit) {
   return exit.signal == SIGKILL || exit.signal == SIGTERM || exit.signal == SIGINT;
 }
@@ -77,7 +78,8 @@ WorkerLink::Reply WorkerLink::ask(const Message& request, std::chrono::milliseco
   for (;;) {
     const bool in_time = wait_for_event(deadline);
     if (const auto signal = interrupts_.take()) throw Interrupted(*signal);
-    const bool over = ended_;  // before reading: what it wrote before its end is then all there
+    const bool over = ended_;  // read before the pipe, so that everything that it wrote before its
+                               // end is then available
     read_answer();
     read_log();
     try {
@@ -114,7 +116,7 @@ std::optional<record::DeviceFault> WorkerLink::finish() {
   std::optional<Exit> exit;
   do {
     exit = process_.wait(step);
-    read_log();  // who waits for room in a full pipe does not end
+    read_log();  // a process that waits for space in a full pipe does not end
   } while (!exit && std::chrono::steady_clock::now() < deadline);
   if (!exit) {
     ask_for_stack();
@@ -180,7 +182,7 @@ bool WorkerLink::wait_for_event(Deadline deadline) {
 }
 
 std::optional<Exit> WorkerLink::reap() {
-  // A worker that closed its answers is as good as dead, and gets a moment to say how it ended.
+  // A worker that closed its pipe for answers is about to end, and gets some time to show how.
   constexpr std::chrono::seconds patience{2};
   auto exit = process_.wait(patience);
   if (!exit) {
@@ -214,8 +216,8 @@ record::Reason WorkerLink::bury_for(record::Reason reason) {
   return reason;
 }
 
-// Who ends a whole job, as a batch system does, ends the worker and us at once: that it went first
-// is no fault of its configuration.
+// Whoever ends a whole job, as a batch system does, ends the worker and this process at the same
+// time. That the worker ended first is then no fault of its configuration.
 void WorkerLink::await_own_end() {
   const Deadline deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
   for (;;) {
@@ -224,13 +226,13 @@ void WorkerLink::await_own_end() {
     pollfd event{interrupts_.fd(), POLLIN, 0};
     ::poll(&event, 1, static_cast<int>(std::max<std::int64_t>(0, left.count())));
     if (const auto signal = interrupts_.take()) throw Interrupted(*signal);
-    // Another thread may be about to tell of what it took.
+    // Another thread may be about to report the signal that it took.
     if (std::chrono::steady_clock::now() >= deadline) return;
   }
 }
 
 std::string WorkerLink::last_words() const {
-  constexpr std::size_t lines = 12;  // some of a stack
+  constexpr std::size_t lines = 12;  // enough for a part of a call stack
   return log_.last_lines(lines);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// The supervisor's end of one worker: ask, and get an answer, a death or a timeout.
+// The supervisor's side of one worker: it asks, and gets an answer, the worker's death or a
+// timeout.
 
 #include <chrono>
 #include <cstddef>
@@ -16,12 +17,12 @@
 
 namespace triptych::measure {
 
-// The end of what a worker printed, bounded however much it prints.
+// The end of a worker's output. Its size is limited, however much the worker prints.
 class LogTail {
  public:
   void append(std::string_view text);
   void clear() noexcept { text_.clear(); }
-  // The last lines, blank ones left out, " | " between them; empty when there are none.
+  // The last lines without blank ones, separated by " | "; empty if there are none.
   [[nodiscard]] std::string last_lines(std::size_t count) const;
 
  private:
@@ -31,50 +32,51 @@ class LogTail {
 
 class WorkerLink {
  public:
-  // How it ended: a signal, an exit code, an answer without sense.
+  // The worker died: by a signal, with an exit code, or after an answer that makes no sense.
   struct Died {
     record::Reason reason;
   };
-  // That it gave no answer within the limit.
+  // The worker gave no answer within the limit.
   struct Late {
     record::Reason reason;
   };
   using Reply = std::variant<Message, Died, Late>;
 
-  // Throws IoError when the command cannot be started.
+  // Throws IoError if the command cannot be started.
   WorkerLink(const std::vector<std::string>& command, const std::vector<std::string>& environment,
              InterruptGuard& interrupts);
 
-  // After Died and Late the process is gone and reaped, and the link of no more use. Throws
-  // Interrupted when a signal asks the supervisor to stop. What the worker says of loading before
-  // it answers goes to `on_loading`, which may be empty.
+  // After Died and Late, the process is gone and reaped, and the link cannot be used any longer.
+  // Throws Interrupted if a signal asks the supervisor to stop. Progress of loading that the worker
+  // reports before its answer is passed to `on_loading`, which may be empty.
   [[nodiscard]] Reply ask(const Message& request, std::chrono::milliseconds limit,
                           const OnLoading& on_loading = {});
 
-  // Begins to talk: what the worker greets with, or why its device cannot be opened.
+  // Begins the conversation. Returns the worker's greeting, or why its device cannot be opened.
   [[nodiscard]] std::variant<Hello, Refused> greet(const Start& start,
                                                    std::chrono::milliseconds limit);
 
-  // Lets an idle worker leave by itself, so that drivers can write their caches; kills it when it
-  // does not within a few seconds. A driver that crashes or hangs meanwhile is returned as a fault.
+  // Lets an idle worker exit by itself, so that drivers can write their caches, and kills it if it
+  // does not do so within a few seconds. Returns the fault of a driver that crashes or hangs during
+  // this.
   std::optional<record::DeviceFault> finish();
 
  private:
   using Deadline = std::chrono::steady_clock::time_point;
 
   void read_answer();
-  // The answer, if it is there; what comes before it is handed on.
+  // The answer, if it has arrived. Messages before it are passed on.
   [[nodiscard]] std::optional<Message> next_answer(const OnLoading& on_loading);
   void read_log();
-  // Waits until something happened at one of the descriptors; false at the deadline.
+  // Waits until something happens at one of the descriptors; false if the deadline passes.
   [[nodiscard]] bool wait_for_event(Deadline deadline);
   [[nodiscard]] Died bury();
-  // Kills it first, for `reason`.
+  // Kills the worker for `reason`.
   [[nodiscard]] record::Reason bury_for(record::Reason reason);
-  // Waits until it is gone; how it ended.
+  // Waits until it is gone, and returns how it ended.
   [[nodiscard]] std::optional<Exit> reap();
   void await_own_end();
-  // Of a process that hangs: asks it for the stack of its thread, which comes as log.
+  // Asks a process that hangs for the call stack of its thread, which arrives as log.
   void ask_for_stack();
   [[nodiscard]] std::string last_words() const;
 

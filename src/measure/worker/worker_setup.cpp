@@ -15,7 +15,8 @@
 namespace triptych::measure {
 namespace {
 
-// Mesa's own folder is everybody's: only with the variables that everybody has may it be used.
+// Mesa's own cache folder is shared by all programs, so it may be used only with the environment
+// variables that all programs have.
 void keep_shaders_apart(std::vector<std::string>& environment) {
   constexpr const char* name = "MESA_SHADER_CACHE_DIR";
   const auto sets_it = [&](const std::string& entry) {

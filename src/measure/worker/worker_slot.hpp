@@ -1,5 +1,5 @@
 #pragma once
-// The place of a device's worker. One that is gone is replaced when the next is needed.
+// The place of a device's worker. A worker that is gone is replaced when the next one is needed.
 
 #include <chrono>
 #include <functional>
@@ -14,9 +14,9 @@ namespace triptych::measure {
 
 struct WorkerSetup {
   std::string device;
-  std::vector<std::string> command;  // to which the device is appended
+  std::vector<std::string> command;  // the device is appended to it
   std::vector<std::string> environment;
-  std::chrono::milliseconds limit{};  // of opening the device and calibrating its clocks
+  std::chrono::milliseconds limit{};  // for opening the device and calibrating its clocks
 };
 
 class WorkerSlot {
@@ -24,28 +24,28 @@ class WorkerSlot {
   WorkerSlot(WorkerSetup setup, InterruptGuard& interrupts)
       : setup_(std::move(setup)), interrupts_(interrupts) {}
 
-  // True where a worker is there or could be started; it is told `start` and what it greets with is
-  // handed on before it is kept, so that `greeted` may refuse it by an exception. One that cannot
-  // be started twice in a row, or whose device lacks something, is not tried again: false then, now
-  // and later, and why_closed() has the reason.
+  // Returns true if there is a worker, or if one could be started. A new worker is sent `start`.
+  // Its greeting is passed to `greeted`, which may refuse the worker by an exception. If a worker
+  // cannot be started twice in a row, or if the device lacks something, no further attempt is made:
+  // this and all later calls return false, and why_closed() has the reason.
   bool open(const std::function<Start()>& start, const std::function<void(const Hello&)>& greeted);
   [[nodiscard]] const record::Reason& why_closed() const noexcept { return why_closed_.reason; }
-  // Whether it is something that the device lacks.
+  // Whether the reason is something that the device lacks.
   [[nodiscard]] bool unsupported() const noexcept { return why_closed_.unsupported(); }
 
-  // The worker, of a slot that is open.
+  // The worker. The slot must be open.
   [[nodiscard]] WorkerLink& worker() const { return *worker_; }
   [[nodiscard]] bool occupied() const noexcept { return worker_ != nullptr; }
 
-  // Lets the worker leave in peace; a driver's fault while it does.
+  // Lets the worker exit normally. Returns the fault of a driver that appears while it does so.
   std::optional<record::DeviceFault> finish();
-  void vacate() noexcept { worker_.reset(); }  // it is gone, or goes now
+  void vacate() noexcept { worker_.reset(); }  // the worker has ended or ends now
 
-  // Spent on devices' opening, over all workers.
+  // The time for opening the device, over all workers.
   [[nodiscard]] double opening_ns() const noexcept { return opening_ns_; }
 
  private:
-  // Without a reason when a worker has greeted, else why not.
+  // The result has no reason if a worker has greeted; otherwise it says why not.
   [[nodiscard]] Refused try_to_open(const Start& start,
                                     const std::function<void(const Hello&)>& greeted);
 
