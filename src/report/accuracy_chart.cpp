@@ -16,7 +16,7 @@ namespace {
 
 struct CostAxis {
   std::string title;
-  std::string unit;  // of a value, after it
+  std::string unit;  // written after a value
 };
 CostAxis axis_of(Cost cost) {
   switch (cost) {
@@ -57,8 +57,8 @@ std::optional<double> cost_of(const accuracy::AccuracyCase& each, Cost cost) {
   return std::nullopt;
 }
 
-// What the colour tells: of configurations that stand alone the technique, else there would be as
-// many colours as points.
+// What the colours stand for. For configurations without a family it is the technique, because
+// otherwise there would be as many colours as points.
 std::string colour_name(const accuracy::AccuracyFamily& family,
                         const accuracy::AccuracyCase& each) {
   const auto technique = each.factors.find("technique");
@@ -73,7 +73,8 @@ std::vector<std::string> factors_of(const accuracy::AccuracyScene& scene) {
   return factors;
 }
 
-// One scene on one device: a line per family, the front in ink, the goals dashed.
+// One scene on one device: a line for each family, the front in the colour of ink, and the goals as
+// dashed lines.
 class Diagram {
  public:
   Diagram(const accuracy::AccuracyScene& scene, const std::string& title, Cost cost)
@@ -94,7 +95,8 @@ class Diagram {
   }
 
  private:
-  // Of the cost that is shown: which is fastest says nothing of memory.
+  // Finds the front for the cost that is shown, because the fastest configuration need not have the
+  // least memory.
   void find_front() {
     front_ = accuracy::pareto_front(scene_.cases, [this](const accuracy::AccuracyCase& each) {
       const auto place = place_of(each);
@@ -110,13 +112,13 @@ class Diagram {
       named_.insert(colour_name(family, scene_.cases[family.members.front()]));
     }
   }
-  // What has no error or no cost has no place on such axes.
+  // A case without error or without cost cannot be shown on logarithmic axes.
   [[nodiscard]] std::optional<Figure::Place> place_of(const accuracy::AccuracyCase& each) const {
     const auto paid = cost_of(each, cost_);
     if (!paid || !(*paid > 0) || !(each.rmse > 0)) return std::nullopt;
     return Figure::Place{each.rmse, *paid};
   }
-  // Where there are more families than colours, those that reach the front have one.
+  // If there are more families than colours, those that reach the front get one.
   std::string_view colour(const std::string& name) {
     const bool has_one = named_.contains(name) || colours_.contains(name);
     if (!has_one && (scene_.families.size() > colour_count || name.empty())) return "soft";
@@ -155,7 +157,7 @@ class Diagram {
   const accuracy::AccuracyScene& scene_;
   Cost cost_;
   Figure figure_;
-  std::vector<std::size_t> front_;  // by rising cost
+  std::vector<std::size_t> front_;  // sorted by cost
   std::set<std::string> named_;
   std::map<std::string, std::string_view> colours_;
 };

@@ -6,8 +6,9 @@
 
 namespace triptych::report {
 
-// The distributions of times, HTML: a figure per scene, a row per device and technique; every timed
-// frame as a stroke, quartiles as a box, logarithmic milliseconds.
+// The distributions of times as HTML: a figure for each scene, with a row for each device and
+// technique. Every timed frame is a stroke and the quartiles are a box, on a logarithmic axis in
+// milliseconds.
 [[nodiscard]] Html time_chart(const PlanData& plan);
 
 }  // namespace triptych::report

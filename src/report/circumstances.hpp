@@ -9,9 +9,9 @@
 
 namespace triptych::report {
 
-// A line each, without repetitions: faults that were injected into the runs, loaders and drivers
-// that could not be used while devices were listed, and the program that measured where that is not
-// the one that judges.
+// One line for each, without repetitions: faults that were injected into the runs, loaders and
+// drivers that could not be used while devices were listed, and the program that measured if it is
+// not the one that judges.
 [[nodiscard]] std::vector<std::string> circumstances(
     std::span<const judge::GateResult* const> results);
 

@@ -23,11 +23,12 @@ std::string number(std::string_view name, double value) {
       "<CTestMeasurement type=\"numeric/double\" name=\"{}\">{}</CTestMeasurement>\n", name, value);
 }
 
-// Of a test; `what` is in the file's name. CTest reads the file after this process has ended, so it
-// stays, in a folder where nobody else can put a link of that name.
+// Writes an image of a test; `what` is part of the file's name. CTest reads the file after this
+// process has ended, so it is not removed. It is in a folder in which nobody else can create a link
+// with that name.
 std::string picture(std::string_view name, std::string test, std::string_view what,
                     const core::Image& image) {
-  // Names come from a store: none may lead to another folder.
+  // Names come from a store, and must not lead to another folder.
   std::ranges::replace_if(
       test, [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-'; }, '_');
   const core::PrivateFolder folder = core::private_temporary_folder("ctest");
@@ -75,9 +76,9 @@ std::string ctest_answer(const judge::GateResult& result, const record::Store& s
 std::optional<std::string> reason_to_skip(const judge::GateResult& result) {
   std::string reason;
   for (const judge::Finding& finding : result.findings) {
+    // A pass of a whole device is a summary; one of a correlation is a result.
     const bool idle =
         finding.verdict == judge::Verdict::advisory || finding.verdict == judge::Verdict::skipped;
-    // Of a device as a whole a pass sums up; a correlation's decides.
     const bool sums_up = finding.verdict == judge::Verdict::pass && finding.configuration.empty() &&
                          finding.check != judge::Check::correlation;
     if (!idle && !sums_up) return std::nullopt;

@@ -18,7 +18,7 @@ using record::Record;
 using record::Run;
 using record::Store;
 
-// A table that is being written, and what the dictionary says of it.
+// A table that is being written, and its description in the dictionary.
 template <typename Source>
 class Table {
  public:
@@ -34,7 +34,7 @@ class Table {
     for (std::size_t i = 0; i < columns_.size(); ++i) row_[i] = columns_[i].cell(source);
     file_.add(row_);
   }
-  // Closes the file and enters it.
+  // Closes the file and adds it to the dictionary.
   void end(Json& dictionary, ExportedRows& rows) {
     file_.close();
     Json columns = Json::array();
@@ -65,7 +65,7 @@ struct SampleSource {
 };
 struct ValueSource {
   std::uint64_t record;
-  std::string_view of;  // of a cost: "frame" or "prepare"
+  std::string_view of;  // for a cost: "frame" or "prepare"
   const std::string& name;
   std::uint64_t value;
 };

@@ -15,7 +15,7 @@ namespace {
 constexpr double line_height = 16;
 constexpr double gap = 8;
 
-// One axis with its ends, from data to a share of the frame.
+// One axis with its ends. It maps data to a share of the frame.
 class Measure {
  public:
   Measure(const Axis& axis, double low, double high) : axis_(axis), low_(low), high_(high) {
@@ -35,7 +35,7 @@ class Measure {
       low_ -= half;
       high_ += half;
     } else {
-      // Bars stand on 0: nothing below it where nothing is.
+      // Bars stand on 0, so nothing is added below it if there are no values below.
       if (low_ != 0) low_ -= margin;
       high_ += margin;
     }
@@ -51,7 +51,7 @@ class Measure {
   struct Tick {
     double at;
     std::string text;
-    std::string whole = {};  // where the text is shortened
+    std::string whole = {};  // the whole text if it is shortened
   };
   [[nodiscard]] std::vector<Tick> ticks(int wanted) const {
     std::vector<Tick> all;
@@ -80,7 +80,7 @@ double longest(const std::vector<Measure::Tick>& ticks) {
 
 }  // namespace
 
-// What svg() needs while it draws.
+// The data that svg() needs while it draws.
 class Figure::Drawing {
  public:
   explicit Drawing(const Figure& figure)
@@ -109,7 +109,7 @@ class Figure::Drawing {
   }
 
  private:
-  // Over all that is drawn.
+  // The measure for everything that is drawn.
   [[nodiscard]] Measure measure(const Axis& axis, double Place::*coordinate) const {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
@@ -125,7 +125,7 @@ class Figure::Drawing {
 
   void lay_out() {
     left_ = longest(up_ticks_) + gap + (figure_.up_.title.empty() ? 4 : line_height + 4);
-    // Names that do not fit beside each other are turned.
+    // Names that do not fit next to each other are rotated.
     const double band =
         figure_.width_ / static_cast<double>(std::max<std::size_t>(across_ticks_.size(), 1));
     const double widest = longest(across_ticks_);
@@ -161,9 +161,9 @@ class Figure::Drawing {
     for (std::size_t i = 0; i < spots_.size(); ++i) {
       const auto& [x, y] = spots_[i];
       const Entry& entry = figure_.entries_[i];
-      text += entry.line ? markup("<path {} d=\"M{:.1f} {:.1f}h14\"/>",
-                                       line_attributes(entry.style), x, y)
-                         : mark_element(x + 8, y, entry.style, {});
+      text += entry.line
+                  ? markup("<path {} d=\"M{:.1f} {:.1f}h14\"/>", line_attributes(entry.style), x, y)
+                  : mark_element(x + 8, y, entry.style, {});
       text += markup("<g>{}{}</g>", title_element(entry.text),
                      text_element(x + 18, y + 4, "start", shortened(entry.text, longest_entry)));
     }
@@ -173,7 +173,7 @@ class Figure::Drawing {
   [[nodiscard]] double x_of(double value) const {
     return left_ + figure_.width_ * across_.share(value);
   }
-  // Names run downwards, numbers upwards.
+  // Names run from top to bottom, numbers from bottom to top.
   [[nodiscard]] double y_of(double value) const {
     const double share = up_.share(value);
     return top_ + figure_.height_ * (figure_.up_.names.empty() ? 1 - share : share);
@@ -189,13 +189,12 @@ class Figure::Drawing {
       if (figure_.across_.names.empty())
         grid += fmt::format("M{:.1f} {:.1f}v{:.0f}", x, top_, figure_.height_);
       const double half = width_of(tick.text) / 2;
-      if (!turned_ && x - half < free_from) continue;  // no room
+      if (!turned_ && x - half < free_from) continue;  // no space
       free_from = x + half + 4;
       const Html more =
           turned_ ? markup(" transform=\"rotate(-90 {:.1f} {:.1f})\"", x + 4, bottom + 8) : Html();
-      text +=
-          named(tick, turned_ ? text_element(x + 4, bottom + 8, "end", tick.text, more)
-                              : text_element(x, bottom + line_height, "middle", tick.text));
+      text += named(tick, turned_ ? text_element(x + 4, bottom + 8, "end", tick.text, more)
+                                  : text_element(x, bottom + line_height, "middle", tick.text));
     }
     for (const auto& tick : up_ticks_) {
       const double y = y_of(tick.at);
@@ -242,9 +241,9 @@ class Figure::Drawing {
         return strokes_element(shape);
       case Kind::upright:
         if (const double at = across_.share(first.x); at < 0 || at > 1)
-          return {};  // beyond the frame
+          return {};  // outside of the frame
         return markup("<path {} d=\"M{:.1f} {:.1f}v{:.0f}\"/>", line_attributes(shape.style),
-                           x_of(first.x), top_, figure_.height_);
+                      x_of(first.x), top_, figure_.height_);
       case Kind::label:
         place_label(shape);
         break;
@@ -259,7 +258,7 @@ class Figure::Drawing {
           fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x_of(place.x), y_of(place.y));
     }
     return markup("<path {} d=\"{}\">{}</path>", line_attributes(shape.style), path,
-                       title_element(shape.text));
+                  title_element(shape.text));
   }
 
   [[nodiscard]] Html box_element(const Shape& shape) const {
@@ -277,7 +276,8 @@ class Figure::Drawing {
     std::string path;
     double last = -1;
     for (const Place& place : shape.places) {
-      const double x = std::round(2 * x_of(place.x)) / 2;  // two on one spot are one
+      // Two strokes at the same position become one.
+      const double x = std::round(2 * x_of(place.x)) / 2;
       if (x == last) continue;
       last = x;
       path += fmt::format("M{:.1f} {:.1f}v{:.1f}", x, y_of(place.y) - half, 2 * half);

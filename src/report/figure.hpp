@@ -1,6 +1,6 @@
 #pragma once
-// Figures as SVG, drawn when a page is written: marks on two axes. Colours are the style sheet's
-// (classes c0…c7, ink, soft), so that a figure follows the page into the dark.
+// Figures as SVG, which are drawn when a page is written: marks on two axes. The colours come from
+// the style sheet (classes c0…c7, ink, soft), so that a figure follows the page into dark mode.
 
 #include <optional>
 #include <span>
@@ -23,8 +23,8 @@ struct Axis {
   std::optional<double> high = {};
 };
 
-// Whole steps of 1, 2 or 5 times a power of ten within [low, high], about so many; on a logarithmic
-// axis powers of ten, or those and their multiples where that would be too few.
+// Multiples of 1, 2 or 5 times a power of ten within [low, high], about as many as wanted. On a
+// logarithmic axis they are powers of ten, or also their multiples if there would be too few.
 [[nodiscard]] std::vector<double> ticks(double low, double high, bool logarithmic, int wanted);
 // "0.05", "1e-6", "25k", "3M"
 [[nodiscard]] std::string short_number(double value);
@@ -32,15 +32,15 @@ struct Axis {
 enum class Mark { circle, triangle, cross, diamond, square };
 
 struct Style {
-  // "c0"…"c7", "ink", "soft": of the style sheet.
+  // A colour of the style sheet: "c0"…"c7", "ink", "soft".
   std::string_view colour = "c0";
   Mark mark = Mark::circle;
   bool dashed = false;
   bool hollow = false;
   double opacity = 1;
-  double width = 1.2;  // of lines
+  double width = 1.2;  // width of lines
 };
-// For the nth of several; the ninth looks like the first.
+// The colour for the n-th of several; the ninth looks like the first.
 constexpr std::size_t colour_count = 8;
 [[nodiscard]] std::string_view colour_of(std::size_t index);
 
@@ -49,25 +49,27 @@ class Figure {
   struct Place {
     double x, y;
   };
-  // `description`: what one hears who cannot see it. Width and height: of the frame inside the
-  // axes; the whole grows by what its labels need.
+  // `description` is the text for people who cannot see the figure. Width and height are those of
+  // the frame inside the axes; the whole figure is larger by the space for its labels.
   Figure(std::string description, Axis across, Axis up, double width, double height);
 
-  // What has no place on an axis – no number, or none above 0 on a logarithmic one – is left out.
+  // A value that cannot be shown on an axis (NaN, or on a logarithmic axis one that is not above 0)
+  // is left out.
   void point(Place at, const Style& style, std::string_view tooltip = {});
   void line(std::span<const Place> places, const Style& style, std::string_view tooltip = {});
-  // Between two corners: bars, boxes, cells.
+  // A rectangle between two corners: bars, boxes, cells.
   void box(Place from, Place to, const Style& style, std::string_view tooltip = {});
-  // Upright strokes of one row, `half` of a band up and down: every sample of a distribution.
+  // Vertical strokes in one row, which extend by `half` of a band up and down: every sample of a
+  // distribution.
   void strokes(std::span<const double> across, double row, double half, const Style& style);
-  // A dashed rule across the whole frame; no reason to make it wider.
+  // A dashed vertical line across the whole frame. The axis is not extended for it.
   void upright(double across);
-  // Beside a point, inside the frame; left out where another stands already.
+  // A label beside a point, inside the frame. It is left out if another label is already there.
   void label(Place at, std::string_view text);
   void legend(std::string_view text, const Style& style, bool line = false);
 
   [[nodiscard]] Html svg() const;
-  // Whether any mark has a place.
+  // Whether there is nothing to show.
   [[nodiscard]] bool empty() const { return shapes_.empty(); }
 
  private:
@@ -97,7 +99,7 @@ class Figure {
   std::vector<Entry> entries_;
 };
 
-// Figures beside each other, each with a heading; those that wrap on a narrow screen.
+// Figures next to each other, each with a heading; they wrap on a narrow screen.
 struct Titled {
   std::string title;
   Html svg;

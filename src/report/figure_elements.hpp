@@ -1,5 +1,5 @@
 #pragma once
-// Texts, marks and strokes of figures as SVG elements; places in pixels.
+// Texts, marks and strokes of figures as SVG elements. Positions are in pixels.
 
 #include <string>
 #include <string_view>
@@ -9,21 +9,21 @@
 
 namespace triptych::report {
 
-// Of a text of the style sheet's size, by the mean advance of its letters.
+// The width of a text in the size of the style sheet, from the mean width of its letters.
 [[nodiscard]] double width_of(std::string_view text);
 
-// Characters of a name beside an axis, and of one in a legend, which has a line of its own where it
-// needs it.
+// The largest number of characters of a name beside an axis, and of a name in a legend, which gets
+// a line of its own if necessary.
 inline constexpr std::size_t longest_name = 34;
 inline constexpr std::size_t longest_entry = 64;
 
-// A name of more characters than that without its middle, which says least.
+// A name with more characters than that, without its middle, which says least.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t longest = longest_name);
 
-// What a pointer over the element shows; nothing for no text.
+// The text that is shown when the pointer is over the element; nothing if it is empty.
 [[nodiscard]] Html title_element(std::string_view text);
 
-// `more`: further attributes, each with a blank before it.
+// `more`: further attributes, each with a space before it.
 [[nodiscard]] Html text_element(double x, double y, std::string_view anchor,
                                        std::string_view text, const Html& more = {});
 

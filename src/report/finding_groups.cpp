@@ -32,7 +32,7 @@ std::string technique_of(const Finding& finding) {
   return found == factors.end() ? std::string() : found->second;
 }
 
-// "128x96" → 12288, "generate:ball:64" → 64; 1 where it has no number.
+// "128x96" → 12288, "generate:ball:64" → 64; 1 if there is no number.
 double size_in(std::string_view value) {
   double product = 1;
   double number = 0;
@@ -61,7 +61,8 @@ double size_of(const Finding& finding) {
   return size;
 }
 
-// What left the line because its own instructions grew: the cause is told already.
+// Whether a configuration left the line because its own instructions increased: another finding
+// already names that cause.
 bool is_told_by_cost(const Finding& finding, std::span<const Finding> findings) {
   if (finding.check != Check::correlation || finding.verdict != Verdict::regression) return false;
   return std::ranges::any_of(findings, [&](const Finding& other) {
@@ -94,7 +95,7 @@ bool is_smaller(const Finding* a, const Finding* b) {
   return key(a) < key(b);
 }
 
-// What is known of all findings while groups are made.
+// What is known about all findings while groups are made.
 class Grouping {
  public:
   explicit Grouping(std::span<const Finding> findings) {
@@ -130,9 +131,9 @@ class Grouping {
       for (const Finding* each : members) by_technique[technique_of(*each)].push_back(each);
       const auto& known = levels_of(*members.front());
       const auto techniques = known.find("technique");
+      // This many techniques do not fail in the same way by chance.
       const bool all_say_it =
           techniques == known.end() || techniques->second.size() == by_technique.size();
-      // So many do not fail alike by chance.
       constexpr std::size_t several = 3;
       if (all_say_it || by_technique.size() >= several) by_technique = {{"", members}};
       for (const auto& [technique, same] : by_technique) all.push_back(group_of(same));
@@ -193,7 +194,8 @@ class Grouping {
     return {wrong.begin(), wrong.end()};
   }
 
-  // Of each factor at most two levels that are hit, or one that is not; more tell nothing.
+  // For each factor at most two levels that are affected, or one that is not. More than that would
+  // not help the reader.
   [[nodiscard]] std::string signature_of(const Members& members) const {
     Levels here;
     for (const Finding* each : members) {
@@ -216,20 +218,21 @@ class Grouping {
     return text;
   }
 
-  Places changed_;  // a wrong picture's counters or statistics
+  Places changed_;  // wrong images whose counters or statistics also changed
   std::map<std::pair<Check, std::string_view>, Levels> levels_;
-  // By configuration, devices.
+  // Device ids, by check and configuration.
   std::map<std::pair<Check, std::string_view>, std::vector<std::string>> passes_;
   std::map<std::pair<Check, std::string_view>, std::vector<std::string>> wrong_;
   std::map<std::tuple<Verdict, Check, std::string_view, std::string>, Members> by_kind_;
 };
 
-// A hang too, whose limit `render` takes.
+// This includes a hang, because `render` accepts a time limit.
 bool is_told_by_a_picture(const Finding& finding) {
   return finding.check == Check::image || finding.check == Check::stress || finding.reason.limit();
 }
 
-// What is wrong by what is stored alone is measured and judged again, into a store of its own.
+// A finding that compares with stored values can only be shown by measuring and judging again, with
+// a store of its own.
 void judge_again(const Finding& finding, const judge::GateResult& result, Command& command) {
   command.command = "gate";
   command.object = result.argument.empty() ? result.plan : result.argument;
@@ -240,7 +243,7 @@ void judge_again(const Finding& finding, const judge::GateResult& result, Comman
   } else {
     command.factors.insert(result.defaults.begin(), result.defaults.end());
   }
-  // An order is that of all steps.
+  // The order needs all steps.
   if (finding.check == Check::accuracy) command.factors.erase("step");
   command.more = {"--measure", "--check", std::string(judge::name_of(finding.check)), "--store",
                   "repro.sqlite"};
@@ -252,7 +255,8 @@ void judge_again(const Finding& finding, const judge::GateResult& result, Comman
   }
 }
 
-// A plan from a file goes by its path, which a store alone does not hold.
+// Whether the plan can be named: a plan from a file is named by its path, which a store does not
+// contain.
 bool is_known(const judge::GateResult& result) {
   return !result.argument.empty() || result.plan.find('/') != std::string::npos;
 }
@@ -269,7 +273,7 @@ Blame FindingGroup::blame() const {
   const auto by_its_api = [&](const std::vector<std::string>& devices) {
     std::vector<std::string> same;
     for (const std::string& each : devices) {
-      const bool itself = each == first->device;  // of another version
+      const bool itself = each == first->device;  // another version of it
       const bool other = record::family_of(each) != record::family_of(first->device);
       if (each.starts_with(api) && (itself || other)) same.push_back(each);
     }
@@ -331,13 +335,13 @@ std::string command_of(const Finding& finding, const judge::GateResult& result) 
                   .injected = finding.injected,
                   .limit = finding.reason.limit(),
                   .more = {"--truth", "--out", "repro"}};
-  // Nothing is drawn: what its compiler makes of it is printed.
+  // For the check of code nothing is drawn; the command prints what the compiler makes of the code.
   if (finding.check == Check::code) {
     command.command = "code";
     command.more.clear();
     return text_of(command);
   }
-  // Counting has a limit of its own.
+  // Counting has a time limit of its own.
   if (finding.check == Check::cost) command.limit.reset();
   if (!is_told_by_a_picture(finding)) {
     if (!is_open(finding) || !is_known(result)) return {};

@@ -20,7 +20,7 @@ std::string name_of_store(const Json& point) {
   return point.at("name").get<std::string>();
 }
 
-// The driver, and what was injected, which is none of its doing.
+// The driver, and injected faults, which are not the driver's.
 std::string driver_of(const Json& point) {
   std::string text = point.at("driver_version").get<std::string>();
   if (const auto found = point.find("injected"); found != point.end()) {
@@ -29,10 +29,10 @@ std::string driver_of(const Json& point) {
   return text;
 }
 
-// What a frame takes may move by so much before an axis makes a slope of it.
+// A frame's cost may change by this share before the figure shows it as a slope.
 constexpr double least_span = 0.01;
 
-// Around what is to be drawn, by `least_span` either way at least.
+// An axis around the values, which extends at least `least_span` in both directions.
 Axis axis_of(const Json& points) {
   Axis axis{.title = "of the first store’s"};
   std::vector<double> values;
@@ -54,7 +54,7 @@ std::string number_text(const Json& point, const char* key) {
   return point.contains(key) ? fmt::format("{:.4f}", point.at(key).get<double>()) : "–";
 }
 
-// Each store is a band; a point that is missing leaves a gap.
+// Each store is a band. A missing point leaves a gap.
 Html figure_of(const Json& device) {
   const Json& points = device.at("points");
   std::vector<std::string> names;

@@ -1,7 +1,7 @@
 #pragma once
-// The little HTML that the pages need. Markup has a type of its own, which only a format of ours and
-// text that is escaped can make: a name from a store cannot become an element, whoever forgets
-// what about it.
+// The HTML that the pages need. Markup has its own type, which only a format in this program and
+// escaped text can produce. So a name from a store cannot become an element, even if somebody
+// forgets to escape it.
 
 #include <fmt/format.h>
 
@@ -18,13 +18,14 @@
 
 namespace triptych::report {
 
-// Text for HTML and XML, element content and attributes alike. Hidden characters (core/text.hpp)
-// but line ends and tabs become their visible escapes, and what is malformed becomes U+FFFD.
+// Escapes text for HTML and XML, for the content of elements and for attributes. Hidden characters
+// (core/text.hpp) except the ends of lines and tabs become visible escapes, and malformed
+// characters become U+FFFD.
 [[nodiscard]] std::string escape(std::string_view text);
 
 class Html;
 
-// What markup() makes of an argument: text is escaped, markup and numbers stay.
+// How markup() treats an argument: text is escaped, markup and numbers are not changed.
 template <typename Arg>
 auto as_markup(const Arg& arg) {
   if constexpr (std::same_as<Arg, Html>) {
@@ -39,7 +40,7 @@ auto as_markup(const Arg& arg) {
 template <typename... Args>
 using MarkupFormat = fmt::format_string<decltype(as_markup(std::declval<const Args&>()))...>;
 
-// Markup that may stand on a page as it is.
+// Markup that can be put on a page as it is.
 class Html {
  public:
   Html() = default;
@@ -63,8 +64,8 @@ class Html {
   friend Html without_repeated_pictures(const Html& page);
 };
 
-// The one function that makes elements: the format is markup, a literal of the program; of the
-// arguments what is text is escaped.
+// The only function that makes elements. The format is markup, a literal in the program; arguments
+// that are text are escaped.
 template <typename... Args>
 Html markup(MarkupFormat<Args...> format, const Args&... args) {
   const auto all = std::make_tuple(as_markup(args)...);
@@ -75,7 +76,7 @@ Html markup(MarkupFormat<Args...> format, const Args&... args) {
       all));
 }
 
-// Content of an element: text, which is escaped, or markup.
+// The content of an element: text, which is escaped, or markup.
 class Content {
  public:
   template <typename Text>
@@ -90,23 +91,24 @@ class Content {
 using TableRow = std::vector<Content>;
 using Rows = std::vector<TableRow>;
 
-// Text which may be broken after what separates parts of a test's id or a configuration.
+// Text in which lines may be broken after the characters that separate the parts of a test's id or
+// of a configuration.
 [[nodiscard]] Html breakable(std::string_view text);
 
 // "data:image/png;base64,…"
 [[nodiscard]] Html data_uri(std::span<const std::byte> png);
 
-// The style sheet and the script that are built into the program, and what a
-// Content-Security-Policy calls them: SHA-256 in base64.
+// The style sheet and the script that are built into the program, and their names in a
+// Content-Security-Policy: SHA-256 in base64.
 [[nodiscard]] Html embedded_markup(std::string_view file);
 [[nodiscard]] std::string embedded_sha256(std::string_view file);
 
-// The page with each picture's bytes once: an image that repeats an earlier one has, in place of
-// its `src`, `data-same` with the number of that image among all `img` elements.
+// The page, with the bytes of each picture only once. An image that repeats an earlier one has no
+// `src` but `data-same`, with the number of that image among all `img` elements.
 [[nodiscard]] Html without_repeated_pictures(const Html& page);
 
-// A table; the first row is its head. Columns of quantities are set flush right by the style
-// sheet's class "number".
+// A table whose first row is its head. Columns of quantities are aligned to the right by the class
+// "number" of the style sheet.
 [[nodiscard]] Html table(const Rows& rows, std::string_view css_class = {});
 
 // "12.3 ms", "850 µs": three significant digits.

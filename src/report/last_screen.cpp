@@ -97,7 +97,7 @@ class Screen {
     add("");
   }
 
-  // "✗ image on gl:x: crashed: …": cause and place in one line.
+  // "✗ image on gl:x: crashed: …": the cause and the place in one line.
   [[nodiscard]] std::string worst_of(const Cause& cause) const {
     const judge::Finding& first = *cause.group.first;
     return fmt::format(
@@ -113,7 +113,7 @@ class Screen {
     return coloured(finding.verdict == Verdict::regression ? "✗" : "?", finding.verdict);
   }
 
-  // They are true of a pass, too.
+  // Lines that are also true of a pass.
   void circumstances(const Overview& all) {
     const std::size_t shown = std::min(most_circumstances, all.circumstances.size());
     for (std::size_t i = 0; i < shown; ++i) {
@@ -125,7 +125,7 @@ class Screen {
     if (shown > 0) add("");
   }
 
-  // A line each: whoever reads a pass has to know what it excuses.
+  // One line for each, because a reader of a pass has to know what it excuses.
   void waived(const Overview& all) {
     std::size_t shown = 0;
     for (const Cause& cause : all.aside) {
@@ -137,7 +137,7 @@ class Screen {
     if (shown > 0) add("");
   }
 
-  // As many as fit above the last lines.
+  // As many as there is space for above the last lines.
   void causes(const Overview& all, std::span<const std::string> files) {
     const std::size_t below = files.empty() ? 2 : 4;
     std::size_t shown = 0;
@@ -164,7 +164,7 @@ class Screen {
                         width_ - 4))};
     append_wrapped(lines, message_of(cause), "");
     const std::string command = command_of(first, *cause.result);
-    // Cut short it would be another command.
+    // If it were cut, it would be another command.
     if (width_of(command) > longest_command) {
       lines.emplace_back("    (its command is in the page: it is too long for a terminal)");
     } else if (!command.empty()) {
@@ -173,7 +173,7 @@ class Screen {
     return lines;
   }
 
-  // Shortens a long description of the finding, but neither the blame nor the advice.
+  // Shortens a long description of the finding, but neither the party at fault nor the advice.
   [[nodiscard]] std::string message_of(const Cause& cause) const {
     std::string rest;
     for (const std::string& each : {words::advice(*cause.group.first), words::blame(cause.group)}) {
@@ -184,8 +184,8 @@ class Screen {
     return core::printable(words::found(cause), left) + rest;
   }
 
-  // Broken at spaces outside quotes, of a command never between an option and its value; `end`
-  // closes every line but the last.
+  // Breaks lines at spaces outside of quotation marks, and in a command never between an option and
+  // its value. `end` is added to every line except the last.
   void append_wrapped(std::vector<std::string>& lines, std::string_view text,
                       std::string_view end) const {
     std::string line;

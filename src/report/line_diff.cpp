@@ -18,7 +18,8 @@ Lines lines_of(std::string_view text) {
   return lines;
 }
 
-// Lengths of the longest common subsequences of what follows each pair of lines.
+// The lengths of the longest common subsequences of the rests of both texts, for each pair of
+// lines.
 class Lengths {
  public:
   Lengths(const Lines& a, const Lines& b)
@@ -39,7 +40,7 @@ class Lengths {
   std::vector<std::uint32_t> lengths_;
 };
 
-// A line that was removed stands beside the one that was added in its place.
+// Puts each removed line beside the line that was added in its place.
 void pair_up(std::vector<LinePair>& pairs, Lines& removed, Lines& added) {
   for (std::size_t i = 0; i < std::max(removed.size(), added.size()); ++i) {
     pairs.push_back({i < removed.size() ? std::string(removed[i]) : std::string(),

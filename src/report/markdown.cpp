@@ -71,7 +71,7 @@ std::string markdown_escaped(std::string_view text, std::size_t limit) {
       case '>':
         result += "&gt;";
         break;
-      case '@':  // nobody is to be told of a pattern
+      case '@':  // otherwise a pattern could notify somebody
         result += "@\u200B";
         break;
       default:

@@ -58,7 +58,7 @@ KindRow row_of(const words::CheckWords& kind, std::span<const GateResult* const>
   for (const GateResult* result : results) {
     for (const Finding& finding : result->findings) {
       if (finding.check != kind.check) continue;
-      // That a truth has its stored hash is no picture within its bound.
+      // A reference image that has its stored hash is not an image within its bound.
       const bool of_truth = finding.check == Check::image && finding.device.empty();
       const bool is_right =
           finding.verdict == Verdict::pass || finding.verdict == Verdict::improved;
@@ -69,7 +69,7 @@ KindRow row_of(const words::CheckWords& kind, std::span<const GateResult* const>
       if (decides(finding.verdict)) ++tally.decided;
     }
   }
-  const bool shown =  // and no more: nobody asked for a verdict
+  const bool shown =  // and nothing else, because nobody asked for a verdict
       kind.check == Check::timing &&
       std::ranges::none_of(results, [](const GateResult* each) { return each->times_decided; });
   KindRow row{kind.check, kind.label, "–", Verdict::skipped, std::string(kind.none)};
@@ -104,7 +104,7 @@ bool was_checked(const words::CheckWords& kind, std::span<const GateResult* cons
   });
 }
 
-// What several plans say of one cause is one.
+// Findings of several plans with one cause become one.
 void add(std::vector<Cause>& causes, const GateResult& result, FindingGroup group) {
   const auto same = std::ranges::find_if(
       causes, [&](const Cause& cause) { return have_one_cause(cause.group, group); });

@@ -1,5 +1,6 @@
 #pragma once
-// The verdict over all plans in a few rows: what the last screen, the page and Markdown begin with.
+// The verdict over all plans in a few rows, with which the last screen, the page and the Markdown
+// summary begin.
 
 #include <span>
 #include <string>
@@ -17,8 +18,8 @@ struct KindRow {
   judge::Check check;
   std::string_view kind;     // "Pictures"
   std::string_view verdict;  // "FAIL", "pass", "no verdict", "waived", "–"
-  judge::Verdict worst;      // skipped where there is none
-  std::string sentence;      // text of unknown origin: to be escaped
+  judge::Verdict worst;      // skipped if there is none
+  std::string sentence;      // text of unknown origin, which must be escaped
 };
 
 struct Cause {
@@ -30,15 +31,15 @@ struct Cause {
 struct Overview {
   core::ExitCode code = core::ExitCode::cannot_judge;
   std::size_t devices = 0;
-  bool part = false;  // of a plan, at least of one: a shard, some levels
+  bool part = false;  // at least one plan is incomplete: a shard, some levels
   std::vector<KindRow> rows;
-  std::vector<Cause> open;   // what somebody has to look at, worst first
-  std::vector<Cause> aside;  // waived, improved, advice, skips; not what passed
+  std::vector<Cause> open;   // what somebody has to look at, the worst first
+  std::vector<Cause> aside;  // waived, improved, advisory or skipped; not what passed
   std::vector<NearestBound> bounds;
-  std::vector<std::string> circumstances;  // report/circumstances.hpp
+  std::vector<std::string> circumstances;  // see report/circumstances.hpp
 };
 
-// It points into the results. Nothing judged is no pass.
+// Contains pointers into the results. If nothing was judged, that is not a pass.
 [[nodiscard]] Overview overview(std::span<const judge::GateResult* const> results);
 [[nodiscard]] Overview overview(std::span<const judge::GateResult> results);
 

@@ -1,5 +1,5 @@
-// Run time against error: the diagrams, the orders, what an accuracy costs, what an error is made
-// of.
+// Run time against error: the diagrams, the orders, the cost of an accuracy, and the parts of an
+// error.
 
 #include <fmt/format.h>
 
@@ -36,7 +36,7 @@ const accuracy::AccuracyFamily& family_of(const AccuracyScene& scene, std::size_
   });
 }
 
-// The widest front of the same picture on any device.
+// The front with the largest area for the same image on any device.
 const accuracy::FrontArea& widest(const std::vector<AccuracyScene>& scenes,
                                   const AccuracyScene& scene) {
   const accuracy::FrontArea* best = &*scene.area;
@@ -62,7 +62,7 @@ std::optional<double> instructions_of(const accuracy::AccuracyCase& each) {
   return each.instructions;
 }
 
-// In time, else in instructions.
+// In time if it was measured, otherwise in instructions.
 std::string to_error(const AccuracyScene& scene, double goal) {
   if (!scene.front.empty()) {
     const auto time = accuracy::time_to_error(scene.cases, scene.families, goal);
@@ -75,8 +75,8 @@ std::string to_error(const AccuracyScene& scene, double goal) {
   return cost ? fmt::format("{:.1f} M instructions", *cost / 1e6) : "not reached";
 }
 
-// How many stand on the front, and how many are beaten, in time or else in instructions; nothing
-// where neither was told.
+// The number of configurations on the front, and of those that are beaten, in time or otherwise in
+// instructions; nothing if neither was measured.
 void append_standing(TableRow& row, const AccuracyScene& scene) {
   const auto add = [&](std::size_t front, std::size_t beaten) {
     row.push_back(fmt::to_string(front));
@@ -125,7 +125,7 @@ std::string level(const accuracy::AccuracyCase& each, const std::string& factor)
   return each.factors.at(factor);
 }
 
-// Rows of what an error is made of, for one scene on one device.
+// The rows about the parts of an error, for one scene on one device.
 class Parts {
  public:
   Parts(const std::vector<AccuracyScene>& scenes, const AccuracyScene& scene, Rows& rows)
@@ -189,7 +189,7 @@ Html dominated_table(const std::vector<AccuracyScene>& scenes) {
   return table(rows);
 }
 
-// A cost beside the time, drawn where anything told it; folded where it has a title.
+// Another cost besides the time, which is drawn if it was recorded. It is folded if it has a title.
 struct Beside {
   Cost cost;
   std::string_view title;

@@ -1,4 +1,4 @@
-// Cost and times beside what is stored, as bars.
+// Cost and times compared with the stored ones, as bars.
 
 #include <fmt/format.h>
 
@@ -43,14 +43,15 @@ std::string percent(double share) {
   return fmt::format("{:+.2f} %", 100 * share);
 }
 
-// As long as the change is of the largest, in one colour where it is more and another where less.
+// The length is the change relative to the largest one. An increase and a decrease have different
+// colours.
 Html bar(double share, double largest) {
   return markup("<span class=\"bar {}\" style=\"width:{:.1f}%\"></span>",
                      share > 0 ? "more" : "less",
                      largest > 0 ? 100 * std::abs(share) / largest : 0);
 }
 
-// "1 000 → 1 010"; empty where it was not counted.
+// "1 000 → 1 010"; empty if it was not counted.
 std::string counts_of(const Finding& finding, const std::string& part) {
   const auto now = finding.numbers.find(part);
   const auto stored = finding.numbers.find("stored_" + part);
@@ -59,7 +60,7 @@ std::string counts_of(const Finding& finding, const std::string& part) {
                      grouped(static_cast<std::uint64_t>(now->second)));
 }
 
-// What costs other than stored, the most changed first.
+// Configurations whose cost differs from the stored one, the largest change first.
 Html cost_bars(const PlanData& plan) {
   const std::vector<Change> all = changes_in(plan, Check::cost);
   if (all.empty()) return {};
@@ -88,7 +89,8 @@ Html cost_bars(const PlanData& plan) {
   return told + table(rows, "bars");
 }
 
-// Of each technique on a device the median change of its configurations, and their middle half.
+// For each technique on a device, the median change of its configurations and the range of the
+// middle half.
 Html time_bars(const PlanData& plan) {
   std::map<std::pair<std::string, std::string>, std::vector<double>> by_row;
   for (const Change& each : changes_in(plan, Check::timing)) {

@@ -1,4 +1,5 @@
-// What a reader can set: filters, and two pictures under a slider. The page's script shows them.
+// The controls for the reader: filters, and two images under a slider. The script of the page makes
+// them visible.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,5 @@
-// How two devices keep step: a scatter plot per pair with its line, and what is off it.
+// How closely the costs of two devices are related: a scatter plot with a line for each pair, and
+// what is off the line.
 
 #include <fmt/format.h>
 
@@ -16,7 +17,7 @@ namespace {
 
 using judge::CorrelationPair;
 
-// Of a configuration's text: "…,technique=raycast,…" → "raycast".
+// The technique in the key of a configuration: "…,technique=raycast,…" → "raycast".
 std::string technique_in(const std::string& configuration) {
   constexpr std::string_view name = "technique=";
   const std::size_t at = configuration.find(name);
@@ -35,7 +36,7 @@ Html fit_text(const CorrelationPair& pair) {
       line.admitted() ? Html() : markup("<b class=\"cannot_judge\">Refused</b>: {}", words::refusal(line)));
 }
 
-// The one place that knows how a pair is kept.
+// Only this function knows how a pair is stored.
 ScatterFigure scatter_of(const CorrelationPair& pair) {
   const bool cost = pair.signal == "cost";
   const double unit = std::log(1e-6);  // instructions in millions, nanoseconds in milliseconds

@@ -6,7 +6,8 @@ namespace triptych::report {
 
 namespace {
 
-// Nothing but what the page holds itself. Widths of bars are style attributes, which no hash covers.
+// Allows only what the page itself contains. The widths of bars are style attributes, for which no
+// hash can be given.
 Html policy() {
   return markup(
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "

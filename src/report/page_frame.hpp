@@ -1,5 +1,5 @@
 #pragma once
-// What every page begins and ends with, and what folds away.
+// The beginning and the end of every page, and parts that can be folded.
 
 #include <string_view>
 
@@ -7,13 +7,14 @@
 
 namespace triptych::report {
 
-// From the doctype to the body: the style sheet is inside and figures are SVG, so that the page
-// needs no network, and tells everything but pictures that repeat without its script. Its
-// Content-Security-Policy allows that script alone, by its hash, and nothing from anywhere else.
+// Everything from the doctype to the body. The style sheet is inside and figures are SVG, so that
+// the page needs no network. Without its script, it shows everything except images that are
+// repeated. Its Content-Security-Policy allows only that script, by its hash, and nothing from
+// anywhere else.
 [[nodiscard]] Html page_begin(std::string_view title);
 [[nodiscard]] Html page_end(bool with_script = false);
 
-// Empty where the body is.
+// Empty if the body is empty.
 [[nodiscard]] Html folded(const Content& summary, const Html& body);
 
 }  // namespace triptych::report

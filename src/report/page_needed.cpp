@@ -1,4 +1,5 @@
-// What skipping leaves: an oracle would take only what the picture shows.
+// What remains after skipping. A perfect method would take only the samples that contribute to the
+// image.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,7 +24,7 @@ struct Work {
   auto operator<=>(const Work&) const = default;
 };
 
-// Samples, and those of them that are not transparent; spheres that are drawn, and those that a
+// Samples, and those of them that are not transparent; spheres that are drawn, and those that some
 // pixel shows.
 std::optional<Work> work_of(const record::Counts& counters) {
   for (const auto& [taken, needed] :
@@ -41,7 +42,7 @@ std::optional<Work> work_of(const record::Counts& counters) {
 Html needed_section(const PlanData& plan) {
   const bool volume = suite_of(plan) == "volume";
   const std::string factor = volume ? "skip" : "culling";
-  // Devices that took the same stand together.
+  // Devices that did the same work share a row.
   using Key = std::tuple<std::string, std::string, std::string, Work>;
   std::map<Key, std::set<std::string>> devices;
   for (const record::Record& record : plan.records) {

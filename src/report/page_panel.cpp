@@ -27,8 +27,8 @@ std::string technique_names(const SameBits& group) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-// In what a picture was made differently from others of its scene: each factor of which the group
-// does not hold every level seen there. The technique has a line of its own.
+// How an image was made, as far as that differs from others of its scene: each factor of which the
+// group does not have every level that the scene has. The technique has its own line.
 std::vector<std::string> made_by(const SameBits& group, const PictureScene& scene) {
   std::map<std::string, std::set<std::string>> seen;
   std::map<std::string, std::set<std::string>> here;
@@ -46,14 +46,15 @@ std::vector<std::string> made_by(const SameBits& group, const PictureScene& scen
   return differences;
 }
 
-// Tells it from the scene's other pictures.
+// What distinguishes it from the other images of the scene.
 std::string name_of(const PictureScene& scene, const SameBits& group) {
   std::string name = group.front()->device + ", " + technique_names(group);
   for (const std::string& difference : made_by(group, scene)) name += ", " + difference;
   return name;
 }
 
-// Or why there is none: the data's file is not here, say, and the store has not kept it.
+// The reference image, or why there is none, for example because the data file is missing and the
+// store does not contain the image.
 std::variant<judge::TruthPair, std::string> truth_or_reason(const PictureSources& sources,
                                                             const record::Record& record) {
   try {
@@ -72,7 +73,7 @@ Html figure(const Html& content, std::string_view caption) {
   return markup("<figure>{}<figcaption>{}</figcaption></figure>", content, caption);
 }
 
-// What a filter and the comparison need to know, and where links lead.
+// What filters and the comparison need to know, and the targets of links.
 Html opening(const PictureScene& scene, const SameBits& group, const ShareOfBound* shares) {
   Html ids;
   std::set<std::string_view> checks;
@@ -104,7 +105,7 @@ Html finding_link(const PictureScene& scene, const SameBits& group) {
   return {};
 }
 
-// `about`: what is to be said of it, before how it was made.
+// `about` is what has to be said about the image, before how it was made.
 Html titled(const PictureScene& scene, const SameBits& group, const Html& figures,
                    const Html& about, const ShareOfBound* shares = nullptr) {
   std::string made = "technique: " + technique_names(group);
@@ -131,7 +132,7 @@ Html verdict_text(const accuracy::ImageComparison& result, const ShareOfBound& s
                      right ? "pass" : "regression", text, worst, result.largest.error, result.rmse);
 }
 
-// What ended a program, where its picture would be.
+// Shown where the image would be: what ended the program.
 Html tile(const record::Record& record) {
   const std::string_view what = record::name_of(record.outcome);
   return figure(markup("<div class=\"tile\" role=\"img\" aria-label=\"{}: {}, no picture\">{}"

@@ -1,5 +1,5 @@
 #pragma once
-// A device's picture of a scene beside the truth, or what there is instead.
+// A device's image of a scene beside the reference image, or what is shown if there is none.
 
 #include <cstddef>
 #include <string>
@@ -9,23 +9,24 @@
 
 namespace triptych::report {
 
-// The records of one device whose pictures are the same bits.
+// The records of one device whose images have the same bits.
 using SameBits = std::vector<const record::Record*>;
 
-// What the panels of one scene have in common. It points into what it was made of.
+// What the panels of one scene have in common. Contains pointers into the data from which it was
+// made.
 struct PictureScene {
   const PictureSources& sources;
   const PlanData& plan;
   const std::vector<const record::Record*>& records;
   std::string title;
-  std::size_t number;  // among those of the page
+  std::size_t number;  // its number among those of the page
 };
 
 struct Panel {
   Html html;
   bool wrong = false;
   bool drawn = true;
-  double ratio = 0;  // of the worst pixel to its bound
+  double ratio = 0;  // the error of the worst pixel divided by its bound
 };
 
 [[nodiscard]] Panel panel_of(const PictureScene& scene, const SameBits& group);

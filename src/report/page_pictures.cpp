@@ -1,4 +1,5 @@
-// The truth, a device's picture and their difference beside each other: what is wrong first.
+// The reference image, a device's image and their difference next to each other, with wrong images
+// first.
 
 #include <fmt/format.h>
 
@@ -37,9 +38,9 @@ std::vector<SameBits> grouped_by_bits(const std::vector<const record::Record*>& 
 
 struct Scene {
   std::string title;
-  std::vector<Panel> panels;  // what is farthest from right first
+  std::vector<Panel> panels;  // sorted by the distance from the right image, the farthest first
   [[nodiscard]] bool wrong() const { return panels.front().wrong; }
-  // Wrong pictures before what drew none.
+  // Wrong images come before configurations that drew nothing.
   [[nodiscard]] std::pair<bool, bool> rank() const { return {wrong(), panels.front().drawn}; }
 };
 
@@ -75,7 +76,7 @@ Html part(const Scene& scene, std::size_t from, std::size_t to) {
 }
 
 constexpr std::size_t open_scenes = 6;
-constexpr std::size_t open_panels = 4;  // of a scene in which something is wrong
+constexpr std::size_t open_panels = 4;  // for a scene in which something is wrong
 
 Html scene_part(const Scene& scene, std::size_t from, std::size_t to) {
   if (from >= to) return {};
@@ -84,7 +85,7 @@ Html scene_part(const Scene& scene, std::size_t from, std::size_t to) {
                      part(scene, from, to));
 }
 
-// Where nothing is wrong, one of each scene beside the others: the one nearest to its bound.
+// If nothing is wrong, one image of each scene: the one closest to its bound.
 Html one_of_each(std::span<const Scene> scenes) {
   Html text = markup("<div class=\"panels\">");
   for (const Scene& scene : scenes) {

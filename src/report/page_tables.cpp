@@ -15,7 +15,7 @@
 namespace triptych::report {
 namespace {
 
-// The exact ones by number only: what deserves a word is the others.
+// Only the number of exact statistics is shown; the others are listed.
 Html calibration_text(const record::Device& device) {
   Html text;
   int exact = 0;
@@ -38,7 +38,7 @@ Html clock_text(const std::vector<record::ClockTrust>& clocks) {
   return text;
 }
 
-// Of their own frames.
+// Records that have their own frames.
 std::vector<const record::Record*> measured(const PlanData& plan) {
   std::vector<const record::Record*> records;
   for (const record::Record& record : plan.records) {
@@ -50,12 +50,12 @@ std::vector<const record::Record*> measured(const PlanData& plan) {
   return records;
 }
 
-// Times on different clocks are never compared.
+// Times by different clocks are never compared.
 std::string_view clock_of_both(const record::Record& a, const record::Record& b) {
   return a.clock() == b.clock() ? a.clock() : "wall";
 }
 
-// What took over another configuration's frames, and why it could.
+// Records that took over the frames of another configuration, and why they could.
 Html taken_over(const PlanData& plan) {
   Rows rows{{"configuration", "device", "measured as", "why"}};
   for (const record::Record& record : plan.records) {
@@ -113,7 +113,7 @@ Html times_section(const PlanData& plan) {
 }
 
 Html speed_of_light_section(const PlanData& plan) {
-  // By device and scene the bare fetches.
+  // The bare fetches (speed_of_light), by device and scene.
   std::map<std::pair<std::string, std::string>, const record::Record*> bounds;
   for (const record::Record* record : measured(plan)) {
     if (record->technique == "speed_of_light") {

@@ -1,4 +1,4 @@
-// What the page says first.
+// The beginning of the page: the verdict.
 
 #include <fmt/format.h>
 
@@ -51,7 +51,7 @@ std::string cause_id(std::size_t number) {
   return fmt::format("cause{}", number);
 }
 
-// A link to each cause in sight, and one to where the others are folded.
+// A link to each visible cause, and one to the place where the others are folded.
 Html contents(const Overview& all) {
   if (all.open.empty()) return {};
   Html text = markup("<ol class=\"causes\">");
@@ -81,7 +81,7 @@ Html card(const Overview& all, std::span<const PlanData> plans) {
       all.part ? " · a part of the plans" : "", names);
 }
 
-// With a link to the first cause of its kind.
+// With a link to the first cause of this kind.
 Html word_of(const KindRow& row, const Overview& all) {
   const bool work = row.check == judge::Check::counters || row.check == judge::Check::statistics;
   const auto first = std::ranges::find_if(all.open, [&](const Cause& cause) {
@@ -136,7 +136,7 @@ Html links(const Cause& cause, const PlanData& plan) {
   return picture_link(plan, first) + markup(" <a href=\"#verdict\">verdict</a>");
 }
 
-// An option and its value stay on one line where they fit.
+// An option and its value stay on one line if there is space.
 Html command_block(std::string_view command) {
   if (command.empty()) return {};
   Html text = markup("<pre><span>");
@@ -169,7 +169,7 @@ Html article(const Cause& cause, const PlanData& plan, const Html& id) {
       command_block(command));
 }
 
-// Those that are open have ids, by their number.
+// Open causes have element ids, which contain their numbers.
 Html listed(std::span<const Cause> causes, std::span<const PlanData> plans,
                    std::optional<std::size_t> first_number) {
   Html text;

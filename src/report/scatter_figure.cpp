@@ -82,7 +82,7 @@ class Scatter {
     const auto [first, last] = ends();
     figure.line(std::array{Figure::Place{first, deviation}, Figure::Place{last, deviation}}, style);
   }
-  // Straight on two logarithmic axes.
+  // The line is straight because both axes are logarithmic.
   void add_line(Figure& figure) const {
     if (!scatter_.line) return;
     const auto at = [&](double x) {

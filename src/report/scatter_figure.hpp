@@ -7,27 +7,27 @@
 
 namespace triptych::report {
 
-// Two devices' values of the same configurations against each other.
+// The values of two devices for the same configurations.
 struct ScatterFigure {
   struct Point {
-    std::string name;       // of the configuration
-    std::string technique;  // gives the colour
+    std::string name;       // the name of the configuration
+    std::string technique;  // determines the colour
     double across, up;
     double deviation = 0;   // from the line, as a share: 0.1 is a tenth more
-    std::string flag = {};  // "slower", …: drawn as a cross and named; empty: as expected
+    std::string flag = {};  // "slower", …: drawn as a cross with its name; empty: as expected
   };
   struct Line {
     double intercept, slope;  // of natural logarithms: ln up = intercept + slope · ln across
   };
-  std::string across;  // titles of the axes, unit included
+  std::string across;  // titles of the axes, including the unit
   std::string up;
   std::vector<Point> points;
   std::optional<Line> line = {};
-  std::optional<double> shows_from = {};  // the deviation from which one point alone would show
+  std::optional<double> shows_from = {};  // a single point is visible from this deviation on
 };
 
-// HTML: both values on logarithmic axes with the line, and beside it what is left beyond the line,
-// flagged points with their deviation. Without a line the first alone.
+// HTML: both values on logarithmic axes with the line, and next to it what remains without the
+// line, with the deviation of flagged points. Without a line, only the first part.
 [[nodiscard]] Html scatter_chart(const ScatterFigure& scatter);
 
 }  // namespace triptych::report

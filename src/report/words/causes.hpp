@@ -1,6 +1,6 @@
 #pragma once
-// Sentences by cause, for words/observation.cpp alone: those of images, of values that are compared
-// with stored ones, of correlations, and of stress cases.
+// Sentences by cause, used only by words/observation.cpp: about images, about values that are
+// compared with stored ones, about correlations, and about stress cases.
 
 #include <string>
 #include <string_view>
@@ -14,7 +14,7 @@ namespace triptych::report::words {
 [[nodiscard]] std::string counted(double n, std::string_view one, std::string_view many);
 // "12 configurations (A; B; C; …)".
 [[nodiscard]] std::string examples(const std::vector<std::string>& configurations);
-// "+1.4 %" of a ratio.
+// A ratio as "+1.4 %".
 [[nodiscard]] std::string percent(double ratio);
 // The other side of a comparison: "the reference image".
 [[nodiscard]] std::string_view text_of(judge::Against against);

@@ -1,5 +1,6 @@
 #pragma once
-// One row per check: how screens and pages call it. A test holds it to record::every_check.
+// One row for each check, with the words for it on screens and pages. A test compares the rows with
+// record::every_check.
 
 #include <array>
 #include <string_view>
@@ -13,8 +14,8 @@ struct CheckWords {
   std::string_view label;
   std::string_view wrong;   // "18 of 66 wrong"
   std::string_view passed;  // "264 within their error bounds"
-  std::string_view none;    // where no check reached a verdict
-  bool always;              // it has its row though it was not checked
+  std::string_view none;    // shown if no check reached a verdict
+  bool always;              // its row is shown even if it was not checked
 };
 
 inline constexpr std::array check_words{

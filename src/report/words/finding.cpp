@@ -1,4 +1,4 @@
-// A finding as a whole, its advice, and the headline over all.
+// Sentences about a finding as a whole, its advice, and the headline over all findings.
 
 #include "report/words/finding.hpp"
 
@@ -21,7 +21,7 @@ using judge::GateResult;
 using judge::Known;
 using judge::Verdict;
 
-// The words in front of the finding itself.
+// The words before the sentence of the finding itself.
 std::string excuse(const Finding& finding) {
   const Excuse& excuse = finding.excuse;
   switch (excuse.of) {
@@ -63,7 +63,7 @@ std::string number_of(std::size_t n, std::string_view one, std::string_view many
   return counted(static_cast<double>(n), one, many);
 }
 
-// " in image, timing on vulkan:lavapipe": where the findings of one verdict lie.
+// " in image, timing on vulkan:lavapipe": the checks and devices with findings of one verdict.
 std::string places(const GateResult& result, Verdict verdict) {
   std::set<std::string_view> checks;
   std::set<std::string_view> devices;
