@@ -44,7 +44,8 @@ Api::Api(GLADloadfunc load) : GladGLContext{} {
 void GLAD_API_PTR Api::on_message(GLenum /*source*/, GLenum type, GLuint /*id*/,
                                   GLenum /*severity*/, GLsizei length, const GLchar* message,
                                   const void* user) {
-  // Registered with the address of our own, mutable Messages; GL's signature hands it back const.
+  // Registered with the address of our own Messages, which are mutable; the signature of GL returns
+  // it as const.
   auto* messages = static_cast<Messages*>(const_cast<void*>(user));
   const auto size =
       length < 0 ? std::string_view(message).size() : static_cast<std::size_t>(length);
@@ -70,7 +71,7 @@ void Api::only_compile() {
 
 void Api::keep_reports() const {
   if (!messages_) return;
-  // Reports are of a severity that is off by default.
+  // Reports have a severity that is off by default.
   if (DebugMessageControl != nullptr) {
     DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
   }
@@ -89,7 +90,7 @@ void Api::begin_link(std::vector<LinkedStage> stages) const {
 }
 
 void Api::check(std::string_view call, core::CodePlace place) const {
-  // A lost context may answer every question with an error of its own, so it is asked first.
+  // A lost context may answer every call with an error of its own, so this is asked first.
   const GLenum reset = GetGraphicsResetStatus != nullptr ? GetGraphicsResetStatus() : GL_NO_ERROR;
   const GLenum error = GetError();
   if (reset == GL_NO_ERROR && error == GL_NO_ERROR && (!messages_ || messages_->lines.empty())) {

@@ -1,5 +1,5 @@
 #pragma once
-// The functions of one context, and how their errors are told.
+// The functions of one context, and how their errors are reported.
 
 #include <glad/gl.h>
 
@@ -14,16 +14,17 @@
 
 namespace triptych::gl_backend {
 
-// GL's entry points as members (`gl.DrawArrays(…)`), those of the version and extensions the
-// context has; the others are null. Valid while the context lives; called only while it is current.
+// GL's functions as members (`gl.DrawArrays(…)`). Functions that the version and extensions of the
+// context do not have are null. Valid while the context lives; may be called only while it is
+// current.
 struct Api : GladGLContext {
-  // Throws core::NotSupported when the functions of GL 3.3 are not all there.
+  // Throws core::NotSupported if a function of GL 3.3 is missing.
   explicit Api(GLADloadfunc load);
 
   // From now on check() also reports the driver's error messages. Needs KHR_debug (GL 4.3).
   void collect_messages();
 
-  // From now on labels are given to the driver, where it takes them (KHR_debug).
+  // From now on labels are passed to the driver if it accepts them (KHR_debug).
   void label_all() { labelled = PushDebugGroup != nullptr && ObjectLabel != nullptr; }
 
   // For a device that only compiles: calls that would execute throw core::NotSupported from now on,
@@ -31,7 +32,8 @@ struct Api : GladGLContext {
   void only_compile();
   [[nodiscard]] bool executes() const { return executes_; }
 
-  // A message of the driver while it linked a program; it reports the generated code in them.
+  // A message of the driver while it linked a program. Drivers report generated code in such
+  // messages.
   struct LinkedStage {
     GLenum type = 0;
     std::string name;
@@ -40,27 +42,27 @@ struct Api : GladGLContext {
     std::vector<LinkedStage> program;
     std::string text;
   };
-  // Starts keeping such messages. Does nothing without collect_messages(). take_reports() returns
-  // them, oldest first, and stops keeping them.
+  // Begins to store such messages. Does nothing without collect_messages(). take_reports() returns
+  // them, oldest first, and ends it.
   void keep_reports() const;
   [[nodiscard]] bool can_keep_reports() const { return messages_ != nullptr; }
   [[nodiscard]] std::vector<Report> take_reports() const;
-  // Reports that follow belong to a program of these stages.
+  // The reports that follow belong to a program with these stages.
   void begin_link(std::vector<LinkedStage> stages) const;
 
-  // Throws core::DeviceLost or core::ApiError when any call since the last check failed; `call`
-  // names the last of them, or the one that matters.
+  // Throws core::DeviceLost or core::ApiError if any call since the last check failed. `call` names
+  // the last of these calls, or the one that matters.
   void check(std::string_view call, core::CodePlace place = core::CodePlace::current()) const;
 
-  // Objects and commands are named for tools: KHR_debug is there, and asked for.
+  // Whether objects and commands are named for tools: KHR_debug exists, and names were requested.
   bool labelled = false;
 
-  measure::MemoryLedger held;  // by textures, renderbuffers and buffers of this context
+  measure::MemoryLedger held;  // memory of the textures, renderbuffers and buffers of this context
 
   [[nodiscard]] std::string text(GLenum name) const;  // glGetString; empty for null
   [[nodiscard]] std::int64_t limit(GLenum name) const;
   [[nodiscard]] std::int64_t limit(GLenum name, GLuint index) const;
-  // To whose grid of 2⁻ᵇ pixel the rasterizer moves vertices.
+  // The rasterizer moves vertices to a grid of 2⁻ᵇ pixel; this is b.
   [[nodiscard]] int sub_pixel_bits() const { return static_cast<int>(limit(GL_SUBPIXEL_BITS)); }
   [[nodiscard]] bool at_least(int major, int minor) const;
 
@@ -77,8 +79,8 @@ struct Api : GladGLContext {
   bool executes_ = true;
 };
 
-// Names the calls that are made while it lives, for tools that show them. Does nothing where
-// nothing is labelled.
+// Names the calls that are made while this object lives, for tools that show the names. Does
+// nothing if names were not requested.
 class Label {
  public:
   Label(const Api& gl, std::string_view name) : gl_(gl.labelled ? &gl : nullptr) {

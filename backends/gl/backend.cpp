@@ -27,7 +27,7 @@ namespace {
 constexpr std::array<WindowSystem, 2> window_systems{
     {{"EGL", "-egl", &egl_candidates}, {"OSMesa", "-osmesa", &osmesa_candidates}}};
 
-// A driver that takes longer to say its name is as good as hung; a cold start takes 0.1 s.
+// A driver that takes longer to report its name counts as hung; a cold start takes 0.1 s.
 constexpr std::chrono::seconds listing_limit{20};
 
 struct Opened {
@@ -35,12 +35,13 @@ struct Opened {
   std::unique_ptr<Context> context;
 };
 
-// Opens a window system's devices one after the other, giving each its id.
+// Opens the devices of a window system one after the other and gives each its id.
 class Walk {
  public:
   explicit Walk(const WindowSystem& system) : system_(system), candidates_(system.candidates()) {}
 
-  // The next device that opens; the reasons of those that do not go to `broken`. Empty at the end.
+  // The next device that can be opened; empty at the end. The reasons why others cannot be opened
+  // are added to `broken`.
   std::optional<Opened> next(bool debug, std::vector<measure::Broken>& broken) {
     while (at_ < candidates_.size()) {
       const Candidate& candidate = candidates_[at_++];
@@ -61,7 +62,7 @@ class Walk {
   }
 
  private:
-  // A platform's default device comes first and shows up once more when devices are enumerated.
+  // The default device of a platform comes first, and appears again when devices are enumerated.
   bool is_repeated(const record::Device& info) {
     if (at_ == 1) {
       first_ = info;
@@ -75,11 +76,11 @@ class Walk {
   const WindowSystem& system_;
   std::vector<Candidate> candidates_;
   std::size_t at_ = 0;
-  std::optional<record::Device> first_;  // until it has shown up again
+  std::optional<record::Device> first_;  // until it has appeared again
   std::map<std::string, int> count_;     // by id
 };
 
-// A listing as text, to be sent from one process to another.
+// A listing as text that one process sends to another.
 std::string list_as_text(const WindowSystem& system) {
   nlohmann::json devices = nlohmann::json::array();
   nlohmann::json reasons = nlohmann::json::array();
@@ -113,8 +114,8 @@ class GlBackend final : public measure::Backend {
  public:
   [[nodiscard]] std::string_view api() const override { return "gl"; }
 
-  // Each window system is asked in a process of its own: a driver that crashes or hangs costs only
-  // itself, and EGL's Mesa and OSMesa do not meet in this one.
+  // Each window system is asked in a process of its own. So a driver that crashes or hangs affects
+  // nothing else, and EGL's Mesa and OSMesa are not loaded into this process together.
   [[nodiscard]] measure::Listing list() const override {
     measure::Listing listing;
     for (const WindowSystem& system : window_systems) {
@@ -129,7 +130,7 @@ class GlBackend final : public measure::Backend {
                .reason = {},
                .ended = record::Reason{.cause = record::Cause::error, .detail = answer.failure}});
         }
-      } catch (const std::exception& error) {  // an answer that makes no sense, too
+      } catch (const std::exception& error) {  // also an answer that makes no sense
         listing.broken.push_back(
             {.what = fmt::format("gl ({})", system.name),
              .reason = {},
@@ -145,7 +146,7 @@ class GlBackend final : public measure::Backend {
       if (!may_have(system, device_id)) continue;
       try {
         Walk walk(system);
-        // A compiler reports what it generated in messages.
+        // A compiler reports what it generated in debug messages.
         const bool debug = debug_wanted() || measure::compile_only(device_id).has_value();
         while (auto opened = walk.next(debug, broken)) {
           if (opened->info.id != device_id) continue;
@@ -163,7 +164,7 @@ class GlBackend final : public measure::Backend {
   }
 
  private:
-  // So that opening one device does not load the other's libraries.
+  // Opening a device must not load the libraries of other window systems.
   static bool may_have(const WindowSystem& system, std::string_view device_id) {
     const bool osmesa = device_id.find("-osmesa") != std::string_view::npos;
     return osmesa == (system.suffix == "-osmesa");

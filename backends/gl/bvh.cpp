@@ -1,4 +1,4 @@
-// Rays through a hierarchy of boxes that compute passes build and go through
+// Rays through a hierarchy of boxes, which compute passes build and traverse
 // (technique/particles/hierarchy.glsl, bvh.comp.glsl).
 #include <fmt/format.h>
 
@@ -49,7 +49,7 @@ Program tree_program(const Api& gl, const ParticleConstants& constants,
 
 Program build_program(const Api& gl, ParticleConstants constants, BuildPass pass,
                       std::vector<std::string>& sources) {
-  constants.count = false;  // it has nothing to count
+  constants.count = false;  // there is nothing to count
   const std::string main_file = fmt::format("hierarchy_{}.comp.glsl", build_passes.at(static_cast<std::size_t>(pass)));
   if (pass == BuildPass::keys) return tree_program(gl, constants, {"storage.glsl", main_file}, sources);
   if (pass == BuildPass::leaves) {
@@ -191,7 +191,7 @@ void BvhDrawing::run(const Api& gl, const Program& program, std::uint32_t invoca
   gl.Uniform4uiv(gl.GetUniformLocation(program.get(), "tree_step"), 1, step.data());
   const auto [columns, group_rows] = technique::group_rows(invocations);
   gl.DispatchCompute(columns, group_rows, 1);
-  // Later passes read the results as texels or as storage.
+  // Later passes read the results as texels or from storage buffers.
   gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
@@ -215,7 +215,7 @@ void BvhDrawing::fit(const Api& gl, bool refit) const {
   }
 }
 
-// Every stride-th beam.
+// Sends every stride-th beam.
 void BvhDrawing::send(const Api& gl, const Program& trace, GLuint stride, GLuint flags) const {
   run(gl, trace, (grid_.beams() + stride - 1) / stride,
       {stride, grid_.columns, grid_.beams(), flags});

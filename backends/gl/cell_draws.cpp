@@ -5,12 +5,12 @@
 namespace triptych::gl_backend {
 namespace {
 
-// Bindings of technique/particles/cull.comp.glsl, and its work group's size.
+// The bindings of technique/particles/cull.comp.glsl, and the size of its work groups.
 constexpr GLuint binding_cells = 6;
 constexpr GLuint binding_commands = 7;
 constexpr GLuint cull_group_size = 64;
 
-// DrawArraysIndirectCommand of the specification.
+// DrawArraysIndirectCommand in the specification.
 struct DrawCommand {
   GLuint vertices = 0;
   GLuint instances = 0;

@@ -7,14 +7,15 @@
 
 namespace triptych::gl_backend {
 
-// A draw command per cell, in the order of the arrangement: for all of each cell's particles, until
-// cull.comp.glsl has left out those of cells that are not in sight.
+// One draw command for each cell, in the order of the arrangement. It draws all particles of the
+// cell, unless cull.comp.glsl has removed those of cells that are out of sight.
 class CellDraws {
  public:
-  // `instanced`: a cell's particles are instances of four vertices, else vertices.
+  // `instanced`: the particles of a cell are instances of four vertices, otherwise vertices.
   CellDraws(const Api& gl, std::span<const technique::Cell> cells, bool instanced);
 
-  // Makes cells and commands bindings 6 and 7, and runs the culling program that is in use.
+  // Binds cells and commands to bindings 6 and 7, and runs the current program, which does the
+  // culling.
   void cull(const Api& gl) const;
   void draw(const Api& gl, GLenum mode) const;
   // Makes every command draw nothing, so that a frame without culling shows nothing.
@@ -26,7 +27,7 @@ class CellDraws {
   Buffer commands_;
 };
 
-// The same cells with about one in `stride` of their particles, evenly spread.
+// The same cells with about one of `stride` particles in each, evenly distributed.
 [[nodiscard]] std::vector<technique::Cell> thinned(std::span<const technique::Cell> cells,
                                                    int stride);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Contexts without a window, and where they come from.
+// Contexts without a window, and how they are found.
 
 #include <functional>
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace triptych::gl_backend {
 
-// A GL context and its functions. Only while a Current of it stands may they be called.
+// A GL context and its functions, which may be called only while there is a Current for it.
 class Context {
  public:
   Context(const Context&) = delete;
@@ -20,13 +20,13 @@ class Context {
   [[nodiscard]] const Api& gl() const { return *gl_; }
   // Calls Api::only_compile().
   void only_compile() { gl_->only_compile(); }
-  // Whether its window system says so.
+  // Whether its window system says that it does.
   [[nodiscard]] virtual bool computes_on_the_processor() const = 0;
 
  protected:
   Context() = default;
-  // To be called by a context's maker, once, when it can be made current: loads the functions and
-  // sets the conventions all techniques rely on. `debug`: see Api::collect_messages.
+  // Called once by the maker of a context when it can be made current. Loads the functions, and
+  // sets the conventions on which all techniques rely. `debug`: see Api::collect_messages.
   void load(GLADloadfunc load_function, bool debug);
 
  private:
@@ -38,8 +38,8 @@ class Context {
 };
 
 // Keeps a context current on this thread. EGL's Mesa and OSMesa share the variable that holds the
-// thread's current context without knowing of each other, so each use binds and unbinds: a context
-// that was left current would be taken for bound when the other library has replaced it.
+// thread's current context, and do not know of each other. So each use binds and unbinds: a context
+// that was left current would be considered bound after the other library has replaced it.
 class Current {
  public:
   explicit Current(Context& context) : context_(context) { context_.make_current(); }
@@ -51,7 +51,7 @@ class Current {
   Context& context_;
 };
 
-// One device as a window system offers it, not yet opened.
+// One device that a window system offers and that is not open yet.
 struct Candidate {
   std::string what;  // for people: "EGL surfaceless"
   // Throws core::NotSupported or core::ApiError.
@@ -61,8 +61,8 @@ struct Candidate {
 struct WindowSystem {
   std::string_view name;    // "EGL"
   std::string_view suffix;  // of device ids: "-egl"
-  // What is here, in a fixed order; throws core::NotSupported when the library is missing. The same
-  // device may be offered twice, by platform and by enumeration.
+  // The devices of this machine, in a fixed order; throws core::NotSupported if the library is
+  // missing. The same device may be offered twice, by platform and by enumeration.
   std::vector<Candidate> (*candidates)();
 };
 

@@ -24,7 +24,8 @@
 namespace triptych::gl_backend {
 namespace {
 
-// A sampler that errs by less is as good as interpolation by hand: that rounds by some 1e-6.
+// A sampler with a smaller error is as good as interpolation in the shader, whose rounding errors
+// are about 1e-6.
 constexpr double exact_filter = 1e-5;
 
 struct Entry {
@@ -107,7 +108,7 @@ class GlDevice final : public measure::Device {
 
   [[nodiscard]] double filter_weight_error(const measure::VolumePath& path) const override {
     if (path.sampler != technique::Sampler::hardware) return 0;
-    // A wrong filter is no wide bound.
+    // A wrong filter must not lead to a wide bound.
     return std::min(filter_error_.at(static_cast<std::size_t>(path.voxel)),
                     technique::allowed_filter_error(technique::least_weight_bits, path.voxel));
   }
@@ -124,8 +125,8 @@ class GlDevice final : public measure::Device {
     return prepare_current(work);
   }
 
-  // Programs of the timed frame are linked when it is prepared. Variants that a driver makes at the
-  // first draw only are not among them.
+  // The programs of the timed frame are linked when it is prepared. Variants that a driver makes
+  // only at the first draw are not included.
   [[nodiscard]] measure::Compiled compile(const measure::Work& work) override {
     const Current current(*context_);
     const Api& gl = context_->gl();
@@ -155,7 +156,7 @@ class GlDevice final : public measure::Device {
                              .make(context_->gl(), std::get<measure::ParticleWork>(work.scene)));
   }
 
-  // What one texture does not hold is drawn in parts, which samplers would not.
+  // A volume that one texture cannot hold is drawn in parts, which samplers cannot do.
   [[nodiscard]] bool holds_whole(const std::array<int, 3>& size, scene::VoxelFormat format) const {
     const Current current(*context_);
     return gl_backend::holds_whole(context_->gl(), size, format);
@@ -165,7 +166,7 @@ class GlDevice final : public measure::Device {
   std::unique_ptr<Context> context_;
   Stamps stamps_;
   measure::Rasterizer rasterizer_;
-  // By voxel format; 1, the worst there is, where it cannot be probed.
+  // By voxel format; 1, the worst possible value, if it cannot be probed.
   std::uint64_t most_texels_ = 0;
   std::array<double, 4> filter_error_{1, 1, 1, 1};
 };

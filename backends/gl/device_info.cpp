@@ -15,7 +15,8 @@
 namespace triptych::gl_backend {
 namespace {
 
-// Mesa's variables that choose the driver, change the code it generates or what it can do.
+// Mesa's variables that select the driver, or change the code that it generates or its
+// capabilities.
 constexpr std::array<std::string_view, 11> code_variables{"GALLIUM_DRIVER",
                                                           "GALLIUM_OVERRIDE_CPU_CAPS",
                                                           "GALLIVM_DEBUG",
@@ -28,7 +29,7 @@ constexpr std::array<std::string_view, 11> code_variables{"GALLIUM_DRIVER",
                                                           "MESA_LOADER_DRIVER_OVERRIDE",
                                                           "TRIPTYCH_GL_DEBUG"};
 
-// Drivers that hand everything to another one, by the word that their renderer string begins with.
+// Drivers that pass everything on to another one, by the first word of their renderer string.
 struct Layered {
   std::string_view start;
   std::string_view name;
@@ -45,8 +46,8 @@ const Layered* layered(std::string_view renderer) {
   return found == layered_drivers.end() ? nullptr : found;
 }
 
-// "zink (llvmpipe (LLVM 15.0.6, 256 bits))", "virgl (…)" and "ANGLE (…)" name what they run on in
-// parentheses.
+// The driver below a layered one, which is named in parentheses: "zink (llvmpipe (LLVM 15.0.6, 256
+// bits))", "virgl (…)", "ANGLE (…)".
 std::string host_of(std::string_view renderer) {
   const std::size_t begin = renderer.find('(');
   const std::size_t end = renderer.rfind(')');
@@ -56,7 +57,8 @@ std::string host_of(std::string_view renderer) {
   return std::string(renderer.substr(begin + 1, end - begin - 1));
 }
 
-// A short name by what the vendor and renderer strings contain; else the renderer's first word.
+// A short name, depending on what the vendor and renderer strings contain; otherwise the first word
+// of the renderer string.
 std::string driver_name(const std::string& vendor, const std::string& renderer) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> known{{
       {"llvmpipe", "llvmpipe"},
@@ -82,8 +84,8 @@ std::string driver_name(const std::string& vendor, const std::string& renderer) 
   return name.empty() ? "unknown" : name;
 }
 
-// "4.5 (Core Profile) Mesa 22.3.6" and "llvmpipe (LLVM 15.0.6, 256 bits)" make
-// "Mesa 22.3.6 (LLVM 15.0.6)"; "4.6.0 NVIDIA 535.54" makes "NVIDIA 535.54".
+// "4.5 (Core Profile) Mesa 22.3.6" and "llvmpipe (LLVM 15.0.6, 256 bits)" become "Mesa 22.3.6 (LLVM
+// 15.0.6)"; "4.6.0 NVIDIA 535.54" becomes "NVIDIA 535.54".
 std::string driver_version(const std::string& version, const std::string& renderer) {
   constexpr std::string_view profile = "(Core Profile) ";
   std::size_t begin = version.find(profile);
@@ -123,7 +125,7 @@ std::map<std::string, std::string> limits_of(const Api& gl) {
 }  // namespace
 
 bool is_software(const record::Device& info) {
-  // What a layered driver runs on is part of its version.
+  // The driver below a layered one is a part of its version.
   for (const std::string_view name : {"llvmpipe", "softpipe", "LLVMPIPE", "SwiftShader"}) {
     if (info.driver == name || info.driver_version.find(name) != std::string::npos) return true;
   }
@@ -149,7 +151,7 @@ record::Device device_info(const Api& gl, std::string_view suffix) {
   if (is_software(info)) {
     info.cpu_features = measure::cpu_features();
   } else if (std::string family = measure::compiled_family(driver); !family.empty()) {
-    // The id says what the variables chose.
+    // The id contains what the variables selected.
     info.id = measure::compile_only_id("gl", driver, family);
     info.compiles_for = std::move(family);
     info.environment.clear();

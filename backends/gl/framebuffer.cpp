@@ -11,7 +11,7 @@ namespace triptych::gl_backend {
 
 namespace {
 
-// Of a pixel in the formats that are drawn to.
+// The bytes of a pixel, for the formats that are drawn to.
 std::uint64_t bytes_of(GLenum format) {
   switch (format) {
     case GL_RGBA32F:

@@ -3,13 +3,13 @@
 
 namespace triptych::gl_backend {
 
-// Storage of that format to draw into.
+// Storage of that format for drawing.
 [[nodiscard]] Renderbuffer pixels(const Api& gl, GLenum format, int width, int height);
 
-// Throws core::ApiError where the framebuffer that is bound is not complete.
+// Throws core::ApiError if the bound framebuffer is not complete.
 void check_framebuffer(const Api& gl);
 
-// Fills the first colour target of the framebuffer that is bound with NaN.
+// Fills the first colour target of the bound framebuffer with NaN.
 void poison_colour(const Api& gl);
 
 }  // namespace triptych::gl_backend

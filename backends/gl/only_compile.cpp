@@ -9,7 +9,8 @@
 namespace triptych::gl_backend {
 namespace {
 
-// The driver's own functions. GL's functions are plain pointers, so a replacement cannot hold them.
+// The driver's own functions. They are global, because GL's functions are plain pointers, which
+// cannot hold them.
 PFNGLBUFFERDATAPROC buffer_data = nullptr;
 PFNGLTEXIMAGE1DPROC tex_image_1d = nullptr;
 PFNGLTEXIMAGE2DPROC tex_image_2d = nullptr;

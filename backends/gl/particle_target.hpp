@@ -7,18 +7,18 @@
 
 namespace triptych::gl_backend {
 
-// Colour, ids and reversed depth to draw particles into.
+// The target for drawing particles: colour, ids and reversed depth.
 class ParticleTarget {
  public:
   ParticleTarget(const Api& gl, int width, int height, technique::ParticleFault fault);
 
-  // Makes it the current one, with the depth test that goes with it.
+  // Makes it the current target and sets the depth test for it.
   void bind(const Api& gl) const;
   // Overwrites every attachment: colour with NaN.
   void poison(const Api& gl) const;
-  // Background, no particle, and a depth that everything passes.
+  // Sets the background, no particle, and a depth that everything passes.
   void clear(const Api& gl, const std::array<float, 4>& background) const;
-  // `near`: the scale of the depth buffer, Z = near/z.
+  // `near` is the scale of the depth buffer: Z = near/z.
   [[nodiscard]] core::Image read(const Api& gl, double near) const;
   [[nodiscard]] GLuint depth_texture() const { return depth_.get(); }
 
@@ -32,7 +32,7 @@ class ParticleTarget {
   Framebuffer framebuffer_;
 };
 
-// Z where there is a particle, +infinity where there is none.
+// Converts to Z where there is a particle, and to +infinity where there is none.
 void to_distances(core::Image& image, double near);
 
 }  // namespace triptych::gl_backend

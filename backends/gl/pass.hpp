@@ -1,6 +1,6 @@
 #pragma once
-// How a volume technique's program is run and where its picture lies: the part in which raycast and
-// raycast_fragment differ.
+// How the program of a volume technique is run, and where its image is: the part in which raycast
+// and raycast_fragment differ.
 
 #include <memory>
 #include <span>
@@ -25,17 +25,17 @@ class Pass {
   // The stages of the program around the shared raycasting source.
   [[nodiscard]] virtual std::vector<Stage> stages(const Api& gl,
                                                   const Constants& constants) const = 0;
-  // Statistics of the stages it uses.
+  // The statistics of the stages that it uses.
   [[nodiscard]] virtual std::span<const Statistic> statistics() const = 0;
   // Overwrites the image with NaN.
   virtual void poison(const Api& gl) = 0;
-  // Where a dump is asked for, a program of its own that draws the frame (standalone.hpp).
+  // If a dump was requested, writes a separate program that draws the frame (standalone.hpp).
   virtual void dump(const measure::VolumeWork& /*work*/, const std::string& /*source*/) const {}
-  // Makes its target the current one; before the clock starts.
+  // Makes its target the current one; called before the clock starts.
   virtual void bind(const Api& gl) = 0;
-  // The calls that are timed: the picture and, but for counters, the injected extra work beside it.
+  // The calls that are timed: the image and, except when counting, the injected extra work.
   virtual void submit(const Api& gl, measure::Purpose purpose) = 0;
-  // The picture; the device has finished it.
+  // The image, which the device must have finished.
   [[nodiscard]] virtual core::Image read(const Api& gl) const = 0;
 };
 

@@ -21,7 +21,8 @@ class DrawingPrepared final : public measure::Prepared {
       const Current current(context_);
       owned_.reset();
     } catch (const core::Error&) {
-      // The context is gone and its objects with it: there is nothing left to delete them with.
+      // The context is gone, and so are its objects: nothing is left with which they could be
+      // deleted.
       static_cast<void>(owned_.release());
     }
   }
@@ -65,7 +66,7 @@ class DrawingPrepared final : public measure::Prepared {
   [[nodiscard]] std::string kernel_hash() const override { return owned_->drawing->kernel_hash(); }
 
  private:
-  // Everything that lives on the device.
+  // Everything that is on the device.
   struct Owned {
     Owned(const Api& gl, Stamps stamps, std::unique_ptr<Drawing> its_drawing)
         : drawing(std::move(its_drawing)),

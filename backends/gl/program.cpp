@@ -14,7 +14,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-// The extension that brings a stage; NVIDIA's compiler takes any source that names
+// The extension that provides a stage. NVIDIA's compiler takes every source that names
 // GL_ARB_compute_shader for a compute shader.
 std::string_view stage_extension(GLenum type) {
   switch (type) {
@@ -28,7 +28,7 @@ std::string_view stage_extension(GLenum type) {
   }
 }
 
-// Below GLSL 4.30 everything the shared source needs comes from extensions.
+// Below GLSL 4.30, everything that the shared source needs comes from extensions.
 std::string version_lines(const Api& gl, GLenum type) {
   if (gl.at_least(4, 5)) return "#version 450 core\n";
   if (gl.at_least(4, 3)) return "#version 430 core\n";
@@ -39,7 +39,7 @@ std::string version_lines(const Api& gl, GLenum type) {
       "#extension GL_ARB_shader_image_load_store : enable\n"
       "#extension GL_ARB_gpu_shader5 : enable\n";
   lines += stage_extension(type);
-  // Without GLSL 4.00 or the extension there is no such qualifier.
+  // Without GLSL 4.00 or the extension, this qualifier does not exist.
   if (gl.ARB_gpu_shader5 == 0) lines += "#define precise\n";
   return lines;
 }
@@ -58,7 +58,7 @@ std::string constant_lines(const Constants& constants) {
       constants.parts ? "#define TRI_PARTS 1\n" : "");
 }
 
-// For messages.
+// The name of the stage in messages.
 std::string_view stage_name(GLenum type) {
   switch (type) {
     case GL_VERTEX_SHADER:
@@ -76,7 +76,7 @@ std::string_view stage_name(GLenum type) {
   }
 }
 
-// As glslang tells stages apart by files.
+// The ending of file names by which glslang recognizes stages.
 std::string_view extension_of(GLenum type) {
   switch (type) {
     case GL_VERTEX_SHADER:
@@ -94,7 +94,7 @@ std::string_view extension_of(GLenum type) {
   }
 }
 
-// The log of a shader or program, read by the two functions that differ in name only.
+// The log of a shader or of a program; the functions to read them differ only in their names.
 template <class GetSize, class GetLog>
 std::string log_of(GLuint name, GetSize get_size, GetLog get_log) {
   GLint size = 0;

@@ -16,39 +16,39 @@ struct Constants {
   bool count = false;
   bool speed_of_light = false;
   int fault = 0;
-  int opacity_form = 0;   // technique::opacity_form of the step
+  int opacity_form = 0;   // technique::opacity_form for the step
   int preintegrated = 0;  // technique::preintegration_form
-  bool cells = false;     // a source of its own
+  bool cells = false;     // has a source of its own
   bool leaps = false;
   bool adapt = false;
-  bool parts = false;      // draws technique::Part by part
+  bool parts = false;      // the volume is drawn one technique::Part at a time
   int precision = 32;      // bits of a number: 32 or 64
   bool long_rays = false;  // technique::has_long_rays
 };
 
-// A work group takes a square of this many pixels (shaders/raycast.comp).
+// A work group draws a square of this many pixels on each side (shaders/raycast.comp).
 inline constexpr int group_edge = 8;
 
 struct Stage {
   GLenum type = GL_COMPUTE_SHADER;
-  std::string source;  // whole, from #version on
-  std::string name = {};  // of its last file, without ".glsl": what reports call it
+  std::string source;     // the whole source, beginning with #version
+  std::string name = {};  // the name of its last file without ".glsl", which reports use
 };
 
-// The named files of src/technique/, in that order, behind the #version line, `constant_lines` and
-// both preludes, in the newest GLSL the context has.
+// The given files of src/technique/ in that order, after the #version line, `constant_lines` and
+// both preludes, in the newest GLSL that the context has.
 [[nodiscard]] Stage shared_stage(const Api& gl, GLenum type, std::string_view constant_lines,
                                  std::span<const std::string_view> files);
 
-// The shared raycasting source with the constants and GL's prelude before it and the named file of
-// backends/gl/shaders/ behind it.
+// The shared raycasting source with the constants and GL's prelude before it, and the given file of
+// backends/gl/shaders/ after it.
 [[nodiscard]] Stage volume_stage(const Api& gl, GLenum type, const Constants& constants,
                                  std::string_view main_file);
-// The named file alone behind the #version line, for stages that share nothing.
+// Only the given file after the #version line, for stages that share nothing.
 [[nodiscard]] Stage plain_stage(const Api& gl, GLenum type, std::string_view main_file);
 
-// Compiles and links; throws core::ApiError with the driver's log. What the driver reports of the
-// code is added to its context's, where that keeps reports.
+// Compiles and links; throws core::ApiError with the driver's log. What the driver reports about
+// the code is stored in the context if it keeps reports.
 [[nodiscard]] Program link(const Api& gl, std::span<const Stage> stages);
 
 }  // namespace triptych::gl_backend

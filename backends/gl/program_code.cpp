@@ -22,7 +22,7 @@ constexpr std::array<std::pair<std::string_view, GLenum>, 6> stage_codes{{
     {"(CS", GL_COMPUTE_SHADER},
 }};
 
-// Returns the name of the shader that a line of statistics describes.
+// The name of the shader that a line of statistics describes.
 std::string shader_of(const Api::Report& report) {
   const std::size_t at = report.text.rfind('(');
   const std::string_view code =
@@ -36,8 +36,8 @@ std::string shader_of(const Api::Report& report) {
   return report.program.empty() ? "program" : report.program.front().name;
 }
 
-// radeonsi's "Shader Stats: SGPRS: 32 VGPRS: 16 …", or Intel's "FS SIMD16 shader: 55 inst, …". Other
-// messages have nothing of the kind.
+// Parses radeonsi's "Shader Stats: SGPRS: 32 VGPRS: 16 …" and Intel's "FS SIMD16 shader: 55 inst,
+// …". Other messages have no such statistics.
 std::map<std::string, double> statistics_of(const std::string& text) {
   if (text.starts_with("Shader Stats:")) return measure::parse_statistics(text);
   if (const std::size_t at = text.find(" shader: "); at != std::string::npos) {

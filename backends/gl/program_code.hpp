@@ -9,7 +9,7 @@
 
 namespace triptych::gl_backend {
 
-// Throws core::NotSupported where the messages report nothing.
+// Throws core::NotSupported if the messages report nothing.
 [[nodiscard]] measure::Compiled code_of(std::span<const Api::Report> reports);
 
 }  // namespace triptych::gl_backend

@@ -1,4 +1,4 @@
-// One ray per fragment of a triangle that covers a floating-point render target.
+// One ray for each fragment of a triangle that covers a floating-point render target.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -68,7 +68,7 @@ class FragmentPass final : public Pass {
     gl.Viewport(0, 0, width_, height_);
   }
 
-  // After the picture and not before it, as a driver may leave out what will be drawn over.
+  // After the image and not before it, because a driver may leave out what will be covered.
   void submit(const Api& gl, measure::Purpose purpose) override {
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     if (extra_tiles_.empty() || purpose == measure::Purpose::counters) return;

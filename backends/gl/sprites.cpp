@@ -54,7 +54,7 @@ struct Programs {
   std::vector<std::string> sources;
 };
 
-// Values of TRI_OCCLUSION in cull.glsl, one for each time that cells are culled in a frame.
+// The values of TRI_OCCLUSION in cull.glsl, one for each culling pass of a frame.
 std::vector<int> passes_of(Culling culling) {
   if (culling == Culling::none) return {};
   if (culling == Culling::frustum) return {0};
@@ -71,10 +71,10 @@ ParticleStage cull_stage(bool instanced, int pass) {
       fmt::format("#define TRI_INSTANCED {:d}\n#define TRI_OCCLUSION {}\n", int{instanced}, pass)};
 }
 
-// The two culling programs of a draw, one draw after the other: what is in sight behind the first
-// draw's cells is drawn behind them, though it may come before them in the arrangement. The camera
-// stands still, so that what was hidden stays hidden and the second draw is empty; where it is not,
-// only the order of exact ties between cells could differ.
+// A draw with its two culling programs runs after the other draw. So a sphere that comes into sight
+// behind the cells of the first draw is drawn after them, although it may come before them in the
+// arrangement. The camera does not move, so what was hidden stays hidden and the second draw is
+// empty. Otherwise, only the order of exactly equal depths in different cells could differ.
 class SpriteDrawing final : public Drawing {
  public:
   SpriteDrawing(const Api& gl, const measure::ParticleWork& work, const Sprites& sprites,
@@ -140,7 +140,7 @@ class SpriteDrawing final : public Drawing {
       occlusion_->find_farthest(gl, target_.depth_texture());
       draw(gl, programs, draws_, 1);
     }
-    // Behind the picture, where nothing passes the depth test any more; never counted.
+    // After the image, where nothing passes the depth test any more; never counted.
     if (!counting && !extra_.empty()) draw(gl, programs, extra_, 0);
   }
 
@@ -158,7 +158,7 @@ class SpriteDrawing final : public Drawing {
     ParticleCounters counters;
   };
 
-  // A frame that no one is shown, so that in every other one the last frame is known.
+  // Draws a frame that is not shown, so that in every other frame the previous one is known.
   void draw_before(const Api& gl, const measure::ParticleWork& work,
                    const technique::Arrangement& arrangement) {
     if (work.camera_before) data_.look_from(gl, work.before(), arrangement);
@@ -167,8 +167,8 @@ class SpriteDrawing final : public Drawing {
     if (work.camera_before) data_.look_from(gl, work, arrangement);
   }
 
-  // What is hidden depends on the frames before. The first after a jump draws all that is seen, the
-  // second knows what is hidden by that, and what follows is like it.
+  // What is hidden depends on the previous frames. The first frame after a jump draws everything
+  // that is visible, the second one knows what that hides, and all later ones are like the second.
   void settle(const Api& gl) {
     prepare_state(gl);
     for (int frame = 0; frame < 2; ++frame) submit(gl, Purpose::statistics);
@@ -191,7 +191,7 @@ class SpriteDrawing final : public Drawing {
     };
     for (const SpriteDraw& draw : sprites_) {
       Programs::Draw made;
-      // Only the first draw's culling counts: the others are about the same cells.
+      // Only the culling of the first draw counts, because the others test the same cells.
       ParticleConstants culling = constants;
       culling.count = constants.count && programs.draws.empty();
       for (const int pass : passes_of(options_.culling)) {
@@ -205,7 +205,7 @@ class SpriteDrawing final : public Drawing {
     return programs;
   }
 
-  // `pass`: 0, or 1 for what occlusion culling finds in sight behind the first.
+  // `pass`: 0, or 1 for what occlusion culling finds in sight after the first pass.
   void draw(const Api& gl, const Programs& programs, const std::vector<CellDraws>& draws,
             std::size_t pass) const {
     if (options_.culling != Culling::none) {
@@ -214,7 +214,8 @@ class SpriteDrawing final : public Drawing {
         gl.UseProgram(programs.draws[i].cull[pass].get());
         draws[i].cull(gl);
       }
-      // Commands are drawn next; what was seen is read by the next culling, maybe a frame later.
+      // The commands are drawn next. What was visible is read by the next culling pass, possibly in
+      // the next frame.
       gl.MemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     }
     const Label label(gl, "draw sprites");

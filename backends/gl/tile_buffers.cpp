@@ -15,7 +15,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-// Bindings of technique/particles/tiles.glsl, tile_grid.glsl and the passes.
+// The bindings of technique/particles/tiles.glsl, tile_grid.glsl and the passes.
 constexpr GLuint binding_cells = 6;
 constexpr GLuint binding_camera_spheres = 7;
 constexpr GLuint binding_kept = 8;
@@ -67,7 +67,7 @@ std::size_t colour_words(scene::ColourKind colour) {
   return colour == scene::ColourKind::rgba32 ? 4 : 1;
 }
 
-// Pairs of pixels, one above the other; as good as none where no large ones are resolved.
+// Pairs of pixels, one above the other. Almost empty if no large spheres are resolved.
 Texture pair_texture(const Api& gl, int width, int height, bool any) {
   const GLsizei columns = any ? width : 1;
   const GLsizei rows = any ? (height + 1) / 2 : 1;
@@ -101,7 +101,7 @@ std::optional<std::string> TileBuffers::unsupported(const Api& gl,
         "{}x{} pixels need a storage block of {} bytes, GL_MAX_SHADER_STORAGE_BLOCK_SIZE is {}",
         scene.width, scene.height, static_cast<std::int64_t>(planes * word) * pixels, most);
   }
-  // The largest single cell, with every sphere in every tile.
+  // The largest single cell, if every sphere is in every tile.
   const std::int64_t tiles = std::int64_t{parts(scene.width, technique::tile_edge)} *
                              parts(scene.height, technique::tile_edge);
   const auto crowd = std::min<std::int64_t>(4 * technique::particles_per_cell,
@@ -228,7 +228,7 @@ void TileBuffers::clear(const Api& gl) const {
 
 void TileBuffers::start_round(const Api& gl) const {
   gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  copy(gl, zeros_, tile_states_, word, 5 * word);  // behind the count of small spheres
+  copy(gl, zeros_, tile_states_, word, 5 * word);  // after the count of small spheres
 }
 
 }  // namespace triptych::gl_backend

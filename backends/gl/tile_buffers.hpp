@@ -14,37 +14,38 @@
 
 namespace triptych::gl_backend {
 
-// What the passes of tiles.glsl hand to each other.
+// The data that the passes of tiles.glsl exchange.
 class TileBuffers {
  public:
-  // Entries that a round should not exceed: 64 MiB.
+  // The number of entries that a round should not exceed; they take 64 MiB.
   static constexpr std::uint64_t wanted_entries = std::uint64_t{1} << 24U;
   enum class Cells : std::uint8_t { all, thinned };
 
-  // Why a picture of this size, or a cell before it, is beyond the device; empty when it is not.
+  // Why an image of this size, or one of its cells, exceeds what the device can do; empty if it
+  // does not.
   [[nodiscard]] static std::optional<std::string> unsupported(const Api& gl,
                                                               const scene::ParticleScene& scene);
 
-  // With an extra_work_stride other than 0 there are thinned cells too, and room for all particles
-  // twice. Throws core::NotSupported where a buffer has more texels than the device can see.
+  // If extra_work_stride is not 0, there are also thinned cells, and space for all particles twice.
+  // Throws core::NotSupported if a buffer has more texels than the device can address.
   TileBuffers(const Api& gl, const scene::ParticleScene& scene,
               const technique::Arrangement& arrangement, const technique::TileRounds& rounds,
               const ParticleData& data, int extra_work_stride);
 
-  // Bindings 6…20 of the shared sources.
+  // Binds bindings 6…20 of the shared sources.
   void bind(const Api& gl) const;
   void choose(const Api& gl, Cells cells) const;
-  // Overwrites what a frame writes anew before it reads it.
+  // Overwrites everything that a frame writes before it reads it.
   void poison(const Api& gl) const;
-  // Empty tiles and lists, and pixels unless no round ever draws into them.
+  // Empties tiles and lists, and also pixels if any round draws into them.
   void clear(const Api& gl) const;
-  // No large spheres, no entries and no tiles drawn into.
+  // Begins a round without large spheres, without entries, and without tiles that are drawn into.
   void start_round(const Api& gl) const;
 
-  // Work groups: 64 tiles each, and as many as there are tiles that the round draws into.
+  // The number of work groups: one for 64 tiles, and one for each tile that the round draws into.
   [[nodiscard]] GLuint groups_for_tiles() const;
   void dispatch_listed(const Api& gl) const;
-  // Of TRI_BLOCK × TRI_BLOCK tiles, which are drawn together.
+  // The number of blocks of TRI_BLOCK × TRI_BLOCK tiles, which are drawn together.
   [[nodiscard]] GLuint blocks() const;
 
  private:
@@ -71,8 +72,8 @@ class TileBuffers {
   Buffer cell_ends_;
   Texture large_pixels_;
   std::vector<Texels> texels_;
-  Buffer zeros_;         // what tiles, and a plane of depths, begin with
-  Buffer no_particles_;  // and a plane of particle keys
+  Buffer zeros_;         // the initial values of tiles, and of a plane of depths
+  Buffer no_particles_;  // and of a plane of particle keys
 };
 
 }  // namespace triptych::gl_backend

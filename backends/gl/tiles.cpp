@@ -1,5 +1,5 @@
-// Spheres binned into tiles in compute shaders, the nearest hit of each pixel shaded once
-// (technique/particles/tiles.glsl says in which passes).
+// Spheres are sorted into tiles in compute shaders, and the nearest hit of each pixel is shaded
+// once (technique/particles/tiles.glsl describes the passes).
 #include <fmt/format.h>
 
 #include <array>
@@ -32,7 +32,7 @@ struct Programs {
   std::vector<std::string> sources;
 };
 
-// GL counts image units by themselves, and from few.
+// GL numbers image units separately, and there are few.
 std::string tile_defines(Culling culling, int spheres) {
   return fmt::format("#define TRI_SPHERES {}\n#define TRI_CULLING {}\n#define TRI_LARGE_PIXELS 0\n",
                      spheres, static_cast<int>(culling));
@@ -150,7 +150,7 @@ class TilesDrawing final : public Drawing {
     return rounds;
   }
 
-  // What is written is read as texels, images or storage.
+  // The results are read as texels, images or from storage buffers.
   static void finish(const Api& gl) {
     gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                      GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
@@ -179,8 +179,8 @@ class TilesDrawing final : public Drawing {
     run_on(gl, programs, bin, round, round.cells);
   }
 
-  // All rounds: every pixel's depth. With extra work a part of each round's particles is binned
-  // twice, before the tiles could leave them out.
+  // All rounds compute the depth of every pixel. With extra work, a part of each round's particles
+  // is sorted twice, before the tiles could leave them out.
   void draw_depths(const Api& gl, const Programs& programs, bool extra) const {
     buffers_.clear(gl);
     for (const technique::TileRound& round : rounds_.rounds) {
@@ -197,7 +197,7 @@ class TilesDrawing final : public Drawing {
     }
   }
 
-  // Draws the round's large spheres, unless the last pass does, and notes what is hidden.
+  // Draws the round's large spheres, unless the last pass does that, and records what is hidden.
   void resolve_tiles(const Api& gl, const Programs& programs,
                      const technique::TileRound& round) const {
     run(gl, programs, place, buffers_.groups_for_tiles());

@@ -18,7 +18,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-// Bindings of technique/volume/raycast/parameters.glsl, and texture units.
+// The bindings of technique/volume/raycast/parameters.glsl, and texture units.
 constexpr GLuint binding_parameters = 0;
 constexpr GLuint unit_volume = 1;
 constexpr GLuint unit_transfer = 2;
@@ -46,7 +46,7 @@ Texture transfer_texture(const Api& gl, const scene::TransferFunction& function)
   return texture;
 }
 
-// Of the whole volume, or room for the parts of it.
+// The cells of the whole volume, or space for those of its parts.
 Buffer cell_buffer(const Api& gl, const measure::VolumeWork& work,
                    const std::vector<technique::Part>& parts) {
   const scene::VoxelGrid& grid = *work.scene.grid;
@@ -74,9 +74,9 @@ Texture texture_of(const Api& gl, const scene::VoxelGrid& grid, bool linear, int
   return texture;
 }
 
-// With room for those of a part of the volume behind them, where it is drawn in parts.
+// If the volume is drawn in parts, there is space for the parameters of a part at the end.
 Buffer parameter_buffer(const Api& gl, const measure::VolumeWork& work, bool in_parts) {
-  // A texel of an image reaches the shader divided by its format's largest.
+  // The shader reads a texel of an image divided by the largest value of its format.
   const double stored_maximum =
       is_packed(work) ? 1 : scene::largest_stored(work.scene.grid->format);
   std::vector<std::byte> bytes =
@@ -149,7 +149,7 @@ void refill_buffer(const Api& gl, const Buffer& buffer, GLuint word) {
               });
 }
 
-// Through a small part of it, so that the host never holds a second copy.
+// Through a small part of it, so that the host never has a second copy.
 void fill_buffer(const Api& gl, const Buffer& buffer, std::size_t size, const Fill& fill) {
   constexpr std::size_t piece = std::size_t{1} << 24U;
   std::vector<std::byte> bytes(std::min(piece, size));
@@ -163,7 +163,8 @@ void fill_buffer(const Api& gl, const Buffer& buffer, std::size_t size, const Fi
   gl.check("glBufferSubData");
 }
 
-// Of the bricks one word where nothing is skipped: the kernel is the same and never reads it.
+// If nothing is skipped, there is only one word for bricks, because the kernel is the same and
+// never reads it.
 VolumeData::VolumeData(const Api& gl, const measure::VolumeWork& work,
                        const std::vector<technique::Part>& parts)
     : quadrature_(quadrature_buffer(gl, work.scene)),

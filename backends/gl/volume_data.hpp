@@ -12,46 +12,46 @@
 
 namespace triptych::gl_backend {
 
-// How a voxel format is kept in a texture.
+// How a voxel format is stored in a texture.
 struct TexelFormat {
   GLenum internal = GL_R32F;
   GLenum type = GL_FLOAT;
 };
 [[nodiscard]] TexelFormat texel_format(scene::VoxelFormat format);
 
-// A 3D texture of one channel, clamped to the edge, filtered linearly or not at all.
+// A 3D texture with one channel, clamped to the edge, filtered linearly or not at all.
 [[nodiscard]] Texture volume_texture(const Api& gl, const scene::VoxelGrid& grid, bool linear);
 
 [[nodiscard]] inline bool is_packed(const measure::VolumeWork& work) {
   return work.options.sampler == technique::Sampler::packed;
 }
 
-// A buffer with the given bytes, never written to again by the host; or of `size` bytes that the
-// device writes.
+// A buffer with the given bytes, which the host never writes again; or a buffer of `size` bytes
+// that the device writes.
 [[nodiscard]] Buffer constant_buffer(const Api& gl, std::span<const std::byte> bytes);
 [[nodiscard]] Buffer device_buffer(const Api& gl, std::size_t size);
 
 // Fills the whole buffer with measure::poison_word.
 void poison_buffer(const Api& gl, const Buffer& buffer);
-// The same with any word.
+// The same with any other word.
 void refill_buffer(const Api& gl, const Buffer& buffer, GLuint word);
 
-// Writes the bytes of a buffer that begin at `begin`.
+// Writes the part of a buffer that begins at byte `begin`.
 using Fill = std::function<void(std::size_t begin, std::span<std::byte> out)>;
 void fill_buffer(const Api& gl, const Buffer& buffer, std::size_t size, const Fill& fill);
 
-// All that the shared raycasting source reads, on the device.
+// Everything on the device that the shared raycasting source reads.
 class VolumeData {
  public:
-  // With `parts` (technique::cut_into_parts) no voxels are there before they are moved.
+  // With `parts` (technique::cut_into_parts), there are no voxels until they are moved.
   VolumeData(const Api& gl, const measure::VolumeWork& work,
              const std::vector<technique::Part>& parts);
 
   [[nodiscard]] int parts() const { return parts_ ? parts_->count() : 0; }
-  // Once bound.
+  // Moves the n-th part. The data must be bound.
   void move_part(const Api& gl, int n) const;
 
-  // Makes the data what the shared source's bindings 0…3, 6 and 7 stand for.
+  // Binds the data to bindings 0…3, 6 and 7 of the shared source.
   void bind(const Api& gl) const;
 
  private:
@@ -62,9 +62,9 @@ class VolumeData {
   Buffer quadrature_;
   Buffer parameters_;
   std::optional<VolumeParts> parts_;
-  Buffer pauses_;  // of rays between two parts
-  // Textures of voxels and transfer function; for sampler packed the buffers whose texels are seen
-  // through textures, as are then bricks and quadrature.
+  Buffer pauses_;  // the states of rays between two parts
+  // Textures of the voxels and the transfer function. For sampler packed, the buffers whose texels
+  // the shader sees through textures; the same then holds for bricks and the quadrature.
   Buffer cells_;
   Buffer table_;
   struct Seen {

@@ -28,13 +28,13 @@ std::size_t counters_size(std::size_t pixels) {
   return sizeof(GLuint) * technique::raycast_counter_stride * pixels;
 }
 
-// The build that counts, made when it is first asked for.
+// The build that counts, which is made when it is first needed.
 struct Counting {
   Program program;
   Buffer counters;
 };
 
-// Sums the counters of all pixels, in 64 bits.
+// Sums the counters of all pixels in 64 bits.
 record::Counts sum_counters(const Api& gl, const Buffer& counters, std::size_t pixels) {
   std::vector<GLuint> values(pixels * technique::raycast_counter_stride);
   gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -136,7 +136,7 @@ std::optional<std::string> texture_reason(const Api& gl, const scene::VoxelGrid&
   return std::nullopt;
 }
 
-// Why the volume fits neither whole nor in parts.
+// Why the volume fits neither as a whole nor in parts.
 std::optional<std::string> voxels_reason(const Api& gl, const measure::VolumeWork& work,
                                          const technique::RaycastBuffers& buffers,
                                          const technique::Cut& cut) {
@@ -175,7 +175,7 @@ Constants constants_of(const measure::VolumeWork& work) {
 std::optional<std::string> volume_unsupported(const Api& gl, std::string_view technique,
                                               const measure::VolumeWork& work) {
   if (auto reason = storage_unsupported(gl)) return reason;
-  // Doubles came with 4.0, but below 4.3 the sources are compiled as GLSL 3.30 (program.cpp).
+  // Doubles exist since GL 4.0, but below 4.3 the sources are compiled as GLSL 3.30 (program.cpp).
   if (work.options.precision == technique::Precision::fp64 && gl.VERSION_4_3 == 0) {
     return "precision fp64 needs OpenGL 4.3";
   }

@@ -32,11 +32,12 @@
 //   }
 // Kinds of failure: crash (abort), exit (the process ends with code 0), hang (never returns),
 // device_lost, api_error, not_supported (thrown; at "supports": the reason given), wrong_image (the
-// picture is off by 0.25), nan_image, stale_image (every frame but the first leaves nothing), garbage
-// (something is written where answers are). Places ("at"): list, open, supports, prepare, frame, image. "frame"
-// counts a Prepared's frames from 0, at "prepare" the prepares of one work, and is any when left
-// out. With "once" it happens only where there is no such file, which it leaves. GLOBs, as
-// fnmatch(3) has them, match describe(work); at "open" they match the device id, at "list" the API.
+// picture is off by 0.25), nan_image, stale_image (every frame but the first leaves nothing),
+// garbage (something is written where answers are). Places ("at"): list, open, supports, prepare,
+// frame, image. "frame" counts a Prepared's frames from 0, at "prepare" the prepares of one work,
+// and is any when left out. With "once" it happens only where there is no such file, which it
+// leaves. GLOBs, as fnmatch(3) has them, match describe(work); at "open" they match the device id,
+// at "list" the API.
 
 #include <cstdint>
 #include <functional>
@@ -74,12 +75,11 @@ struct Failure {
   std::string once = {};  // a file; empty: always
 };
 
-// The calls made on devices of a script, in order: "open null:scripted", "prepare raycast",
-// "frame timing", "frame statistics", "frame counters", "image", "destroy". Not for several
-// threads.
+// The calls made to devices of a script, in order: "open null:scripted", "prepare raycast", "frame
+// timing", "frame statistics", "frame counters", "image", "destroy". Not thread-safe.
 using CallLog = std::vector<std::string>;
 
-// The keys of TRIPTYCH_NULL_SCRIPT, and what only a program can give.
+// The keys of TRIPTYCH_NULL_SCRIPT, and what only a program can set.
 struct Script {
   std::uint64_t seed = 1;
   std::vector<double> devices{1};
@@ -96,23 +96,23 @@ struct Script {
   bool counts = true;
   bool sleep = false;
   double filter_weight_error = 0;
-  std::vector<std::pair<std::string, std::string>>
-      images;                     // glob → EXR file; the first match counts
+  // Glob → EXR file; the first match counts.
+  std::vector<std::pair<std::string, std::string>> images;
   std::vector<Failure> failures;  // likewise
 
   std::shared_ptr<CallLog> log;                           // none: nothing is logged
   std::function<core::Image(const measure::Work&)> draw;  // instead of the pattern
 };
 
-// Throws InputError, naming the key and what was expected.
+// Throws InputError with the key and what was expected.
 [[nodiscard]] Script parse_script(std::string_view json);
 
 // One line, "technique=raycast,data=…,step=0.5,ert=0,sampler=manual,skip=none,shading=0,width=64,
 // height=64,eye=0/0/2,fault=0,extra_work_stride=0": what the globs of a script are matched against.
 [[nodiscard]] std::string describe(const measure::Work& work);
 
-// The script of TRIPTYCH_NULL_SCRIPT; without one, a backend that has no devices. A script that
-// cannot be read is named in Listing::broken, and thrown as InputError by open().
+// Plays the script in TRIPTYCH_NULL_SCRIPT. Without one, the backend has no devices. A script that
+// cannot be read is listed in Listing::broken, and open() throws the InputError.
 [[nodiscard]] std::unique_ptr<measure::Backend> make_backend();
 [[nodiscard]] std::unique_ptr<measure::Backend> make_backend(Script script);
 

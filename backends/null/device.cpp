@@ -21,8 +21,8 @@
 namespace triptych::null_backend {
 namespace {
 
-// Nearly normal, mean 0, variance 1: twelve uniform numbers. Needs no function whose bits may
-// differ.
+// A nearly normal distribution with mean 0 and variance 1 from twelve uniform numbers. It needs no
+// function whose bits may differ.
 double normal(core::Random& random) {
   double sum = -6;
   for (int i = 0; i < 12; ++i) sum += random.uniform();
@@ -160,7 +160,7 @@ class NullDevice final : public measure::Device {
   }
 
   measure::VolumePath default_path(const measure::VolumeKind& volume) const override {
-    // As elsewhere, samples and cells of one scene may take different ones.
+    // As on other devices, samples and cells of one scene may have different paths.
     return {.voxel = volume.native,
             .sampler =
                 volume.filter_suffices ? technique::Sampler::manual : technique::Sampler::packed};
@@ -185,7 +185,7 @@ class NullDevice final : public measure::Device {
   std::shared_ptr<const Script> script_;
   record::Device info_;
   double factor_;
-  std::map<std::string, std::size_t> prepares_;  // of each work so far
+  std::map<std::string, std::size_t> prepares_;  // for each work so far
 };
 
 }  // namespace

@@ -58,7 +58,7 @@ bool is_of_image(FailureKind kind) {
          kind == FailureKind::stale_image;
 }
 
-// Of several processes one makes the file.
+// Only one of several processes creates the file.
 bool happens(const Failure& failure) {
   if (failure.once.empty()) return true;
   const int file = ::open(failure.once.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
@@ -99,7 +99,7 @@ std::vector<double> parse_factors(const std::string& key, const Json& value) {
   return factors;
 }
 
-// False where there is no such key.
+// Returns false if there is no such key.
 bool parse_number(const std::string& key, const Json& value, Script& script) {
   const std::array<std::pair<std::string_view, double Script::*>, 7> numbers{{
       {"base_ns", &Script::base_ns},
@@ -178,7 +178,7 @@ void play(FailureKind kind) {
     case FailureKind::wrong_image:
     case FailureKind::nan_image:
     case FailureKind::stale_image:
-      break;  // of the picture: image_failure()
+      break;  // concerns the image: image_failure()
   }
 }
 

@@ -1,4 +1,4 @@
-// Rays through a hierarchy of boxes, which kernels build and go through (particle_hierarchy.cl,
+// Rays through a hierarchy of boxes, which kernels build and traverse (particle_hierarchy.cl,
 // particle_rays.cl).
 #include <array>
 #include <chrono>
@@ -154,14 +154,14 @@ void BvhFrames::add_fit(const RayPrograms& programs, bool moved, std::vector<Lau
   }
 }
 
-// Every stride-th tile.
+// Launches every stride-th tile.
 Launch BvhFrames::trace(const RayPrograms& programs, cl_uint stride) const {
   return make_launch(programs.rays, "trace_tiles", cl::NDRange((tiles_ + stride - 1) / stride),
                      cl::NDRange(1), data_.parameters, vector_of(hierarchy_.parameters().shape),
                      stride, boxes_, tree_spheres_, tree_order_, depths_, winners_, counters_);
 }
 
-// again: 0, or the stride of an injected slowdown.
+// `again`: 0, or the stride of an injected slowdown.
 std::vector<Launch> BvhFrames::picture(const RayPrograms& programs, cl_uint again) const {
   std::vector<Launch> launches;
   if (options_.structure == Structure::rebuilt) add_sort(programs, launches);

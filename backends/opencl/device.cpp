@@ -33,7 +33,7 @@ const std::map<std::string_view, decltype(&prepare_tiles)> particle_techniques{
 Session open_session(const Found& found) {
   return checked([&] {
     const cl::Context context(found.device);
-    // PoCL's compiler vectorises the loops inside a work item; others the work items themselves.
+    // PoCL's compiler vectorises the loops inside a work item; others vectorise across work items.
     const bool vectorises_loops = found.info.driver == "pocl" && !found.info.cpu_features.empty();
     return Session{.device = found.device,
                    .context = context,
@@ -62,7 +62,7 @@ class Device final : public measure::Device {
   [[nodiscard]] measure::Compiled compile(const measure::Work& work) override;
 
  private:
-  [[nodiscard]] double sampler_error(scene::VoxelFormat format) const;  // as probed
+  [[nodiscard]] double sampler_error(scene::VoxelFormat format) const;  // as the probe measured it
   [[nodiscard]] std::optional<std::string> half_defect(scene::VoxelFormat format) const;
   [[nodiscard]] std::optional<std::string> image_defect(const scene::VoxelGrid& grid) const;
   [[nodiscard]] std::optional<std::string> size_defect(std::string_view technique,
@@ -77,7 +77,7 @@ class Device final : public measure::Device {
   VolumeCache volumes_;
 };
 
-// PoCL 3.1 lists images of half floats, and without cl_khr_fp16 reads no values from them.
+// PoCL 3.1 lists images of half floats, but cannot read values from them without cl_khr_fp16.
 std::optional<std::string> Device::half_defect(scene::VoxelFormat format) const {
   if (format != scene::VoxelFormat::f16 || !session_.queue.executes()) return std::nullopt;
   const double error = sampler_error(format);
@@ -89,7 +89,7 @@ std::optional<std::string> Device::half_defect(scene::VoxelFormat format) const 
       error, allowed);
 }
 
-// Why the sampler's hardware cannot hold the grid.
+// Why the hardware sampler cannot be used for the grid.
 std::optional<std::string> Device::image_defect(const scene::VoxelGrid& grid) const {
   return checked([&]() -> std::optional<std::string> {
     const cl::Device& device = session_.device;
@@ -171,10 +171,11 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
   return size_defect(work.technique, *volume);
 }
 
-// By hand from a buffer wherever the sampler is not exact: on PoCL 3.1 that is also nine times
-// faster than its sampler (speed_of_light: 405 against 44 million samples a second on two cores).
-// The volume's own format: u8, u16 and f32 take the same time there as long as they fit the caches
-// (409, 413 and 446 million samples a second at 128³), and the smaller ones do so longer.
+// The voxels are read from a buffer, with interpolation in the kernel, unless the sampler is exact.
+// On PoCL 3.1 that is also nine times faster than the sampler (speed_of_light: 405 against 44
+// million samples a second on two cores). The format is that of the volume: u8, u16 and f32 take
+// the same time there as long as they fit into the caches (409, 413 and 446 million samples a
+// second at 128³), and smaller formats fit for larger volumes.
 measure::VolumePath Device::default_path(const measure::VolumeKind& volume) const {
   const scene::VoxelFormat native = volume.native;
   const measure::VolumePath hardware{native, Sampler::hardware};
@@ -187,13 +188,13 @@ measure::VolumePath Device::default_path(const measure::VolumeKind& volume) cons
 
 double Device::filter_weight_error(const measure::VolumePath& path) const {
   if (path.sampler != Sampler::hardware) return 0;
-  // A wrong filter is no wide bound.
+  // A wrong filter must not lead to a wide bound.
   return std::min(sampler_error(path.voxel),
                   technique::allowed_filter_error(technique::least_weight_bits, path.voxel));
 }
 
 double Device::sampler_error(scene::VoxelFormat format) const {
-  if (!session_.queue.executes()) return 1;  // nothing can be sampled: the worst there is
+  if (!session_.queue.executes()) return 1;  // the worst value, because nothing can be sampled
   const auto known = filter_errors_.find(format);
   if (known != filter_errors_.end()) return known->second;
   return filter_errors_.emplace(format, probe_filter(session_, programs_, format)).first->second;
@@ -202,7 +203,8 @@ double Device::sampler_error(scene::VoxelFormat format) const {
 std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
   if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
   if (const auto* particles = std::get_if<measure::ParticleWork>(&work.scene)) {
-    volumes_ = {};  // such as the one that statistics were calibrated with: it is not the frame's
+    // A volume such as the one for calibrating statistics does not belong to the frame.
+    volumes_ = {};
     return particle_techniques.at(work.technique)(session_, programs_, *particles);
   }
   const auto& volume = std::get<measure::VolumeWork>(work.scene);

@@ -16,7 +16,7 @@
 namespace triptych::opencl_backend {
 namespace {
 
-// Variables with which these drivers choose devices, threads and generated code.
+// The variables with which these drivers choose devices, threads and generated code.
 constexpr auto variables = std::to_array<std::string_view>(
     {"GALLIUM_DRIVER", "GALLIUM_OVERRIDE_CPU_CAPS", "GALLIVM_PERF", "LP_NATIVE_VECTOR_WIDTH",
      "LP_NUM_THREADS", "POCL_AFFINITY", "POCL_BITCODE_FINALIZER", "POCL_CPU_LOCAL_MEM_SIZE",
@@ -27,7 +27,8 @@ constexpr auto variables = std::to_array<std::string_view>(
 
 std::map<std::string, std::string> environment() {
   auto set = measure::set_variables(variables);
-  // Workers are started with this one at 1; a listing made outside a worker is of the same device.
+  // Workers are started with this variable set to 1. A listing outside of a worker is about the
+  // same device.
   if (const auto found = set.find("POCL_PTHREAD_MIN_WGS");
       found != set.end() && found->second == "1") {
     set.erase(found);
@@ -35,7 +36,7 @@ std::map<std::string, std::string> environment() {
   return set;
 }
 
-// Strings of the API may end in a NUL or blanks, and some hold line breaks.
+// Strings of the API may end in a NUL or in blanks, and some contain line breaks.
 std::string one_line(std::string text) {
   for (char& c : text) {
     if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = ' ';
@@ -60,7 +61,7 @@ std::map<std::string, std::string> limits_of(const cl::Device& device) {
 #undef TRI_LIMIT
 }
 
-// Drivers that hand everything to another one, which decides what is computed as much as they do.
+// Drivers that pass everything on to another one, which determines the results as much as they do.
 bool is_layered(std::string_view driver) {
   return driver == "rusticl" || driver == "clvk" || driver == "clon12";
 }
@@ -88,7 +89,7 @@ record::Device describe(const cl::Device& device, const std::string& driver) {
   });
 }
 
-// A device of a stub has its family in its id, which says what the variables chose.
+// The id of a device that only compiles contains the family, which is what the variables selected.
 void only_compile(const std::string& driver, record::Device& info) {
   if (!info.cpu_features.empty()) return;
   std::string family = measure::compiled_family(driver);
@@ -98,7 +99,7 @@ void only_compile(const std::string& driver, record::Device& info) {
   info.environment.clear();
 }
 
-// Why the device cannot be used; empty when it can.
+// Why the device cannot be used; empty if it can.
 std::string defect_of(const cl::Device& device) {
   return checked([&]() -> std::string {
     if (device.getInfo<CL_DEVICE_AVAILABLE>() == CL_FALSE) return "CL_DEVICE_AVAILABLE is false";
@@ -115,7 +116,8 @@ std::string defect_of(const cl::Device& device) {
 
 void add_device(Search& search, const cl::Device& device, const std::string& driver,
                 std::map<std::string, int>& seen) {
-  // Numbered before anything can fail, so that an id does not depend on another device's health.
+  // Devices are numbered before anything can fail, so that an id does not depend on whether another
+  // device works.
   const std::string id = record::numbered_id("opencl:" + driver, ++seen[driver]);
   try {
     if (const std::string defect = defect_of(device); !defect.empty()) {
@@ -144,7 +146,8 @@ void add_platform(Search& search, const cl::Platform& platform, std::map<std::st
     const std::string driver = driver_of(name);
     for (const cl::Device& device : devices) add_device(search, device, driver, seen);
   } catch (const cl::Error& error) {
-    // Switched off or without hardware, a platform answers with this code instead of none.
+    // A platform that is switched off, or has no hardware, returns this code instead of an empty
+    // list.
     search.broken.push_back(
         {"OpenCL platform " + name,
          error.err() == CL_DEVICE_NOT_FOUND

@@ -18,7 +18,7 @@ constexpr int edge = 8;  // voxels
 constexpr std::size_t place_count = 8192;
 constexpr std::size_t voxel_count = std::size_t{edge} * edge * edge;
 using Bits = std::array<bool, voxel_count>;
-using Place = std::array<float, 4>;  // in voxels; value
+using Place = std::array<float, 4>;  // position in voxels, and a value
 
 Bits random_bits() {
   core::Random random(1);
@@ -38,7 +38,7 @@ std::vector<Place> random_places() {
   return places;
 }
 
-// Voxels of 0 and the format's largest value; sampled values come back divided by that.
+// Voxels of 0 and of the largest value of the format. Sampled values are divided by it.
 template <typename T>
 scene::VoxelGrid make_pattern(const Bits& bits, scene::VoxelFormat format, T largest) {
   scene::VoxelGrid grid{.format = format, .size = {edge, edge, edge}};
@@ -81,7 +81,7 @@ double trilinear(const Bits& bits, const Place& place) {
   return value;
 }
 
-// Leaves in each place the sampled value.
+// Writes the sampled value into each place.
 void sample_on_device(const Session& session, Programs& programs, const scene::VoxelGrid& pattern,
                       std::vector<Place>& places) {
   constexpr auto sampler = technique::Sampler::hardware;

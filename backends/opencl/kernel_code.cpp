@@ -25,7 +25,7 @@ std::vector<std::string> kernels_of(const cl::Program& program) {
   return kernels;
 }
 
-// Every OpenCL driver reports these values, in bytes or work items.
+// Values that every OpenCL driver reports, in bytes or work items.
 std::map<std::string, double> work_group_info(const Session& session, const cl::Kernel& kernel) {
   const auto number = [](auto value) { return static_cast<double>(value); };
   const cl::Device& device = session.device;
@@ -39,7 +39,7 @@ std::map<std::string, double> work_group_info(const Session& session, const cl::
   };
 }
 
-// The lines between two that hold these words; from the last such pair.
+// The text between two lines that contain these words, for the last such pair of lines.
 std::string between(std::string_view text, std::string_view start, std::string_view end) {
   const std::size_t at = text.rfind(start);
   if (at == std::string_view::npos) return {};
@@ -49,7 +49,7 @@ std::string between(std::string_view text, std::string_view start, std::string_v
   return std::string(text.substr(first + 1, last - first - 1));
 }
 
-// radeonsi prints a disassembly and one statistic a line.
+// radeonsi prints a disassembly, and one statistic on each line.
 void add_printed(std::string_view printed, std::map<std::string, double>& statistics,
                  std::string& assembly) {
   assembly = between(printed, "disassembly:", "*** SHADER");
@@ -63,8 +63,8 @@ void add_printed(std::string_view printed, std::map<std::string, double>& statis
   }
 }
 
-// NVIDIA's build log with -cl-nv-verbose: "… Used 32 registers, 8 bytes stack frame, …". Other logs
-// have nothing of the kind.
+// Parses NVIDIA's build log with -cl-nv-verbose: "… Used 32 registers, 8 bytes stack frame, …".
+// Other logs have no such lines.
 void add_logged(const std::string& log, const std::string& kernel,
                 std::map<std::string, double>& statistics) {
   const std::size_t at = log.find("'" + kernel + "'");

@@ -1,5 +1,5 @@
 #pragma once
-// Kernels with their arguments and sizes, and the time a run of them took.
+// Kernels with their arguments and sizes, and the time that a sequence of them took.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 
 namespace triptych::opencl_backend {
 
-// A kernel does not retain its arguments: they must outlive it.
+// A kernel does not retain its arguments, so they must outlive it.
 struct Launch {
   cl::Kernel kernel;
   std::string name;
@@ -22,7 +22,7 @@ struct Launch {
   cl::NDRange local;  // cl::NullRange: the driver's choice
 };
 
-// The name of a kernel, and where the code stands that asks for it.
+// The name of a kernel, and the line of code that asks for it.
 struct KernelName {
   KernelName(const char* its_name, core::CodePlace its_place = core::CodePlace::current())
       : name(its_name), place(its_place) {}
@@ -47,24 +47,26 @@ template <typename... Arguments>
 
 [[nodiscard]] std::size_t round_up(std::size_t n, std::size_t multiple);
 
-// A read-only buffer that holds a copy of `bytes`; of 16 bytes where there are none.
+// A read-only buffer with a copy of `bytes`; it has 16 bytes if `bytes` is empty.
 [[nodiscard]] cl::Buffer upload_bytes(const Session& session, std::span<const std::byte> bytes);
 
-// Runs the launches in their order and waits without spinning. `events`: one for each, to be given
-// to check_executed() outside of what is timed. Throws core::ApiError, core::DeviceLost.
+// Runs the launches in their order and waits without spinning. `events` gets one for each launch;
+// pass them to check_executed() outside of what is timed. Throws core::ApiError, core::DeviceLost.
 void run(const Session& session, const std::vector<Launch>& launches,
          std::vector<cl::Event>& events, core::CodePlace place = core::CodePlace::current());
 
-// Throws where one of the launches that run() waited for ended abnormally: clFinish tells of none.
+// Throws if one of the launches that run() waited for ended abnormally, which clFinish does not
+// report.
 void check_executed(const std::vector<Launch>& launches, const std::vector<cl::Event>& events,
                     core::CodePlace place = core::CodePlace::current());
 
-// Both together, where nothing is timed.
+// Both together, for launches that are not timed.
 void run_checked(const Session& session, const std::vector<Launch>& launches,
                  core::CodePlace place = core::CodePlace::current());
 
-// Time on the device's clock from the start of the first to the end of the last, as the other APIs
-// stamp a frame: what lies between launches is part of it. Absent where the device tells none.
+// The time on the device's clock from the beginning of the first launch to the end of the last one.
+// The time between launches is included, as it is for the other APIs. nullopt if the device reports
+// no time.
 [[nodiscard]] std::optional<double> device_ns(const std::vector<cl::Event>& events);
 
 }  // namespace triptych::opencl_backend

@@ -82,7 +82,7 @@ constexpr std::array codes{
 };
 #undef TRI_CODE
 
-// A GPU whose kernel faulted leaves a queue that answers everything with one of the last two.
+// After a fault in a kernel, the queue of a GPU answers every call with one of the last two codes.
 bool means_lost(cl_int code) {
   return code == CL_DEVICE_NOT_AVAILABLE || code == CL_INVALID_COMMAND_QUEUE ||
          code == CL_OUT_OF_RESOURCES;
@@ -97,7 +97,7 @@ std::string code_name(cl_int code) {
 
 namespace {
 
-// For as long as the driver keeps the object: others may hold references to it.
+// The entry lives as long as the driver keeps the object, to which others may hold references.
 void enter(cl::Memory& object, measure::MemoryLedger::Entry entry) {
   auto held = std::make_unique<measure::MemoryLedger::Entry>(std::move(entry));
   object.setDestructorCallback(

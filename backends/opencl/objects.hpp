@@ -1,6 +1,7 @@
 #pragma once
-// The OpenCL objects are those of Khronos' C++ bindings: each counts its references through the API
-// itself. Their exceptions know neither the code's name nor our place; checked() gives them both.
+// OpenCL objects are those of Khronos' C++ bindings, which count references through the API. Their
+// exceptions contain neither the name of the error code nor the place of the call; checked() adds
+// both.
 
 #define CL_HPP_ENABLE_EXCEPTIONS
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120
@@ -18,10 +19,10 @@
 
 namespace triptych::opencl_backend {
 
-// "CL_OUT_OF_RESOURCES" for −5; "error −1234" for a code that has no name here.
+// "CL_OUT_OF_RESOURCES" for −5; "error −1234" for a code without a name here.
 [[nodiscard]] std::string code_name(cl_int code);
 
-// Throws core::DeviceLost for the codes with which drivers report that, else core::ApiError.
+// Throws core::DeviceLost for the codes by which drivers report that, otherwise core::ApiError.
 [[noreturn]] void throw_api_error(const cl::Error& error, core::CodePlace place,
                                   const std::string& detail = {});
 
@@ -35,9 +36,9 @@ decltype(auto) checked(Call&& call, core::CodePlace place = core::CodePlace::cur
   }
 }
 
-// A command queue that takes nothing on a device that only compiles: what would execute or read
-// back throws core::NotSupported there, and nothing is moved to the device. All commands of this
-// backend go through it, by the names of cl::CommandQueue.
+// A command queue. On a device that only compiles, commands that execute or read back throw
+// core::NotSupported, and commands that move data to the device do nothing. All commands of this
+// backend go through it; they have the names of cl::CommandQueue.
 class Queue {
  public:
   Queue(cl::CommandQueue queue, bool executes = true)  // NOLINT: a queue that executes is the rule
@@ -90,29 +91,30 @@ class Queue {
   bool executes_;
 };
 
-// A device that is open: what every call needs.
+// A device that is open, with everything that calls need.
 struct Session {
   cl::Device device;
   cl::Context context;
   Queue queue;  // in order, with profiling
-  // Samples per batch of the kernels (volume.cl).
+  // The number of samples in a batch of the kernels (volume.cl).
   int batch = 1;
-  measure::MemoryLedger held = {};  // by what make_buffer and make_image made
+  measure::MemoryLedger held = {};  // of the objects made by make_buffer and make_image
 };
 
-// Both enter what they make into the session's ledger. Throw core::ApiError.
+// Both record what they make in the ledger of the session. They throw core::ApiError.
 [[nodiscard]] cl::Buffer make_buffer(const Session& session, cl_mem_flags flags, std::size_t bytes,
                                      core::CodePlace place = core::CodePlace::current());
 [[nodiscard]] cl::Image3D make_image(const Session& session, const cl::ImageFormat& format,
                                      const std::array<std::size_t, 3>& size,
                                      core::CodePlace place = core::CodePlace::current());
 
-// Throws core::ApiError or core::DeviceLost where the command of an event ended abnormally, or has
-// not ended although its queue has been waited for. `call`: that enqueued it; `detail`: about it.
+// Throws core::ApiError or core::DeviceLost if the command of an event ended abnormally, or has not
+// ended although its queue was waited for. `call` is the call that enqueued it, `detail` more about
+// it.
 void check_executed(const cl::Event& event, const std::string& call, const std::string& detail = {},
                     core::CodePlace place = core::CodePlace::current());
 
-// The blocking commands, their events checked. Throw core::ApiError, core::DeviceLost.
+// Blocking commands whose events are checked. They throw core::ApiError, core::DeviceLost.
 void write_buffer(const Session& session, const cl::Buffer& to, std::size_t offset,
                   std::size_t bytes, const void* from,
                   core::CodePlace place = core::CodePlace::current());
@@ -122,7 +124,7 @@ void write_image(const Session& session, const cl::Image& to,
                  const std::array<cl::size_type, 3>& origin,
                  const std::array<cl::size_type, 3>& region, const void* from,
                  core::CodePlace place = core::CodePlace::current());
-// Waits.
+// Waits until it is done.
 void fill_buffer(const Session& session, const cl::Buffer& to, cl_uint word, std::size_t bytes,
                  core::CodePlace place = core::CodePlace::current());
 

@@ -11,7 +11,7 @@
 namespace triptych::opencl_backend {
 namespace {
 
-// Goes through a small piece of memory: mapped, the whole may be a copy of the driver's.
+// Uses a small piece of memory, because mapping the whole buffer may make the driver copy it.
 cl::Buffer upload_property(const Session& session, const technique::Arrangement& arrangement,
                            technique::Property property) {
   constexpr std::size_t smallest = 16;                         // a buffer of no bytes is an error

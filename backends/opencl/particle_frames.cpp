@@ -39,7 +39,7 @@ ParticleFrames::ParticleFrames(const Session& session, Programs& programs,
   });
 }
 
-// By a pass of its own, for there may be more to draw from there.
+// A separate pass draws it, because there may be more to draw from that camera.
 void ParticleFrames::draw_before(const ParticlePrograms& programs,
                                  const measure::ParticleWork& work) {
   look_from(session_, stages_.data(), work.before());
@@ -65,8 +65,8 @@ measure::Frame ParticleFrames::frame(measure::Purpose purpose) {
   });
 }
 
-// What is hidden depends on the frames before: counted is the second of a fresh start, which is
-// like all that follow it.
+// What is hidden depends on the previous frames. The frame that is counted is the second one after
+// a fresh start, which is like all that follow it.
 void ParticleFrames::prepare_counting() {
   if (counting_.empty()) {
     ParticleConstants constants = constants_;

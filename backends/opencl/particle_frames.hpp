@@ -12,7 +12,7 @@
 
 namespace triptych::opencl_backend {
 
-// The picture that shading left on the device; of `depths` the reversed ones, 0 for none.
+// The image that shading has left on the device. `depths` are reversed; 0 means none.
 struct ShadedPicture {
   int width = 0;
   int height = 0;
@@ -25,8 +25,8 @@ struct ShadedPicture {
 
 class ParticleFrames final : public measure::Prepared {
  public:
-  // Compiles the timed build and uploads everything; the counting build is made when it is first
-  // asked for. `programs` must outlive this.
+  // Compiles the timed build and uploads everything. The counting build is made when it is first
+  // needed. `programs` must outlive this object.
   ParticleFrames(const Session& session, Programs& programs, const measure::ParticleWork& work,
                  Sprite sprite);
 

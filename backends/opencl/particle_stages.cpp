@@ -13,7 +13,7 @@ namespace triptych::opencl_backend {
 namespace {
 
 constexpr std::size_t group = 64;
-// Of particle_cull.cl.
+// Values of particle_cull.cl.
 constexpr cl_uint drawn_first = 1;
 constexpr cl_uint drawn_later = 2;
 
@@ -81,7 +81,8 @@ Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride)
             .entries = make_buffer(0),
             .depths = make_buffer(pixels_),
             .winners = make_buffer(pixels_)};
-  // Enough for every cell in view, whatever the stride: later fewer are shown, and others of them.
+  // Large enough for every visible cell, whatever the stride is. Later passes show fewer cells, and
+  // different ones.
   Pass whole = pass;
   whole.stride = 1;
   std::vector<Launch> launches{cull(programs)};
@@ -108,7 +109,7 @@ void ParticleStages::poison(const Pass& pass) const {
   for (const cl::Buffer* each : {&image_, &ids_, &pass.depths, &camera_}) {
     fill(*each, measure::poison_word);
   }
-  // Numbers that kernels count or index by: with none of them nothing is drawn.
+  // Numbers by which kernels count or index. If they are 0, nothing is drawn.
   for (const cl::Buffer* each : {&pass.list, &pass.begins, &pass.totals, &rectangles_}) {
     fill(*each, 0);
   }

@@ -17,12 +17,13 @@
 
 namespace triptych::opencl_backend {
 
-// Rows of the counters, one per work item; the names in the order of the kernels' constants.
+// The counters have one row for each work item. The names are in the order of the kernels'
+// constants.
 inline constexpr std::size_t particle_counter_stride = 8;
 
-// Sorts the listed cells into bins and draws these.
+// Sorts the listed cells into bins and draws the bins.
 struct Pass {
-  cl_uint stride = 1;  // of the cells to be drawn every stride-th
+  cl_uint stride = 1;  // only every stride-th cell is drawn
   cl::Buffer list;
   cl::Buffer counts;
   cl::Buffer totals;
@@ -37,17 +38,18 @@ class ParticleStages {
   ParticleStages(const Session& session, ParticleData data, const measure::ParticleWork& work,
                  const ParticleConstants& constants);
 
-  // A pass with room for all entries that its bins will ever hold: the camera stands still, so one
-  // round of binning tells. Throws core::NotSupported where they take more than a buffer may.
+  // Makes a pass with space for all entries that its bins will ever have. The camera does not move,
+  // so one round of binning shows how many that are. Throws core::NotSupported if they need more
+  // than a buffer may have.
   [[nodiscard]] Pass make_pass(const ParticlePrograms& programs, cl_uint stride);
   // The launches of a frame.
   [[nodiscard]] std::vector<Launch> picture(const ParticlePrograms& programs,
                                             const Pass& pass) const;
-  // Those that draw the cells of a pass once more.
+  // The launches that draw the cells of a pass again.
   [[nodiscard]] std::vector<Launch> again(const ParticlePrograms& programs, const Pass& pass) const;
-  // Overwrites what the frames of a pass write: the image, and what kernels hand to each other.
+  // Overwrites what the frames of a pass write: the image, and the data that kernels exchange.
   void poison(const Pass& pass) const;
-  // No cell was ever found hidden.
+  // Forgets which cells were found hidden.
   void forget_hidden() const;
 
   [[nodiscard]] const ParticleData& data() const { return data_; }
@@ -63,7 +65,7 @@ class ParticleStages {
   [[nodiscard]] Launch test(const ParticlePrograms& programs) const;
   void add_expansion(const ParticlePrograms& programs, const Pass& pass,
                      std::vector<Launch>& to) const;
-  // A last argument for kernels that read what the expansion has stored.
+  // Adds the last argument of kernels that read what the expansion has stored.
   void add_stored(Launch& launch) const;
   [[nodiscard]] Launch shade(const ParticlePrograms& programs, const Pass& pass) const;
   void add_binning(const ParticlePrograms& programs, const Pass& pass, cl_uint state,
@@ -85,11 +87,11 @@ class ParticleStages {
   cl::Buffer patches_;
   cl::Buffer camera_;          // spheres in camera space
   cl::Buffer rectangles_;      // of pixels
-  cl::Buffer sprite_colours_;  // where the transfer function is looked up for sprites
-  cl::Buffer cosines_;         // where rays are those of sprites
-  cl::Buffer shown_;           // per cell: 1 where the last frame found it in sight
-  cl::Buffer states_;          // per cell: what becomes of it
-  cl::Buffer farthest_;        // per tile
+  cl::Buffer sprite_colours_;  // if the transfer function is evaluated for each sprite
+  cl::Buffer cosines_;         // if rays are those of sprites
+  cl::Buffer shown_;           // for each cell: 1 if it was visible in the last frame
+  cl::Buffer states_;          // for each cell: what happens to it
+  cl::Buffer farthest_;        // for each tile
   cl::Buffer image_;
   cl::Buffer ids_;
   cl::Buffer counters_;

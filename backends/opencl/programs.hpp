@@ -1,5 +1,5 @@
 #pragma once
-// Device code, compiled at run time: once per set of options.
+// Device code, which is compiled at run time, once for each set of options.
 
 #include <map>
 #include <string>
@@ -13,7 +13,7 @@
 namespace triptych::opencl_backend {
 
 // The compile-time constants of volume.cl and raycast.cl. A build that does not count, shade or
-// inject a fault holds no trace of it.
+// inject a fault contains no code for that.
 struct Constants {
   technique::Sampler sampler = technique::Sampler::manual;
   scene::VoxelFormat voxel = scene::VoxelFormat::f32;
@@ -21,34 +21,34 @@ struct Constants {
   bool count = false;
   bool speed_of_light = false;
   int preintegrated = 0;  // technique::preintegration_form
-  bool cells = false;     // a source of its own
+  bool cells = false;     // has a source of its own
   bool leaps = false;     // technique::Skip::distance
   bool adapt = false;
-  bool parts = false;  // draws technique::Part by part
+  bool parts = false;  // the volume is drawn one technique::Part at a time
   technique::Precision precision = technique::Precision::fp32;
   technique::Fault fault = technique::Fault::none;
   int batch = 1;
 
-  [[nodiscard]] std::string options() const;  // as the compiler takes them
+  [[nodiscard]] std::string options() const;  // in the form that the compiler takes
 };
 
-// What every program begins with (the prelude, volume_math.h), and then the named files: of this
-// folder, or else shared ones (technique::source).
+// The beginning of every program (the prelude, volume_math.h), followed by the given files: those
+// of this folder, or otherwise shared ones (technique::source).
 [[nodiscard]] std::string program_source(const std::vector<std::string_view>& files);
 
 // Compiles for the session's device. Throws core::ApiError with the compiler's log.
 [[nodiscard]] cl::Program build(const Session& session, const std::string& source,
                                 const std::string& options);
 
-// Programs already compiled, by source and options.
+// Programs that have been compiled, by source and options.
 class Programs {
  public:
   explicit Programs(const Session& session) : session_(session) {}
   [[nodiscard]] cl::Program get(const std::string& source, const std::string& options);
-  // Content hash of source and options.
+  // The content hash of source and options.
   [[nodiscard]] static std::string hash(const std::string& source, const std::string& options);
 
-  // From here on the programs that are asked for are noted, each once, but those that count;
+  // From now on, the programs that are requested are recorded once each, except those that count.
   // end_capture() returns them in that order.
   void start_capture();
   [[nodiscard]] std::vector<cl::Program> end_capture();

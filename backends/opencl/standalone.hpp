@@ -7,7 +7,7 @@
 
 namespace triptych::opencl_backend {
 
-// Where a dump is asked for, writes frame.c into it: a program that draws this frame by technique
+// If a dump was requested, writes frame.c into it: a program that draws this frame by the technique
 // raycast (or speed_of_light) and prints one of its pixels.
 void dump_standalone(const Session& session, const measure::VolumeWork& work,
                      const std::string& source, const Constants& constants,

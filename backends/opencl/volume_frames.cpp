@@ -27,7 +27,7 @@ std::vector<std::string_view> source_files(const Constants& constants) {
           "preintegrated.cl",        "raycast.cl"};
 }
 
-// Pixels of a work-group: wide enough for a GPU's waves; a CPU is indifferent.
+// The pixels of a work group: wide enough for a GPU's waves; it makes no difference on a processor.
 constexpr std::size_t group_width = 16;
 constexpr std::size_t group_height = 4;
 
@@ -83,7 +83,7 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
   });
 }
 
-// All but the voxels.
+// Uploads everything except the voxels.
 void VolumeFrames::upload_surroundings(const measure::VolumeWork& work, const Constants& constants,
                                        std::span<const std::int32_t> map) {
   table_ = upload_bytes(session_, std::as_bytes(std::span(work.scene.transfer_function.entries)));

@@ -16,7 +16,7 @@
 
 namespace triptych::opencl_backend {
 
-// Constants of the timed build for this work.
+// The constants of the timed build for this work.
 [[nodiscard]] Constants constants_of(const Session& session, const measure::VolumeWork& work);
 
 class VolumeFrames final : public measure::Prepared {
@@ -47,11 +47,11 @@ class VolumeFrames final : public measure::Prepared {
   cl::Buffer quadrature_;
   cl::Buffer image_;
   cl::Buffer counters_;
-  cl::Buffer pauses_;                 // of rays between two parts
-  std::optional<VolumeParts> parts_;  // of a volume that the device does not hold whole
-  std::vector<Launch> timed_;         // one, with the injected extra work if there is any
-  std::vector<Launch> counting_;      // one, of the picture alone
-  std::vector<cl::Event> events_;     // of the last frame, one per launch
+  cl::Buffer pauses_;                 // the states of rays between two parts
+  std::optional<VolumeParts> parts_;  // for a volume that does not fit the device as a whole
+  std::vector<Launch> timed_;         // one launch, with the injected extra work if there is any
+  std::vector<Launch> counting_;      // one launch, for the image only
+  std::vector<cl::Event> events_;     // of the last frame, one for each launch
   std::vector<std::uint32_t> counts_;
 };
 

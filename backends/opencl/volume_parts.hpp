@@ -1,5 +1,5 @@
 #pragma once
-// A volume of which the device holds one part at a time (technique/volume/parts.hpp).
+// A volume that is on the device one part at a time (technique/volume/parts.hpp).
 
 #include <cstdint>
 #include <limits>
@@ -15,22 +15,23 @@
 
 namespace triptych::opencl_backend {
 
-// Kernels index voxels and counters by signed words.
+// Kernels index voxels and counters by signed 32-bit numbers.
 inline constexpr std::uint64_t most_indices = std::numeric_limits<std::int32_t>::max();
 
 [[nodiscard]] technique::Cut cut_of(const Session& session, std::string_view technique,
                                     const measure::VolumeWork& work);
 
-// The passes of a frame, each behind the voxels and parameters that it reads.
+// The passes of a frame, each after the voxels and parameters that it reads.
 class VolumeParts {
  public:
-  // `map`: technique::brick_map. `parameters` are followed by room for technique::PartParameters.
+  // `map` is the result of technique::brick_map. `parameters` must have room for
+  // technique::PartParameters at the end.
   VolumeParts(const Session& session, const measure::VolumeWork& work,
               std::span<const technique::Part> parts, std::span<const std::int32_t> map,
               const cl::Buffer& voxels, const cl::Buffer& parameters);
 
-  // As opencl_backend::run does of one launch. `events`: of the frame's first command and of each
-  // launch.
+  // Like opencl_backend::run with one launch. `events` gets those of the frame's first command and
+  // of each launch.
   void run(const Launch& launch, std::vector<cl::Event>& events) const;
 
  private:
@@ -39,7 +40,7 @@ class VolumeParts {
   std::vector<technique::PartPass> passes_;
   cl::Buffer voxels_;
   cl::Buffer parameters_;
-  std::size_t place_;  // of the part's in the parameters
+  std::size_t place_;  // where the parameters of a part are among the parameters
   measure::MemoryLedger::Entry moved_;
 };
 

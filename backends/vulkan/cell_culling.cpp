@@ -50,7 +50,7 @@ CellCulling::CellCulling(const Gpu& gpu, const Layout& layout, std::uint32_t cel
   }
 }
 
-// Commands that draw nothing: other numbers would have the device draw without end.
+// Commands that draw nothing; other values would make the device draw without end.
 void CellCulling::poison() const {
   if (builds_.empty()) return;
   run_once(gpu_, [&](const vk::raii::CommandBuffer& commands) {

@@ -9,12 +9,12 @@ namespace triptych::vulkan_backend {
 
 inline constexpr std::uint32_t commands_binding = first_free_binding;
 
-// By what cells are left out: the view alone, or, in the two passes of a frame with occlusion
-// culling, also by what the last frame showed and by what the first pass has drawn
+// What decides which cells are left out: only the view or, in the two passes of a frame with
+// occlusion culling, also what the last frame showed and what the first pass has drawn
 // (technique/particles/cull.glsl: TRI_OCCLUSION).
 enum class CullPass : std::uint8_t { view, seen_before, seen_now };
 
-// The device pass that leaves out cells outside the view, and the draws of what it leaves.
+// The pass that removes cells outside the view, and the draws of those that remain.
 class CellCulling {
  public:
   // `instanced`: a cell's particles are instances of four vertices, otherwise vertices. `layout`
@@ -24,10 +24,10 @@ class CellCulling {
 
   void bind(vk::DescriptorSet set) const;
 
-  // The set must be bound for compute.
+  // The descriptor set must be bound for compute.
   void record(const vk::raii::CommandBuffer& commands, CullPass pass, bool counting) const;
   void poison() const;
-  // Draws every stride-th cell of those left, in order.
+  // Draws every stride-th of the remaining cells, in order.
   void draw(const vk::raii::CommandBuffer& commands, std::uint32_t stride) const;
 
  private:
@@ -42,7 +42,7 @@ class CellCulling {
   std::vector<Build> builds_;
 };
 
-// Whether the device can draw what CellCulling leaves; the reason where it cannot.
+// Why the device cannot draw what CellCulling leaves; nullopt if it can.
 [[nodiscard]] std::optional<std::string> cannot_cull(const Gpu& gpu, bool instanced);
 
 }  // namespace triptych::vulkan_backend

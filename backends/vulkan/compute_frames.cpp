@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::string_view shader = "raycast.comp";
 
-// Work groups along one side of the picture: raycast.comp takes a tile of 8×8 pixels each.
+// The number of work groups along one side of the image: each one of raycast.comp draws a tile of
+// 8×8 pixels.
 std::uint32_t tiles(int pixels) {
   return (static_cast<std::uint32_t>(pixels) + 7) / 8;
 }
@@ -90,7 +91,8 @@ measure::Frame ComputeFrames::frame(measure::Purpose purpose) {
   });
 }
 
-// Each part on its way and its pass. The device's clock does not see the way: it tells no time.
+// Moves each part and draws it. The device's clock does not include the moving, so no device time
+// is reported.
 measure::Frame ComputeFrames::submit_parts(measure::Purpose purpose) {
   measure::Frame frame;
   const auto begin = std::chrono::steady_clock::now();

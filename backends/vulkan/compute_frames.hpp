@@ -7,7 +7,7 @@
 
 namespace triptych::vulkan_backend {
 
-// A volume technique in a compute kernel, one invocation per pixel.
+// A volume technique in a compute kernel, with one invocation for each pixel.
 class ComputeFrames final : public measure::Prepared {
  public:
   ComputeFrames(const Gpu& gpu, const Instance& instance, const measure::VolumeWork& work,
@@ -35,7 +35,7 @@ class ComputeFrames final : public measure::Prepared {
   std::string_view timed_code_;
   std::string_view counting_code_;
   vk::Pipeline pipeline_;
-  vk::Pipeline counting_pipeline_;  // null until a counting frame is asked for
+  vk::Pipeline counting_pipeline_;  // null until a counting frame is requested
   Frames frames_;
 };
 

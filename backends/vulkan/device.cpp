@@ -26,8 +26,8 @@ using Prepare = std::unique_ptr<measure::Prepared> (*)(const Gpu&, const Instanc
 
 struct Entry {
   std::string_view technique;
-  std::variant<Prepare<measure::VolumeWork>, Prepare<measure::ParticleWork>>
-      prepare;  // in the order of measure::Work
+  // In the order of measure::Work.
+  std::variant<Prepare<measure::VolumeWork>, Prepare<measure::ParticleWork>> prepare;
   Needs needs;
 };
 #define ENTRY(id, needs) Entry{#id, &prepare_##id, Needs::needs},
@@ -39,10 +39,10 @@ const Entry* find_entry(std::string_view technique) {
   return found != entries.end() ? found : nullptr;
 }
 
-// Below this a device's filter is as good as interpolation in single precision.
+// A filter with a smaller error is as good as interpolation in single precision.
 constexpr double exact_filter = 1e-5;
 
-// Returns one error per VoxelFormat; none if the device cannot sample it, or only compiles.
+// One error for each VoxelFormat; nullopt if the device cannot sample the format, or only compiles.
 std::array<std::optional<double>, 4> probe_filters(const Gpu& gpu) {
   if (!gpu.executes) return {};
   return {probe_filter(gpu, scene::VoxelFormat::u8), probe_filter(gpu, scene::VoxelFormat::u16),
@@ -79,10 +79,10 @@ std::optional<double> Device::hardware_error(scene::VoxelFormat format) const {
   return filter_errors_.at(static_cast<std::size_t>(format));
 }
 
-// A filter that is exact beats eight fetches and their arithmetic wherever there is hardware for
-// it; among exact ones R32F is the fastest on CPU devices, and no slower elsewhere while it fits
-// the caches. A volume that the device cannot hold as one image is drawn in parts, which samplers
-// would not.
+// An exact filter is faster than eight fetches and their arithmetic on all devices with hardware
+// for it. Among exact ones, R32F is the fastest on CPU devices, and no slower elsewhere as long as
+// it fits into the caches. A volume that the device cannot hold as one image is drawn in parts,
+// which samplers cannot do.
 measure::VolumePath Device::default_path(const measure::VolumeKind& volume) const {
   const scene::VoxelFormat native = volume.native;
   if (gpu_.is_cpu() && volume.may_be_packed() &&
@@ -102,7 +102,7 @@ measure::VolumePath Device::default_path(const measure::VolumeKind& volume) cons
 double Device::filter_weight_error(const measure::VolumePath& path) const {
   if (path.sampler != technique::Sampler::hardware) return 0;
   const std::optional<double> error = hardware_error(path.voxel);
-  // A wrong filter is no wide bound.
+  // A wrong filter must not lead to a wide bound.
   if (error) return std::min(*error, allowed_filter_error(gpu_, path.voxel));
   throw core::NotSupported(fmt::format("cannot filter images of format {} linearly",
                                        vk::to_string(texture_format(path.voxel))));

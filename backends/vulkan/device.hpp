@@ -10,7 +10,7 @@
 
 namespace triptych::vulkan_backend {
 
-// An open physical device.
+// A physical device that is open.
 class Device final : public measure::Device {
  public:
   // Probes the texture filter of every voxel format. Throws core::NotSupported, core::ApiError.

@@ -15,7 +15,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-// Layers may change what is drawn; TRIPTYCH_LAYER is ours of tests/layer.
+// Layers may change what is drawn; TRIPTYCH_LAYER is the variable of our own layer in tests/layer.
 constexpr std::array<std::string_view, 11> code_variables{"LP_NUM_THREADS",
                                                           "LP_NATIVE_VECTOR_WIDTH",
                                                           "GALLIVM_PERF",
@@ -71,14 +71,14 @@ std::string short_name(vk::DriverId driver, std::string_view driver_name) {
   return found != names.end() ? std::string(found->second) : slug(driver_name);
 }
 
-// Drivers that hand everything to another one, which decides what is drawn as much as they do.
+// Drivers that pass everything on to another one, which determines the image as much as they do.
 bool is_layered(vk::DriverId driver) {
   using enum vk::DriverId;
   return driver == eMesaVenus || driver == eMesaDozen || driver == eMoltenvk;
 }
 
-// "Virtio-GPU Venus (llvmpipe (LLVM 15.0.6, 256 bits))" and "Microsoft Direct3D12 (NVIDIA …)" name
-// what they run on in parentheses; MoltenVK names nothing else.
+// The device below a layered driver, which is named in parentheses: "Virtio-GPU Venus (llvmpipe
+// (LLVM 15.0.6, 256 bits))", "Microsoft Direct3D12 (NVIDIA …)". For MoltenVK it is the whole name.
 std::string host_of(std::string_view device_name) {
   const std::size_t begin = device_name.find('(');
   const std::size_t end = device_name.rfind(')');

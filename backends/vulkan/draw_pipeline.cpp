@@ -5,7 +5,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-// Keeps the modules and the constants alive that the stages point to.
+// Keeps the modules and constants to which the stages point.
 class Stages {
  public:
   Stages(const Gpu& gpu, const std::vector<DrawStage>& stages, const Specialization& constants)
@@ -44,7 +44,7 @@ vk::PipelineDepthStencilStateCreateInfo depth_state(std::optional<vk::CompareOp>
           .depthCompareOp = compare.value_or(vk::CompareOp::eAlways)};
 }
 
-// All of it: what is not named here is the same for every pipeline.
+// The complete key: everything that is not part of it is the same for every pipeline.
 std::string key_of(const DrawState& state, const Layout& layout, const Specialization& constants) {
   std::vector<std::string_view> codes;
   std::string text;

@@ -13,7 +13,7 @@ namespace {
 
 struct Statistic {
   vk::QueryPipelineStatisticFlagBits flag;
-  std::string_view name;  // record::Counts
+  std::string_view name;  // as in record::Counts
 };
 
 // In the order of their bits, which is the order in which a query returns them.
@@ -34,7 +34,7 @@ constexpr std::array<Statistic, 11> statistics_in_order{{
 }};
 
 constexpr std::uint32_t timestamps = 2;
-// What no clock reads by chance: hidden bits of a narrow counter are 0.
+// A value that no clock shows by chance: bits beyond the width of a counter are 0.
 constexpr std::uint64_t unwritten_ticks = 0xFEEDFACE0BADF00D;
 
 }  // namespace
@@ -55,7 +55,8 @@ void Frames::record_counters(const Recording& counting) {
 }
 
 Frames::Recorded Frames::record(const Recording& work, vk::QueryType type, bool queried) const {
-  // Commands that are never submitted are not recorded, and no query is created on a stub.
+  // Commands that are never submitted are not recorded, and no query is created on a device that
+  // only compiles.
   if (!gpu_.executes) return {.commands = nullptr, .queries = nullptr};
   Recorded recorded{.commands = make_commands(gpu_), .queries = nullptr};
   const bool timing = type == vk::QueryType::eTimestamp;
@@ -111,7 +112,7 @@ std::optional<double> Frames::device_ns() const {
       sizeof ticks, ticks.data(), sizeof ticks[0],
       VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
   if (result != VK_SUCCESS) return std::nullopt;
-  // Calibration names a clock that is not written; its time is no number.
+  // The calibration reports a clock that is not written; the time of such a frame is NaN.
   if (ticks[0] == unwritten_ticks || ticks[1] == unwritten_ticks) {
     return std::numeric_limits<double>::quiet_NaN();
   }
@@ -121,7 +122,7 @@ std::optional<double> Frames::device_ns() const {
   return static_cast<double>(elapsed) * static_cast<double>(gpu_.properties.limits.timestampPeriod);
 }
 
-// Read exactly once per reset: lavapipe adds to the value again on a second read.
+// Read exactly once after each reset, because lavapipe adds to the value again at a second read.
 record::Counts Frames::statistics() const {
   record::Counts counts;
   if (!statistic_flags_) return counts;

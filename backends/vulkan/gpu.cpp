@@ -29,8 +29,8 @@ std::uint32_t choose_family(const std::vector<vk::QueueFamilyProperties>& famili
   throw core::NotSupported(fmt::format("{} has no queue for compute work", device_name));
 }
 
-// Whether the driver reports what it compiles. The extension's structure of features must be asked
-// for as well: a driver may list the extension and lack the feature.
+// Whether the driver reports what it compiles. The feature must be queried as well, because a
+// driver may list the extension and not have the feature.
 bool reports_code(const vk::raii::PhysicalDevice& physical) {
   const auto extensions = physical.enumerateDeviceExtensionProperties();
   const bool listed = std::ranges::any_of(extensions, [](const vk::ExtensionProperties& each) {

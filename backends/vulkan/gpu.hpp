@@ -11,8 +11,8 @@
 
 namespace triptych::vulkan_backend {
 
-// Extensions that some techniques need. Each is enabled where the device offers it with all that it
-// depends on.
+// Extensions that some techniques need. Each is enabled if the device has it and everything on
+// which it depends.
 struct Extensions {
   bool acceleration_structure = false;
   bool ray_query = false;
@@ -28,12 +28,13 @@ struct Extensions {
   std::uint32_t task_groups = 0;            // maxTaskWorkGroupCount along one axis
 };
 
-// An open device and the one queue that all work goes through. Outlives everything made from it.
+// An open device and the only queue, through which all work goes. It outlives everything that is
+// made from it.
 struct Gpu {
   vk::raii::PhysicalDevice physical;
   vk::PhysicalDeviceProperties properties;
   vk::PhysicalDeviceMemoryProperties memory;
-  vk::PhysicalDeviceFeatures features;  // those enabled
+  vk::PhysicalDeviceFeatures features;  // the enabled ones
   Extensions extensions = {};
   std::uint32_t family = 0;
   bool draws = false;                // the queue takes draw calls
@@ -44,10 +45,10 @@ struct Gpu {
   vk::raii::Queue queue;
   vk::raii::CommandPool commands;
   std::unique_ptr<Pipelines> pipelines;
-  bool executes = true;       // else submit_and_wait() throws, and run_once() does nothing
+  bool executes = true;       // if false, submit_and_wait() throws and run_once() does nothing
   bool reports_code = false;  // VK_KHR_pipeline_executable_properties is enabled
-  measure::MemoryLedger held = {};  // by buffers and images
-  // Submissions so far: a device that is lost says after how many.
+  measure::MemoryLedger held = {};  // memory of buffers and images
+  // The number of submissions so far: the error about a lost device contains it.
   mutable std::uint64_t submissions = 0;
 
   [[nodiscard]] bool is_cpu() const {
@@ -55,14 +56,14 @@ struct Gpu {
   }
 };
 
-// Throws core::NotSupported when the device has no queue for compute work, vk::SystemError.
-// `labelled`: its instance has VK_EXT_debug_utils, and names are wanted. `executes`: false for a
+// Throws core::NotSupported if the device has no queue for compute work, and vk::SystemError.
+// `labelled`: its instance has VK_EXT_debug_utils, and names are requested. `executes`: false for a
 // device that only compiles.
 [[nodiscard]] Gpu open_gpu(const vk::raii::PhysicalDevice& physical, bool labelled = false,
                            bool executes = true);
 
-// Names the commands that are recorded while it lives, for tools that show them. Does nothing where
-// nothing is labelled.
+// Names the commands that are recorded while this object lives, for tools that show the names. Does
+// nothing if names were not requested.
 class Label {
  public:
   Label(const Gpu& gpu, const vk::raii::CommandBuffer& commands, const char* name);
@@ -71,11 +72,11 @@ class Label {
   ~Label();
 
  private:
-  const vk::raii::CommandBuffer* commands_;  // null where nothing is labelled
+  const vk::raii::CommandBuffer* commands_;  // null if names were not requested
 };
 
-// Names an object of the device for such tools, by what it is and where the code stands that made
-// it: "buffer of compute_frames.cpp:38".
+// Names an object of the device for such tools, by its kind and the line of code that made it:
+// "buffer of compute_frames.cpp:38".
 void name_object(const Gpu& gpu, vk::ObjectType type, std::uint64_t handle, const char* what,
                  core::CodePlace place);
 
@@ -84,17 +85,18 @@ using Recording = std::function<void(const vk::raii::CommandBuffer&)>;
 // A primary command buffer in its initial state.
 [[nodiscard]] vk::raii::CommandBuffer make_commands(const Gpu& gpu);
 
-// Submits and waits for a fence; the wait sleeps. The only place that submits: throws
+// Submits and waits for a fence without spinning. All submissions go through here. Throws
 // core::NotSupported on a device that only compiles.
 void submit_and_wait(const Gpu& gpu, const vk::raii::CommandBuffer& commands,
                      const vk::raii::Fence& fence,
                      core::CodePlace place = core::CodePlace::current());
 
-// Orders everything recorded after it behind all work submitted before, memory included.
+// Everything that is recorded after it waits for all work that was submitted before, including its
+// memory accesses.
 void barrier(const vk::raii::CommandBuffer& commands);
 
-// Records between two barriers, submits once, waits; on a device that only compiles, where nothing
-// that is moved would be read, it does nothing.
+// Records between two barriers, submits once, and waits. On a device that only compiles it does
+// nothing, because nobody would read what is moved.
 void run_once(const Gpu& gpu, const Recording& record,
               core::CodePlace place = core::CodePlace::current());
 

@@ -12,7 +12,7 @@ namespace {
 
 using technique::Structure;
 
-// Bindings of hierarchy.glsl and bvh.comp.glsl.
+// The bindings of hierarchy.glsl and bvh.comp.glsl.
 constexpr std::uint32_t boxes_binding = 7;
 constexpr std::uint32_t tree_spheres_binding = 8;
 constexpr std::uint32_t tree_order_binding = 9;
@@ -167,7 +167,7 @@ void HierarchyTracer::fit(const vk::raii::CommandBuffer& commands, const Layout&
   }
 }
 
-// Every stride-th beam.
+// Sends every stride-th beam.
 void HierarchyTracer::send(const vk::raii::CommandBuffer& commands, const Layout& layout,
                            vk::Pipeline pipeline, std::uint32_t stride, std::uint32_t flags) const {
   run(commands, layout, pipeline, (grid_.beams() + stride - 1) / stride,

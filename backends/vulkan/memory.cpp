@@ -21,12 +21,12 @@ vk::DeviceSize heap_size(const Gpu& gpu, std::uint32_t type) {
   return gpu.memory.memoryHeaps[gpu.memory.memoryTypes[type].heapIndex].size;
 }
 
-// Never of a heap that is too small, as one of 0 bytes is, whatever it is marked as.
+// Never from a heap that is too small, such as one of 0 bytes, whatever its flags are.
 std::uint32_t memory_type(const Gpu& gpu, const vk::MemoryRequirements& needed, Place place) {
   if (!gpu.executes) return 0;  // RADV lists no types without a GPU, and takes the first
   using enum vk::MemoryPropertyFlagBits;
   const vk::MemoryPropertyFlags host = eHostVisible | eHostCoherent;
-  // In order of preference; the last of each is guaranteed by the specification.
+  // In order of preference. The specification guarantees the last one of each.
   std::array<vk::MemoryPropertyFlags, 2> wishes{};
   if (place == Place::device) wishes = {eDeviceLocal, {}};
   if (place == Place::upload) wishes = {host, host};
@@ -55,7 +55,7 @@ vk::raii::DeviceMemory allocate(const Gpu& gpu, const vk::MemoryRequirements& ne
                                                .allocationSize = needed.size,
                                                .memoryTypeIndex = type}};
   } catch (const vk::SystemError& error) {
-    // Larger ones may succeed, but a device need not give them.
+    // Larger allocations may succeed, but a device need not allow them.
     if (needed.size > gpu.most_allocated) {
       throw core::NotSupported(
           fmt::format("needs {} bytes in one piece, which the device refused; "
@@ -70,14 +70,14 @@ vk::raii::DeviceMemory allocate(const Gpu& gpu, const vk::MemoryRequirements& ne
 
 constexpr std::uint32_t unwritten = measure::poison_word;
 
-// For `size` bytes from the device.
+// A buffer for `size` bytes from the device.
 Buffer read_back_buffer(const Gpu& gpu, std::size_t size) {
   Buffer buffer(gpu, size, vk::BufferUsageFlagBits::eTransferDst, Place::read_back);
   std::memset(buffer.mapped().data(), static_cast<int>(unwritten & 0xFFU), size);
   return buffer;
 }
 
-// Makes transfer writes visible to the host once the submission's fence is signalled.
+// Makes transfer writes visible to the host after the fence of the submission is signalled.
 void release_to_host(const vk::raii::CommandBuffer& commands) {
   const vk::MemoryBarrier barrier{.srcAccessMask = vk::AccessFlagBits::eTransferWrite,
                                   .dstAccessMask = vk::AccessFlagBits::eHostRead};

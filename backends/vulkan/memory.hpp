@@ -1,5 +1,5 @@
 #pragma once
-// Buffers and images with the memory they own, and moving data in and out of them.
+// Buffers and images with the memory that they own, and moving data to and from them.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,15 +11,15 @@
 namespace triptych::vulkan_backend {
 
 enum class Place : std::uint8_t {
-  device,    // fastest for the device
+  device,    // the fastest for the device
   upload,    // written by the host, mapped
-  read_back  // read by the host, mapped, cached where there is such memory
+  read_back  // read by the host, mapped, and cached if there is such memory
 };
 
 // A VkBuffer with its VkDeviceMemory.
 class Buffer {
  public:
-  // Throws core::NotSupported where the device has no room for it, core::ApiError.
+  // Throws core::NotSupported if the device has no space for it, and core::ApiError.
   Buffer(const Gpu& gpu, vk::DeviceSize size, vk::BufferUsageFlags usage, Place place,
          core::CodePlace code_place = core::CodePlace::current());
 
@@ -62,41 +62,42 @@ class Image {
   measure::MemoryLedger::Entry held_;
 };
 
-// Orders it behind all that was written before.
+// The change waits for everything that was written before.
 void change_layout(const vk::raii::CommandBuffer& commands, const Image& image,
                    vk::ImageLayout from, vk::ImageLayout to);
 
-// Writes the bytes of a buffer that begin at `begin`.
+// Writes the part of a buffer that begins at byte `begin`.
 using Fill = std::function<void(std::size_t begin, std::span<std::byte> out)>;
 
-// A device-local buffer of `size` bytes; of some bytes for none, as a buffer must have. Goes
-// through a small staging buffer part by part, in multiples of 16 bytes, which `fill` writes to
-// directly, so that the data are held but once.
+// A buffer of `size` bytes in device memory; if that is 0, it has some bytes, because a buffer must
+// not be empty. It is filled through a small staging buffer, part by part in multiples of 16 bytes.
+// `fill` writes directly to the staging buffer, so that there is only one copy of the data.
 [[nodiscard]] Buffer make_buffer(const Gpu& gpu, std::size_t size, const Fill& fill,
                                  vk::BufferUsageFlags usage);
 
-// The same of bytes that are there.
+// The same for bytes that exist in memory.
 [[nodiscard]] Buffer make_buffer(const Gpu& gpu, std::span<const std::byte> bytes,
                                  vk::BufferUsageFlags usage);
 
-// Fills an image, x fastest, and leaves it in eShaderReadOnlyOptimal. Goes through a small
-// staging buffer slice by slice, so that the device never holds a second copy.
+// Fills an image, x fastest, and leaves it in eShaderReadOnlyOptimal. Uses a small staging buffer
+// for one slice at a time, so that the device never has a second copy.
 void upload(const Gpu& gpu, const Image& image, std::span<const std::byte> texels);
-// The same of its first slices alone; those behind are as if never written.
+// The same for its first slices only; the content of the others is undefined.
 void upload(const Gpu& gpu, const Image& image, std::span<const std::byte> texels,
             std::uint32_t slices);
 
-// Writes the first bytes of a buffer that make_buffer made, as it does.
+// Writes the first bytes of a buffer that make_buffer made, in the same way.
 void upload(const Gpu& gpu, const Buffer& to, std::size_t size, const Fill& fill);
 
 // Writes the first bytes of a buffer that make_buffer made.
 void upload(const Gpu& gpu, const Buffer& to, std::span<const std::byte> bytes);
 
-// Fills a buffer of usage eTransferDst with what no picture and no count holds: NaN as a float,
-// 2³²−1 as an integer. Fresh memory may hold what was right before.
+// Fills a buffer of usage eTransferDst with a value that no image and no count contains: NaN as a
+// float, 2³²−1 as an integer. Fresh memory may contain what was right before.
 void mark_unwritten(const Gpu& gpu, const Buffer& buffer);
 
-// Copies the buffer's first bytes to the host. What the device does not copy reads as unwritten.
+// Copies the first bytes of the buffer to the host. Bytes that the device does not copy read as
+// unwritten.
 void download(const Gpu& gpu, const Buffer& from, std::span<std::byte> to);
 
 // Copies an image in eTransferSrcOptimal to the host, x fastest.

@@ -1,5 +1,6 @@
 #pragma once
-// What every particle technique needs on the device: the arrangement, its parameters, counters.
+// What every particle technique needs on the device: the arrangement, its parameters and the
+// counters.
 
 #include <cstdint>
 #include <vector>
@@ -13,7 +14,7 @@
 
 namespace triptych::vulkan_backend {
 
-// Bindings of technique/particles/*.glsl.
+// The bindings of technique/particles/*.glsl.
 enum ParticleBinding : std::uint32_t {
   particle_parameters_binding = 0,
   particle_transfer_binding = 1,
@@ -22,7 +23,7 @@ enum ParticleBinding : std::uint32_t {
   colours_binding = 4,
   ids_binding = 5,
   cells_binding = 6,
-  first_free_binding = 7  // a technique's own from here
+  first_free_binding = 7  // a technique's own bindings begin here
 };
 
 // Specialization constants in the order of their numbers in shaders/particle_prelude.glsl.
@@ -38,19 +39,19 @@ struct ParticleConstants {
 [[nodiscard]] ParticleConstants particle_constants(const Gpu& gpu,
                                                    const measure::ParticleWork& work);
 
-// Pixels to add to the size of a point on this device.
+// The number of pixels to add to the size of a point on this device.
 [[nodiscard]] float point_margin(const Gpu& gpu);
-// The largest square that a point can stand for: with the margin, it is as large as they get.
+// The largest square that a point can stand for; with the margin, it is the largest point.
 [[nodiscard]] float largest_point(const Gpu& gpu);
 
-// How a particle's colour is stored, for the vertex fetch.
+// How a particle's colour is stored for the vertex fetch.
 [[nodiscard]] vk::Format colour_format(scene::ColourKind kind);
 [[nodiscard]] std::uint32_t colour_bytes(scene::ColourKind kind);
 
-// How shaders get at particles: as attributes of vertices, or in storage buffers.
+// How shaders read particles: as attributes of vertices, or from storage buffers.
 enum class Fetch : std::uint8_t { attributes, by_index };
 
-// Buffers in device memory; nothing of the host's is kept.
+// Buffers in device memory. They contain no reference to data of the host.
 class ParticleData {
  public:
   ParticleData(const Gpu& gpu, const measure::ParticleWork& work,
@@ -62,16 +63,16 @@ class ParticleData {
   [[nodiscard]] const Buffer& colours() const noexcept { return colours_; }
   [[nodiscard]] const Buffer& ids() const noexcept { return ids_; }
 
-  // Binds everything below first_free_binding; the particles only where they are fetched by index,
-  // as a vertex buffer may be larger than a storage buffer.
+  // Binds everything below first_free_binding. The particles are bound only if they are fetched by
+  // index, because a vertex buffer may be larger than a storage buffer.
   void bind(vk::DescriptorSet set, Fetch fetch) const;
 
-  // Frames from now on are seen from this scene's camera.
+  // From now on, frames are seen from the camera of this scene.
   void look_from(const measure::ParticleWork& work) const;
 
   void poison_counters() const;
   void clear_counters(const vk::raii::CommandBuffer& commands) const;
-  // What a counting frame told; the device has finished it.
+  // The results of a counting frame, which the device must have finished.
   [[nodiscard]] record::Counts counts(technique::Method method, technique::Culling culling,
                                       const core::Image& picture) const;
 

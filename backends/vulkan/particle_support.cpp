@@ -37,7 +37,7 @@ std::optional<std::string> storage_reason(const Gpu& gpu, const scene::ParticleS
   return std::nullopt;
 }
 
-// Of the outline's four edges the longest has a quarter of the corners, rounded up.
+// The longest of the outline's four edges has a quarter of the corners, rounded up.
 std::optional<std::string> corners_reason(const Gpu& gpu, int corners) {
   const std::uint32_t most = 4 * gpu.properties.limits.maxTessellationGenerationLevel;
   if (static_cast<std::uint32_t>(corners) <= most) return std::nullopt;
@@ -99,7 +99,7 @@ std::optional<std::string> memory_reason(const Gpu& gpu, std::uint64_t needed) {
     const vk::MemoryHeap& each = gpu.memory.memoryHeaps[heap];
     if (each.flags & vk::MemoryHeapFlagBits::eDeviceLocal) largest = std::max(largest, each.size);
   }
-  // Where the heaps that are marked as the device's are empty, the others serve.
+  // If the heaps that are marked as the device's are empty, the others are used.
   for (std::uint32_t heap = 0; heap < gpu.memory.memoryHeapCount && largest == 0; ++heap) {
     largest = gpu.memory.memoryHeaps[heap].size;
   }
@@ -132,7 +132,7 @@ std::optional<std::string> particle_reason(const Gpu& gpu, const measure::Partic
   std::uint64_t pixel_bytes = reads_depths ? depth : 0;
   const bool draws_sprites =
       technique::technique(technique).method == technique::Method::sprites;
-  if (!draws_sprites) pixel_bytes = depth + sizeof(std::uint32_t);  // and a particle
+  if (!draws_sprites) pixel_bytes = depth + sizeof(std::uint32_t);  // and the id of a particle
   if (auto reason = picture_reason(gpu, scene.width, scene.height, needs, pixel_bytes)) {
     return reason;
   }

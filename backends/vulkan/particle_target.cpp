@@ -125,7 +125,8 @@ void ParticleTarget::begin(const vk::raii::CommandBuffer& commands, bool continu
   commands.setScissor(0, everything);
 }
 
-// A depth that no pixel of a frame keeps: the frame clears it, and what is drawn writes its own.
+// The depth is one that no frame leaves in any pixel: a frame clears it, and what it draws writes
+// its own.
 void ParticleTarget::poison(const Gpu& gpu) const {
   constexpr float none = std::numeric_limits<float>::quiet_NaN();
   const std::array<vk::ClearValue, 3> values{

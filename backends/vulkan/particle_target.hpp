@@ -10,24 +10,26 @@
 
 namespace triptych::vulkan_backend {
 
-// Reversed depth: the nearest is the greatest, and the first drawn stays on a tie.
+// Depth is reversed: the nearest has the greatest value, and if two are equal, the one that was
+// drawn first stays.
 [[nodiscard]] vk::CompareOp depth_compare(technique::ParticleFault fault);
 
-// Depth as it was drawn, near/Z, to distance along the view axis; +inf where there is no particle.
+// Converts depth as it was drawn, near/Z, into the distance along the view axis; +inf if there is
+// no particle.
 void resolve_depth(core::Image& image, double near);
 
-// What sprites are drawn into: colour, ids and reversed depth.
+// The target for drawing sprites: colour, ids and reversed depth.
 class ParticleTarget {
  public:
-  // `cleared_depth`: 0, the farthest there is, or 1 where the farthest is to be kept.
+  // `cleared_depth`: 0, which is the farthest, or 1 if the farthest is to be kept.
   ParticleTarget(const Gpu& gpu, const scene::ParticleScene& scene, float cleared_depth);
 
   [[nodiscard]] vk::Extent3D extent() const noexcept { return colour_.extent(); }
   [[nodiscard]] const Image& depth() const noexcept { return depth_; }
-  // Pipelines made for one of the two passes go with the other as well.
+  // Pipelines that were made for one of the two passes can be used with the other.
   [[nodiscard]] const vk::raii::RenderPass& pass() const noexcept { return clearing_; }
 
-  // Leaves all three ready to be copied from. A continued pass keeps what is there.
+  // Leaves all three attachments ready to be copied from. A continued pass keeps their contents.
   void begin(const vk::raii::CommandBuffer& commands, bool continued) const;
 
   // Overwrites every attachment: colour with NaN.
@@ -35,9 +37,9 @@ class ParticleTarget {
   [[nodiscard]] core::Image read(const Gpu& gpu) const;
 
   static constexpr std::uint32_t colour_targets = 2;
-  // Of the passes' attachments.
+  // The formats of the attachments of the passes.
   [[nodiscard]] static std::vector<vk::Format> formats();
-  // Why the device cannot draw to it; of its formats only depth is optional.
+  // Why the device cannot draw to it. Of its formats, only that of depth is optional.
   [[nodiscard]] static std::optional<std::string> format_reason(const Gpu& gpu);
 
  private:

@@ -28,7 +28,8 @@ std::string shader_name(std::string_view code) {
 }
 
 vk::raii::ShaderModule make_shader(const Gpu& gpu, std::string_view code) {
-  std::vector<std::uint32_t> words(code.size() / sizeof(std::uint32_t));  // aligned, as Vulkan asks
+  std::vector<std::uint32_t> words(code.size() /
+                                   sizeof(std::uint32_t));  // aligned, as Vulkan requires
   std::memcpy(words.data(), code.data(), code.size());
   return {gpu.device, vk::ShaderModuleCreateInfo{.codeSize = code.size(), .pCode = words.data()}};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Device code: SPIR-V built with the program, specialised when a technique is prepared.
+// Device code: SPIR-V that is built with the program and specialised when a technique is prepared.
 
 #include <array>
 #include <bit>
@@ -15,10 +15,10 @@
 
 namespace triptych::vulkan_backend {
 
-// Specialization constants: word n has the constant_id n.
+// Specialization constants: word n has constant_id n.
 class Specialization {
  public:
-  // From a struct of four-byte scalars.
+  // From a structure of four-byte scalars.
   template <class Constants>
   explicit Specialization(const Constants& constants) {
     const auto words =
@@ -52,14 +52,14 @@ struct Constants {
 };
 static_assert(sizeof(Constants) == 9 * 4);
 
-// The embedded SPIR-V by its file name, "raycast.comp.spv".
+// The embedded SPIR-V, by the name of its file: "raycast.comp.spv".
 [[nodiscard]] std::string_view spirv(std::string_view name);
 // Returns the name of its file without the ending: "raycast.comp".
 [[nodiscard]] std::string shader_name(std::string_view code);
-// A module from the bytes of a SPIR-V file.
+// A module, from the bytes of a SPIR-V file.
 [[nodiscard]] vk::raii::ShaderModule make_shader(const Gpu& gpu, std::string_view code);
 
-// The gpu's own (Pipelines): made where there is none of the kind yet.
+// The Gpu owns the pipeline (Pipelines); it is created if there is none of this kind yet.
 [[nodiscard]] vk::Pipeline compute_pipeline(const Gpu& gpu, const Layout& layout,
                                             std::string_view code, const Specialization& constants);
 [[nodiscard]] inline vk::Pipeline compute_pipeline(const Gpu& gpu, const Layout& layout,
@@ -68,12 +68,12 @@ static_assert(sizeof(Constants) == 9 * 4);
   return compute_pipeline(gpu, layout, code, Specialization(constants));
 }
 
-// Where device code is to be dumped: the SPIR-V of one stage with its constants, and how long
-// making its pipeline took since `begin`.
+// If device code is to be dumped: writes the SPIR-V of one stage with its constants, and how long
+// making its pipeline has taken since `begin`.
 void dump_shader(vk::ShaderStageFlagBits stage, std::string_view code,
                  const Specialization& constants, std::chrono::steady_clock::time_point begin);
 
-// Content hash of the SPIR-V and the constants.
+// The content hash of the SPIR-V and the constants.
 [[nodiscard]] std::string code_hash(std::string_view code, const Constants& constants);
 [[nodiscard]] std::string code_hash(std::span<const std::string_view> codes,
                                     const Specialization& constants);

@@ -33,14 +33,14 @@ std::map<std::string, double> statistics_of(const Gpu& gpu,
   return statistics;
 }
 
-// Drivers offer their intermediate languages as well; the disassembly comes last and is called so.
+// Drivers also return their intermediate languages. The disassembly comes last and has that name.
 bool is_disassembly(const vk::PipelineExecutableInternalRepresentationKHR& each) {
   const std::string_view name = each.name.data();
   return each.isText == VK_TRUE && (name.find("ssembly") != std::string_view::npos ||
                                     name.find("SASS") != std::string_view::npos);
 }
 
-// Asked twice: for the sizes, then for the texts. Vulkan-Hpp does the former alone.
+// Called twice: for the sizes, then for the texts. Vulkan-Hpp does only the first.
 std::string assembly_of(const Gpu& gpu, const vk::PipelineExecutableInfoKHR& which) {
   auto representations = gpu.device.getPipelineExecutableInternalRepresentationsKHR(which);
   std::vector<std::string> texts(representations.size());
@@ -63,8 +63,8 @@ std::string assembly_of(const Gpu& gpu, const vk::PipelineExecutableInfoKHR& whi
   return assembly;
 }
 
-// The shaders that are in an executable: drivers merge stages, and the first of them is then the
-// whole pipeline's.
+// The shaders in an executable: drivers merge stages, and the first of the executables is then that
+// of the whole pipeline.
 std::string name_of(const Pipelines::Captured& captured,
                     const vk::PipelineExecutablePropertiesKHR& executable) {
   std::string name;

@@ -9,7 +9,7 @@ vk::Pipeline Pipelines::get(const std::string& key, const StageNames& stages, co
   const vk::PipelineCreateFlags flags =
       captures_ ? eCaptureStatisticsKHR | eCaptureInternalRepresentationsKHR
                 : vk::PipelineCreateFlags{};
-  // One that was made without the flags reports nothing.
+  // A pipeline that was made without the flags reports nothing.
   const std::string full_key = captures_ ? "captured; " + key : key;
   auto made = made_.find(full_key);
   if (made == made_.end()) made = made_.emplace(full_key, make(flags)).first;

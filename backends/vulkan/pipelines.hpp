@@ -9,20 +9,20 @@
 
 namespace triptych::vulkan_backend {
 
-// Name of each shader of a pipeline by its stage: "sphere.frag" of a fragment shader.
+// The name of each shader of a pipeline, by its stage: "sphere.frag" for a fragment shader.
 using StageNames = std::vector<std::pair<vk::ShaderStageFlagBits, std::string>>;
 
-// The pipelines of an open device, each built once for all that is prepared on it. A
-// VkPipelineCache would leave that to the driver, and Mesa's lavapipe keeps nothing in one: there
-// building is most of what a short frame costs.
+// The pipelines of an open device. Each is built once for all work that is prepared on the device.
+// A VkPipelineCache would leave that to the driver, and Mesa's lavapipe stores nothing in one:
+// building is most of the cost of a short frame there.
 class Pipelines {
  public:
   // Builds a pipeline with these flags.
   using Make = std::function<vk::raii::Pipeline(vk::PipelineCreateFlags)>;
 
-  // The one made for this key before, else `make`'s; it lives as long as the device. The key has to
-  // say all that a pipeline is made of, its layout included: a pipeline goes with every layout that
-  // is defined in the same way.
+  // The pipeline that was made for this key before; otherwise the result of `make`, which then
+  // lives as long as the device. The key must contain everything that a pipeline is made of,
+  // including its layout: a pipeline can be used with every layout that has the same definition.
   [[nodiscard]] vk::Pipeline get(const std::string& key, const StageNames& stages,
                                  const Make& make);
 
@@ -31,10 +31,10 @@ class Pipelines {
     vk::Pipeline pipeline;
     bool operator==(const Captured&) const = default;
   };
-  // From here on pipelines are made so that the driver reports what it compiled, and those that are
-  // asked for are noted, each once.
+  // From now on, pipelines are made so that the driver reports what it compiled, and those that are
+  // requested are recorded once each.
   void start_capture();
-  // Ends it: what was asked for, in that order.
+  // Ends it, and returns what was requested, in that order.
   [[nodiscard]] std::vector<Captured> end_capture();
 
  private:

@@ -1,4 +1,4 @@
-// The same raycaster as a fragment shader: one triangle over a float target.
+// The same raycaster as a fragment shader: one triangle over a floating-point target.
 #include <algorithm>
 #include <array>
 #include <span>
@@ -57,7 +57,7 @@ class FragmentFrames final : public measure::Prepared {
   vk::raii::RenderPass render_pass_;
   vk::raii::Framebuffer framebuffer_;
   vk::Pipeline pipeline_;
-  vk::Pipeline counting_pipeline_;  // null until a counting frame is asked for
+  vk::Pipeline counting_pipeline_;  // null until a counting frame is requested
   Frames frames_;
 };
 

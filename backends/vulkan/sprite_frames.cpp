@@ -19,10 +19,9 @@ vk::QueryPipelineStatisticFlags common_statistics() {
          eClippingInvocations | eClippingPrimitives | eFragmentShaderInvocations;
 }
 
+// Mesh pipelines have no input assembly and no vertex stage.
 constexpr vk::ShaderStageFlags mesh_stages =
     vk::ShaderStageFlagBits::eTaskEXT | vk::ShaderStageFlagBits::eMeshEXT;
-
-// Mesh pipelines assemble no input and run no vertex stage.
 vk::QueryPipelineStatisticFlags statistics_of(const SpriteTechnique& technique) {
   using enum vk::QueryPipelineStatisticFlagBits;
   if (technique.draw.meshes) return eFragmentShaderInvocations | technique.statistics;
@@ -75,15 +74,15 @@ SpriteFrames::SpriteFrames(const Gpu& gpu, const Instance& instance,
   instance_.check_validation();
 }
 
-// A frame that no one is shown, so that for every other one the last frame is known.
+// Draws a frame that is not shown, so that for every other frame the previous one is known.
 void SpriteFrames::draw_before(const measure::ParticleWork& work) const {
   if (work.camera_before) data_.look_from(work.before());
   static_cast<void>(frames_.submit(measure::Purpose::timing));
   if (work.camera_before) data_.look_from(work);
 }
 
-// What is hidden depends on the frames before. The first after a jump draws all that is seen, the
-// second knows what is hidden by that, and what follows is like it.
+// What is hidden depends on the previous frames. The first frame after a jump draws everything that
+// is visible, the second one knows what that hides, and all later ones are like the second.
 void SpriteFrames::settle() const {
   for (int frame = 0; frame < 2; ++frame) {
     static_cast<void>(frames_.submit(measure::Purpose::timing));
@@ -91,7 +90,8 @@ void SpriteFrames::settle() const {
 }
 
 void SpriteFrames::bind() {
-  const bool instanced = technique_.draw.instanced || technique_.draw.meshes || technique_.rest.has_value();
+  const bool instanced =
+      technique_.draw.instanced || technique_.draw.meshes || technique_.rest.has_value();
   data_.bind(set_, instanced ? Fetch::by_index : Fetch::attributes);
   culling_.bind(set_);
   if (options_.culling != Culling::occlusion) return;
@@ -203,8 +203,8 @@ void SpriteFrames::draw_meshes(const vk::raii::CommandBuffer& commands,
                                const std::array<std::uint32_t, 2>& share) const {
   constexpr std::uint32_t cells_per_group = 32;  // mesh.task.glsl
   const std::uint32_t cells = (data_.cells() + share[0] - 1) / share[0];
-  commands.pushConstants<std::array<std::uint32_t, 2>>(
-      *layout_.pipeline, vk::ShaderStageFlagBits::eTaskEXT, 0, share);
+  commands.pushConstants<std::array<std::uint32_t, 2>>(*layout_.pipeline,
+                                                       vk::ShaderStageFlagBits::eTaskEXT, 0, share);
   commands.drawMeshTasksEXT((cells + cells_per_group - 1) / cells_per_group, 1, 1);
 }
 
@@ -217,8 +217,8 @@ void SpriteFrames::draw_run(const vk::raii::CommandBuffer& commands, bool instan
   }
 }
 
-// Draws 1/stride of the particles once more: whole cells where there are enough of them, so that
-// what is culled stays so. No fragment passes a depth test that keeps the first.
+// Draws 1/stride of the particles again: whole cells if there are enough of them, so that what is
+// culled stays culled. No fragment passes the depth test, which keeps the first.
 void SpriteFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
   const auto stride = static_cast<std::uint32_t>(options_.extra_work_stride);
   if (technique_.draw.meshes) {
@@ -230,7 +230,7 @@ void SpriteFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
     culling_.draw(commands, stride);
     return;
   }
-  // Few, as a draw costs lavapipe some microseconds, whatever it draws.
+  // Few, because a draw costs lavapipe some microseconds, whatever it draws.
   constexpr std::uint32_t most_runs = 4;
   const std::uint32_t particles = data_.particles();
   const std::uint32_t length = std::max(particles / stride / most_runs, 1U);

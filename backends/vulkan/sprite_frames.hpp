@@ -1,6 +1,6 @@
 #pragma once
-// The techniques that draw sprites through the rasterizer: they differ in the stages that make
-// them.
+// The techniques that draw sprites with the rasterizer. They differ in the stages that make the
+// sprites.
 
 #include <array>
 #include <memory>
@@ -18,7 +18,7 @@
 
 namespace triptych::vulkan_backend {
 
-// A stage before the pixel's, by the names of its two builds.
+// A stage before the fragment stage, with the names of its two builds.
 struct SpriteStage {
   vk::ShaderStageFlagBits stage;
   std::string_view timed;
@@ -28,14 +28,14 @@ struct SpriteStage {
 // One way to turn particles into sprites.
 struct SpriteDraw {
   std::vector<SpriteStage> stages;
-  // Four vertices per particle and no vertex buffer; otherwise one vertex per particle.
+  // Four vertices for each particle and no vertex buffer; otherwise one vertex for each particle.
   bool instanced = false;
   // Task and mesh stages. The task stage culls cells itself, and there are no vertices.
   bool meshes = false;
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::ePointList;
 };
 
-// Particles one after another in the arrangement.
+// Particles that follow each other in the arrangement.
 struct ParticleRun {
   std::uint32_t begin = 0;
   std::uint32_t count = 0;
@@ -43,10 +43,10 @@ struct ParticleRun {
 
 struct SpriteTechnique {
   SpriteDraw draw;
-  vk::QueryPipelineStatisticFlags statistics;  // of its own stages, beside the common ones
+  vk::QueryPipelineStatisticFlags statistics;  // of its own stages, in addition to the common ones
   // The draw of occlusion culling's second pass, if its stages differ from those of the first.
   std::optional<SpriteDraw> later;
-  // A second draw, for these particles only.
+  // A second draw, only for these particles.
   std::optional<SpriteDraw> rest;
   std::vector<ParticleRun> rest_runs;
 };
@@ -65,7 +65,7 @@ class SpriteFrames final : public measure::Prepared {
   struct Draws {
     vk::Pipeline draw;
     vk::Pipeline later;
-    vk::Pipeline rest;  // null where there is nothing of the kind
+    vk::Pipeline rest;  // null if there is none
   };
   [[nodiscard]] Draws draws(bool counting) const;
   [[nodiscard]] DrawState draw_state(const SpriteDraw& draw, bool counting) const;
@@ -99,7 +99,7 @@ class SpriteFrames final : public measure::Prepared {
   CellCulling culling_;
   std::optional<CellOcclusion> occlusion_;
   Draws draws_;
-  Draws counting_draws_;  // null until a counting frame is asked for
+  Draws counting_draws_;  // null until a counting frame is requested
   Frames frames_;
 };
 

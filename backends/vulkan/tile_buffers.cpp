@@ -29,14 +29,14 @@ Buffer words(const Gpu& gpu, vk::DeviceSize count) {
           eStorageBuffer | eUniformTexelBuffer | eIndirectBuffer | eTransferDst, Place::device};
 }
 
-// Pairs of pixels, one above the other; as good as none where no large ones are resolved.
+// Pairs of pixels, one above the other. Almost empty if no large spheres are resolved.
 vk::Extent3D pairs(const scene::ParticleScene& scene, const technique::TileRounds& rounds) {
   if (!rounds.resolved()) return {1, 1, 1};
   return {static_cast<std::uint32_t>(scene.width),
           parts(static_cast<std::uint32_t>(scene.height), 2), 1};
 }
 
-// With work injected, a particle may be kept twice, and a sphere have each of its entries twice.
+// With injected work, a particle may be stored twice, and each entry of a sphere may appear twice.
 std::uint64_t times(const measure::ParticleWork& work) {
   return work.options.extra_work_stride > 0 ? 2 : 1;
 }
@@ -130,7 +130,7 @@ void TileBuffers::clear(const vk::raii::CommandBuffer& commands) const {
   if (small_) clear_pixels(commands);
 }
 
-// Behind the count of small spheres.
+// Begins after the count of small spheres.
 void TileBuffers::start_round(const vk::raii::CommandBuffer& commands) const {
   commands.fillBuffer(tiles_.get(), word, 5 * word, 0);
   barrier(commands);

@@ -1,5 +1,5 @@
 #pragma once
-// What the passes of technique/particles/tiles.glsl hand to each other.
+// The data that the passes of technique/particles/tiles.glsl exchange.
 
 #include <cstdint>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace triptych::vulkan_backend {
 
-// Bindings of tiles.glsl, and of tile_grid.glsl for what is read as texels.
+// The bindings of tiles.glsl, and of tile_grid.glsl for data that are read as texels.
 enum TileBinding : std::uint32_t {
   camera_spheres_binding = first_free_binding,
   kept_binding,
@@ -31,22 +31,22 @@ enum TileBinding : std::uint32_t {
 
 class TileBuffers {
  public:
-  // Throws core::NotSupported where a buffer has more texels than the device can see.
+  // Throws core::NotSupported if a buffer has more texels than the device can address.
   TileBuffers(const Gpu& gpu, const measure::ParticleWork& work, const ParticleData& data,
               const technique::TileRounds& rounds);
 
   void bind(vk::DescriptorSet set) const;
-  // Overwrites what a frame writes anew before it reads it.
+  // Overwrites everything that a frame writes before it reads it.
   void poison() const;
-  // Empty tiles, and pixels unless no round ever draws into them.
+  // Empties tiles, and also pixels if any round draws into them.
   void clear(const vk::raii::CommandBuffer& commands) const;
-  // No large spheres, no entries and no tiles drawn into.
+  // Begins a round without large spheres, without entries, and without tiles that are drawn into.
   void start_round(const vk::raii::CommandBuffer& commands) const;
 
   [[nodiscard]] std::uint32_t tiles() const noexcept { return columns_ * rows_; }
-  // Of TRI_BLOCK × TRI_BLOCK tiles, which are drawn together.
+  // The number of blocks of TRI_BLOCK × TRI_BLOCK tiles, which are drawn together.
   [[nodiscard]] std::uint32_t blocks() const noexcept;
-  // As many groups as there are tiles that the round draws into.
+  // Dispatches one group for each tile that the round draws into.
   void dispatch_listed(const vk::raii::CommandBuffer& commands) const;
 
  private:
@@ -59,7 +59,7 @@ class TileBuffers {
   const Gpu& gpu_;
   std::uint32_t columns_;
   std::uint32_t rows_;
-  vk::DeviceSize plane_;  // bytes
+  vk::DeviceSize plane_;  // in bytes
   bool small_;
   Buffer camera_spheres_;
   Buffer kept_;

@@ -1,6 +1,6 @@
-// Small spheres drawn by an invocation each, large ones binned into tiles in compute; the nearest
-// hit per pixel by depth and arrangement index (technique/particles/tiles.glsl says in which
-// passes).
+// Small spheres are drawn by one invocation each, and large ones are sorted into tiles in compute
+// shaders. The nearest hit of each pixel is found by depth and then by the index in the arrangement
+// (technique/particles/tiles.glsl describes the passes).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -64,7 +64,7 @@ class TilesFrames final : public measure::Prepared {
   Specialization constants_;
   ParticleData data_;
   TileBuffers buffers_;
-  std::uint32_t tile_groups_;  // an invocation per tile
+  std::uint32_t tile_groups_;  // one invocation for each tile
   ParticleTarget target_;
   Layout layout_;
   vk::raii::DescriptorPool pool_;
@@ -75,10 +75,10 @@ class TilesFrames final : public measure::Prepared {
   Frames frames_;
 };
 
-// Throws core::NotSupported where one cell alone needs more entries than a buffer holds.
+// Throws core::NotSupported if a single cell needs more entries than a buffer can have.
 technique::TileRounds rounds_of(const Gpu& gpu, const measure::ParticleWork& work,
                                 const technique::Arrangement& arrangement) {
-  // A work group per cell in one dimension of a dispatch, of which every device takes so many.
+  // A dispatch has one work group for each cell, in one dimension. Every device allows this many.
   constexpr std::uint32_t most_cells = 65535;
   constexpr std::uint64_t enough_entries = std::uint64_t{1} << 24;
   const std::uint64_t times = work.options.extra_work_stride > 0 ? 2 : 1;
@@ -142,7 +142,7 @@ void TilesFrames::push(const vk::raii::CommandBuffer& commands, std::uint32_t fi
                                   RoundOf{first_cell, cells});
 }
 
-// Cells of the round `again` are binned twice: injected work that changes nothing.
+// Cells of the round `again` are sorted twice, which is injected work that changes nothing.
 void TilesFrames::bin(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
                       const technique::TileRound& round, std::uint32_t again) const {
   const Label label(gpu_, commands, "tiles: cull cells and bin their spheres");
@@ -154,7 +154,7 @@ void TilesFrames::bin(const vk::raii::CommandBuffer& commands, const TilePipelin
   barrier(commands);
 }
 
-// Draws the round's large spheres, unless the last pass does, and notes what is hidden.
+// Draws the round's large spheres, unless the last pass does that, and records what is hidden.
 void TilesFrames::resolve(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
                           const technique::TileRound& round) const {
   const Label label(gpu_, commands, "tiles: list, fill and resolve");

@@ -1,6 +1,6 @@
 #pragma once
-// The techniques that find a sphere for each pixel by a ray: they differ in what the rays go
-// through.
+// The techniques that find the sphere of each pixel with a ray. They differ in the structure that
+// the rays traverse.
 
 #include <memory>
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace triptych::vulkan_backend {
 
-// Bindings of technique/particles/traced.glsl and traced_texels.glsl.
+// The bindings of technique/particles/traced.glsl and traced_texels.glsl.
 enum TracedBinding : std::uint32_t {
   traced_pixels_binding = 11,
   traced_pixel_texels_binding = 16,
@@ -23,7 +23,7 @@ enum TracedBinding : std::uint32_t {
   traced_id_texels_binding
 };
 
-// The structure that rays go through, on the device, and the passes that send the rays.
+// The structure on the device that rays traverse, and the passes that send the rays.
 class Tracer {
  public:
   Tracer() = default;
@@ -31,7 +31,7 @@ class Tracer {
   Tracer& operator=(const Tracer&) = delete;
   virtual ~Tracer() = default;
 
-  // Bindings of its own, and the bytes of the push constants that its compute passes are given.
+  // Its own bindings, and the number of bytes of push constants for its compute passes.
   [[nodiscard]] virtual std::vector<vk::DescriptorSetLayoutBinding> bindings() const = 0;
   [[nodiscard]] virtual std::uint32_t push_bytes() const = 0;
   // The shader stages of its passes.
@@ -44,11 +44,11 @@ class Tracer {
   // True if Triptych's own kernels traverse the structure, so that every driver visits the same nodes.
   [[nodiscard]] virtual bool counts_nodes() const = 0;
   virtual void bind(vk::DescriptorSet set) const = 0;
-  // After bind(), once: makes the pipelines of the timed build, and what rays go through.
+  // Called once after bind(): makes the pipelines of the timed build, and the structure.
   virtual void prepare(const Layout& layout, vk::DescriptorSet set) = 0;
-  // Makes those of the counting build.
+  // Makes the pipelines of the counting build.
   virtual void prepare_counting(const Layout& layout) = 0;
-  // A frame up to the keys of every pixel; the set is bound.
+  // Records a frame up to the keys of every pixel. The descriptor set is bound.
   virtual void record(const vk::raii::CommandBuffer& commands, const Layout& layout,
                       bool counting) const = 0;
   // The device code of the timed build.
@@ -93,12 +93,13 @@ class TracedFrames final : public measure::Prepared {
   Frames frames_;
 };
 
-// Arranges the scene.
+// Arranges the scene and prepares it.
 [[nodiscard]] std::unique_ptr<measure::Prepared> prepare_traced(
     const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work,
     TracedFrames::MakeTracer make_tracer);
 
-// Room for 32-bit words that compute passes write and read, also as texels; of some for none.
+// Space for 32-bit words that compute passes write and read, also as texels. If `count` is 0, it is
+// not empty.
 [[nodiscard]] Buffer device_words(const Gpu& gpu, std::uint64_t count);
 
 }  // namespace triptych::vulkan_backend

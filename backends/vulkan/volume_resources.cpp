@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint32_t pass_count = 2;
 constexpr std::uint32_t storage_buffers = 5;  // bricks, output, counters, quadrature, pauses
 constexpr std::uint32_t texel_buffers = 4;    // cells, table, bricks, quadrature
-// What bricks and quadrature may be read as.
+// The ways in which bricks and the quadrature may be read.
 constexpr auto shader_buffer =
     vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformTexelBuffer;
 
@@ -38,7 +38,7 @@ Image upload_table(const Gpu& gpu, const scene::TransferFunction& function) {
   return image;
 }
 
-// Room for so many cells, which the host writes before it is read; 0: the whole volume.
+// Space for this many cells, which the host writes before they are read; 0: for the whole volume.
 Buffer make_cells(const Gpu& gpu, const measure::VolumeWork& work, int held) {
   const scene::VoxelGrid& grid = *work.scene.grid;
   constexpr auto usage = vk::BufferUsageFlagBits::eUniformTexelBuffer;
@@ -138,11 +138,11 @@ VolumeResources::VolumeResources(const Gpu& gpu, const measure::VolumeWork& work
   write_set(Pass::counting);
 }
 
-// Of a volume in parts, with room for those of a part behind the others.
+// For a volume in parts, there is space for the parameters of a part at the end.
 Buffer VolumeResources::make_parameters(const measure::VolumeWork& work,
                                         std::span<const std::int32_t> map,
                                         const std::vector<technique::Part>& parts) {
-  // A texel of an image reaches the shader divided by its format's largest.
+  // The shader reads a texel of an image divided by the largest value of its format.
   const double stored_maximum =
       is_packed(work) ? 1 : scene::largest_stored(work.scene.grid->format);
   std::vector<std::byte> parameters =
@@ -211,7 +211,7 @@ vk::DescriptorSet VolumeResources::set(Pass pass) const {
   return sets_.at(static_cast<std::size_t>(pass));
 }
 
-// A set that recorded commands use must not be written again: hence one of its own for counting.
+// A descriptor set that recorded commands use must not be written again, so counting has its own.
 void VolumeResources::bind_counters() {
   counters_.emplace(gpu_, pixels_ * technique::raycast_counter_stride * sizeof(std::uint32_t),
                     vk::BufferUsageFlagBits::eStorageBuffer |

@@ -1,5 +1,6 @@
 #pragma once
-// What every volume technique needs on the device: voxels, transfer function, bricks, parameters.
+// What every volume technique needs on the device: voxels, the transfer function, bricks and
+// parameters.
 
 #include <optional>
 #include <string_view>
@@ -13,7 +14,7 @@
 
 namespace triptych::vulkan_backend {
 
-// Bindings of technique/volume/raycast/parameters.glsl, and the two that are this backend's.
+// The bindings of technique/volume/raycast/parameters.glsl, and two that only this backend has.
 enum Binding : std::uint32_t {
   parameters_binding = 0,
   volume_binding = 1,
@@ -22,7 +23,7 @@ enum Binding : std::uint32_t {
   output_binding = 4,  // compute only
   counters_binding = 5,
   quadrature_binding = 6,
-  pauses_binding = 7  // of a volume in parts
+  pauses_binding = 7  // for a volume in parts
 };
 
 [[nodiscard]] vk::Format texture_format(scene::VoxelFormat format);
@@ -33,15 +34,15 @@ enum Binding : std::uint32_t {
   return work.options.sampler == technique::Sampler::packed;
 }
 
-// A pass over the picture.
+// A pass over the image.
 enum class Pass : std::uint8_t {
-  timed,    // with the injected extra work, if there is any
-  counting  // the picture alone, with the counters bound
+  timed,    // with the injected extra work if there is any
+  counting  // only the image, with the counters bound
 };
 
 class VolumeResources {
  public:
-  // `output`, borrowed, is bound where it is given.
+  // `output` is bound if it is given; the caller owns it.
   VolumeResources(const Gpu& gpu, const measure::VolumeWork& work, const Buffer* output)
       : VolumeResources(gpu, work, output,
                         technique::brick_map(work.scene, work.options.skip, work.options.adapt)) {}
@@ -49,14 +50,15 @@ class VolumeResources {
   [[nodiscard]] const Layout& layout() const noexcept { return layout_; }
   [[nodiscard]] vk::DescriptorSet set(Pass pass) const;
 
-  // Makes the counters' buffer, one block per pixel, and the set for Pass::counting. Called once.
+  // Makes the buffer of counters, with one block for each pixel, and the descriptor set for
+  // Pass::counting. Called once.
   void bind_counters();
-  // Of a volume that the device does not hold whole; none else.
+  // The number of parts of a volume that does not fit the device as a whole; otherwise 0.
   [[nodiscard]] int parts() const { return parts_ ? parts_->count() : 0; }
   void move_part(int n);
-  // Overwrites the counters where there are any.
+  // Overwrites the counters if there are any.
   void poison_counters() const;
-  // Sums the counters over all pixels; adds "rays". Throws measure::NotDrawn.
+  // Sums the counters over all pixels and adds "rays". Throws measure::NotDrawn.
   [[nodiscard]] record::Counts read_counters() const;
 
  private:
@@ -65,8 +67,8 @@ class VolumeResources {
   VolumeResources(const Gpu& gpu, const measure::VolumeWork& work, const Buffer* output,
                   std::span<const std::int32_t> map, const std::vector<technique::Part>& parts);
 
-  // Voxels and transfer function as images; for sampler packed as texels of buffers, as are then
-  // bricks and quadrature.
+  // The voxels and the transfer function as images. For sampler packed, they are texels of buffers,
+  // and so are bricks and the quadrature.
   struct Images {
     Image volume;
     Image table;
@@ -81,7 +83,7 @@ class VolumeResources {
     vk::raii::BufferView bricks_view;
     vk::raii::BufferView quadrature_view;
   };
-  // `held`: cells of the largest part; 0: the whole is uploaded.
+  // `held`: the number of cells of the largest part; 0: the whole volume is uploaded.
   [[nodiscard]] Images make_images(const measure::VolumeWork& work, int held) const;
   [[nodiscard]] Texels make_texels(const measure::VolumeWork& work, int held) const;
   [[nodiscard]] Buffer make_parameters(const measure::VolumeWork& work,
@@ -95,7 +97,7 @@ class VolumeResources {
   Buffer bricks_;
   Buffer quadrature_;
   std::optional<VolumeParts> parts_;
-  std::optional<Buffer> pauses_;  // of rays between two of them
+  std::optional<Buffer> pauses_;  // the states of rays between two parts
   Buffer parameters_;
   std::optional<Images> images_;
   std::optional<Texels> texels_;
@@ -107,8 +109,8 @@ class VolumeResources {
 
 [[nodiscard]] Constants constants_of(const measure::VolumeWork& work);
 
-// The build of a raycaster for this work: `shader` is "raycast.comp" or "raycast_fragment.frag";
-// `in_parts`: of those of technique raycast.
+// The build of a raycaster for this work. `shader` is "raycast.comp" or "raycast_fragment.frag";
+// `in_parts`: for the parts of the technique raycast.
 [[nodiscard]] std::string_view raycast_spirv(std::string_view shader,
                                              const measure::VolumeWork& work, Pass pass,
                                              bool in_parts = false);
