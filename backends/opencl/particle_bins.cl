@@ -1,9 +1,9 @@
-// From the listed cells to the particles of each bin, in the order of the arrangement. A bin is a
-// tile of the image, or, for particles that reach more than TRI_MOST_TILES tiles, a coarse tile of
-// 8×8 of them; the coarse bins follow the fine ones. `chunks` work items take a run of the listed
-// cells each and count for themselves, so that nothing is fought over and the order is kept.
+// Sorts the particles of the listed cells into bins, in the order of the arrangement. A bin is a tile of the image
+// or, for particles that reach more than TRI_MOST_TILES tiles, a coarse tile of 8×8 tiles; the coarse bins follow
+// the fine ones. Each of `chunks` work items takes a run of the listed cells and counts for itself, so that no
+// atomics are needed and the order is kept.
 
-// The bins of one particle: counted, or filled in.
+// Counts the bins of one particle, or writes it into them.
 TRI_FN void into_bins(uint first, uint last, int across, int down, bool fill, uint particle,
                       __global uint* restrict cursors, __global const uint* restrict begins,
                       __global uint* restrict entries) {
@@ -31,8 +31,7 @@ TRI_FN void into_bins(uint first, uint last, int across, int down, bool fill, ui
   }
 }
 
-// Particles that are transformed together: loops over arrays of this length are what a compiler
-// vectorises.
+// The number of particles that are transformed together. A compiler vectorises loops over arrays of this length.
 #define TRI_BATCH 16
 
 typedef struct {
@@ -40,12 +39,12 @@ typedef struct {
   float y[TRI_BATCH];
   float z[TRI_BATCH];
   float r[TRI_BATCH];
-  uint first[TRI_BATCH];  // pixel rectangle
+  uint first[TRI_BATCH];  // rectangle of pixels
   uint last[TRI_BATCH];
   int corners[TRI_BATCH];  // of the sprite
 } Batch;
 
-// n spheres in world space. Those that lack to a whole batch repeat the last one.
+// Loads n spheres in world space. If the batch is not full, the last one is repeated.
 TRI_FN void load_batch(__global const float* restrict spheres, uint n, Batch* batch) {
   for (uint k = 0; k < TRI_BATCH; ++k) {
     float4 sphere = vload4(min(k, n - 1), spheres);
@@ -85,7 +84,7 @@ TRI_FN void find_rectangles(const Particles* u, Batch* batch) {
   }
 }
 #elif TRI_STORED
-// Finds the rectangles of the n particles from `first` on.
+// Finds the rectangles of n particles, beginning with `first`.
 TRI_FN void find_rectangles(const Particles* u, __global const float* restrict stored, uint first,
                             uint n, Batch* batch) {
   for (uint k = 0; k < n; ++k) {
@@ -105,13 +104,13 @@ TRI_FN void find_rectangles(const Particles* u, Batch* batch) {
 }
 #endif
 
-// A sprite is one that has corners; without sprites, a rectangle that is not empty.
+// A sprite must have corners. Without sprites, a rectangle must not be empty.
 TRI_FN bool is_sprite(uint first, uint last, int corners) {
   return TRI_SPRITE == 0 ? !is_empty(first, last) : corners > 0;
 }
 
-// Leaves the particles of the listed cells in camera space, their rectangles, and per chunk the
-// number of its entries in each bin.
+// Writes the particles of the listed cells in camera space, their rectangles, and for each chunk the number of its
+// entries in each bin.
 __kernel void count_bins(__global const Particles* restrict parameters,
                          __global const float* restrict spheres,
                          __global const Cell* restrict cells, __global const uint* restrict list,

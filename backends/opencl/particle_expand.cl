@@ -1,11 +1,12 @@
-// The passes that make vertices for the techniques which have a stage of their own for that. Each goes through the listed
-// cells as the binning does; the binning and the tiles then read what it wrote.
+// The passes that make vertices, for techniques that have a stage of their own for that. Each pass goes through the
+// listed cells in the way that binning does. Binning and the tiles then read what it wrote.
 
 TRI_FN float4 in_camera_space(const Particles* u, float4 s) {
   return (float4)(camera_x(u, s.x, s.y, s.z), camera_y(u, s.x, s.y, s.z), camera_z(u, s.x, s.y, s.z), s.w);
 }
 
-// A corner in clip space, with reversed depth: `near` is z everywhere but for a sprite that is the whole viewport.
+// A corner in clip space, with reversed depth: z is `near` everywhere, except for a sprite that covers the whole
+// viewport.
 TRI_FN float4 clip_corner(const Particles* u, float3 place, float z) {
   return (float4)(place.x / u->plane.x, (0.0f - place.y) / u->plane.y, z, place.z);
 }
@@ -40,10 +41,11 @@ __kernel void expand_sprites(__global const Particles* restrict parameters,
 #endif
 
 #if TRI_SPRITE == TRI_EVALUATED_QUAD
-// A patch as the control stage leaves it: centre and whether it is the whole viewport, right and up of the sprite.
+// A patch as the control stage writes it: the centre, whether it is the whole viewport, and the vectors to the
+// right and up of the sprite.
 #define TRI_PATCH_WORDS 12
 
-// A control stage: one patch per sphere.
+// A control stage: one patch for each sphere.
 __kernel void control_patches(__global const Particles* restrict parameters,
                               __global const float* restrict spheres,
                               __global const Cell* restrict cells, __global const uint* restrict list,
@@ -65,7 +67,7 @@ __kernel void control_patches(__global const Particles* restrict parameters,
   }
 }
 
-// Domain coordinates of an undivided quad, in the order of its outline.
+// The domain coordinates of an undivided quad, in the order of its outline.
 __constant float2 domain_of_quad[4] = {(float2)(0.0f, 0.0f), (float2)(1.0f, 0.0f), (float2)(1.0f, 1.0f),
                                        (float2)(0.0f, 1.0f)};
 
@@ -93,8 +95,8 @@ __kernel void evaluate_patches(__global const Particles* restrict parameters,
 #endif
 
 #if TRI_SPRITE == TRI_POINT
-// A vertex stage of points: where the centre of a square lies on the image, and its size in pixels. A square larger than
-// TRI_LARGEST_POINT is left to a screen-aligned quad, as on the other APIs.
+// A vertex stage for points: the position of the square's centre on the image, and its size in pixels. A square
+// larger than TRI_LARGEST_POINT is drawn as a screen-aligned quad, as on the other APIs.
 __kernel void project_points(__global const Particles* restrict parameters,
                              __global const float* restrict spheres,
                              __global const Cell* restrict cells, __global const uint* restrict list,

@@ -1,8 +1,8 @@
-// Builds the hierarchy of technique/particles/hierarchy.glsl: the same passes, the same tree. `shape`: particles, levels,
-// particles of a leaf, leaves that have one more.
+// Builds the hierarchy of technique/particles/hierarchy.glsl with the same passes, which give the same tree.
+// `shape` contains the number of particles, of levels, of particles in a leaf, and of leaves that have one more.
 #define TRI_DIGITS 256u
 
-// Where the k-th of `parts` runs of n things begins.
+// The index at which the k-th of `parts` runs of n things begins.
 TRI_FN uint run_begin(uint n, uint parts, uint k) { return n / parts * k + min(k, n % parts); }
 TRI_FN uint leaf_begin(uint4 shape, uint leaf) { return shape.z * leaf + min(leaf, shape.w); }
 
@@ -16,7 +16,7 @@ TRI_FN float8 union_of(float8 a, float8 b) {
   return (float8)(a.lo < b.lo ? a.lo : b.lo, a.hi > b.hi ? a.hi : b.hi);
 }
 
-// One work item per particle. `origin`: where the curve's grid begins, cells per unit.
+// One work item for each particle. `origin`: the beginning of the curve's grid, and cells per unit.
 __kernel void find_places(float4 origin, uint4 shape, __global const float* restrict spheres,
                           __global uint2* restrict sorted) {
   uint i = (uint)get_global_id(0);
@@ -27,8 +27,8 @@ __kernel void find_places(float4 origin, uint4 shape, __global const float* rest
   sorted[i] = (uint2)((uint)place, i);
 }
 
-// One work item per run of particles: how many of them have each digit, eight bits from `shift` on. `from`: where the
-// list begins.
+// One work item for each run of particles counts how many of them have each digit (the eight bits from `shift` on).
+// `from` is the index at which the list begins.
 __kernel void count_digits(uint4 shape, uint shift, uint from, __global const uint2* restrict sorted,
                            __global uint* restrict scratch) {
   uint run = (uint)get_global_id(0);
@@ -42,7 +42,7 @@ __kernel void count_digits(uint4 shape, uint shift, uint from, __global const ui
   for (uint digit = 0; digit < TRI_DIGITS; ++digit) scratch[digit * runs + run] = counts[digit];
 }
 
-// One work item: where the particles of each run with each digit go.
+// One work item computes where the particles of each run with each digit go.
 __kernel void place_digits(uint runs, __global uint* restrict scratch) {
   uint sum = 0;
   for (uint at = 0; at < TRI_DIGITS * runs; ++at) {
@@ -52,7 +52,7 @@ __kernel void place_digits(uint runs, __global uint* restrict scratch) {
   }
 }
 
-// One work item per run: moves each particle to its place in the other list.
+// One work item for each run moves its particles to their places in the other list.
 __kernel void move_to_places(uint4 shape, uint shift, uint from, __global uint2* restrict sorted,
                              __global const uint* restrict scratch) {
   uint run = (uint)get_global_id(0);
@@ -67,7 +67,7 @@ __kernel void move_to_places(uint4 shape, uint shift, uint from, __global uint2*
   }
 }
 
-// One work item per leaf. `moved`: 1 where the order is there already and only the spheres have moved.
+// One work item for each leaf. `moved` is 1 if the order already exists and only the spheres have moved.
 __kernel void fit_leaves(uint4 shape, uint moved, __global const float* restrict spheres,
                          __global const uint2* restrict sorted, __global float* restrict boxes,
                          __global float* restrict tree_spheres, __global uint* restrict tree_order) {
@@ -86,7 +86,7 @@ __kernel void fit_leaves(uint4 shape, uint moved, __global const float* restrict
   vstore8(box, leaves + leaf, boxes);
 }
 
-// One work item per node of a level that has as many nodes as the number of its first.
+// One work item for each node of a level. The number of nodes equals the number of the first of them.
 __kernel void fit_level(uint first, __global float* restrict boxes) {
   uint n = (uint)get_global_id(0);
   if (n >= first) return;

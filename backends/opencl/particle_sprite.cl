@@ -1,12 +1,12 @@
-// Sprites as sprite.glsl makes them: a centre's frame, from it the corners in clip space, and these
-// clipped and projected to the rasterizer's grid. Depth plays no part here: with an infinite far
-// plane z is `near` at every corner, and w the distance along the view axis.
+// Makes sprites as sprite.glsl does: the frame at the centre, from it the corners in clip space, which are then
+// clipped and projected to the grid of the rasterizer. Depth does not matter here: with an infinite far plane, z is
+// `near` at every corner, and w is the distance along the view axis.
 
 #define TRI_SCREEN_QUAD 1
 #define TRI_RAY_QUAD 2
 #define TRI_POLYGON 3
 #define TRI_ADAPTIVE_POLYGON 4
-// Those whose vertices passes of their own have written (particle_expand.cl).
+// Sprites whose vertices were written by passes of their own (particle_expand.cl).
 #define TRI_EXPANDED_QUAD 5
 #define TRI_EVALUATED_QUAD 6
 #define TRI_POINT 7
@@ -20,13 +20,13 @@
 #else
 #define TRI_SPRITE_CORNERS 4
 #endif
-// Each of five planes may add a corner.
+// Each of the five planes may add a corner.
 #define TRI_MOST_CORNERS (TRI_SPRITE_CORNERS + 5)
-// Places on the grid have this many bits below the pixel, as on the other APIs.
+// Positions on the grid have this many bits below the pixel, as on the other APIs.
 #define TRI_SUBPIXEL_BITS 8
 #define TRI_SUBPIXELS (1 << TRI_SUBPIXEL_BITS)
 
-// Clip space; rows are counted from the top, so that y points down.
+// Clip space. Rows are counted from the top, so y points down.
 typedef struct {
   int n;
   float x[TRI_MOST_CORNERS];
@@ -34,8 +34,8 @@ typedef struct {
   float w[TRI_MOST_CORNERS];
 } Outline;
 
-// Rays of one triangle: the place on the image plane per 1/256 pixel right and down, and at the
-// image's first corner.
+// The rays of one triangle: the position on the image plane at the first corner of the image, and its change per
+// 1/256 pixel to the right and down.
 typedef struct {
   float2 right;
   float2 down;
@@ -44,20 +44,20 @@ typedef struct {
 
 typedef struct {
   int n;
-  int x[TRI_MOST_CORNERS];  // 1/256 pixel
+  int x[TRI_MOST_CORNERS];  // in 1/256 pixel
   int y[TRI_MOST_CORNERS];
 #if TRI_RAY_AT_VERTEX
-  RayPlane rays[TRI_MOST_CORNERS - 2];  // of the triangles 0, k + 1, k + 2
+  RayPlane rays[TRI_MOST_CORNERS - 2];  // for the triangles 0, k + 1, k + 2
 #endif
 } Polygon;
 
-// The frame in which a ray-aligned sprite lies: across the ray to the centre, just before the
+// The frame in which a ray-aligned sprite lies: perpendicular to the ray to the centre, just in front of the
 // sphere.
 typedef struct {
   float3 centre;
-  float3 right;  // of the length of the sprite's radius
+  float3 right;  // its length is the radius of the sprite
   float3 up;
-  int everywhere;  // 1: the sprite is the whole viewport
+  int everywhere;  // 1: the sprite covers the whole viewport
 } Frame;
 
 TRI_FN float length_of(float3 v) { return TRI_SQRT(v.x * v.x + v.y * v.y + v.z * v.z); }
@@ -92,7 +92,7 @@ TRI_FN void add_corner(const Particles* u, float3 place, Outline* outline) {
   outline->w[k] = place.z;
 }
 
-// The rectangle between two places on the image plane.
+// Adds the rectangle between two positions on the image plane.
 TRI_FN void add_rectangle(const Particles* u, float2 low, float2 high, Outline* outline) {
   add_corner(u, (float3)(low.x, low.y, 1.0f), outline);
   add_corner(u, (float3)(high.x, low.y, 1.0f), outline);
@@ -100,13 +100,13 @@ TRI_FN void add_rectangle(const Particles* u, float2 low, float2 high, Outline* 
   add_corner(u, (float3)(low.x, high.y, 1.0f), outline);
 }
 
-// Screen-aligned: the rectangle around the silhouette, within the viewport; no corner for none.
+// Screen-aligned: the rectangle around the silhouette, within the viewport. Without a sprite there are no corners.
 TRI_FN void screen_outline(const Particles* u, float4 sphere, Outline* outline) {
   float2 x = covered(sphere.x, sphere.z, sphere.w, u->plane.z, u->eye_rest.w);
   float2 y = covered(sphere.y, sphere.z, sphere.w, u->plane.w, u->eye_rest.w);
   float2 low = (float2)(max(x.x, 0.0f - u->plane.x), max(y.x, 0.0f - u->plane.y));
   float2 high = (float2)(min(x.y, u->plane.x), min(y.y, u->plane.y));
-  // The whole viewport for a sphere that reaches the plane of the eye, as the paper's is.
+  // As in the paper, the sprite of a sphere that reaches the plane of the eye covers the whole viewport.
   if (tri_eye_plane(sphere.z, sphere.w) == 1) {
     high = (float2)(u->plane.x, u->plane.y);
     low = -high;
@@ -125,7 +125,8 @@ TRI_FN int sprite_corners(const Particles* u, float4 sphere) {
 #endif
 }
 
-// Whether planes may cut it: the whole viewport is drawn at w = 1, which `near` may exceed.
+// Returns whether planes may cut the sprite. A sprite that covers the whole viewport is drawn at w = 1, which
+// `near` may exceed.
 TRI_FN bool ray_outline(const Particles* u, float4 sphere, Outline* outline) {
   Frame frame = sprite_frame(u, sphere);
   if (frame.everywhere == 1) {
@@ -152,8 +153,8 @@ TRI_FN bool ray_outline(const Particles* u, float4 sphere, Outline* outline) {
   return true;
 }
 
-// How far a corner lies within one of the planes that clip: before the eye by `near`, and within a
-// guard band of so many viewports to each side, where places on the grid have room.
+// How far a corner is inside of one of the clipping planes: in front of the eye by `near`, and within a guard band
+// of this many viewports on each side, within which positions fit the grid.
 #define TRI_GUARD_BAND 4.0f
 TRI_FN float within(const Outline* outline, int k, int plane, float near) {
   float side = TRI_GUARD_BAND * outline->w[k];
@@ -174,7 +175,7 @@ TRI_FN bool needs_clipping(const Outline* outline, float near) {
   return outside;
 }
 
-// Sutherland and Hodgman 1974.
+// The algorithm of Sutherland and Hodgman (1974).
 TRI_FN void clip_outline(Outline* outline, float near) {
   for (int plane = 0; plane < 5; ++plane) {
     Outline from = *outline;
@@ -200,12 +201,13 @@ TRI_FN void clip_outline(Outline* outline, float near) {
   }
 }
 
-// Rays interpolated between corners: with perspective, (x, y, z)/w is linear on the screen, and z
-// is w, so that the place on the image plane is linear too. One plane for each triangle of the fan.
-// A corner's ray is that of the corner as snapped to the grid, so that what is interpolated between
-// them is a pixel's own ray: of the unsnapped corner it would be off by up to 1/256 pixel.
+// Rays that are interpolated between corners. With perspective, (x, y, z)/w is linear on the screen, and z is w, so
+// that the position on the image plane is linear too: one plane for each triangle of the fan. The ray of a corner
+// is that of the corner after snapping to the grid, so that what is interpolated between corners is the ray of the
+// pixel itself. With the corner before snapping it would be off by up to 1/256 pixel.
 #if TRI_RAY_AT_VERTEX
-// a·b − c·d to the rounding of the result: long, thin triangles have small areas of large products.
+// a·b − c·d, exact except for the rounding of the result: long, thin triangles have small areas, which are
+// differences of large products.
 TRI_FN float difference_of_products(float a, float b, float c, float d) {
   float first = a * b;
   float second = c * d;
@@ -231,8 +233,8 @@ TRI_FN RayPlane fit_rays(const Particles* u, const Polygon* polygon, int b, int 
   return rays;
 }
 
-// The triangle of the fan that holds a place on the grid. On a diagonal either will do: there their
-// planes meet.
+// The triangle of the fan that contains a position on the grid. On a diagonal either one can be used, because their
+// planes meet there.
 TRI_FN int fan_triangle(const Polygon* polygon, float right, float down) {
   float from_x = right - (float)polygon->x[0];
   float from_y = down - (float)polygon->y[0];
@@ -248,7 +250,7 @@ TRI_FN int fan_triangle(const Polygon* polygon, float right, float down) {
 }
 #endif
 
-// From clip space to the grid.
+// Converts from clip space to the grid.
 TRI_FN void snap_outline(const Particles* u, const Outline* outline, Polygon* polygon) {
   float across = (float)(u->viewport.x * (TRI_SUBPIXELS / 2));
   float down = (float)(u->viewport.y * (TRI_SUBPIXELS / 2));
@@ -265,7 +267,8 @@ TRI_FN void snap_outline(const Particles* u, const Outline* outline, Polygon* po
 }
 
 #if TRI_SPRITE == TRI_POINT
-// The square around the centre, both on the grid. Returns the vertices that the sphere was drawn with.
+// The square around the centre, with both on the grid. Returns the number of vertices with which the sphere was
+// drawn.
 TRI_FN int stored_polygon(const Particles* u, __global const float* stored, size_t particle,
                           Polygon* polygon) {
   float4 point = vload4(2 * particle, stored);
@@ -294,7 +297,7 @@ TRI_FN int stored_polygon(const Particles* u, __global const float* stored, size
   return 1;
 }
 #elif TRI_STORED
-// Assembled from its four vertices in clip space. Near is where z exceeds w.
+// Assembles the polygon from its four vertices in clip space. Near is where z exceeds w.
 TRI_FN int stored_polygon(const Particles* u, __global const float* stored, size_t particle,
                           Polygon* polygon) {
   Outline outline;
@@ -312,7 +315,8 @@ TRI_FN int stored_polygon(const Particles* u, __global const float* stored, size
   return 4;
 }
 #else
-// The sprite on the grid. Returns its corners before clipping: 0 where there is no sprite.
+// Makes the sprite on the grid. Returns the number of its corners before clipping, which is 0 if there is no
+// sprite.
 TRI_FN int make_polygon(const Particles* u, float4 sphere, Polygon* polygon) {
   Outline outline;
   outline.n = 0;
@@ -332,14 +336,14 @@ TRI_FN int make_polygon(const Particles* u, float4 sphere, Polygon* polygon) {
 }
 #endif
 
-// The first pixel whose centre does not lie before this place on the grid.
+// The first pixel whose centre does not come before this position on the grid.
 TRI_FN int pixel_from(int place) {
   return (place - TRI_SUBPIXELS / 2 + TRI_SUBPIXELS - 1) >> TRI_SUBPIXEL_BITS;
 }
 
-// The pixels of row y that the polygon covers, as the first and the one beyond the last. The
-// left and the upper edge count as inside, the right and the lower do not: the fill rule of the
-// other APIs, whose triangles of one sprite together cover each of its pixels once.
+// The pixels of row y that the polygon covers, as the first one and the one after the last. The left and upper
+// edges count as inside, the right and lower edges do not. With this fill rule of the other APIs, the triangles of
+// one sprite cover each of its pixels once.
 TRI_FN int2 covered_row(const Polygon* polygon, int y) {
   int at = y * TRI_SUBPIXELS + TRI_SUBPIXELS / 2;
   int first = INT_MAX;
@@ -350,7 +354,7 @@ TRI_FN int2 covered_row(const Polygon* polygon, int y) {
     int upper = down ? k : next;
     int lower = down ? next : k;
     if (polygon->y[upper] > at || polygon->y[lower] <= at) continue;
-    // ⌈(x − ½)⌉ of the crossing, in whole numbers.
+    // ⌈x − ½⌉ of the crossing, in integers.
     long height = polygon->y[lower] - polygon->y[upper];
     long crossing = (polygon->x[upper] - TRI_SUBPIXELS / 2) * height +
                     (long)(at - polygon->y[upper]) * (polygon->x[lower] - polygon->x[upper]);
@@ -363,7 +367,7 @@ TRI_FN int2 covered_row(const Polygon* polygon, int y) {
   return (int2)(first, last);
 }
 
-// The rectangle of pixels around the polygon, within the viewport.
+// The rectangle of pixels that contains the polygon, within the viewport.
 TRI_FN void polygon_rectangle(const Particles* u, const Polygon* polygon, uint* first, uint* last) {
   int x0 = INT_MAX, y0 = INT_MAX, x1 = INT_MIN, y1 = INT_MIN;
   for (int k = 0; k < polygon->n; ++k) {

@@ -1,5 +1,4 @@
-// Mirrors technique::ParticleParameters and technique::Cell, where the meaning of each field
-// stands.
+// Mirrors technique::ParticleParameters and technique::Cell, which explain each field.
 typedef struct {
   float4 eye;
   float4 eye_rest;
@@ -23,10 +22,10 @@ typedef struct {
   uint count;
 } Cell;
 
-// Compile-time constants: TRI_COUNT (0 or 1), TRI_FAULT (technique::ParticleFault), TRI_TILE and
-// TRI_TILE_SHIFT (edge of a tile in pixels). Of bins and tiles: TRI_SPRITE (how a particle's pixels
-// are found, see particle_sprite.cl), TRI_CONSERVATIVE_DEPTH, TRI_RAY_AT_VERTEX (0 or 1). Of
-// shading: TRI_COLOUR (0 rgba8, 1 rgba32, 2 intensity), TRI_TRANSFER_AT_PIXEL, TRI_RAY_AT_VERTEX.
+// Compile-time constants: TRI_COUNT (0 or 1), TRI_FAULT (technique::ParticleFault), TRI_TILE and TRI_TILE_SHIFT
+// (the edge of a tile in pixels). For bins and tiles: TRI_SPRITE (how the pixels of a particle are found, see
+// particle_sprite.cl), TRI_CONSERVATIVE_DEPTH, TRI_RAY_AT_VERTEX (0 or 1). For shading: TRI_COLOUR (0 rgba8, 1
+// rgba32, 2 intensity), TRI_TRANSFER_AT_PIXEL, TRI_RAY_AT_VERTEX.
 #define TRI_UNRESOLVED_TIES (TRI_FAULT == 2)
 #define TRI_REVERSED_DEPTH (TRI_FAULT == 3)
 #define TRI_WRONG_SENSE (TRI_FAULT == 4)
@@ -36,7 +35,7 @@ typedef struct {
 
 #define TRI_NONE 0xFFFFFFFFu
 
-// Rows of 8 that no two work items share, added up by the host.
+// Rows of 8 counters. No two work items share a row, and the host adds them.
 #define TRI_COUNT_SPRITES 0
 #define TRI_COUNT_VERTICES 1
 #define TRI_COUNT_FRAGMENTS 2
@@ -49,7 +48,7 @@ typedef struct {
 #define TRI_COUNT_BOXES 1
 #define TRI_COUNT_INTERSECTIONS 2
 
-// Components of a point's place in camera space.
+// The components of a point's position in camera space.
 TRI_FN float camera_x(const Particles* u, float x, float y, float z) {
   return tri_along_axis(x, y, z, u->eye.x, u->eye.y, u->eye.z, u->eye_rest.x, u->eye_rest.y,
                         u->eye_rest.z, u->right.x, u->right.y, u->right.z, u->right_rest.x,
@@ -66,7 +65,7 @@ TRI_FN float camera_z(const Particles* u, float x, float y, float z) {
                         u->forward_rest.x, u->forward_rest.y, u->forward_rest.z);
 }
 
-// Where the ray through the centre of a pixel, top row first, meets the image plane.
+// The point at which the ray through the centre of a pixel meets the image plane. The first row is the top one.
 TRI_FN float pixel_ray_x(const Particles* u, int x) {
   return ((float)x + 0.5f) * u->plane.z - u->plane.x;
 }

@@ -16,7 +16,7 @@ enum class Work : std::uint8_t { compute, draw };
 // How a particle technique finds the pixels of a sphere: by a sprite around it, by tiles of the
 // picture that it reaches, or by rays that look for it.
 enum class Method : std::uint8_t { sprites, tiles, rays };
-// The vertices that a sphere is drawn with.
+// The vertices with which a sphere is drawn.
 enum class Vertices : std::uint8_t { none, one, corners };
 
 struct Technique {

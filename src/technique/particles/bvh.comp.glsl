@@ -19,7 +19,7 @@ TRI_BINDING(15) uniform usamplerBuffer tree_order_texels;
 #define TRI_BEAM_PIXELS 8
 #define TRI_MOST_STEPS 7000u
 
-// Planes through the eye, each with the beam on its positive side.
+// Planes through the eye. The beam is on the positive side of each.
 vec3 left_side;
 vec3 right_side;
 vec3 upper_side;
@@ -38,8 +38,8 @@ uint intersections_tested = 0u;
 ivec2 beam_pixel(int k) { return first_pixel + ivec2(k % TRI_BEAM_X, k / TRI_BEAM_X); }
 bool in_picture(ivec2 pixel) { return pixel.x < u.viewport.x && pixel.y < u.viewport.y; }
 
-// The sides run 1/64 pixel outside the outermost rays, as the margin of sprites does: a sphere's silhouette in single
-// precision is less than that beyond the true one.
+// The sides are 1/64 pixel outside of the outermost rays, which is the margin of sprites: a sphere's silhouette in
+// single precision is less than that outside of the true one.
 void open_beam(uint beam) {
   uint block = beam / 64u;
   uint n = beam % 64u;
@@ -68,9 +68,11 @@ float highest(vec3 n, vec3 lo, vec3 hi) {
   return tri_box_highest(n.x, n.y, n.z, lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
 }
 
-// Whether the beam crosses the box and something in it may show. `nearest`: along the view axis, of the box.
-// Rounding: 2⁻¹⁸ of the box's farthest point from the eye covers products and sums (8u), the rounded axes (u) and, in
-// `nearest`, the 24u·(|C| + r) by which a distance may err. 2.4e-7 of the eye's own coordinates covers those.
+// Whether the beam crosses the box and something in it may be visible. `nearest` is the smallest distance of the
+// box along the view axis.
+// Rounding: 2⁻¹⁸ of the distance from the eye to the farthest point of the box covers products and sums (8u), the
+// rounded axes (u) and, in `nearest`, the error of distances of 24u·(|C| + r). 2.4e-7 of the eye's own coordinates
+// covers the rounding of those.
 bool may_show(vec3 world_lo, vec3 world_hi, out float nearest) {
   TRI_PRECISE vec3 around = 2.4e-7 * abs(u.eye.xyz);
   TRI_PRECISE vec3 lo = (world_lo - u.eye.xyz) - around;
@@ -118,7 +120,7 @@ void test_leaf(uint leaf) {
   }
 }
 
-// Goes on from a node until the way ends, or for so many nodes. 0 for the node where it has ended.
+// Continues from a node until the traversal ends, or for this many nodes. The node is 0 if it has ended.
 void trace(inout uint node, inout uint trail) {
   uint leaves = 1u << TRI_TREE_SHAPE.y;
   for (uint step = 0u; step < TRI_MOST_STEPS && node != 0u; ++step) {

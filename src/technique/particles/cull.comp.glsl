@@ -1,6 +1,7 @@
-// After cull.glsl. One invocation per cell: is any of its box in front of the eye and between the sides of the view? The
-// answer is a draw command per cell, empty for a cell that is left out, so that the order of drawing stays
-// the arrangement's. TRI_INSTANCED (0 or 1): a cell's particles are instances of four vertices, or vertices.
+// To be included after cull.glsl. One invocation for each cell: is any part of its box in front of the eye and
+// between the sides of the view? The result is a draw command for each cell, which is empty for a cell that is left
+// out, so that the order of drawing remains that of the arrangement. TRI_INSTANCED (0 or 1): the particles of a
+// cell are instances of four vertices, or vertices.
 layout(local_size_x = 64) in;
 
 struct DrawCommand {

@@ -1,11 +1,11 @@
-// After cells.glsl, and occlusion.glsl where TRI_OCCLUSION is not 0. TRI_OCCLUSION: 1, a frame's first draw, of what the
-// last frame showed; 2, its second, of what came into sight since then, noting what this frame shows. 0 or not defined:
-// neither.
+// To be included after cells.glsl, and after occlusion.glsl if TRI_OCCLUSION is not 0. TRI_OCCLUSION is 1 for the
+// first draw of a frame, which draws what the last frame showed; 2 for the second draw, which draws what has come
+// into sight since then and records what this frame shows; 0 or not defined for neither.
 #ifndef TRI_OCCLUSION
 #define TRI_OCCLUSION 0
 #endif
 
-// Whether the pass draws the cell; counts it.
+// Whether the pass draws the cell. Also counts the cell.
 bool is_drawn(uint index, Cell cell) {
   bool drawn = !outside_view(cell);
   bool left_out = !drawn;

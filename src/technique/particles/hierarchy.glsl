@@ -15,8 +15,8 @@ layout(std430) TRI_BINDING(12) buffer Scratch { uint scratch[]; };
 
 #define TRI_DIGITS 256u
 
-// Where the k-th of `parts` runs of n things begins.
+// The index at which the k-th of `parts` runs of n things begins.
 uint run_begin(uint n, uint parts, uint k) { return n / parts * k + min(k, n % parts); }
 uint leaf_begin(uint leaf) { return TRI_TREE_SHAPE.z * leaf + min(leaf, TRI_TREE_SHAPE.w); }
-// Groups of 64 invocations are dispatched in rows of so many.
+// Groups of 64 invocations are dispatched in rows of this many.
 #define TRI_GROUP_COLUMNS 65535u

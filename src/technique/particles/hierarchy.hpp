@@ -13,7 +13,7 @@ namespace triptych::technique {
 // The parameters of every kernel that builds or traverses the hierarchy. `step` differs from pass
 // to pass.
 struct HierarchyParameters {
-  std::array<float, 4> origin{};         // where the curve's grid begins; w: cells per unit
+  std::array<float, 4> origin{};         // the beginning of the curve's grid; w: cells per unit
   std::array<std::uint32_t, 4> shape{};  // particles, levels, particles of a leaf, larger leaves
   std::array<std::uint32_t, 4> step{};
 };
@@ -22,7 +22,7 @@ static_assert(sizeof(HierarchyParameters) == std::size_t{3} * 16);
 class Hierarchy {
  public:
   explicit Hierarchy(const Arrangement& arrangement);
-  // With so many particles, whose centres lie in a cube of this edge.
+  // For this many particles, whose centres are in a cube with this edge.
   Hierarchy(std::uint32_t particles, const std::array<float, 3>& low, float edge);
 
   [[nodiscard]] const HierarchyParameters& parameters() const noexcept { return parameters_; }
@@ -33,16 +33,16 @@ class Hierarchy {
   }
 
   [[nodiscard]] std::uint32_t particles() const noexcept { return parameters_.shape[0]; }
-  // Below the root; 0 where the root is the only leaf.
+  // The number of levels below the root; 0 if the root is the only leaf.
   [[nodiscard]] std::uint32_t levels() const noexcept { return parameters_.shape[1]; }
   [[nodiscard]] std::uint32_t leaves() const noexcept { return std::uint32_t{1} << levels(); }
-  // Where the leaf's run of particles begins.
+  // The index at which the leaf's run of particles begins.
   [[nodiscard]] std::uint32_t leaf_begin(std::uint32_t leaf) const noexcept;
-  // Runs of particles that are sorted by one invocation each. No more than 1,024, so that the loop
-  // over their counts ends before Mesa ends it (technique/volume/long_rays.hpp).
+  // The number of runs of particles, each of which one invocation sorts. At most 1,024, so that the
+  // loop over their counts ends before Mesa ends it (technique/volume/long_rays.hpp).
   [[nodiscard]] std::uint32_t runs() const noexcept;
 
-  // Words of the buffers, at least 4 each, as an empty one is an error everywhere.
+  // The sizes of the buffers in words; at least 4 each, because no API allows an empty buffer.
   [[nodiscard]] std::size_t box_words() const noexcept;     // two corners of four words per node
   [[nodiscard]] std::size_t sphere_words() const noexcept;  // spheres in the tree's order
   [[nodiscard]] std::size_t order_words() const noexcept;   // their particles
@@ -53,24 +53,25 @@ class Hierarchy {
   HierarchyParameters parameters_;
 };
 
-// One sort by eight bits of the place on the curve: its lowest bit, where the list that is read
-// begins.
+// One sort by eight bits of the place on the curve: the lowest of these bits, and the index at
+// which the list that is read begins.
 struct SortPass {
   std::uint32_t shift = 0;
   std::uint32_t from = 0;
 };
-// Four, which end in the first list.
+// Four passes; the result is in the first list.
 [[nodiscard]] std::array<SortPass, 4> sort_passes(const Hierarchy& hierarchy);
 
-// Beams of the picture, 4×2 pixels each, in blocks of 8×8 of them (bvh.comp.glsl).
+// The beams of the image, each of 4×2 pixels, in blocks of 8×8 beams (bvh.comp.glsl).
 struct BeamGrid {
-  std::uint32_t columns = 0;  // blocks
+  std::uint32_t columns = 0;  // number of blocks
   std::uint32_t rows = 0;
   [[nodiscard]] std::uint32_t beams() const noexcept { return 64 * columns * rows; }
 };
 [[nodiscard]] BeamGrid beam_grid(int width, int height);
 
-// Groups of 64 invocations in the rows of TRI_GROUP_COLUMNS that hierarchy.glsl counts in.
+// The number of groups of 64 invocations, in the rows of TRI_GROUP_COLUMNS that hierarchy.glsl
+// uses.
 [[nodiscard]] std::array<std::uint32_t, 2> group_rows(std::uint32_t invocations);
 
 }  // namespace triptych::technique

@@ -1,5 +1,5 @@
-// One invocation per run of particles: how many of them have each digit. TRI_STEP: the digit's lowest bit, where in
-// `sorted` the list begins, the number of runs.
+// One invocation for each run of particles counts how many of them have each digit. TRI_STEP contains the lowest
+// bit of the digit, the index in `sorted` at which the list begins, and the number of runs.
 layout(local_size_x = 64) in;
 
 void main() {

@@ -1,4 +1,4 @@
-// One invocation per particle.
+// One invocation for each particle.
 layout(local_size_x = 64) in;
 
 void main() {

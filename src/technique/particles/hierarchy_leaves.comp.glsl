@@ -1,4 +1,4 @@
-// One invocation per leaf. TRI_STEP.x: 1 where tree_order is there already and only the spheres have moved.
+// One invocation for each leaf. TRI_STEP.x is 1 if tree_order already exists and only the spheres have moved.
 layout(local_size_x = 64) in;
 
 void main() {

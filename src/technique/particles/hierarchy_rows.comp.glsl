@@ -1,5 +1,5 @@
-// One invocation per digit: the counts of the runs become places among all particles with this digit. TRI_STEP as for
-// hierarchy_count.
+// One invocation for each digit turns the counts of the runs into places among all particles with this digit.
+// TRI_STEP is as for hierarchy_count.
 layout(local_size_x = 64) in;
 
 void main() {

@@ -1,4 +1,5 @@
-// One invocation per run of particles: moves each to its place in the other list. TRI_STEP as for hierarchy_count.
+// One invocation for each run moves its particles to their places in the other list. TRI_STEP is as for
+// hierarchy_count.
 layout(local_size_x = 64) in;
 
 void main() {

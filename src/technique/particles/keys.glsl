@@ -1,5 +1,5 @@
-// Keys that a pixel keeps: the nearest depth has the largest, 0 is none; the first particle has the smallest. The
-// injected faults turn them round: 2 unresolved ties, 3 reversed depth.
+// The keys that a pixel stores. The nearest depth has the largest key, and 0 means none. The first particle has the
+// smallest key. Two injected faults reverse this: 2 for unresolved ties, 3 for reversed depth.
 
 #define TRI_LARGEST_KEY 0xFFFFFFFFu
 #define TRI_NO_PARTICLE 0xFFFFFFFFu
@@ -12,7 +12,7 @@ float depth_of_key(uint key) { return uintBitsToFloat(TRI_FAULT == 3 ? ~key : ke
 uint particle_key(uint particle) { return TRI_FAULT == 2 ? ~particle & 0x7FFFFFFFu : particle; }
 uint particle_of_key(uint key) { return TRI_FAULT == 2 ? ~key & 0x7FFFFFFFu : key; }
 
-// The depth key of the sphere on the ray through this place of the image plane, 0 where the ray misses it.
+// The depth key of the sphere on the ray through this position of the image plane; 0 if the ray misses the sphere.
 uint sphere_key(vec4 c, vec2 s) {
   float discriminant = tri_sphere_discriminant(c.x, c.y, c.z, c.w, s.x, s.y);
   float distance = tri_sphere_distance(c.x, c.y, c.z, s.x, s.y, max(discriminant, 0.0));

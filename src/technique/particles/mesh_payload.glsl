@@ -1,5 +1,5 @@
-// The payload of a task group: 32 cells, each with the number that follows its last mesh group.
-#define TRI_MESH_SPRITES 32u  // of a mesh group: four vertices and two triangles each
+// The payload of a task group: 32 cells, each with the number after that of its last mesh group.
+#define TRI_MESH_SPRITES 32u  // sprites in a mesh group, with four vertices and two triangles each
 struct CellList {
   uint begin[32];
   uint count[32];

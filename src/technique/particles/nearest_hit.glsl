@@ -1,6 +1,7 @@
-// The nearest sphere of one ray, as keys (keys.glsl), for candidates in any order and any number of times. The distance
-// that is reported to the driver follows from the depth key alone, so that hits of equal depth have equal distances and
-// none of them excludes another. It lies behind the surface by 2⁻²⁰ of the distance, for the rounding of near/depth.
+// Finds the nearest sphere of one ray, as keys (keys.glsl). Candidates may come in any order and repeatedly. The
+// distance that is reported to the driver depends only on the depth key, so that hits with equal depths have equal
+// distances, and none of them excludes another. It is behind the surface by 2⁻²⁰ of the distance, to cover the
+// rounding of near/depth.
 TRI_BINDING(13) uniform samplerBuffer candidate_texels;  // spheres in world space, by particle
 
 vec3 ray_direction(vec2 s) { return u.forward.xyz + s.x * u.right.xyz + s.y * u.up.xyz; }
@@ -9,7 +10,7 @@ uint candidate_key(uint particle, vec2 s) {
   return sphere_key(camera_space(texelFetch(candidate_texels, int(particle))), s);
 }
 
-// The injected fault 4 takes a distance before the surface.
+// With the injected fault 4, the distance is in front of the surface.
 float reported_distance(uint depth) {
   float share = TRI_FAULT == 4 ? 0.5 : 1.000001;
   return share * u.eye.w / depth_of_key(depth);

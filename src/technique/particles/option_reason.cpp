@@ -14,7 +14,7 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
   const bool in_tiles = tiles || rasterizer == SpriteRasterizer::in_tiles;
   switch (options.fault) {
     case ParticleFault::wrong_sense:
-      // tiles rejects whole spheres by their front whatever the option says.
+      // tiles rejects whole spheres by their front, whatever the option says.
       if (tiles || options.conservative_depth) return std::nullopt;
       return "wrong_sense is a fault of conservative depth: without it nothing is rejected early";
     case ParticleFault::culled_visible:

@@ -1,5 +1,5 @@
 #pragma once
-// What a counting frame of GL or Vulkan tells, from what the shared shaders added up.
+// The results of a counting frame of GL or Vulkan, from the sums of the shared shaders.
 
 #include <cstdint>
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace triptych::technique {
 
-// The numbers TRI_COUNT_… of parameters.glsl.
+// The values TRI_COUNT_… of parameters.glsl.
 enum class ParticleCounter : std::uint8_t {
   sprites,
   vertices,
@@ -27,18 +27,19 @@ enum class ParticleCounter : std::uint8_t {
   intersections_tested = 2
 };
 
-// The shaders' buffer: rows of so many sums each, 32 bits wide.
+// The buffer of the shaders has this many rows of 32-bit sums.
 inline constexpr std::size_t particle_counter_rows = 1024;
 inline constexpr std::size_t particle_counter_columns = 8;
 inline constexpr std::size_t particle_counter_bytes =
     particle_counter_rows * particle_counter_columns * sizeof(std::uint32_t);
 
-// How many different particles the picture shows.
+// The number of different particles that the image shows.
 [[nodiscard]] std::uint64_t visible_ids(const core::Image& picture);
 
 struct CountedFrame {
   Method method = Method::sprites;
-  Culling culling = Culling::none;  // with none nothing adds up what is submitted: it is all
+  // Without culling, all particles are submitted and nothing counts them.
+  Culling culling = Culling::none;
   std::uint64_t cells = 0;
   std::uint64_t particles = 0;
 };

@@ -1,14 +1,14 @@
 #pragma once
-// How particles may be drawn: the factors that do not decide the picture.
+// How particles may be drawn: the factors that do not determine the image.
 
 #include <cstdint>
 #include <string_view>
 
 namespace triptych::technique {
 
-// Where something is computed that the vertex and the pixel stage both could.
+// Where something is computed that could be computed in the vertex stage or in the fragment stage.
 enum class ComputedAt : std::uint8_t { vertex, pixel };
-// Which cells are left out: none, those outside the view, those hidden as well.
+// Which cells are left out: none, those outside the view, or also those that are hidden.
 enum class Culling : std::uint8_t { none, frustum, occlusion };
 // The work of a frame on a hierarchy or an acceleration structure before rays traverse it: none,
 // because it was built when the scene was prepared; fitting the boxes to spheres that moved; or
@@ -21,12 +21,12 @@ enum class Structure : std::uint8_t { built_once, refitted, rebuilt };
 [[nodiscard]] ComputedAt computed_at(std::string_view name);  // throws InputError
 [[nodiscard]] Culling culling(std::string_view name);         // throws InputError
 
-// Faults that can be injected to prove that the gate catches them; compile-time constants of
-// shaders and kernels where they are not parameters.
+// Faults that can be injected to prove that the gate finds them. They are compile-time constants of
+// shaders and kernels unless they are parameters.
 enum class ParticleFault : std::uint8_t {
   none = 0,
-  small_sprite = 1,     // every sprite reaches 1 % less far than the silhouette
-  unresolved_ties = 2,  // of equal depths the last one drawn is kept
+  small_sprite = 1,     // the radius of every sprite is 1 % smaller than that of the silhouette
+  unresolved_ties = 2,  // if depths are equal, the last one drawn is kept
   reversed_depth = 3,   // of two depths the farther one is kept
   wrong_sense = 4,      // early rejection takes the sphere's back for its front; the shader
                         // promises the opposite of what conservative depth does
@@ -37,15 +37,15 @@ enum class ParticleFault : std::uint8_t {
 };
 
 struct ParticleOptions {
-  ComputedAt transfer = ComputedAt::vertex;  // where the transfer function is looked up
-  ComputedAt ray = ComputedAt::pixel;        // where the ray is made
+  ComputedAt transfer = ComputedAt::vertex;  // where the transfer function is evaluated
+  ComputedAt ray = ComputedAt::pixel;        // where the ray is computed
   bool conservative_depth = false;
-  int corners = 4;  // of polygon_tess: 4…8, 16, 32
+  int corners = 4;  // for polygon_tess: 4…8, 16, 32
   Culling culling = Culling::frustum;
   Structure structure = Structure::built_once;
   ParticleFault fault = ParticleFault::none;
-  // Every extra_work_stride-th particle (in evenly spread runs) is drawn a second time: an injected
-  // slowdown of about 1/stride by real work that changes no pixel; 0: none.
+  // Every extra_work_stride-th particle (in evenly distributed runs) is drawn twice. This is an
+  // injected slowdown by about 1/stride, with real work that changes no pixel; 0: none.
   int extra_work_stride = 0;
 };
 

@@ -1,4 +1,4 @@
-// The closest hit is one of those that the any-hit stage has seen: nothing is left to do.
+// The any-hit stage has already seen the closest hit, so nothing is left to do.
 hitAttributeEXT uvec2 found;
 layout(location = 0) rayPayloadInEXT uvec2 best;
 

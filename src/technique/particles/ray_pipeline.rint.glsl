@@ -1,4 +1,4 @@
-// The sphere of a box that the ray comes near.
+// Tests the sphere of a box to which the ray comes close.
 hitAttributeEXT uvec2 found;
 
 void main() {

@@ -1,4 +1,4 @@
-// One invocation per pixel. With reversed depth, an injected fault, nothing is cut off.
+// One invocation for each pixel. With reversed depth, which is an injected fault, nothing is cut off.
 layout(local_size_x = 8, local_size_y = 8) in;
 TRI_BINDING(20) uniform accelerationStructureEXT structure;
 

@@ -1,10 +1,10 @@
-// Shared by all passes of `tiles` (tiles.glsl lists them), after keys.glsl: the grid, and everything that is
-// only read, as texels: a software device fetches those for all lanes at once, but loads from storage
-// buffers lane by lane.
+// Shared by all passes of `tiles` (tiles.glsl lists them), to be included after keys.glsl. It contains the grid,
+// and all data that are only read, as texels: a software device fetches texels for all lanes at once, but loads
+// from storage buffers lane by lane.
 
-#define TRI_TILE 16             // pixels along a tile's edge
-#define TRI_SMALL_EDGE 6        // and along that of a small sphere's rectangle at most: what llvmpipe is fastest with
-#define TRI_BLOCK 4             // tiles along the edge of what is drawn together
+#define TRI_TILE 16             // pixels along the edge of a tile
+#define TRI_SMALL_EDGE 6        // largest edge of a small sphere's rectangle in pixels; llvmpipe is fastest with this
+#define TRI_BLOCK 4             // tiles along the edge of a block that is drawn together
 #define TRI_PARTICLE_BITS 28    // of an entry
 
 TRI_BINDING(13) uniform samplerBuffer camera_texels;  // spheres in camera space, by particle
@@ -19,19 +19,20 @@ ivec2 tile_grid() { return (u.viewport.xy + (TRI_TILE - 1)) / TRI_TILE; }
 int pixel_index(ivec2 pixel) { return pixel.y * u.viewport.x + pixel.x; }
 int tile_index(ivec2 tile) { return tile.y * tile_grid().x + tile.x; }
 
-// A tile: entries of this round; the end of them; the smallest depth key of its pixels, 0 while one is empty; flags.
+// A tile: the entries of this round, the end of them, the smallest depth key of its pixels (0 while one is empty),
+// and flags.
 uvec4 tile_state(int index) { return texelFetch(tile_texels, 2 + 2 * index); }
 uint farthest_in(int index) { return tile_state(index).z; }
-#define TRI_USED 1u       // anything was ever drawn into it
-#define TRI_TOUCHED 2u    // small spheres were, in this round
-#define TRI_HAS_LARGE 4u  // large_pixels holds what earlier rounds have drawn
+#define TRI_USED 1u       // something was drawn into it
+#define TRI_TOUCHED 2u    // small spheres were drawn into it in this round
+#define TRI_HAS_LARGE 4u  // large_pixels contains what earlier rounds have drawn
 
-// What the picture's spheres may be, as bits of TRI_SPHERES (technique::TileRounds).
+// What kinds of spheres the image may have, as bits of TRI_SPHERES (technique::TileRounds).
 #define TRI_SMALL 1     // small
 #define TRI_LARGE 2     // large
-#define TRI_RESOLVED 4  // and drawn by tiles_resolve: tiles_show finds them in large_pixels
+#define TRI_RESOLVED 4  // tiles_resolve draws the large ones, and tiles_show finds them in large_pixels
 
-// Depth key and particle key of large spheres, two rows of pixels in one.
+// The depth key and the particle key of large spheres: two rows of pixels in one.
 #ifndef TRI_LARGE_PIXELS
 #define TRI_LARGE_PIXELS 20
 #endif

@@ -1,4 +1,4 @@
-// The result of tracing rays for each pixel: two planes of keys (keys.glsl), of depth and of particle.
+// The result of tracing rays for each pixel: two planes of keys (keys.glsl), one of depths and one of particles.
 layout(std430) TRI_BINDING(11) buffer Pixels { uint pixels[]; };
 
 // Counters that use the columns of the sprites' counters.

@@ -1,6 +1,6 @@
 #pragma once
-// What volume_math.h needs to be C++: for the host's own use and for testing the same vectors that
-// the shading languages are tested with.
+// What volume_math.h needs to be C++: for use on the host, and for testing the same vectors with
+// which the shading languages are tested.
 
 #include <bit>
 #include <cmath>
