@@ -19,9 +19,10 @@ vk::QueryPipelineStatisticFlags common_statistics() {
          eClippingInvocations | eClippingPrimitives | eFragmentShaderInvocations;
 }
 
-// Mesh pipelines have no input assembly and no vertex stage.
 constexpr vk::ShaderStageFlags mesh_stages =
     vk::ShaderStageFlagBits::eTaskEXT | vk::ShaderStageFlagBits::eMeshEXT;
+
+// Mesh pipelines have no input assembly and no vertex stage.
 vk::QueryPipelineStatisticFlags statistics_of(const SpriteTechnique& technique) {
   using enum vk::QueryPipelineStatisticFlagBits;
   if (technique.draw.meshes) return eFragmentShaderInvocations | technique.statistics;

@@ -76,9 +76,9 @@ std::string ctest_answer(const judge::GateResult& result, const record::Store& s
 std::optional<std::string> reason_to_skip(const judge::GateResult& result) {
   std::string reason;
   for (const judge::Finding& finding : result.findings) {
-    // A pass of a whole device is a summary; one of a correlation is a result.
     const bool idle =
         finding.verdict == judge::Verdict::advisory || finding.verdict == judge::Verdict::skipped;
+    // A pass of a whole device is a summary; one of a correlation is a result.
     const bool sums_up = finding.verdict == judge::Verdict::pass && finding.configuration.empty() &&
                          finding.check != judge::Check::correlation;
     if (!idle && !sums_up) return std::nullopt;

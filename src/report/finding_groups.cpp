@@ -131,9 +131,9 @@ class Grouping {
       for (const Finding* each : members) by_technique[technique_of(*each)].push_back(each);
       const auto& known = levels_of(*members.front());
       const auto techniques = known.find("technique");
-      // This many techniques do not fail in the same way by chance.
       const bool all_say_it =
           techniques == known.end() || techniques->second.size() == by_technique.size();
+      // This many techniques do not fail in the same way by chance.
       constexpr std::size_t several = 3;
       if (all_say_it || by_technique.size() >= several) by_technique = {{"", members}};
       for (const auto& [technique, same] : by_technique) all.push_back(group_of(same));
