@@ -25,7 +25,7 @@ VOLUME = {"suite": "volume", "technique": ["raycast"],
 PARTICLES = {"suite": "particles", "technique": ["quad_ray", "quad_screen", "tiles"], "culling": ["none"],
              "data": ["generate:uniform:10", "generate:uniform:20", "generate:droplets:20"],
              "camera": CAMERAS + ["random:1"], "viewport": [8]}
-REFERENCE = ["--reference", "data=generate:uniform:10"]  # of one suite alone
+REFERENCE = ["--reference", "data=generate:uniform:10"]  # exists in one suite only
 FIGURES = {"volume": ["figure_03_distribution", "figure_04_correlation_boxes", "figure_05_correlation_device",
                       "figure_06_speed_up_device", "figure_07_speed_up_camera_path", "figure_08_mean_data_camera_path",
                       "camera_paths", "correlation_camera_distance", "correlation_camera_rotation", "prediction",
@@ -47,7 +47,7 @@ class EndToEnd(unittest.TestCase):
         cls.folder = cls.temporary.name
         for plan in (VOLUME, PARTICLES):
             with open(os.path.join(cls.folder, f"{plan['suite']}.yaml"), "w", encoding="utf-8") as file:
-                json.dump(plan, file)  # which is YAML, too
+                json.dump(plan, file)  # JSON is YAML
         cls.triptych("run", "volume.yaml", "particles.yaml", "--device", "null:*", "--store", "s.sqlite")
         cls.triptych("export", "s.sqlite", "--out", "tables")
         cls.out = os.path.join(cls.folder, "out")
@@ -126,7 +126,7 @@ class EndToEnd(unittest.TestCase):
         base, level = self.pairs("volume", "device", "null:scripted", "null:scripted#2")
         row = self.row("volume", "speed_ups", factor="device", level="null:scripted#2")
         self.assertAlmostEqual(float(row["speed_up"]), statistics.linear_regression(level, base).slope, places=9)
-        self.assertAlmostEqual(float(row["speed_up"]), 1 / 1.7, delta=0.05)  # as the script has it
+        self.assertAlmostEqual(float(row["speed_up"]), 1 / 1.7, delta=0.05)  # the factor in the script of the device
 
     def test_a_reference_of_one_suite(self):
         self.row("particles", "speed_ups", factor="data", level="generate:uniform:20", reference="generate:uniform:10")

@@ -14,7 +14,7 @@ class KolmogorovSmirnov(unittest.TestCase):
         a, b = [1, 2, 3, 4], [2.5, 3.5, 5, 6]
         d, p = views.ks_two_samples(a, b)
         self.assertAlmostEqual(d, 0.5)  # at 2: 2/4 against 0/4
-        # p: the share of all orders of eight values that are as far apart.
+        # p is the share of all orders of eight values whose distance is at least as large.
         as_far = 0
         orders = list(itertools.combinations(range(8), 4))
         for first in orders:
@@ -50,7 +50,7 @@ class KolmogorovSmirnov(unittest.TestCase):
             d, naive = distribution.ks_log_normal(values)
             p = distribution.lilliefors_p(d, 60, 199, seed)
             rejected += p < 0.05
-            self.assertGreater(naive, p - 0.01)  # it takes the fit for given
+            self.assertGreater(naive, p - 0.01)  # the naive test ignores that the parameters were fitted
         self.assertLessEqual(rejected, 9)  # 3 expected; more than 9 is one in 500
 
     def test_gamma_samples_are_rejected(self):
@@ -148,7 +148,7 @@ class Splits(unittest.TestCase):
             {"camera": ["orbit_y:0/2", "orbit_y:1/2", "path_z:0/2", "path_z:1/2", "random:1"], "data": list("12345")},
             lambda at: float(at["data"]))
         paths = correlation.correlations(data, splits.split(data, "camera_path"))
-        self.assertEqual(len(paths), 1)  # random views pair with nothing
+        self.assertEqual(len(paths), 1)  # random views have no partners
         self.assertEqual(paths.iloc[0].pairs, 10)  # by position and data
         self.assertEqual(correlation.correlations(data, splits.split(data, "camera_rotation")).iloc[0].pairs, 5)
         self.assertEqual(splits.split(data, "camera_distance").levels, ["0/2", "1/2"])
@@ -185,7 +185,7 @@ class Views(unittest.TestCase):
         self.assertLess(orbit.p, 1e-6)
         self.assertEqual(orbit.subsets, 100)
         self.assertLess(orbit.rejected, 10)
-        # Two views of six: both on the orbit in 1 of 15 subsets, and then as far.
+        # Of the 15 subsets of two views out of six, one has both on the orbit, and then the distance is as large.
         self.assertGreater(tests.loc[("orbit_y", "views"), "d_mean"], orbit.d_mean)
 
     def test_one_path_is_compared_with_nothing(self):

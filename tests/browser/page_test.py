@@ -64,7 +64,7 @@ class Everywhere(PageTest):
             if name != "history":
                 self.assertEqual([text for role, text in told if role == "combobox"], ["Device", "Suite", "Check"])
                 page.value("document.querySelector('[data-scene] button').click()")
-                told += page.names()  # what is behind a dialog is not told
+                told += page.names()  # the browser does not report what is behind a dialog
                 self.assertEqual([text for role, text in told if role == "combobox"][3:], ["Left", "Right"])
                 self.assertIn(("slider", "Border between left and right"), told)
             named = {"button", "link", "image", "img", "search", "dialog", "DisclosureTriangle"}
@@ -221,7 +221,7 @@ class Comparison(PageTest):
     def names_of(self, page):
         return page.value("[...document.querySelector('#compare select').options].map(each => each.value)")
 
-    # What the view shows of two pictures with the border at `place`, without the border itself.
+    # The visible parts of two images with the border at `place`, without the border itself.
     def shown(self, page, left, right, place):
         page.value(f"""(() => {{
             const [a, b] = document.querySelectorAll('#compare select');

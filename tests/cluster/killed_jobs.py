@@ -21,7 +21,7 @@ CLUSTER = SOURCES / "ci/cluster"
 LARGE = os.environ.get("TRIPTYCH_FARM") == "paper"
 SHARDS = 200 if LARGE else 30
 DEVICES = 3
-# A frame lasts long enough for a job to be found running.
+# A frame lasts so long that the test can find a job while it is running.
 SCRIPT = '{"devices": [1, 1.7, 0.6], "base_ns": %d, "ns_per_sample": 0, "sleep": true}' % (1e4 if LARGE else 4e7)
 PLAN = """suite: volume
 technique: [raycast]
@@ -75,7 +75,7 @@ def records_in(store):
     with contextlib.closing(sqlite3.connect(f"file:{store}?mode=ro", uri=True)) as database:
         try:
             return database.execute("SELECT count(*) FROM record").fetchone()[0]
-        except sqlite3.OperationalError:  # its tables are being made
+        except sqlite3.OperationalError:  # its tables are being created
             return 0
 
 
@@ -90,7 +90,7 @@ def kill_some(farm, generator):
         jobs = running()
         for index in targets:
             if (farm / "1" / f"shard-{index}.ended").exists():
-                pool.remove(index)  # too late: the next takes its place
+                pool.remove(index)  # it has already ended, so another one is killed
             elif index in jobs and records_in(farm / "1" / f"shard-{index}.sqlite") > index % 5:
                 how, killed = (("scontrol", "requeue"), again) if len(again) <= len(lost) else (
                     ("scancel", "--signal=KILL", "--full"), lost)

@@ -9,7 +9,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# Each appends its words to $CALLS; sbatch refuses the job of number $REFUSED.
+# Each program appends its arguments to $CALLS. sbatch refuses the job with the number $REFUSED.
 STAND_INS = {
     "sbatch": 'echo "sbatch $*" >>"$CALLS"; n=$(grep -c ^sbatch "$CALLS"); [ "$n" != "${REFUSED:-}" ] || exit 1; echo "$n"',
     "scancel": 'echo "scancel $*" >>"$CALLS"',
@@ -46,9 +46,9 @@ class Submit(unittest.TestCase):
     def test_a_job_gets_200_configurations_of_all_plans(self):
         self.assertEqual(self.shards_of("plan340"), 2)
         self.assertEqual(self.shards_of("plan340", "plan340"), 4)
-        # Half of each is 51 + 150: an odd one of both may fall to one job.
+        # Half of each is 51 + 150. If both have an odd number, one job may get the additional one of both.
         self.assertEqual(self.shards_of("plan101", "plan299"), 3)
-        # Never more than the largest has: further jobs had nothing to do.
+        # Never more jobs than the largest plan has configurations, because the others would have nothing to do.
         self.assertEqual(self.shards_of(*["plan2"] * 500), 2)
 
     def test_what_slurm_refuses_leaves_nothing(self):

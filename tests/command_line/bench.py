@@ -13,7 +13,7 @@ import unittest
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "ci/bench"
 PROGRAM = os.environ["TRIPTYCH_PROGRAM"]
-# One technique's name begins with another's, and one configuration's levels are among another's.
+# The name of one technique begins with that of another, and one configuration contains all levels of another.
 PLAN = "suite: volume\ntechnique: [raycast, raycast_fragment]\ndata: ['generate:gaussian_blob:8']\nstep: [1, 2]\nviewport: [8]\n"
 
 
