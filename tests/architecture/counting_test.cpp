@@ -1,5 +1,5 @@
-// What is counted has the control flow of what is timed: in device code TRI_COUNT decides what is
-// counted, and nothing else.
+// The code that counts has the same control flow as the code that is timed: in device code,
+// TRI_COUNT decides only what is counted.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ bool steers(const std::string& line) {
   return std::regex_search(line, word);
 }
 
-// Of one line: that TRI_COUNT stands in it as it may.
+// Whether TRI_COUNT appears in a line in one of the allowed ways.
 bool is_a_count(const std::string& line) {
   static const std::regex block(R"(^\s*#if TRI_COUNT\s*$)");
   static const std::regex statement(

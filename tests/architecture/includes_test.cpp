@@ -1,5 +1,5 @@
-// Includes go only downwards, backends and suites do not know each other, and no API is spoken
-// outside its backend.
+// Includes point only to lower floors, backends and suites do not know each other, and each API is
+// used only by its backend.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 const std::vector<std::string> code_endings{".hpp", ".cpp", ".h", ".in"};
 
-// Floors as CMake enforces them for links: one list, in cmake/room.cmake.
+// The floors as CMake enforces them for links. There is only one list, in cmake/room.cmake.
 std::map<std::string, int> floors() {
   const std::string text = read(source_folder / "cmake/room.cmake");
   static const std::regex pattern(R"(\b([a-z]+)=(\d+)\b)");
@@ -26,7 +26,7 @@ std::map<std::string, int> floors() {
   return found;
 }
 
-// The room an include names: "scene", "backend" for backends/…, "suite" for suites/….
+// The room that an include names: "scene", "backend" for backends/…, "suite" for suites/….
 std::optional<std::string> room_of_include(const std::string& include,
                                            const std::map<std::string, int>& known) {
   const std::string first = include.substr(0, include.find('/'));
@@ -61,7 +61,8 @@ TEST(Includes, RoomsLookOnlyDownwards) {
   }
 }
 
-// Folder of a room → the others of that room that its files include. What lies in none is left out.
+// Maps each folder of a room to the other folders of that room that its files include. Files
+// outside of folders are ignored.
 std::map<std::string, std::set<std::string>> folders_of(const std::string& room) {
   std::map<std::string, std::set<std::string>> found;
   for (const auto& entry : std::filesystem::directory_iterator(source_folder / "src" / room)) {
@@ -80,7 +81,8 @@ std::map<std::string, std::set<std::string>> folders_of(const std::string& room)
   return found;
 }
 
-// Takes away, again and again, what needs nothing that is left: a circle is what stays.
+// Repeatedly removes folders that need none of those that remain. What cannot be removed is a
+// circle.
 std::string circle_in(std::map<std::string, std::set<std::string>> needed) {
   while (true) {
     const auto free = std::ranges::find_if(needed, [&](const auto& folder) {

@@ -1,4 +1,4 @@
-// Every technique is implemented on every backend or carries its reason.
+// Every technique is implemented in every backend, or listed with the reason why not.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 const std::vector<std::string> apis = apis_of_backends();
 
-// Lines "technique: reason" of a backend's unsupported.txt; # begins a comment.
+// The lines "technique: reason" in a backend's unsupported.txt; # begins a comment.
 std::map<std::string, std::string> unsupported(const std::string& api) {
   std::map<std::string, std::string> reasons;
   std::istringstream text(read(source_folder / "backends" / api / "unsupported.txt"));
@@ -60,7 +60,7 @@ TEST(Matrix, EveryCellIsImplementedOrExplained) {
   }
 }
 
-// The text of the plans of a suite that have this check.
+// The texts of a suite's plans that have this check.
 std::string judged_plans(const std::string& suite, const std::string& check) {
   const std::filesystem::path plans = source_folder / "suites" / suite / "plans";
   std::string all;
@@ -73,7 +73,7 @@ std::string judged_plans(const std::string& suite, const std::string& check) {
   return all;
 }
 
-// What no gate draws nobody judges.
+// Nobody judges what no gate draws.
 TEST(Matrix, EveryTechniqueIsInTheGatesPlans) {
   for (const technique::Technique& each : technique::catalogue()) {
     for (const char* check : {"image", "cost", "code"}) {

@@ -1,4 +1,4 @@
-// Texts that are meant for people are written, and never read back.
+// Texts that are written for people are never parsed.
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 namespace triptych::architecture {
 namespace {
 
-// A search in, or a comparison with, one of the fields and results that hold prose. The words room
-// makes prose, and core quotes it.
+// A search in a field or a result that contains prose, or a comparison with one. Only the words
+// folder makes prose, and core quotes it.
 const std::regex reads_prose(
     R"(\b(detail|last_words|message|what\(\)|text_of\([^()]*\)|headline\([^()]*\)|advice\([^()]*\)))"
     R"(\s*(\.\s*(find|rfind|starts_with|ends_with|contains|substr|compare)\b|[=!]=\s*"[^"]))");

@@ -1,4 +1,4 @@
-// CTest's checks where a file that was there when baselines were accepted is there no more.
+// The checks of CTest when a data file is missing that existed when the baselines were accepted.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST_F(AbsentData, IsASkipForCTestAndNotToBeJudgedForTheGate) {
   EXPECT_EQ(program.run("gate plan --baselines baselines --store s.sqlite").code, 2);
 }
 
-// A page tells what it can: the times, the picture, and what keeps it from being judged.
+// The page shows what it can: the times, the image, and the reason why it cannot be judged.
 TEST_F(AbsentData, LeavesAPageWithoutATruth) {
   ASSERT_EQ(program.run("run plan --device 'null:*' --store s.sqlite").code, 0);
   std::filesystem::remove(program.folder() / "field.nrrd");
@@ -70,7 +70,7 @@ TEST_F(AbsentData, LeavesNoLimitToJudgeBy) {
   EXPECT_EQ(program.run("report --store s.sqlite --baselines b --out page.html").code, 0);
 }
 
-// A device that fails is never excused by what is not there elsewhere.
+// A failure of a device is never excused by missing data of another one.
 TEST_F(AbsentData, ExcusesNothingElse) {
   program.write("plan",
                 "suite: volume\ntechnique: [raycast]\ndata: [field.nrrd, "

@@ -1,4 +1,4 @@
-// What the words of a command line belong to, and what its help says of them.
+// How the words of a command line are understood, and what its help says about them.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -80,7 +80,7 @@ TEST_F(Arguments, AFolderThatMayNotBeSearchedIsNoError) {
   EXPECT_EQ(version.code, 0) << version.output;
 }
 
-// Progress and errors go to stderr; that it takes nothing is no reason to stop.
+// Progress and errors go to stderr. If stderr cannot be written, that is no reason to stop.
 TEST_F(Arguments, AStderrThatTakesNothingEndsNothing) {
   const std::string full = R"(sh -c 'exec "$0" "$@" 2> /dev/full')";
   const Result measured = program.run("run p.yaml --device 'null:*' --store s.sqlite", "{}", full);

@@ -1,4 +1,4 @@
-// `technique=auto`: every technique is measured, the fastest told and drawn.
+// `technique=auto` measures every technique, reports the fastest one and draws it.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(Auto, TellsTheFastestAndByHowMuch) {
   }
   expect_found(result, " clock); ");
   expect_found(result, "polygon_adaptive ");
-  // The store tells it again, whatever the device would say now.
+  // The result comes from the store, whatever the device would report now.
   expect_found(program.run(run + " --resume", fast("point")), ": tiles is the fastest, ");
   expect_found(program.run("run plan --device null:scripted --store t.sqlite", fast("point")),
                ": point is the fastest, ");

@@ -1,5 +1,5 @@
-// The scripts of ci/ with everything that they call replaced: what they ask for, and which code is
-// theirs.
+// The scripts of ci/ with replacements for all programs that they call: what they ask for, and
+// their exit codes.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -93,7 +93,7 @@ TEST_F(Ci, AReleaseThatIsTooOldGetsOneLine) {
   const Result old = run("", "ci/setup --run");
   EXPECT_EQ(old.code, 3);
   EXPECT_EQ(old.output, "setup: Debian 11 is too old: Debian 12 is the oldest that works\n");
-  // Testing has no number yet.
+  // Debian testing has no version number yet.
   static_cast<void>(folder.write("os-release", "ID=debian\n"));
   EXPECT_EQ(run("", "ci/setup --run").code, 0);
 }

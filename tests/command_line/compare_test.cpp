@@ -1,4 +1,4 @@
-// Two scripted sides of known speed, measured in turns.
+// Compares two scripted sides with known speeds, which are measured in turns.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 class Compare : public testing::Test {
  protected:
-  // `keys`: more of the script, each with a comma before it.
+  // `keys`: more keys of the script, each with a comma before it.
   [[nodiscard]] std::string script(double speed, int seed, const std::string& keys = "") const {
     return fmt::format(
         R"({{"images": {{"*": "{}"}}, "devices": [{}], "seed": {}, "base_ns": 5e6{}}})",

@@ -1,4 +1,4 @@
-// The tests that CTest is told of.
+// The list of tests for CTest.
 
 #include <gmock/gmock.h>
 
@@ -19,7 +19,7 @@ std::string tests_of(const Program& program, const std::string& plan) {
   return program.read("tests.cmake");
 }
 
-// Errors, orders, counters and pictures need no times.
+// Errors, orders, counters and images need no times.
 TEST(CTestListing, AccuracyIsMeasuredWithoutTimes) {
   const Program program;
   for (const std::string plan : {"volume/accuracy", "particles/accuracy"}) {

@@ -1,4 +1,4 @@
-// A run that was cut short, a machine that lost a device, a plan that lost a check: none passes.
+// A run that was cut short, a machine that lost a device and a plan that lost a check do not pass.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ class CutShort : public testing::Test {
     program.write("p.yaml", memory_plan);
     program.write("both.yaml", std::string(tiny_plan) + "step: [1, 0.5]\nchecks: [counters, memory]\n");
   }
-  // The plan's run on two devices, accepted.
+  // Runs the plan on two devices and accepts the run.
   void accept(const std::string& plan = "p.yaml") {
     const std::string options = " --store accepted.sqlite";
     Result result = program.run("run " + plan + " --device 'null:*'" + options, two_devices);

@@ -1,4 +1,4 @@
-// Two stores, of a driver before and after an upgrade.
+// Compares two stores, from before and after the upgrade of a driver.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -72,7 +72,7 @@ TEST_F(Diff, WhatOnlyOneHasCannotBeJudged) {
   EXPECT_THAT(result.output, HasSubstr("plan volume/accuracy: only b has it"));
 }
 
-// The driver can do none of it, before and after: no pass.
+// The driver can draw nothing of it, neither before nor after. That is no pass.
 TEST_F(Diff, WhatNeitherMeasuredCannotBeJudged) {
   for (const char* store : {"old.sqlite", "new.sqlite"}) {
     const Result run =

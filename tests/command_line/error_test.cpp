@@ -14,8 +14,8 @@
 namespace triptych::command_line {
 namespace {
 
-// A script of devices that draw what each of these scenes tends to. Where there are several, their
-// data tell them apart.
+// A script of devices that draw the limit of each of these scenes. If there are several, they are
+// recognized by their data.
 std::string drawing_the_limit(const Program& program, const std::vector<std::string>& data,
                               const std::string& viewport) {
   const auto suite = volume_suite::make_suite({});
@@ -44,7 +44,8 @@ TEST(Error, IsKeptByTheFastestOfItsCandidates) {
   EXPECT_NE(kept.output.find("% of drawing nothing, covered"), std::string::npos) << kept.output;
 }
 
-// A picture of a few rows is no line of few pixels: that showed nothing of it.
+// An image with few rows must not be searched with a line of few pixels, which shows nothing about
+// it.
 TEST(Error, OfALongPictureIsKept) {
   const Program program;
   const Result kept = program.run(
@@ -92,7 +93,7 @@ TEST(Error, OutOfReachInOneSceneIsToldAndAllOthersAreMeasured) {
   EXPECT_NE(result.output.find("of 1e-12:max"), std::string::npos) << result.output;
 }
 
-// Cells take another sampler than midpoints where the plan leaves it to the device.
+// If the plan leaves the sampler to the device, cells use another sampler than midpoints.
 TEST(Error, OfASceneHasOneAnswerWhateverSamplerItsCandidatesTake) {
   const Program program;
   const Result kept = program.run("run volume/quick " + std::string(tiny) + " --error 0.0001",

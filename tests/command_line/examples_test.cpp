@@ -1,6 +1,6 @@
-// The jobs of ci/examples, their shell steps taken out and run as their systems run them: in a
-// folder with a stand-in for apt-get, on a scripted device; and in a bare system, where one can be
-// made and a package is named.
+// The jobs in ci/examples. Their shell steps are run as their CI systems run them: in a folder with
+// a replacement for apt-get and on a scripted device, and also in a minimal Debian system, if one
+// can be made and a package is given.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -25,9 +25,9 @@ using testing::HasSubstr;
 const fs::path examples = fs::path(TRIPTYCH_SOURCE_FOLDER) / "ci/examples";
 
 struct Job {
-  std::vector<std::string> steps;    // until the first that fails
-  std::vector<std::string> at_last;  // whatever failed
-  std::string kept;                  // the folder of the artefacts
+  std::vector<std::string> steps;    // run until the first that fails
+  std::vector<std::string> at_last;  // run whatever failed
+  std::string kept;                  // the folder of the artifacts
   std::string junit;                 // a glob
 };
 
@@ -54,8 +54,8 @@ Job gitlab() {
           .junit = kept["reports"]["junit"].as<std::string>()};
 }
 
-// A shell's script that ends with the code of the first step that failed, after the last ones and
-// the summary that GitHub shows.
+// A shell script with these steps. It then runs the last steps, shows the summary as GitHub does,
+// and exits with the code of the first step that failed.
 std::string script_of(const Job& job) {
   std::string script = "export GITHUB_STEP_SUMMARY=$PWD/summary\ntouch summary\ncode=0\n";
   for (const std::string& step : job.steps) {
@@ -65,7 +65,8 @@ std::string script_of(const Job& job) {
   return script + "cat summary\nexit $code\n";
 }
 
-// The program on a scripted device and one small scene, whatever devices the job requires.
+// Replaces the program: it uses a scripted device and one small scene, whatever devices the job
+// requires.
 constexpr const char* stand_in = R"(#!/bin/bash
 arguments=()
 for each in "$@"; do
@@ -128,7 +129,7 @@ TEST_P(Examples, AreRedForAWrongPictureAndSayIt) {
               AllOf(HasSubstr("pixels exceed the error bound"), HasSubstr("image")));
 }
 
-// Takes about ten minutes: only where a package of the named release is given.
+// Takes about ten minutes, so it runs only if a package for the release is given.
 TEST_P(Examples, RunInABareSystem) {
   const char* const package = std::getenv("TRIPTYCH_PACKAGE");
   const char* const release = std::getenv("TRIPTYCH_RELEASE");

@@ -1,4 +1,4 @@
-// Tables of stores, as `triptych export` is asked for them.
+// The tables of stores that `triptych export` writes.
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
-// An injected slowdown is work that the device does, by what counting tells: times would fail here
-// on a busy day. That it leaves every pixel alone is the contract's test.
+// An injected slowdown is real work of the device, as counting instructions shows; times could fail
+// here on a busy machine. The contract tests check that it changes no pixel.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ constexpr const char* particles =
 
 class ExtraWork : public testing::TestWithParam<const char*> {
  protected:
-  // Instructions of device code by configuration; none where the device or the counter is missing.
+  // Instructions of device code by configuration; empty if the device or the counter is missing.
   std::map<std::string, double> device_code(const std::string& store, const std::string& fault) {
     const Result run =
         program.run(fmt::format("run volumes.yaml particles.yaml --device {} "
@@ -56,7 +56,7 @@ TEST_P(ExtraWork, IsDoneByEveryTechnique) {
   const auto twice = device_code("twice.sqlite", "--inject slowdown:100");
   ASSERT_EQ(twice.size(), plain.size());
   for (const auto& [configuration, count] : plain) {
-    // `tiles` bins twice, and has each entry twice; passes over pixels stay single.
+    // `tiles` sorts particles twice and has each entry twice. Passes over pixels are not repeated.
     const bool is_tiles = configuration.find("technique=tiles") != std::string::npos;
     EXPECT_GT(twice.at(configuration), (is_tiles ? 1.1 : 1.8) * count) << configuration;
     EXPECT_LT(twice.at(configuration), 2.2 * count) << configuration;

@@ -1,6 +1,6 @@
 #pragma once
-// The program with a system call that fails: which one is told by its number among those that can
-// fail, and is the same every time. x86-64 Linux, where a process may trace its child.
+// Runs the program with one system call that fails. The call is chosen by its number among those
+// that can fail, and is the same one every time. x86-64 Linux, if a process may trace its child.
 
 #include <fcntl.h>
 #include <sys/ptrace.h>
@@ -19,16 +19,16 @@
 namespace triptych::command_line {
 
 struct Outcome {
-  bool traced = true;  // false: this machine lets nobody trace, and nothing was run
-  long calls = 0;      // of the first thread that could have failed, after the program has started
-  int code = -1;       // of its end; -1: a signal ended it
+  bool traced = true;  // false: tracing is not permitted on this machine, and nothing was run
+  long calls = 0;      // calls of the first thread that could have failed after the program started
+  int code = -1;       // exit code; -1: a signal ended it
 };
 
 #if defined(__x86_64__)
 
 namespace failing_detail {
 
-// Calls about files, memory and processes, with an error that each of them can have.
+// Calls about files, memory and processes, each with an error that it can have.
 inline int error_of(unsigned long long call, long number) {
   switch (call) {
     case SYS_read:
@@ -73,7 +73,7 @@ inline Outcome follow(pid_t child, long at) {
   Outcome outcome;
   long signal = 0;
   bool entering = true;
-  bool started = false;  // before that the dynamic loader is at work
+  bool started = false;  // before that, the dynamic loader is at work
   int pending = 0;
   for (;;) {
     if (::ptrace(PTRACE_SYSCALL, child, 0, signal) != 0) throw std::runtime_error("ptrace");
@@ -87,7 +87,7 @@ inline Outcome follow(pid_t child, long at) {
     user_regs_struct registers{};
     ::ptrace(PTRACE_GETREGS, child, 0, &registers);
     if (entering) {
-      // The C library asks for random bytes once all libraries are there.
+      // The C library asks for random bytes after all libraries are loaded.
       started = started || registers.orig_rax == SYS_getrandom;
       const int error = started ? error_of(registers.orig_rax, at) : 0;
       if (error != 0 && ++outcome.calls == at) {
@@ -106,7 +106,7 @@ inline Outcome follow(pid_t child, long at) {
 
 }  // namespace failing_detail
 
-// What it says goes to the file `told` of the folder.
+// The output is written to the file `told` in the folder.
 inline Outcome run_failing(const std::filesystem::path& folder, const std::string& script,
                            const std::vector<std::string>& arguments, const std::string& told,
                            long at = std::numeric_limits<long>::max()) {

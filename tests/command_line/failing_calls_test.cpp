@@ -1,6 +1,7 @@
-// A fault at system calls of a small run, accept, merge and gate: each command ends with 0 and
-// everything there, or with a code and a line that say what happened; never with half a baseline.
-// TRIPTYCH_KILLS=N tries N calls of each command instead of 12, spread over all of them.
+// System calls of a small run, accept, merge and gate fail. Each command then either exits with 0
+// and has written everything, or it exits with another code and a line that says what happened, and
+// never leaves half of a baseline. TRIPTYCH_KILLS=N tries N calls of each command instead of 12,
+// distributed over all of them.
 
 #include "failing_calls.hpp"
 
@@ -40,7 +41,7 @@ class FailingCalls : public testing::Test {
                        1000 * base_us);
   }
 
-  // `before` puts things in order; `check` looks at what is left, with the exit code.
+  // `before` prepares the folder; `check` gets the exit code and examines what is left.
   template <typename Before, typename Check>
   void fail_repeatedly(const std::string& command, const Before& before, const Check& check) {
     std::istringstream in(command);

@@ -1,4 +1,4 @@
-// Workers that die, and what is kept.
+// Workers that die, and the records that remain.
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 namespace triptych::command_line {
 namespace {
 
-// Three configurations of which the one with step 0.5 is hit.
+// Three configurations, of which the one with step 0.5 has the fault.
 const std::string three =
     std::string("run volume/quick ") + tiny + " --set step=0.25,0.5,1 --store s.sqlite";
 
@@ -27,7 +27,7 @@ TEST(Faults, AHangCostsOneConfiguration) {
   EXPECT_NE(result.output.find("hung"), std::string::npos) << result.output;
 }
 
-// The plan's haze is a default, and stands in no configuration's name.
+// The plan's value "haze" is a default, so it is in no configuration's name.
 TEST(Faults, AFaultThatHitsNothingIsTold) {
   const Program program;
   const Result missed = program.run(three + " --inject 'crash@*haze*'");
@@ -59,7 +59,7 @@ TEST(Faults, AKilledRunIsResumed) {
       << resumed.output;
 }
 
-// What a resumed run holds counts, not what it had to measure anew.
+// The result covers everything that a resumed run contains, and not only what was measured again.
 TEST(Faults, AResumedRunTellsWhatItHolds) {
   const Program program;
   const std::string run = std::string("run volume/quick --set step=0.5,1 --set skip=none --set ") +

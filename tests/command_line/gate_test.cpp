@@ -1,4 +1,4 @@
-// Measure, accept, judge: the whole way on scripted devices whose answers are known.
+// Measures, accepts and judges, from end to end, on scripted devices whose results are known.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace triptych::command_line {
 namespace {
 
-// `speed`: factor on all times of the device.
+// `speed`: a factor on all times of the device.
 std::string script(const std::filesystem::path& picture, double speed, int seed) {
   return fmt::format(
       R"({{"images": {{"*": "{}"}}, "devices": [{}], "seed": {}, "base_ns": 5e6, "noise": 0.003}})",
@@ -59,7 +59,7 @@ TEST(Gate, CannotJudgeWithoutBaselines) {
       << judged.output;
 }
 
-// Of a run that read no statistics the gate has to say why it is no pass.
+// For a run that read no statistics, the gate has to say why it does not pass.
 TEST(Gate, ATestOfACheckThatDecidesNothingIsSkipped) {
   const Program program;
   std::filesystem::create_directory(program.folder() / "baselines");
@@ -88,7 +88,7 @@ TEST(Gate, APartIsFinishedInItsOwnStore) {
       << refused.output;
 }
 
-// One name of data, other voxels.
+// The same name for other voxels.
 TEST(Gate, WindowsAndMappingsOfOneVolumeAreNoChangedData) {
   const Program program;
   program.write("plan", std::string(tiny_plan) +
@@ -102,7 +102,7 @@ TEST(Gate, WindowsAndMappingsOfOneVolumeAreNoChangedData) {
   EXPECT_EQ(pass.code, 0) << pass.output;
 }
 
-// The truth that the store keeps is that of what the file held then.
+// The reference image in the store was drawn from what the file contained at that time.
 TEST(Gate, AnEditedTransferFunctionIsNotJudgedByWhatItWas) {
   const Program program;
   program.write("plan",
@@ -122,15 +122,16 @@ TEST(Gate, AnEditedTransferFunctionIsNotJudgedByWhatItWas) {
 TEST(Gate, AWrongPictureIsARegression) {
   const Program program;
   accept_runs(program, right_picture(program), 1);
-  ASSERT_EQ(program.run(measure_into("s.sqlite"), "{}").code, 0);  // the null device's own pattern
+  // The null device draws its own pattern.
+  ASSERT_EQ(program.run(measure_into("s.sqlite"), "{}").code, 0);
   EXPECT_EQ(program.run(judge_from("s.sqlite")).code, 1);
 }
 
-// What was not asked for is on neither.
+// A check that was not asked for is on neither of them.
 TEST(Gate, ThePageSaysWhatTheScreenSays) {
   const Program program;
   accept_runs(program, right_picture(program), 1);
-  ASSERT_EQ(program.run(measure_into("s.sqlite"), "{}").code, 0);  // a wrong picture
+  ASSERT_EQ(program.run(measure_into("s.sqlite"), "{}").code, 0);  // the image is wrong
   EXPECT_EQ(program.run(judge_from("s.sqlite") + " --out all").code, 1);
   EXPECT_NE(program.read("all/report.html").find("<h1>FAIL (1)</h1>"), std::string::npos);
   EXPECT_EQ(program.run(judge_from("s.sqlite") + " --check counters --out one").code, 0);
@@ -165,7 +166,7 @@ TEST(Gate, ARequiredDeviceThatIsAbsentIsNoPass) {
   EXPECT_NE(judged.output.find("vulkan:*"), std::string::npos);
 }
 
-// Before anything is judged, and nothing is written.
+// This is refused before anything is judged, and nothing is written.
 TEST(Gate, NoOutputReplacesAnother) {
   const Program program;
   ASSERT_EQ(program.run(measure_into("s.sqlite"), script(right_picture(program), 1, 1)).code, 0);

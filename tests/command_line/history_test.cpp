@@ -1,4 +1,4 @@
-// Stores of several days, one after the other.
+// The stores of several days, in their order.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ using ::testing::Not;
 
 class History : public testing::Test {
  protected:
-  // `base_ns`: what a frame takes; `keys`: of the script.
+  // `base_ns`: the time of a frame; `keys`: more keys of the script.
   void measure(const std::string& store, const std::string& base_ns, const std::string& keys = "",
                const std::string& how = "") const {
     const std::string script = fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": {}{}}})",
@@ -55,7 +55,7 @@ TEST_F(History, TellsWhatMovedAndTheFirstThatWasWorse) {
   EXPECT_THAT(history.at("first_worse").get<std::string>(), HasSubstr("3.sqlite"));
 }
 
-// The second store's device clock cannot be believed; its frames took as long.
+// The device clock of the second store cannot be trusted; its frames took the same time.
 TEST_F(History, ComparesTimesOnOneClock) {
   measure("1.sqlite", "1e5", R"(, "device_over_wall": 0.91)");
   measure("2.sqlite", "1e5", R"(, "device_over_wall": 0.1)");
@@ -67,7 +67,7 @@ TEST_F(History, ComparesTimesOnOneClock) {
   EXPECT_NEAR(points[2].at("time").get<double>(), 2, 0.2);
 }
 
-// The one between tells no time, but pictures.
+// The store in between has no times, but images.
 TEST_F(History, GoesOnBehindAGap) {
   const std::string wrong = R"(, "failures": [{"kind": "wrong_image", "at": "image"}])";
   measure("1.sqlite", "1e5");
@@ -81,7 +81,7 @@ TEST_F(History, GoesOnBehindAGap) {
   EXPECT_TRUE(points[2].at("worse").get<bool>());
 }
 
-// The second store has but one of two configurations; the other is wrong in the third.
+// The second store has only one of two configurations; the other one is wrong in the third store.
 TEST_F(History, HoldsEachConfigurationAgainstTheLastStoreThatHasIt) {
   const std::string wrong =
       R"(, "failures": [{"kind": "wrong_image", "at": "image", "only": "*skip=bricks*"}])";

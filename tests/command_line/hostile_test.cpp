@@ -1,4 +1,5 @@
-// What no command was meant to be fed: a line that says so, nothing raw on a terminal, no hang.
+// Input that no command was made for leads to a line that says so. Nothing reaches the terminal
+// unescaped, and no command hangs.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -28,7 +29,7 @@ TEST(Hostile, APlanOfAFileIsListedForCTest) {
   EXPECT_EQ(listed.code, 0) << listed.output;
   const std::string tests = program.read("tests.cmake");
   EXPECT_THAT(tests, HasSubstr("[=[volume.p.start]=]"));
-  // From whatever folder CTest starts it.
+  // In whatever folder CTest starts it.
   EXPECT_THAT(tests, HasSubstr("[=[" + (program.folder() / "p.yaml").string() + "]=]"));
 }
 
@@ -79,7 +80,7 @@ TEST(Hostile, AnEndlessValueMakesNoEndlessLine) {
   EXPECT_THAT(result.output, HasSubstr("…"));
 }
 
-// A run's own lines too, on stdout and stderr.
+// The lines of a run on stdout and stderr are escaped, too.
 TEST(Hostile, ARunPrintsNamesAsText) {
   const Program program;
   const std::string name = "a\x1b[2J\u202Eb.yaml";
@@ -94,7 +95,7 @@ TEST(Hostile, ARunPrintsNamesAsText) {
   }
 }
 
-// 10¹² combinations: refused before the first.
+// 10¹² combinations are refused before the first one is listed.
 TEST(Hostile, AListThatWouldNotEndIsRefused) {
   const Program program;
   std::string steps;

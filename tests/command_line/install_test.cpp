@@ -1,4 +1,5 @@
-// What a user has who installed the program: its version, its baselines, its completion.
+// What a user gets who has installed the program: its version, its baselines and its shell
+// completion.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,7 +37,7 @@ TEST_F(Installed, NamesVersionAndCommit) {
   EXPECT_THAT(version.output, MatchesRegex("triptych [0-9.]+(, commit [0-9a-f]+\\+?)?\n"));
 }
 
-// Baselines of plans that were not measured are looked for where they were installed.
+// Baselines are found where they were installed, also for plans that were not measured.
 TEST_F(Installed, JudgesByTheBaselinesInstalledWithIt) {
   const std::string kept = prefix() + "/share/triptych/baselines";
   ASSERT_TRUE(std::filesystem::exists(kept + "/volume/cost/manifest.json"));

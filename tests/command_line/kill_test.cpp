@@ -1,5 +1,6 @@
-// Kills at random moments, the same ones every time: what was recorded stays, what replaces a file
-// or a folder does so at once or not at all. TRIPTYCH_KILLS=1000 makes more of them per command.
+// Kills the program at random moments, which are the same in every run. What was recorded stays,
+// and what replaces a file or a folder does so at once or not at all. TRIPTYCH_KILLS=1000 kills
+// each command more often.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -39,14 +40,14 @@ class Kill : public testing::Test {
       "data=generate:gaussian_blob:16 --set transfer_function=haze --set "
       "viewport=16";
 
-  // A device with the right picture, whose frames last so long.
+  // A device that draws the right image and whose frames take this long.
   [[nodiscard]] std::string script(int base_us = 100) const {
     return fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": {}}})", picture.string(),
                        1000 * base_us);
   }
 
-  // Runs the command once to its end, then kills it again and again, each time after `before` has
-  // put things in order; `check` looks at what is left.
+  // Runs the command once to its end. Then kills it repeatedly, each time after `before` has
+  // prepared the folder, and `check` examines what is left.
   template <typename Before, typename Check>
   void kill_repeatedly(const Words& command, const Before& before, const Check& check) {
     before();
@@ -55,7 +56,7 @@ class Kill : public testing::Test {
     core::Random random(29);
     for (int i = 0; i < kills() && !HasFailure(); ++i) {
       before();
-      // Every second one near the end, where files and folders take their places.
+      // Every second kill is near the end, when files and folders are replaced.
       const double from = i % 2 == 0 ? 0 : 0.9;
       const auto at =
           1 + static_cast<long>(random.uniform(from, 1) * static_cast<double>(whole.calls));
@@ -77,7 +78,7 @@ class Kill : public testing::Test {
   fs::path picture = right_picture(program);
 };
 
-// "3/8 null:scripted …" is told of a configuration once it lies in the store.
+// "3/8 null:scripted …" is printed for a configuration after it was stored.
 TEST_F(Kill, ARunLosesNothingThatItToldOf) {
   const std::string run = "run " + volume + " --set step=0.5,1 --set ert=0,0.002 --store s.sqlite";
   kill_repeatedly(
@@ -161,7 +162,7 @@ TEST_F(Kill, AReportIsWholeOrNotThere) {
       });
 }
 
-// By its number, somewhere in the frames after the first configuration.
+// Killed at a call with a given number, during the frames after the first configuration.
 TEST_F(Kill, AWorkerCostsOneConfigurationAtMost) {
   program.write("kill_worker.sh", R"(delay=$1; shift
 "$@" >told 2>&1 &

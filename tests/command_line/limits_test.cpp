@@ -1,4 +1,4 @@
-// What a worker may allocate, and disks that are full.
+// Limits on the memory of a worker, and full disks.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr bool sanitized = true;  // whose own memory is far over any limit
+constexpr bool sanitized = true;  // its own memory exceeds every limit by far
 #else
 constexpr bool sanitized = false;
 #endif
@@ -34,7 +34,7 @@ TEST(Memory, DataThatNeedMoreFailTheirConfigurationAlone) {
   EXPECT_THAT(result.output, HasSubstr("1 measured, 0 skipped, 1 failed"));
 }
 
-// 526 MiB of voxels, which lie in a file, by parts of 16 MiB.
+// 526 MiB of voxels, which are in a file, in parts of 16 MiB.
 TEST(Memory, IsNotWhatVoxelsInAFileTake) {
   if (sanitized) GTEST_SKIP() << "built with a sanitizer";
   const Program program;
@@ -60,7 +60,7 @@ TEST(Memory, ASizeIsANumberOfBytes) {
   }
 }
 
-// No file may be longer than so many blocks of 512 bytes.
+// No file may have more than this many blocks of 512 bytes.
 std::string files_up_to(int blocks) {
   return "sh -c 'trap \"\" XFSZ; ulimit -f " + std::to_string(blocks) + "; exec \"$@\"' sh";
 }

@@ -1,4 +1,4 @@
-// Shards measured by themselves and merged: judged as a run by one machine is.
+// Shards that are measured separately and merged are judged like a run by one machine.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -35,7 +35,7 @@ class MergeCommand : public testing::Test {
   [[nodiscard]] Result run(const std::string& arguments) const {
     return program.run(arguments, R"({"devices": [1, 2]})");
   }
-  // The last screen, without what the run's times and files say.
+  // The last screen, without the times and files of the run.
   [[nodiscard]] std::string verdict_on(const std::string& store) const {
     const Result judged = run("gate p.yaml --baselines b --json --store " + store);
     return std::to_string(judged.code) +
@@ -67,7 +67,7 @@ TEST_F(MergeCommand, AShardTooFewIsMissed) {
               HasSubstr("have no record"));
 }
 
-// What no device of a shard has leaves no gap in what the shards become.
+// A configuration that no device of a shard has is no gap in the merged run.
 TEST_F(MergeCommand, NamesWhatItsPartsLack) {
   SQLite::Database((program.folder() / "2.sqlite").string(), SQLite::OPEN_READWRITE)
       .exec("DELETE FROM record WHERE configuration = (SELECT min(configuration) FROM record)");
@@ -103,7 +103,7 @@ TEST_F(MergeCommand, CheckNamesWhatIsNotComplete) {
       run("run p.yaml --device 'null:*' --resume --set camera=random:1 --store 4.sqlite").code, 0);
   ASSERT_EQ(run("run p.yaml --device null:scripted --set camera=random:1 --store 5.sqlite").code,
             0);
-  // What a kill leaves: a run that knows of more than it holds.
+  // A kill leaves such a store: its run was to measure more than it contains.
   ASSERT_EQ(run("run volume/quick --device 'null:*' --store 5.sqlite --shard 90/90").code, 2);
   const Result checked = run("merge --check 4.sqlite 5.sqlite --plan p.yaml --plan volume/quick");
   EXPECT_EQ(checked.code, 2);

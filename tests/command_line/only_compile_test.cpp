@@ -1,4 +1,4 @@
-// Devices that only compile, with RADV where it is installed: a worker, a plan, the gate.
+// Devices that only compile, with RADV if it is installed: a worker, a plan, the gate.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ class OnlyCompile : public testing::Test {
   Program program;
 };
 
-// Its images would be black, and its clock would read nonsense.
+// Its images would be black, and its clock would show nonsense.
 TEST_F(OnlyCompile, DrawsNothing) {
   const Result result = on("run drawn.yaml");
   EXPECT_EQ(result.code, 2) << result.output;

@@ -1,4 +1,4 @@
-// A command that the last screen prints, pasted as it stands, shows the fault again.
+// A command that the last screen prints, pasted unchanged, shows the fault again.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ struct Printed {
   std::string arguments;
 };
 
-// The screen's first command, its lines joined as a shell does.
+// The first command on the screen, with its lines joined as a shell joins them.
 Printed printed_command(const std::string& screen) {
   constexpr std::string_view program = "triptych ";
   static const std::regex line_with_command("\n    (\\w+=\\S+ (\\\\\n +)?)*triptych ");
@@ -81,9 +81,9 @@ TEST_F(Paste, TheCommandOfAWrongPictureShowsIt) {
 struct Injected {
   const char* fault;
   const char* says;        // the last screen, in its first lines
-  int code;                // of the pasted command
+  int code;                // exit code of the pasted command
   const char* shows;       // what it prints
-  const char* extra = "";  // that the command has
+  const char* extra = "";  // part of the command
 };
 
 class PasteInjected : public Paste, public testing::WithParamInterface<Injected> {};
@@ -121,13 +121,13 @@ INSTANTIATE_TEST_SUITE_P(Faults, PasteInjected,
                                                   " is missing, stored ", "gate volume/quick"}),
                          [](const auto& each) { return std::string(each.param.fault); });
 
-// On a real device, as the scripted one computes nothing.
+// On a real device, because the scripted one computes nothing.
 class PasteOnDevice : public Paste {
  protected:
   static constexpr const char* device = "opencl:pocl";
 
-  // The command that the gate's last screen prints about a file's plan with this fault, that has
-  // the checks; none: nothing was measured, as the device is not here.
+  // The command that the gate's last screen prints for a plan with this fault and these checks. If
+  // the device is missing, nothing is measured and the result is empty.
   Printed command_about(const std::string& fault, const std::string& checks,
                         const std::string& says) {
     std::filesystem::create_directory(program.folder() / "my plans");

@@ -1,5 +1,5 @@
 #pragma once
-// Runs triptych with a scripted device and keeps what it said.
+// Runs triptych with a scripted device and returns its output.
 
 #include <string>
 
@@ -10,7 +10,7 @@ namespace triptych::command_line {
 
 using test::Result;
 
-// In a folder of its own; `script` is the null backend's.
+// Runs in a folder of its own; `script` is that of the null backend.
 class Program {
  public:
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
@@ -19,7 +19,7 @@ class Program {
   }
   [[nodiscard]] std::string read(const std::string& name) const { return folder_.read(name); }
 
-  // `arguments` as a shell reads them, in the folder; `wrapper` goes before the program.
+  // `arguments` are parsed by a shell in the folder; `wrapper` is put before the program.
   [[nodiscard]] Result run(const std::string& arguments, const std::string& script = "{}",
                            const std::string& wrapper = "") const {
     return test::run_command("cd '" + folder().string() + "' && TRIPTYCH_NULL_SCRIPT='" + script +
@@ -31,12 +31,12 @@ class Program {
   test::TemporaryFolder folder_;
 };
 
-// A plan of one small scene on the scripted device.
+// A plan with one small scene on the scripted device.
 inline constexpr const char* tiny =
     "--device 'null:*' --set technique=raycast --set data=generate:gaussian_blob:16 "
     "--set transfer_function=haze --set viewport=16";
 
-// A file's plan of such a scene; more factors may follow.
+// A plan with such a scene for a file; more factors may be appended.
 inline constexpr const char* tiny_plan =
     "suite: volume\ntechnique: [raycast]\ndata: [generate:gaussian_blob:16]\n"
     "transfer_function: [haze]\nviewport: [16]\n";

@@ -1,4 +1,4 @@
-// A store that cannot be written is judged all the same: an artifact of CI, somebody else's run.
+// A store that cannot be written can still be judged: an artifact of CI, or somebody else's run.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ class ReadOnly : public testing::Test {
   }
   void TearDown() override { std::filesystem::permissions(program.folder() / "kept", perms::all); }
 
-  // As somebody whom rights bind.
+  // Runs as a user to whom access rights apply.
   [[nodiscard]] Result run(const std::string& arguments) const {
     return program.run(
         arguments, "{}",
@@ -58,7 +58,7 @@ TEST_F(ReadOnly, IsReported) {
   EXPECT_NE(program.read("own/page.html").find("the truth"), std::string::npos);
 }
 
-// A writable file in a folder that is not: it opens, and takes nothing.
+// A writable file in a folder that is not writable: it can be opened, but not changed.
 TEST_F(ReadOnly, InAFolderAloneIsJudgedToo) {
   std::filesystem::permissions(program.folder() / "kept/s.sqlite",
                                readable | perms::owner_write | perms::others_write);

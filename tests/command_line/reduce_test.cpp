@@ -1,4 +1,4 @@
-// A frame that fails on a scripted device, made smaller.
+// A frame that fails on a scripted device is reduced.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ std::string failing(const std::string& kind, const std::string& only) {
       only);
 }
 
-// The last line, without the program's name.
+// The last line without the name of the program.
 std::string last_command(const std::string& output) {
   constexpr std::string_view program = "\ntriptych ";
   const std::size_t begin = output.rfind(program);
@@ -39,7 +39,7 @@ TEST(Reduce, ACrashIsReducedToWhatItNeeds) {
   EXPECT_THAT(result.output, HasSubstr("data generate:mandelbulb:96 → generate:mandelbulb:1,"));
   const std::string command = last_command(result.output);
   EXPECT_THAT(command, HasSubstr("--set step=0.5"));
-  EXPECT_THAT(command, Not(HasSubstr("--set skip")));  // the default is what it needs
+  EXPECT_THAT(command, Not(HasSubstr("--set skip")));  // it already has the default
   const Result again = program.run(command, crash);
   EXPECT_EQ(again.code, 3) << again.output;
   EXPECT_THAT(again.output, HasSubstr("SIGABRT"));
@@ -48,7 +48,8 @@ TEST(Reduce, ACrashIsReducedToWhatItNeeds) {
 TEST(Reduce, TheFolderHoldsWhatAReportNeeds) {
   const Program program;
   const Result result = program.run(scene + "--set viewport=8", failing("crash", "none"));
-  ASSERT_EQ(result.code, 1) << result.output;  // the scripted device's pattern is no true picture
+  // The pattern of the scripted device is not the right image.
+  ASSERT_EQ(result.code, 1) << result.output;
   EXPECT_THAT(result.output,
               HasSubstr("1 of 1 pixels exceed the error bound of the reference image"));
   for (const char* file : {"image.exr", "image.png", "truth.exr", "truth.png", "difference.png"}) {
@@ -65,7 +66,7 @@ TEST(Reduce, TheFolderHoldsWhatAReportNeeds) {
   EXPECT_EQ(again.code, 1) << again.output;
 }
 
-// Another scene's pictures beside its failure would go into the bug report.
+// Images of another scene beside the failure would get into the bug report.
 TEST(Reduce, WhatIsNotDrawnLeavesNoFilesOfAnEarlierFrame) {
   const Program program;
   const std::string render = "render volume --device null:scripted --truth --out r --set viewport=";

@@ -1,4 +1,4 @@
-// The pages that a person opens, made of scripted devices' runs.
+// The pages that people open, made from runs of scripted devices.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TEST_F(ReportTest, EveryChartIsDrawn) {
   EXPECT_THAT(page, HasSubstr("time of a frame, ms"));
   for (auto at = page.find("<svg class=\"figure\""); at != std::string::npos;
        at = page.find("<svg class=\"figure\"", at + 1)) {
-    // The marks are in an SVG of their own within.
+    // The marks are in a nested SVG element.
     const auto marks = page.find("</svg>", at) + 1;
     const std::string figure = page.substr(at, page.find("</svg>", marks) + 6 - at);
     EXPECT_EQ(test::xml_fault(figure), "");
@@ -92,7 +92,7 @@ TEST_F(ReportTest, WritesBothFilesOrNeither) {
   EXPECT_EQ(program_.run(command + "--benchmark-json b.json").output, "page.html\nb.json\n");
 }
 
-// Of one plan alone it would leave out what a store that CI keeps is there for.
+// If it contained one plan only, it would leave out what CI keeps the store for.
 TEST_F(ReportTest, BenchmarkJsonHoldsEveryPlan) {
   measure(std::string("volume/quick") + small_scene);
   measure(std::string("volume/speed") + small_scene);

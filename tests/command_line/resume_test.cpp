@@ -1,4 +1,4 @@
-// Going on with a run: with the same plan, whatever else has its name.
+// A run can be continued only with the same plan, even if another plan has its name.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -45,8 +45,8 @@ TEST_F(Resume, APartOfThePlanThatTheCommandLineSetsIsItsOwn) {
   EXPECT_EQ(run("one/p.yaml --resume").code, 0);
 }
 
-// A validation that is interrupted as soon as it has told of one configuration. What another told
-// is gone before: the file is emptied only when the program starts.
+// Interrupts a validation as soon as it has reported one configuration. The output of an earlier
+// one does not count: the file is emptied when the program starts.
 Result validate_one(const Program& program, const std::string& options) {
   program.write("until_one_is_told.sh", R"(rm -f out; "$@" >out 2>&1 &
 for i in $(seq 600); do grep -qs 'null:scripted .*: ' out && break; sleep 0.1; done
@@ -56,7 +56,7 @@ kill -INT $!; wait $!; code=$?; cat out; exit $code
                      R"({"base_ns": 20000000, "sleep": true})", "bash until_one_is_told.sh");
 }
 
-// A driver under test may take its machine with it.
+// A driver under test may crash the machine.
 TEST_F(Resume, AValidationGoesOn) {
   const auto first_told = [&](const std::string& options) {
     const Result ended = validate_one(program, options);
@@ -69,10 +69,10 @@ TEST_F(Resume, AValidationGoesOn) {
   EXPECT_EQ(first_told(""), first);
 }
 
-// What was measured is judged, and what was not is no pass.
+// What was measured is judged, and what was not measured is no pass.
 TEST_F(Resume, AnInterruptedValidationEndsWithTheLastScreen) {
   const Result ended = validate_one(program, "--junit j.xml --json j.json");
-  EXPECT_EQ(ended.code, 1) << ended.output;  // its picture is no right one
+  EXPECT_EQ(ended.code, 1) << ended.output;  // its image is wrong
   EXPECT_THAT(ended.output, HasSubstr("Triptych   1 device"));
   EXPECT_THAT(ended.output, HasSubstr("have no record"));
   EXPECT_THAT(ended.output, HasSubstr("no run was started"));

@@ -9,8 +9,8 @@
 
 namespace triptych::command_line {
 
-// The truth of the tiny plan's scene as a file, for a device to replay. `transfer_function`: a
-// preset, or a file in the program's folder.
+// The reference image of the tiny plan's scene as a file, which a scripted device returns.
+// `transfer_function`: a preset, or a file in the program's folder.
 inline std::filesystem::path right_picture(const Program& program,
                                            const std::string& transfer_function = "haze") {
   const auto suite = volume_suite::make_suite({program.folder()});

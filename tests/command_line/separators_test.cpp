@@ -1,4 +1,5 @@
-// A file whose name holds what separates factors and values, on its way through every command.
+// A file whose name contains the characters that separate factors and values passes through every
+// command.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +27,7 @@ class Separators : public testing::Test {
     EXPECT_NE(result.output.find(text), std::string::npos) << result.output;
   }
 
-  // Of the finding about the configuration of this data in the gate's JSON.
+  // The verdict of the finding about the configuration with this data in the gate's JSON.
   static std::string verdict(const Result& gate, const std::string& data) {
     const auto json = nlohmann::json::parse(gate.output, nullptr, false);
     for (const auto& finding : json.value("findings", nlohmann::json::array())) {

@@ -1,4 +1,4 @@
-// Where a run's records go: into the file that was named, or the run says that it cannot.
+// The records of a run are in the file that was named, or the run says that they cannot be.
 
 #include "record/store.hpp"
 
@@ -22,7 +22,7 @@ TEST(StoreName, OneWithoutCharactersIsRefusedBeforeAnythingIsMeasured) {
   EXPECT_EQ(program.run("gate volume/quick --store ''").code, 3);
 }
 
-// SQLite would take each for a store that ends with the process.
+// SQLite would take each of these names for a store in memory.
 TEST(StoreName, OneThatMeansMemoryToSqliteIsAFile) {
   for (const std::string name : {":memory:", "file:x?mode=memory"}) {
     const Program program;

@@ -1,4 +1,4 @@
-// Wrong usage and bad input: one clear line, the code people expect.
+// Wrong usage and bad input lead to one clear line and the expected exit code.
 
 #include <gtest/gtest.h>
 
@@ -113,7 +113,7 @@ TEST(Usage, ADeviceOfNoApiSaysHowItsWorkerEnded) {
                  "the worker exited with code 3; its last output: triptych: unknown API");
 }
 
-// Each command offers what it has.
+// Each command names the option that it has.
 TEST(Usage, AnInterruptOffersAResumeWhereThereIsOne) {
   const Program program;
   const std::string hang = std::string("--set data=generate:gaussian_blob:16 --set viewport=16 ") +
@@ -159,7 +159,7 @@ TEST(Usage, HowToMeasureNamesThePlanAsItWasTyped) {
                  "no run of my: measure first with `triptych run my.yaml --store s.sqlite`");
 }
 
-// The streams are told apart here; the comment ends what would join them again.
+// The output streams are separate here; the # at the end disables the part that would join them.
 TEST(Usage, OutputThatCannotBeWrittenIsNoSuccess) {
   const Program program;
   for (const char* command :

@@ -1,5 +1,5 @@
-// A validation's known failures, flakes and parts, on a scripted device whose pictures are patterns
-// and therefore wrong.
+// The known failures, flakes and shards of a validation, on a scripted device whose images are
+// patterns and therefore wrong.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ constexpr const char* part = "validate --device null:scripted --shard 1/400 ";
 
 class Validate : public testing::Test {
  protected:
-  // How often a verdict was given in the answers of --json.
+  // The number of findings with each verdict in the output of --json.
   [[nodiscard]] std::map<std::string, int> verdicts(const std::string& file) const {
     std::map<std::string, int> counts;
     for (const auto& plan : nlohmann::json::parse(program.read(file))) {
@@ -51,7 +51,7 @@ TEST_F(Validate, WhatIsKnownToFailIsWaivedAndNewFailuresAreRed) {
   EXPECT_EQ(program.run(std::string(part) + "--expect none.json").code, 1);
 }
 
-// Its only configuration of volume/quick is right, but for once.
+// Its only configuration of volume/quick is right, except for one frame.
 TEST_F(Validate, WhatFailsOnceIsAFlakeAndIsTold) {
   const auto suite = volume_suite::make_suite({});
   const measure::Plan plan = measure::load_plan(
@@ -72,7 +72,7 @@ TEST_F(Validate, WhatFailsOnceIsAFlakeAndIsTold) {
   EXPECT_THAT(program.read("known.json"), HasSubstr(R"("outcome":"flake")"));
   EXPECT_THAT(program.read("validation/gate.log"),
               HasSubstr("flake, right when it was drawn again: crashed: "));
-  // The store holds what failed.
+  // The store contains what failed.
   const Result gate = program.run(
       "gate volume/quick --shard 1/400 --store validation/validation.sqlite --check image", script);
   EXPECT_EQ(gate.code, 1) << gate.output;
