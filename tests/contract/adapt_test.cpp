@@ -1,5 +1,5 @@
-// Samples merged within bricks: pictures within the budget, fewer samples, and V1 with one sample a
-// ray.
+// Samples that are merged within bricks: images within the budget, fewer samples, and for V1 a
+// single sample on each ray.
 
 #include <cmath>
 
@@ -21,13 +21,13 @@ record::Counts counts_of(measure::Device& device, const measure::Work& work) {
   return device.prepare(work)->frame(measure::Purpose::counters).counts;
 }
 
-// Samples are merged by the bricks of a walk.
+// Samples are merged in the bricks of a walk.
 measure::Work walking(measure::Work work) {
   options_of(work).skip = technique::Skip::bricks;
   return work;
 }
 
-// A volume of the generators, most of them with several bricks of one value.
+// A volume of a generator, mostly with several bricks of one value.
 measure::Work generated(const measure::Device& device, std::string_view name,
                         scene::VolumeScene scene) {
   return walking(
@@ -63,7 +63,7 @@ TEST(Adapt, PicturesStayWithinTheBudget) {
   });
 }
 
-// Two pictures of one device, each within rounding of what it computes, differ by the budget.
+// Two images of one device, each exact within its rounding, differ by the budget.
 TEST(Adapt, MovesADevicesOwnPictureByItsBudget) {
   on_every_device([](measure::Device& device) {
     for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
@@ -102,7 +102,7 @@ TEST(Adapt, TakesFewerSamplesAndSavesTheRest) {
   });
 }
 
-// Whatever the budget: a homogeneous box costs nothing, so the bound is that of rounding alone.
+// Whatever the budget is, a homogeneous box adds no error, so the bound is that of rounding only.
 TEST(Adapt, V1IsExactWithOneSampleARay) {
   on_every_device([](measure::Device& device) {
     for (const double step : {0.125, 0.3, 1.0, 7.7}) {
@@ -118,7 +118,7 @@ TEST(Adapt, V1IsExactWithOneSampleARay) {
                    .scene = VolumeWork{.scene = analytic.scene,
                                        .options = {.sampler = sampler, .ert = 0, .adapt = 1e-9}}});
       const record::Counts counts = counts_of(device, work);
-      // The last step's middle may lie beyond the box, where there is no brick.
+      // The middle of the last step may be outside of the box, where there is no brick.
       EXPECT_LE(counts.at("samples"), 2 * counts.at("rays_hit"));
       expect_closed_form(device, work, analytic);
     }

@@ -1,5 +1,5 @@
 // Quadrature cells on real devices: exact where nothing bends, within its bound everywhere, the
-// same bits however empty space is skipped, and nearer to the limit than the midpoint rule of an
+// same bits however empty space is skipped, and closer to the limit than the midpoint rule with an
 // eighth of its step.
 
 #include <algorithm>
@@ -59,7 +59,7 @@ TEST(Cells, StayWithinTheirBound) {
   });
 }
 
-// A table that holds 1, jumps and a spike of one entry.
+// A table with an opacity of 1, jumps, and a peak of one entry.
 TEST(Cells, SteepTransferFunctionsStayWithinTheBound) {
   on_every_device([](measure::Device& device) {
     scene::VolumeScene scene = cells_scene("haze");
@@ -110,7 +110,7 @@ TEST(Cells, RealVolumesStayWithinTheBoundAndKeepTheirBits) {
   });
 }
 
-// V1: one value, one piece a cell, a constant integrand. What is left is rounding.
+// V1 has one value, one piece in each cell and a constant integrand, so only rounding remains.
 TEST(Cells, V1IsExact) {
   on_every_device([](measure::Device& device) {
     reference::AnalyticOptions options;
@@ -146,8 +146,9 @@ TEST(Cells, AreNearerToTheLimitThanManySamples) {
   });
 }
 
-// Some drivers end loops after 65,535 passes in silence, and a highlight was several for each
-// point. The bound with shading is too wide to show it, so the truth itself is met.
+// Some drivers end loops after 65,535 passes without an error, and a highlight needed several
+// passes for each point. The bound with shading is too wide to show that, so the image is compared
+// with the reference image itself.
 TEST(Cells, ManyShadedPiecesAreAllTaken) {
   on_every_device([](measure::Device& device) {
     scene::VolumeScene scene = cells_scene("haze");

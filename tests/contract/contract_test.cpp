@@ -1,4 +1,4 @@
-// What measure/contract/backend.hpp promises, whatever the API.
+// What measure/contract/backend.hpp promises for every API.
 
 #include <cstdlib>
 #include <set>
@@ -79,7 +79,7 @@ TEST(Contract, AVolumeBeyondEveryLimitIsRefusedWithBothNumbers) {
     measure::Work work = some_work(device);
     auto& volume = std::get<measure::VolumeWork>(work.scene);
     scene::VoxelGrid grid = *volume.scene.grid;
-    grid.size = {1, 1, 1 << 20};  // never uploaded: it is refused first
+    grid.size = {1, 1, 1 << 20};  // never uploaded, because it is refused before that
     volume.scene.grid = std::make_shared<const scene::VoxelGrid>(std::move(grid));
     volume.options.sampler = technique::Sampler::hardware;
     const auto reason = device.unsupported(work);
@@ -91,7 +91,7 @@ TEST(Contract, AVolumeBeyondEveryLimitIsRefusedWithBothNumbers) {
 }  // namespace
 }  // namespace triptych::contract
 
-// The null backend is there only when it has a script.
+// The null backend has devices only if it has a script.
 int main(int argc, char** argv) {
   ::setenv("TRIPTYCH_NULL_SCRIPT", "{}", 0);
   ::setenv("POCL_PTHREAD_MIN_WGS", "1", 0);

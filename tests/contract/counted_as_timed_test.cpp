@@ -1,5 +1,6 @@
-// What is counted is what is timed: the counters, from a build of their own, against what the timed
-// build's picture tells of its samples; and the same picture from both builds.
+// What is counted is what is timed: compares the counters, which come from a build of their own,
+// with what the image of the timed build shows about its samples, and the images of both builds
+// with each other.
 
 #include <cmath>
 
@@ -14,7 +15,7 @@ using technique::Skip;
 
 constexpr std::array all_skips{Skip::none, Skip::bricks, Skip::distance};
 
-// Red everywhere: what speed_of_light sums up is the number of samples.
+// Red everywhere, so that the sum of speed_of_light is the number of samples.
 scene::TransferFunction reddened(std::string_view name) {
   scene::TransferFunction function = scene::load_transfer_function(name);
   for (auto& entry : function.entries) entry[0] = 1;
@@ -56,7 +57,7 @@ TEST(CountedAsTimed, SpeedOfLightSumsAsManySamplesAsItCounts) {
   });
 }
 
-// Walls of one voxel across each axis.
+// Walls of one voxel, perpendicular to each axis.
 scene::Volume walls() {
   constexpr int side = 64;
   scene::Volume volume{.name = "walls", .size = {side, side, side}, .range_hi = 255};
@@ -71,8 +72,8 @@ scene::Volume walls() {
   return volume;
 }
 
-// A sample on a brick's face belongs to the brick ahead for a walk, to the upper one for a leap. So
-// along an axis' lower direction they take other samples.
+// For a walk, a sample on a face of a brick belongs to the brick ahead; for a leap, to the upper
+// one. So in the negative direction of an axis they take different samples.
 TEST(CountedAsTimed, SamplesOnFacesOfBricks) {
   on_every_device([](measure::Device& device) {
     scene::VolumeScene scene = small_scene("surfaces");
@@ -94,13 +95,14 @@ TEST(CountedAsTimed, SamplesOnFacesOfBricks) {
   });
 }
 
-// Of a volume of one opacity per voxel length, drawn with early termination: the transmittance is
-// that of so many whole steps and, where no end came before, a part of one.
+// For a volume with one opacity per voxel length that is drawn with early termination: the
+// transmittance is that of a number of whole steps and, if the ray did not end before, of a part of
+// one.
 struct Tally {
   std::uint64_t rays_hit = 0;
   std::uint64_t terminated = 0;
   std::uint64_t samples = 0;
-  std::uint64_t doubtful = 0;  // rays whose last step is next to nothing, or nothing
+  std::uint64_t doubtful = 0;  // rays whose last step has almost no length, or none
 };
 
 Tally tally_of(const core::Image& image, double alpha, double step_voxels, double ert) {
@@ -189,7 +191,7 @@ TEST(CountedAsTimed, VolumesHaveOnePicture) {
   });
 }
 
-// With the promise of conservative depth broken, the picture shows what was rejected early: the
+// If the promise of conservative depth is broken, the image shows what was rejected early. The
 // counting build has to reject it too.
 TEST(CountedAsTimed, SpheresHaveOnePictureThoughTheyAreRejectedEarly) {
   on_every_device([](measure::Device& device) {
@@ -206,10 +208,11 @@ TEST(CountedAsTimed, SpheresHaveOnePictureThoughTheyAreRejectedEarly) {
   });
 }
 
-// Where early rejection is our own, its fragments are not counted.
+// Where this program rejects fragments early itself, they are not counted.
 TEST(CountedAsTimed, FragmentsRejectedEarlyAreNotCounted) {
   on_every_device([](measure::Device& device) {
-    if (device.info().api != "opencl") return;  // the rasterizer is the driver's
+    // The rasterizer of the other APIs belongs to the driver.
+    if (device.info().api != "opencl") return;
     ParticleWork work = generated_work("uniform", 20000, "orbit_y:1/8", 96);
     work.scene.radius_scale = 3;
     const auto fragments = [&](bool conservative) {

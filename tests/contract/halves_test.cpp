@@ -1,5 +1,5 @@
-// Voxels stored as half floats: within the bound of the data that they round, the same picture
-// where they round nothing, and half of what floats take of a device.
+// Voxels that are stored as half floats: within the bound of the data that they round, the same
+// image where they round nothing, and half of the memory of floats.
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ measure::Work work_of(const char* data, VoxelFormat format, Sampler sampler) {
                          .options = {.sampler = sampler, .skip = technique::Skip::none, .ert = 0}}};
 }
 
-// The largest error of a channel over the bound of its pixel.
+// The largest ratio of a channel's error to the bound of its pixel.
 double share_of_bound(const core::Image& image, const reference::Truth& truth) {
   double largest = 0;
   for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
@@ -38,7 +38,7 @@ double share_of_bound(const core::Image& image, const reference::Truth& truth) {
   return largest;
 }
 
-// Floats and integers of sixteen bits, both techniques, each way to read voxels.
+// Floats and 16-bit integers, with both techniques and each way to read voxels.
 TEST(Halves, StayWithinTheBoundOfTheDataThatTheyRound) {
   on_every_device([](measure::Device& device) {
     double unpaid = 0;
@@ -73,13 +73,13 @@ TEST(Halves, StayWithinTheBoundOfTheDataThatTheyRound) {
         }
       }
     }
-    EXPECT_GT(unpaid, 1);  // the bound without the rounding is too narrow for it
+    EXPECT_GT(unpaid, 1);  // without the rounding of voxels, the bound is too narrow
   });
 }
 
-// Within the bound of the bytes, to which halves add nothing. Cells and OpenCL's buffers reach the
-// kernel as the integers that they are in either format, so that the counts are the same; on
-// OpenCL, whose compilers leave arithmetic as it is written, the bits too.
+// Within the bound of bytes, to which halves add nothing. For cells and for OpenCL's buffers, both
+// formats reach the kernel as the same integers, so the counts are equal. On OpenCL, whose
+// compilers do not change arithmetic, the bits are equal too.
 TEST(Halves, OfBytesAreTheSamePictureAndWork) {
   on_every_device([](measure::Device& device) {
     const bool opencl = device.info().api == "opencl";
@@ -124,7 +124,7 @@ TEST(Halves, TakeHalfTheMemoryOfFloats) {
     };
     const std::uint64_t saved = bytes_held(VoxelFormat::f32) - bytes_held(VoxelFormat::f16);
     const std::uint64_t expected = 2 * voxels(device.info().api == "opencl" ? 2 : 0);
-    if (device.info().api == "vulkan") {  // which tells an image with what its driver pads rows by
+    if (device.info().api == "vulkan") {  // reports an image with the padding of its rows
       EXPECT_NEAR(static_cast<double>(saved), static_cast<double>(expected),
                   0.25 * static_cast<double>(expected));
     } else {

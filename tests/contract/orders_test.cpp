@@ -1,5 +1,5 @@
-// V1–V7 and V9 on real devices: the closed forms at the order of convergence that the quadrature
-// must show.
+// V1–V7 and V9 on real devices: the images converge to the closed forms with the order that the
+// quadrature must have.
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ measure::Work work_of(const measure::Device& device, const scene::VolumeScene& s
                           .ert = 0}}};
 }
 
-// Root mean square of the error over pixels and channels against `exact(x, y)`.
+// The root mean square of the difference from `exact(x, y)` over pixels and channels.
 template <class Exact>
 double rms_error(const core::Image& image, const Exact& exact) {
   double sum = 0;
@@ -75,7 +75,7 @@ TEST(Orders, SmoothProblemsAreOfSecondOrder) {
   });
 }
 
-// Of scenes whose grid is not their closed form: against the grid's limit.
+// For scenes whose grid differs from their closed form: compared with the limit of the grid.
 double order_against_limit(measure::Device& device, AnalyticProblem problem, int size) {
   reference::AnalyticScene analytic = scene_of(problem, size, 1);
   const core::Image exact = reference::render_volume_converged(analytic.scene, 1e-7).image();
@@ -102,8 +102,9 @@ TEST(Orders, V7IsLimitedByItsFaces) {
   });
 }
 
-// The shaded picture of a device against the wave's own gradient: as far as its lattice is from the
-// limit of the step, its bound from the lattice, and central differences from the gradient.
+// The shaded image of a device compared with the true gradient of the wave. The differences are
+// those between the device's lattice and the limit of the step, between the bound and the lattice,
+// and between central differences and the gradient.
 double wave_error_on(measure::Device& device, int size) {
   const reference::AnalyticScene analytic = scene_of(AnalyticProblem::v9_wave, size, 0.25);
   constexpr double tolerance = 1e-7;

@@ -1,4 +1,4 @@
-// What is counted: consistent in itself, and the paper's finding.
+// The counters are consistent with each other and show what the paper found.
 
 #include <algorithm>
 
@@ -32,7 +32,8 @@ TEST(ParticleCounters, AddUp) {
         const record::Counts counts = counted(device, whole);
         EXPECT_NEAR(static_cast<double>(counts.at("visible_ids")), static_cast<double>(visible),
                     0.01 * static_cast<double>(visible) + 2);
-        if (!counts.contains("particles_submitted")) return;  // rays leave no cells out
+        // Techniques with rays leave no cells out.
+        if (!counts.contains("particles_submitted")) return;
         EXPECT_EQ(counts.at("particles_submitted") + counts.at("particles_culled"), 20000U);
         EXPECT_EQ(counts.at("particles_culled") > 0, culling == Culling::frustum);
         EXPECT_EQ(counts.at("cells_culled") > 0, culling == Culling::frustum);
@@ -47,8 +48,8 @@ TEST(ParticleCounters, AddUp) {
   });
 }
 
-// Every sphere's disc is covered by sprites of any shape, so that all keep the same fragments, and
-// a polygon wastes fewer the more corners it has (S6). Tiles take no fragment that lies behind.
+// Sprites of every shape cover the disc of a sphere, so that all keep the same fragments; a polygon
+// with more corners wastes fewer (S6). Tiles take no fragment that is behind.
 TEST(ParticleCounters, SpritesOfEveryShapeKeepTheSameFragments) {
   on_every_device([](measure::Device& device) {
     ParticleWork work = generated_work("uniform", 100, "orbit_y:1/8", 256);
@@ -75,7 +76,8 @@ TEST(ParticleCounters, SpritesOfEveryShapeKeepTheSameFragments) {
   });
 }
 
-// Twenty times as many spheres, most of them hidden, need only a few times the nodes. Each node tests two boxes.
+// With twenty times as many spheres, most of which are hidden, only a few times as many nodes are
+// visited. Each node tests two boxes.
 TEST(ParticleCounters, RaysVisitOnlyWhatTheyMayHit) {
   on_every_device([](measure::Device& device) {
     const auto nodes = [&](std::uint64_t particles) -> double {
@@ -98,9 +100,9 @@ std::uint64_t fragments_of(measure::Device& device, std::string technique, Parti
   return device.unsupported(whole) ? 0 : counted(device, whole).at("fragments");
 }
 
-// The paper's finding (section 6.3): from outside, both kinds of quad produce the same fragments;
-// with the camera among the spheres, the screen-aligned one an order of magnitude more, because the
-// spheres that reach the plane of the eye have no bounded projection.
+// The finding of the paper (section 6.3): from outside, both kinds of quads have the same
+// fragments. With the camera among the spheres, the screen-aligned quad has ten times as many,
+// because spheres that reach the plane of the eye have no bounded projection.
 TEST(ParticleCounters, ScreenAlignedQuadsAreCostlyAmongTheSpheres) {
   on_every_device([](measure::Device& device) {
     const auto ratio = [&](const char* camera) {

@@ -1,4 +1,4 @@
-// Injected faults: each is caught by the picture, on every technique that has it.
+// Injected faults: the image shows each of them with every technique that has it.
 
 #include "measure/protocol/injected_fault.hpp"
 #include "particle_scenes.hpp"
@@ -11,8 +11,9 @@ struct Injected {
   ParticleWork work;
 };
 
-// A fault beside a scene in which it shows: a small sprite needs spheres that `tiles` does not look
-// for in whole tiles, ties coincident ones, a lost border some that reach over several tiles.
+// A fault, and a scene in which it is visible. A small sprite needs spheres that `tiles` does not
+// search for in whole tiles, ties need coincident spheres, and a lost border needs spheres that
+// reach several tiles.
 std::vector<Injected> faults() {
   std::vector<Injected> all;
   all.push_back({"small_sprite", generated_work("uniform", 10000, "orbit_y:1/8", 200)});
@@ -35,15 +36,15 @@ TEST(ParticleFaults, EveryOneIsCaughtByThePicture) {
       with_every_technique(device, injected.work, [&](const measure::Work& whole) {
         measure::Work faulty = whole;
         measure::inject(injected.name, faulty);
-        if (device.unsupported(faulty)) return;  // there is nothing to break in this technique
+        if (device.unsupported(faulty)) return;  // the technique has nothing that could be broken
         EXPECT_FALSE(accuracy::compare(draw(device, faulty), expected, bound).within_bound());
       });
     }
   });
 }
 
-// Early rejection that takes a sphere's back for its front. Where a driver rejects nothing early
-// the picture cannot show it; each backend's own tests look into the shader then.
+// Early rejection that takes the back of a sphere for its front. If a driver rejects nothing early,
+// the image cannot show it; then each backend's own tests examine the shader.
 TEST(ParticleFaults, TheWrongSenseIsCaughtWhereFragmentsAreRejectedEarly) {
   on_every_device([](measure::Device& device) {
     ParticleWork work = studded_wall();
@@ -63,7 +64,7 @@ TEST(ParticleFaults, TheWrongSenseIsCaughtWhereFragmentsAreRejectedEarly) {
   });
 }
 
-// More work, the same picture.
+// More work gives the same image.
 TEST(ParticleFaults, AnInjectedSlowdownChangesNoPixel) {
   on_every_device([](measure::Device& device) {
     const ParticleWork work = generated_work("uniform", 3000, "orbit_y:1/8", 96);

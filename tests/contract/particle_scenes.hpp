@@ -1,5 +1,5 @@
 #pragma once
-// Scenes of spheres for the contract tests, and what is asked of every picture of them.
+// Scenes of spheres for the contract tests, and the checks for each of their images.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -68,8 +68,9 @@ inline reference::SphereTruth truth_of(const ParticleWork& work) {
                                    particles_suite::error_model(work.scene, work.options.ray));
 }
 
-// A wall, the front of a huge sphere, with small spheres half sunk into it: once the wall is drawn,
-// each of them has its front before and its back behind what its tile holds.
+// A wall, which is the front of a huge sphere, and small spheres that are half inside of it. Once
+// the wall is drawn, each of them has its front in front of what its tile contains, and its back
+// behind it.
 inline ParticleWork studded_wall() {
   std::vector<std::array<double, 4>> spheres{{0, 0, -1000, 1000}};
   core::Random random(11);
@@ -79,7 +80,7 @@ inline ParticleWork studded_wall() {
   return particle_work(particles_of(spheres), looking({0, 0, 5}, {0, 0, 0}, 60), 96, 96);
 }
 
-// Asks the image for every id and depth that is certain, and for its colours.
+// Checks every id and depth that is certain, and the colours.
 inline void expect_true(const core::Image& image, const reference::SphereTruth& truth) {
   const auto result = accuracy::compare(image, truth.image(), truth.bound_image());
   const auto& first = result.first_wrong;
@@ -92,7 +93,7 @@ inline void expect_true(const core::Image& image, const reference::SphereTruth& 
       << ' ' << result.worst.y << ": " << result.worst.error << " allowed " << result.worst.bound;
 }
 
-// Runs `body` with every technique that the device can do.
+// Runs `body` with every technique that the device supports.
 template <typename Body>
 void with_every_technique(measure::Device& device, const ParticleWork& work, const Body& body) {
   for (const std::string& technique : particle_techniques()) {

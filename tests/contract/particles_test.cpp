@@ -1,4 +1,5 @@
-// Spheres by every technique against the truth, and what must not change the picture.
+// Compares spheres drawn by every technique with the reference image, and checks what must not
+// change the image.
 
 #include "scene/particles.hpp"
 
@@ -27,8 +28,8 @@ struct View {
   scene::Camera camera;
 };
 
-// A sphere of radius 1 at the origin with a small neighbour, seen from everywhere that widely used
-// sprites lose pixels.
+// A sphere of radius 1 at the origin with a small neighbour, seen from all positions from which
+// common kinds of sprites lose pixels.
 std::vector<View> difficult_views() {
   const std::vector<std::array<double, 4>> one{{0, 0, 0, 1}, {1.2, 0.3, 0.1, 0.2}};
   const glm::dvec3 side = glm::normalize(glm::dvec3{1, 0.5, 2});
@@ -97,8 +98,8 @@ TEST(Particles, ARayMadeAtTheVerticesIsTrue) {
       work.options.ray = technique::ComputedAt::vertex;
       expect_all_true(device, work);
     }
-    // Many small sprites, which corners on the rasterizer's grid move the most: a plane of rays
-    // that reaches beyond its own triangle errs by more than the bound here.
+    // Many small sprites, which are moved most by the rasterizer's grid: if a plane of rays is used
+    // outside of its own triangle, its error exceeds the bound here.
     ParticleWork many =
         generated_work("uniform", 4000, "orbit_y:1/8", 160, scene::ColourKind::intensity);
     many.options.ray = technique::ComputedAt::vertex;
@@ -106,7 +107,7 @@ TEST(Particles, ARayMadeAtTheVerticesIsTrue) {
   });
 }
 
-// Ties, culling, conservative depth, corners: how it is made, not what is seen.
+// Ties, culling, conservative depth and corners change how the image is made, but not the image.
 TEST(Particles, AllTechniquesAndOptionsDrawTheSameBits) {
   on_every_device([](measure::Device& device) {
     for (const char* camera : {"orbit_y:1/8", "path_z:7/8"}) {
@@ -124,7 +125,8 @@ TEST(Particles, AllTechniquesAndOptionsDrawTheSameBits) {
             options.conservative_depth = conservative;
             options.corners = 5;
             const auto prepared = device.prepare(work);
-            for (int frame = 0; frame < 3; ++frame) {  // occlusion remembers the frame before
+            // Occlusion culling remembers the previous frame.
+            for (int frame = 0; frame < 3; ++frame) {
               static_cast<void>(prepared->frame(measure::Purpose::timing));
             }
             const core::Image image = prepared->image();
@@ -139,7 +141,7 @@ TEST(Particles, AllTechniquesAndOptionsDrawTheSameBits) {
   });
 }
 
-// A hierarchy that is built or fitted anew in every frame finds the same spheres.
+// A hierarchy that is built or fitted again in every frame finds the same spheres.
 TEST(Particles, StructuresBuiltInEveryFrameDrawTheSameBits) {
   using technique::Structure;
   on_every_device([](measure::Device& device) {
@@ -162,8 +164,8 @@ TEST(Particles, StructuresBuiltInEveryFrameDrawTheSameBits) {
   });
 }
 
-// So many spheres at one depth on one pixel that no nearest one leaves the others out: more nodes than one dispatch may
-// visit on Mesa's software devices.
+// So many spheres have the same depth on one pixel that none excludes the others: more nodes than
+// one dispatch may visit on Mesa's software devices.
 TEST(Particles, ABeamThroughManyEqualSpheresFindsTheFirst) {
   on_every_device([](measure::Device& device) {
     std::vector<std::array<double, 4>> spheres(60000, {0, 0, 0, 1});
@@ -249,13 +251,13 @@ ParticleWork jump_of_the_eye() {
   return work;
 }
 
-// The first frame from another place, when all that is known of what is hidden is wrong.
+// The first frame from another position, when everything that is known about hidden cells is wrong.
 TEST(Particles, AfterAJumpOfTheEyeNothingIsStale) {
   const ParticleWork work = jump_of_the_eye();
   on_every_device([&](measure::Device& device) { expect_all_true(device, work); });
 }
 
-// What is counted is the state that frames tend to, however many were drawn before.
+// The counts are those of the state that frames reach, however many were drawn before.
 TEST(Particles, AfterAJumpOfTheEyeCountsAreThoseOfLaterFrames) {
   const ParticleWork work = jump_of_the_eye();
   on_every_device([&](measure::Device& device) {
@@ -272,7 +274,7 @@ TEST(Particles, AfterAJumpOfTheEyeCountsAreThoseOfLaterFrames) {
   });
 }
 
-// Wider than textures and points may be: drawn, or refused with the size that was asked for.
+// Wider than textures and points may be: it is drawn, or refused with the requested size.
 TEST(Particles, APictureOverADevicesLimitIsRefusedOrDrawn) {
   on_every_device([](measure::Device& device) {
     const scene::Camera camera = looking({0, 0, 3}, {0, 0, 0}, 0.005);
@@ -293,7 +295,7 @@ TEST(Particles, APictureOverADevicesLimitIsRefusedOrDrawn) {
   });
 }
 
-// What is dropped leaves its neighbours alone.
+// A particle that is dropped does not affect its neighbours.
 TEST(Particles, WhatIsNoSphereIsDropped) {
   const double nan = std::nan("");
   const double inf = std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-// A volume drawn in parts is the whole's picture to the bit, with the whole's counts.
+// A volume that is drawn in parts gives the same bits and the same counts as the whole volume.
 
 #include "technique/volume/parts.hpp"
 
@@ -15,8 +15,8 @@ using scene::Quadrature;
 using technique::Sampler;
 using technique::Skip;
 
-// From outside, from within along the parts, across them, from within towards the last, and from so
-// far away that rays begin on a plane before the volume.
+// From outside; from inside along the parts, across them, and towards the last one; and from so far
+// away that rays begin on a plane in front of the volume.
 std::vector<scene::Camera> cameras(const scene::Box& box) {
   const glm::dvec3 size = box.hi - box.lo;
   const auto at = [&](double x, double y, double z) { return glm::dvec3(x, y, z) * size; };
@@ -31,7 +31,7 @@ measure::VolumeWork& volume_of(measure::Work& work) {
   return std::get<measure::VolumeWork>(work.scene);
 }
 
-// What the largest layout of the voxels takes.
+// The size of the largest layout of the voxels.
 double whole_bytes(const measure::VolumeWork& work) {
   const scene::VoxelGrid& grid = *work.scene.grid;
   if (work.options.sampler == Sampler::packed) {
@@ -60,7 +60,7 @@ Drawn drawn(measure::Device& device, const measure::Work& work) {
   return result;
 }
 
-// With about an n-th of the voxels on the device for each n.
+// With about one n-th of the voxels on the device, for each n.
 void expect_the_whole(measure::Device& device, measure::Work work, std::vector<int> shares) {
   volume_of(work).options.budget = 0;
   const Drawn whole = drawn(device, work);
@@ -75,7 +75,7 @@ void expect_the_whole(measure::Device& device, measure::Work work, std::vector<i
   }
 }
 
-// The samplers that the device draws parts with.
+// The samplers with which the device draws parts.
 std::vector<Sampler> samplers(measure::Device& device, measure::Work work) {
   std::vector<Sampler> able;
   for (const Sampler sampler : {Sampler::manual, Sampler::packed}) {
@@ -95,7 +95,7 @@ measure::Work work_of(std::string_view generator, scene::VolumeScene scene) {
           .scene = measure::VolumeWork{.scene = std::move(scene), .options = {}}};
 }
 
-// From every side where rays leap, and from within where they walk.
+// From every side if rays leap, and from inside if they walk.
 void expect_the_whole_by_every_skip(measure::Device& device, measure::Work& work) {
   const auto views = cameras(volume_of(work).scene.box());
   for (const Skip skip : {Skip::none, Skip::bricks, Skip::distance}) {
@@ -109,7 +109,7 @@ void expect_the_whole_by_every_skip(measure::Device& device, measure::Work& work
   }
 }
 
-// Every way of drawing, from every side.
+// Every way to draw, from every side.
 TEST(Parts, HaveTheBitsAndTheCountsOfTheWhole) {
   on_every_device([](measure::Device& device) {
     for (const Quadrature quadrature :
@@ -132,7 +132,7 @@ TEST(Parts, HaveTheBitsAndTheCountsOfTheWhole) {
   });
 }
 
-// Every voxel format, rays that end early or never, steps longer than a part's own cells.
+// Every voxel format, rays that end early or never, and steps longer than the cells of a part.
 TEST(Parts, OfEveryFormatAndStep) {
   on_every_device([](measure::Device& device) {
     for (const std::string_view generator : {"sparse_field", "frequency_box"}) {
@@ -176,7 +176,8 @@ TEST(Parts, WithMergedBricksOrInDoublePrecision) {
   });
 }
 
-// Of a last sample behind the exit a walk knows no brick: it is read, from what no part had moved.
+// For a last sample behind the exit, a walk knows no brick. It is read, from data that no part has
+// moved.
 TEST(Parts, ThatShowNothingAreReadWhereAWalkReadsThem) {
   on_every_device([](measure::Device& device) {
     scene::Volume volume{.size = {16, 16, 64}, .type = scene::ScalarType::u8, .range_hi = 255};
@@ -211,7 +212,7 @@ TEST(Parts, AreWithinTheTruthsBound) {
   });
 }
 
-// Without a budget: deeper than many devices' images may be.
+// Without a budget, for volumes that are deeper than the images of many devices can be.
 TEST(Parts, OfWhatNoImageHoldsAreWithinTheTruthsBound) {
   on_every_device([](measure::Device& device) {
     scene::Volume volume{.size = {5, 4, 5000}, .type = scene::ScalarType::u8, .range_hi = 100};
@@ -230,7 +231,7 @@ TEST(Parts, OfWhatNoImageHoldsAreWithinTheTruthsBound) {
   });
 }
 
-// With both numbers, and what would help.
+// The reason contains both numbers, and what would help.
 TEST(Parts, ThatCannotBeAreRefused) {
   on_every_device([](measure::Device& device) {
     measure::Work work = work_of("mandelbulb", small_scene("surfaces"));

@@ -1,5 +1,5 @@
-// Precision fp64 on real devices: within its own bound, which single precision is not, and refused
-// where a part of the path is in single precision.
+// Precision fp64 on real devices: within its own bound, which single precision exceeds, and refused
+// if a part of the path is in single precision.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 using measure::VolumeWork;
 
-// On the path that the suite takes by default: voxels as they are, interpolated by hand.
+// The default path of the suite: voxels in their own format, interpolated in the kernel.
 measure::Work fp64_work(const char* data, scene::VolumeScene scene) {
   scene::Volume volume = scene::generate_volume(data, {40, 40, 40});
   const scene::VoxelFormat native = scene::lossless_format(volume.type);
@@ -24,7 +24,7 @@ measure::Work fp64_work(const char* data, scene::VolumeScene scene) {
                                           .precision = technique::Precision::fp64}}};
 }
 
-// Voxels of all three types, both techniques, both ways of skipping and none.
+// Voxels of all three types, both techniques, and both ways of skipping or none.
 TEST(Precision, DoubleStaysWithinItsOwnBound) {
   int drawn = 0;
   on_every_device([&](measure::Device& device) {
@@ -51,7 +51,7 @@ TEST(Precision, DoubleStaysWithinItsOwnBound) {
   if (drawn == 0) GTEST_SKIP() << "no device has double precision";
 }
 
-// The largest error of a channel over what fp64 may err by there.
+// The largest ratio of a channel's error to the bound of fp64 at that pixel.
 double share_of_bound(const core::Image& image, const reference::Truth& truth) {
   double largest = 0;
   for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
@@ -61,7 +61,7 @@ double share_of_bound(const core::Image& image, const reference::Truth& truth) {
   return largest;
 }
 
-// A bound that allowed single precision as well would show nothing.
+// A bound that single precision also keeps would prove nothing.
 TEST(Precision, SingleIsNotWithinTheBoundOfDouble) {
   on_every_device([](measure::Device& device) {
     scene::VolumeScene scene = small_scene("haze");

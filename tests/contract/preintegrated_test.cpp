@@ -1,5 +1,5 @@
 // Quadrature preintegrated on real devices: exact where the field is straight along every step, of
-// second order elsewhere, within its bound everywhere.
+// second order elsewhere, and within its bound everywhere.
 
 #include <algorithm>
 #include <cmath>
@@ -42,10 +42,10 @@ double rms_error(const core::Image& image, const reference::AnalyticScene& analy
   return std::sqrt(sum / (4.0 * static_cast<double>(image.pixel_count())));
 }
 
-// What is left is the rounding of positions, values and sums. Root mean square, it is that of V1,
-// which has no other error either (1.3e-7), and the table's curvature within an entry: table_error
-// in the header of the problems, 1e-6 for the worst pixel. A midpoint of the same step errs by 1e-4
-// and more.
+// What remains is the rounding of positions, values and sums. Its root mean square is that of V1,
+// which has no other error either (1.3e-7), and the curvature of the table within an entry:
+// table_error in the header of the problems, 1e-6 for the worst pixel. A midpoint with the same
+// step has an error of 1e-4 or more.
 TEST(Preintegrated, V3IsExactForEveryStepUpToItsPlateaus) {
   on_every_device([](measure::Device& device) {
     for (const double step : {0.125, 0.3, 0.5, 1.0}) {
@@ -103,8 +103,8 @@ TEST(Preintegrated, StaysWithinItsBound) {
   });
 }
 
-// Whole cells of the table are taken in chunks: at once, these steps erred by up to 0.3, and by
-// more than their bound.
+// Whole cells of the table are taken in pieces. Without that, these steps had errors of up to 0.3,
+// which exceeded their bound.
 TEST(Preintegrated, OpaqueStepsAreExact) {
   on_every_device([](measure::Device& device) {
     for (const double step : {2.0, 64.0}) {
@@ -127,7 +127,7 @@ TEST(Preintegrated, OpaqueStepsAreExact) {
   });
 }
 
-// A table that holds 1, jumps and a spike of one entry.
+// A table with an opacity of 1, jumps, and a peak of one entry.
 TEST(Preintegrated, SteepTransferFunctionsStayWithinTheBound) {
   on_every_device([](measure::Device& device) {
     scene::VolumeScene scene = small_scene("haze");

@@ -1,5 +1,5 @@
-// What the suites say that a scene cannot tell apart (measure::Suite::plain) is the same work on
-// every device: the same counts, the same bits.
+// Configurations that the suites call equivalent in a scene (measure::Suite::plain) are the same
+// work on every device: the same counts and the same bits.
 
 #include "measure/contract/equivalents.hpp"
 #include "particle_scenes.hpp"
@@ -53,7 +53,7 @@ TEST(SameWork, EndingRaysThatNeverGetSoDark) {
     auto& ert = std::get<measure::VolumeWork>(ending.scene).options.ert;
     ert = 0.99 * least;
     expect_same_work(device, never, ending);
-    ert = 1.01 * least;  // one ray at least is told apart
+    ert = 1.01 * least;  // makes a difference for at least one ray
     EXPECT_NE(counts_of(device, never), counts_of(device, ending));
   });
 }

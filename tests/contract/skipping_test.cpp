@@ -1,5 +1,5 @@
-// Skipping empty space leaves every bit as it is: for every generator, both transfer functions,
-// shaded or not, both quadratures, and for every real volume.
+// Skipping empty space changes no bit: for every generator, both transfer functions, with and
+// without shading, both quadratures, and for every real volume.
 
 #include "data_folder.hpp"
 #include "under_test.hpp"
@@ -58,8 +58,8 @@ TEST(Skipping, RealVolumesHaveTheSameBits) {
   });
 }
 
-// An oracle takes the samples that have any opacity and no other. Every mode of skipping must take
-// all of those, and leaps over smaller bricks no more of the others than a walk.
+// A perfect method would take exactly the samples that have any opacity. Every mode of skipping
+// must take all of them; leaps over smaller bricks must take no more of the others than a walk.
 TEST(Skipping, TakesWhatAnOracleDoesAndLittleMore) {
   const auto files = real_volumes();
   if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with volumes/";

@@ -1,5 +1,5 @@
-// What is known of spheres in closed form (reference/sphere_closed_forms.hpp), asked of every
-// technique on every device without the renderer in between.
+// Closed forms for spheres (reference/sphere_closed_forms.hpp), checked with every technique on
+// every device without the reference renderer in between.
 
 #include <algorithm>
 #include <numbers>
@@ -31,8 +31,8 @@ double covered(const core::Image& image) {
       image.ids, [](std::uint32_t id) { return id != core::Image::no_particle; }));
 }
 
-// Pixel centres within a convex outline differ from its area by a few times the root of its length
-// (what a lattice leaves at random edges).
+// The number of pixel centres within a convex outline differs from its area by a few times the root
+// of its length (as for a lattice with random edges).
 double lattice_error(double length) {
   return 2 * std::sqrt(length) + 2;
 }
@@ -56,8 +56,9 @@ TEST(SphereForms, S1TheSilhouetteIsTheEllipse) {
   });
 }
 
-// From 200,000 radii rays are parallel to 1e-5. The integrand falls to 0 as a root at the rim:
-// pixels there, R^½ wide in value, err by less than R^−3/2 of the mean.
+// From a distance of 200,000 radii, rays are parallel within 1e-5. The integrand falls to 0 like a
+// root at the rim: pixels there, over which the value changes by R^½, have an error below R^−3/2 of
+// the mean.
 TEST(SphereForms, S3TheMeanCosineOfADiscIsTwoThirds) {
   on_every_device([](measure::Device& device) {
     const double radius_px = 60;
@@ -76,8 +77,8 @@ TEST(SphereForms, S3TheMeanCosineOfADiscIsTwoThirds) {
   });
 }
 
-// The boundary of two equal spheres: what shows one lies on its side of the bisecting plane, by no
-// less than depth may be off.
+// The boundary of two equal spheres: a pixel that shows one of them is on its side of the bisecting
+// plane, except within the error of depth.
 TEST(SphereForms, S4EqualSpheresMeetInTheBisectingPlane) {
   on_every_device([](measure::Device& device) {
     const std::array<glm::dvec3, 2> centres{glm::dvec3{-0.3, 0.1, 0.2}, glm::dvec3{0.4, 0, -0.1}};
@@ -85,7 +86,7 @@ TEST(SphereForms, S4EqualSpheresMeetInTheBisectingPlane) {
     const ParticleWork work = white_spheres({{centres[0].x, centres[0].y, centres[0].z, 0.8},
                                              {centres[1].x, centres[1].y, centres[1].z, 0.8}},
                                             camera);
-    const double rounding = 24 * 0x1.0p-24 * 7;  // of depth: tolerance.hpp
+    const double rounding = 24 * 0x1.0p-24 * 7;  // for depth, see tolerance.hpp
     with_every_technique(device, work, [&](const measure::Work& whole) {
       const core::Image image = draw(device, whole);
       for (int y = 0; y < side; ++y) {
@@ -105,15 +106,15 @@ TEST(SphereForms, S4EqualSpheresMeetInTheBisectingPlane) {
   });
 }
 
-// Centres all over a square whose middle is looked at, so that discs reach in from its outside as
-// they would from the other side of a torus. The share that is left free has a standard deviation
-// of its own: below √(s·(1−s)·4πr²/A), as points within 2r of each other are free together.
+// Centres are distributed over a square whose middle is in view, so that discs reach in from
+// outside as they would on a torus. The share that remains free has a standard deviation of less
+// than √(s·(1−s)·4πr²/A), because points within 2r of each other are free together.
 TEST(SphereForms, S5RandomDiscsLeaveTheirShare) {
   on_every_device([](measure::Device& device) {
     constexpr int discs = 400;
     constexpr double distance = 1e4;
     constexpr double radius = 0.05;
-    const double fov = 2 * std::atan(0.9 / distance) * 180 / pi;  // of the square [−1, 1]²
+    const double fov = 2 * std::atan(0.9 / distance) * 180 / pi;  // for the square [−1, 1]²
     core::Random random(21);
     std::vector<std::array<double, 4>> spheres;
     for (int i = 0; i < discs; ++i) {
@@ -128,10 +129,10 @@ TEST(SphereForms, S5RandomDiscsLeaveTheirShare) {
   });
 }
 
-// Fragments of an N-gon over those of its disc. The polygon is larger than needed by 1/64 pixel and
-// by perspective, both below a thousandth here; its edges are level, upright or at 45°, where all
-// of an edge may fall to one side of the pixel centres: half a pixel for each of its outline's, 8R
-// at the most.
+// The fragments of an N-gon over those of its disc. The polygon is larger than necessary by 1/64
+// pixel and by perspective, which are both below a thousandth here. Its edges are horizontal,
+// vertical or at 45°, so that a whole edge may be on one side of the pixel centres: half a pixel
+// for each pixel of its outline, 8R at most.
 TEST(SphereForms, S6PolygonsWasteWhatTheirTightnessSays) {
   on_every_device([](measure::Device& device) {
     const double radius_px = 60;

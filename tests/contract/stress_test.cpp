@@ -1,5 +1,5 @@
-// What of the stress catalogue is no single picture: a hundred transfer functions, a hundred
-// repeats, denormals.
+// Parts of the stress catalogue that are not a single image: a hundred transfer functions, a
+// hundred repeats, denormals.
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ core::Image draw_skipping(measure::Device& device, measure::Work work, technique
   return draw(device, work);
 }
 
-// Case 28: whatever the function, skipping changes no bit.
+// Case 28: skipping changes no bit, whatever the function is.
 TEST(Stress, AHundredTransferFunctions) {
   const auto edit = stress_data("stress:edit:1");
   on_every_device([&](measure::Device& device) {
@@ -57,7 +57,7 @@ TEST(Stress, AHundredTransferFunctions) {
   });
 }
 
-// Case 55, with early termination and without.
+// Case 55, with and without early termination.
 TEST(Stress, AHundredRepeatsHaveTheSameBits) {
   on_every_device([](measure::Device& device) {
     for (const technique::Technique& technique : technique::catalogue()) {
@@ -76,7 +76,8 @@ TEST(Stress, AHundredRepeatsHaveTheSameBits) {
   });
 }
 
-// Case 18: what they would cost, no count of instructions shows (scene/denormals.hpp).
+// Case 18: the time that denormals would cost is not visible in a count of instructions
+// (scene/denormals.hpp).
 TEST(Stress, NoDenormalIsGivenToADevice) {
   const auto is_denormal = [](float value) {
     return value != 0 && std::abs(value) < std::numeric_limits<float>::min();

@@ -1,4 +1,5 @@
-// Pictures against the truth, within the derived bound, on the default path and on every other.
+// Images compared with the reference image within the derived bound, on the default path and on
+// every other one.
 
 #include <cmath>
 
@@ -35,7 +36,7 @@ TEST(Truth, EveryPathStaysWithinItsBound) {
   });
 }
 
-// A last sample may lie voxels behind the exit, where the field is constant and has no gradient.
+// A last sample may be voxels behind the exit, where the field is constant and has no gradient.
 TEST(Truth, ShadedLongStepsStayWithinTheBound) {
   on_every_device([](measure::Device& device) {
     for (const technique::Sampler sampler :
@@ -55,7 +56,7 @@ TEST(Truth, ShadedLongStepsStayWithinTheBound) {
   });
 }
 
-// A device whose sampler is wrong shall be found wrong, not be given a bound that wide.
+// A device with a wrong sampler must be found wrong, and not get a bound that wide.
 TEST(Truth, NoSamplerWidensItsBoundBeyondWhatAFilterMayErrBy) {
   on_every_device([](measure::Device& device) {
     for (const scene::VoxelFormat format : {scene::VoxelFormat::u8, scene::VoxelFormat::u16,

@@ -1,5 +1,6 @@
 #pragma once
-// What every contract test starts from: the backend, and each of its devices opened in turn.
+// The beginning of every contract test: the backend, and each of its devices, opened one after the
+// other.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,8 @@ namespace triptych::contract {
 
 [[nodiscard]] std::unique_ptr<measure::Backend> backend_under_test();
 
-// Runs `body` on every device; skips, with the reasons the backend gives, where there is none.
+// Runs `body` on every device. If there is none, the test is skipped with the reasons of the
+// backend.
 inline void on_every_device(const std::function<void(measure::Device&)>& body) {
   const auto backend = backend_under_test();
   const measure::Listing listing = backend->list();
@@ -30,7 +32,7 @@ inline void on_every_device(const std::function<void(measure::Device&)>& body) {
   }
 }
 
-// The scene on the path that the device takes by default.
+// The scene on the default path of the device.
 inline measure::Work default_work(const measure::Device& device, scene::Volume volume,
                                   scene::VolumeScene scene) {
   const measure::VolumePath path =
@@ -43,7 +45,7 @@ inline measure::Work default_work(const measure::Device& device, scene::Volume v
               measure::VolumeWork{.scene = std::move(scene), .options = {.sampler = path.sampler}}};
 }
 
-// The picture of one frame.
+// The image of one frame.
 inline core::Image draw(measure::Device& device, const measure::Work& work) {
   const auto prepared = device.prepare(work);
   static_cast<void>(prepared->frame(measure::Purpose::timing));

@@ -1,5 +1,5 @@
 #pragma once
-// A volume's picture against the truth.
+// Compares the image of a volume with the reference image.
 
 #include <cmath>
 
@@ -10,7 +10,7 @@
 
 namespace triptych::contract {
 
-// Every channel of every pixel within the bound that is derived for the device's path.
+// Every channel of every pixel must be within the bound that is derived for the device's path.
 inline void expect_within_bound(measure::Device& device, const measure::Work& work) {
   const auto& volume = std::get<measure::VolumeWork>(work.scene);
   const measure::VolumePath path{volume.scene.grid->format, volume.options.sampler};
@@ -28,8 +28,8 @@ inline void expect_within_bound(measure::Device& device, const measure::Work& wo
   }
 }
 
-// Every channel of every pixel of `work`, a scene's picture, within its closed form's own error and
-// the bound of fp32, without early termination.
+// Every channel of every pixel must be within the closed form's own error plus the bound of fp32,
+// without early termination.
 inline void expect_closed_form(measure::Device& device, const measure::Work& work,
                                const reference::AnalyticScene& analytic) {
   const core::Image image = draw(device, work);

@@ -1,4 +1,4 @@
-// Values as they come: windows and logarithms, on every API.
+// Values in the units of the data: windows and logarithms, on every API.
 
 #include <cmath>
 #include <cstring>
@@ -10,8 +10,8 @@
 namespace triptych::contract {
 namespace {
 
-// A field whose logarithm has `decades` decades over the values of a generated one, so that nearly
-// all of its voxels lie in the lowest percent of the range.
+// A field whose logarithm has `decades` decades over the values of a generated one, so that almost
+// all of its voxels are in the lowest percent of the range.
 scene::Volume long_tail(double decades) {
   scene::Volume volume = scene::generate_volume("mandelbulb", {40, 40, 40});
   scene::Volume tail{.name = "tail", .size = volume.size, .type = scene::ScalarType::f32};
@@ -63,8 +63,8 @@ TEST(Window, EveryMappingStaysWithinItsBound) {
   });
 }
 
-// The logarithm takes back what made the tail, but for the rounding of its floats: 2⁻²⁴ of a value
-// is 2⁻²⁴/ln 10⁴ of its logarithm's way, and storing that rounds by 2⁻²⁵ once more.
+// The logarithm removes the tail, except for the rounding of the floats: 2⁻²⁴ of a value is 2⁻²⁴/ln
+// 10⁴ of the range of its logarithm, and storing that rounds by another 2⁻²⁵.
 TEST(Window, ALogarithmShowsWhatALongTailHides) {
   on_every_device([](measure::Device& device) {
     const core::Image hidden =
