@@ -5,7 +5,8 @@
 namespace triptych {
 namespace {
 
-// As the gate reads them; the manifest's checksums would refuse an edited file before that.
+// Reads them as the gate does; the checksums of the manifest would refuse an edited file before
+// that.
 void read_all(const judge::Baselines& baselines) {
   const std::string name = "x";
   fuzz::expect_ours([&] { static_cast<void>(baselines.problem()); });

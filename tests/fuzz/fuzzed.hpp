@@ -1,5 +1,5 @@
 #pragma once
-// What the fuzz targets share: an input as a file, and what a reader may throw.
+// Shared by the fuzz targets: an input as a file, and the exceptions that a reader may throw.
 
 #include <array>
 #include <cstddef>
@@ -18,7 +18,7 @@
 
 namespace triptych::fuzz {
 
-// libFuzzer's answers: keep the input if it reaches new code, or never.
+// Return values for libFuzzer: keep the input if it reaches new code, or never keep it.
 inline constexpr int judged = 0;
 inline constexpr int rejected = -1;
 
@@ -26,7 +26,7 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-// An input whose first line names the kind of file that the rest is: "pdb.gz", then its bytes.
+// An input whose first line names the kind of the file that follows: "pdb.gz", and then its bytes.
 struct Input {
   std::string kind;
   std::string_view content;
@@ -43,7 +43,7 @@ std::optional<Input> split(const std::uint8_t* data, std::size_t size, const Kin
   return std::nullopt;
 }
 
-// The endings of a table of formats, without their dots, and those of compressed files.
+// The endings in a table of formats without their dots, and those of compressed files.
 template <typename Format>
 std::vector<std::string> kinds_of(std::span<const Format> formats) {
   std::vector<std::string> kinds;
@@ -57,7 +57,7 @@ std::vector<std::string> kinds_of(std::span<const Format> formats) {
   return kinds;
 }
 
-// A folder that lives as long as the process.
+// A folder that exists as long as the process.
 inline const std::filesystem::path& folder() {
   static const core::TemporaryFolder made;
   return made.path();
@@ -70,7 +70,7 @@ inline std::filesystem::path write(const std::string& name, std::string_view con
   return file;
 }
 
-// Errors of ours are what a reader is for; whatever else leaves it ends the process.
+// A reader may throw errors of this project. Any other exception ends the process.
 template <typename Read>
 void expect_ours(const Read& read) {
   try {

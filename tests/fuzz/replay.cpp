@@ -1,4 +1,4 @@
-// Without libFuzzer: gives a target every file of the folders that are named.
+// Without libFuzzer: gives every file in the given folders to a target.
 
 #include <cstdio>
 #include <iterator>
@@ -9,7 +9,7 @@ int main(int count, char** arguments) {
   int files = 0;
   for (int i = 1; i < count; ++i) {
     const std::string folder = arguments[i];
-    if (folder.starts_with('-')) continue;  // libFuzzer's options
+    if (folder.starts_with('-')) continue;  // an option of libFuzzer
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       std::ifstream in(entry.path(), std::ios::binary);
       const std::string bytes{std::istreambuf_iterator<char>(in), {}};

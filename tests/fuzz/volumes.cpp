@@ -11,7 +11,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   }();
   const auto input = fuzz::split(data, size, kinds);
   if (!input) return fuzz::rejected;
-  // Detached data of a header: "v.raw", and "v.img" of a pair.
+  // The separate data of a header: "v.raw", and "v.img" for a pair.
   static const std::filesystem::path raw = fuzz::write("v.raw", std::string(64, 'v'));
   static const std::filesystem::path image = fuzz::write("v.img", std::string(64, 'v'));
   if (input->kind == "spec") {

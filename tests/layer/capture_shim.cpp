@@ -1,4 +1,5 @@
-// A RenderDoc that notes when captures begin and end: what FrameCapture calls of its table.
+// Replaces RenderDoc and records when captures begin and end: the entries of its table that
+// FrameCapture calls.
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -24,7 +25,7 @@ std::uint32_t end(void*, void*) {
 }  // namespace
 
 extern "C" int RENDERDOC_GetAPI(int version, void** functions) {
-  // Of renderdoc_app.h 1.1.2: 11 SetCaptureFilePathTemplate, 19 StartFrameCapture, 21
+  // Positions in renderdoc_app.h 1.1.2: 11 SetCaptureFilePathTemplate, 19 StartFrameCapture, 21
   // EndFrameCapture.
   static std::array<void*, 23> table{};
   table[11] = reinterpret_cast<void*>(&set_file);

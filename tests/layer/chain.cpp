@@ -13,11 +13,12 @@
 namespace triptych::layer {
 namespace {
 
-// What lies below an instance or a device. The loader tells the commands of the instance that the
-// layer takes only until vkCreateInstance is done; later it answers with the layer's own.
+// The next layer below an instance or a device. The loader returns the commands of the instance
+// that this layer uses only until vkCreateInstance has finished; after that it returns the layer's
+// own.
 struct Link {
   VkInstance instance = VK_NULL_HANDLE;
-  VkDevice device = VK_NULL_HANDLE;  // null: an instance's
+  VkDevice device = VK_NULL_HANDLE;  // null: for an instance
   PFN_vkGetInstanceProcAddr instance_command = nullptr;
   PFN_vkGetDeviceProcAddr device_command = nullptr;
   std::map<std::string_view, PFN_vkVoidFunction> taken = {};
@@ -53,7 +54,7 @@ void remove_link(const void* key) {
   state().links.erase(key);
 }
 
-// The loader's own part of a create info, which it hands on through pNext.
+// The part of a create info that belongs to the loader, which passes it in pNext.
 template <class Info>
 Info* loader_info(const void* next, VkStructureType type) {
   for (auto* each = static_cast<const VkBaseInStructure*>(next); each != nullptr;

@@ -1,5 +1,5 @@
 #pragma once
-// The layer's place between the loader and the driver.
+// The place of the layer between the loader and the driver.
 
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan_core.h>
@@ -10,9 +10,9 @@
 
 namespace triptych::layer {
 
-// A command that the layer takes.
+// A command that the layer replaces.
 struct Hook {
-  std::string_view change;  // the fault that it makes; empty: it is part of every lowered limit
+  std::string_view change;  // the fault for which it is replaced; empty: for every lowered limit
   std::string_view command;
   PFN_vkVoidFunction function;
 };
@@ -22,7 +22,7 @@ template <class Function>
   return {change, command, reinterpret_cast<PFN_vkVoidFunction>(function)};
 }
 
-// The same command of the next layer or the driver. `handle` is an instance, physical device,
+// The same command of the next layer or of the driver. `handle` is an instance, physical device,
 // device, queue or command buffer.
 [[nodiscard]] PFN_vkVoidFunction next_of(const void* handle, const char* command);
 
@@ -31,8 +31,8 @@ template <class Command>
   return reinterpret_cast<Command>(next_of(handle, command));
 }
 
-// Says on stderr in one line what a device with this limit would not take; from here on every
-// submission fails.
+// Prints one line on stderr that says what a device with this limit would not accept. From then on
+// every submission fails.
 VkResult refuse(std::string_view what);
 
 [[nodiscard]] std::span<const Hook> description_hooks();
@@ -44,7 +44,7 @@ VkResult refuse(std::string_view what);
 [[nodiscard]] std::span<const Hook> query_fault_hooks();
 [[nodiscard]] std::span<const Hook> submission_hooks();
 
-// What faults do when a device ends.
+// Runs the faults that happen when a device ends.
 void end_device();
 
 }  // namespace triptych::layer

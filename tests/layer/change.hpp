@@ -9,10 +9,10 @@ namespace triptych::layer {
 
 struct Change {
   std::string name;
-  double value = 0;  // 0 where none was given
+  double value = 0;  // 0 if none was given
 };
 
-// Of `name` or `name=value` in TRIPTYCH_LAYER.
+// Parsed from `name` or `name=value` in TRIPTYCH_LAYER.
 [[nodiscard]] const Change& change();
 
 [[nodiscard]] bool asked(std::string_view name);

@@ -1,4 +1,4 @@
-// Faults of a driver that takes commands wrongly: draws, dispatches, copies and clears.
+// Faults of a driver that executes commands wrongly: draws, dispatches, copies and clears.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -9,7 +9,7 @@
 namespace triptych::layer {
 namespace {
 
-// One instance fewer, or one vertex where there is one instance.
+// One instance fewer, or one vertex fewer if there is only one instance.
 VKAPI_ATTR void VKAPI_CALL short_draw(VkCommandBuffer commands, std::uint32_t vertices,
                                       std::uint32_t instances, std::uint32_t first_vertex,
                                       std::uint32_t first_instance) {
@@ -77,7 +77,7 @@ VKAPI_ATTR void VKAPI_CALL short_copy(VkCommandBuffer commands, VkBuffer from, V
   next<PFN_vkCmdCopyBuffer>(commands, "vkCmdCopyBuffer")(commands, from, to, count, changed.data());
 }
 
-// Each row comes from the one below.
+// Each row is copied from the one below.
 VKAPI_ATTR void VKAPI_CALL image_row(VkCommandBuffer commands, VkImage image, VkImageLayout layout,
                                      VkBuffer buffer, std::uint32_t count,
                                      const VkBufferImageCopy* regions) {
@@ -91,7 +91,7 @@ VKAPI_ATTR void VKAPI_CALL image_row(VkCommandBuffer commands, VkImage image, Vk
       commands, image, layout, buffer, count, changed.data());
 }
 
-// A volume's second slice is the first.
+// The second slice of a volume is a copy of the first.
 VKAPI_ATTR void VKAPI_CALL volume_slice(VkCommandBuffer commands, VkBuffer buffer, VkImage image,
                                         VkImageLayout layout, std::uint32_t count,
                                         const VkBufferImageCopy* regions) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the device says of itself, with one thing lowered.
+// What the device reports about itself, with one property lowered.
 
 #include <vulkan/vulkan_core.h>
 
@@ -7,13 +7,13 @@
 
 namespace triptych::layer {
 
-// Whether `name` is one that the layer lowers.
+// Whether the layer lowers a limit with this name.
 [[nodiscard]] bool known_limit(std::string_view name);
 
 void lower(VkPhysicalDeviceLimits& limits);
 void lower(VkPhysicalDeviceFeatures& features);
 
-// Whether the feature that is hidden is among those enabled.
+// Whether the hidden feature is among the enabled ones.
 [[nodiscard]] bool enables_hidden(const VkPhysicalDeviceFeatures& features);
 
 }  // namespace triptych::layer

@@ -1,4 +1,5 @@
-// What calibrating and closing a device shows is a finding of that device, and the rest goes on.
+// A fault that appears when a device is calibrated or closed is a finding about that device, and
+// everything else is still measured.
 #include <gmock/gmock.h>
 
 #include <regex>
@@ -12,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// One configuration by each kind of work.
+// One configuration for each kind of work.
 constexpr const char* few = "--set data=generate:mandelbulb:32";
 
 struct DeviceFaultCase {

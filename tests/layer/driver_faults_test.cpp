@@ -1,5 +1,5 @@
-// Drivers that are wrong: each fault is found, told as few causes and as the driver's, and leaves
-// the rest right.
+// Drivers with a fault: each fault is found and reported as few causes and as the driver's, and
+// everything else is right.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using testing::HasSubstr;
 struct Fault {
   const char* name;
   const char* plan;
-  const char* told;  // the first cause
+  const char* told;  // the first cause that is reported
   int causes = 1;
 };
 
@@ -50,7 +50,8 @@ const std::vector<Fault>& faults() {
   return all;
 }
 
-// Causes on the last screen, each behind an empty line, and those that it leaves to the page.
+// The number of causes on the last screen, each of which follows an empty line, and of those that
+// are only on the page.
 int causes_in(const std::string& screen) {
   const std::regex cause("\n\n  ✗ ");
   int causes = static_cast<int>(std::distance(
@@ -62,14 +63,14 @@ int causes_in(const std::string& screen) {
   return causes;
 }
 
-// As one line, however the screen breaks it.
+// The text as one line, however the screen breaks it.
 std::string unwrapped(const std::string& screen) {
   return std::regex_replace(screen, std::regex("\\s+"), " ");
 }
 
 class DriverFaults : public LayerTest {
  protected:
-  // Every fault that one plan finds.
+  // Checks every fault that one plan finds.
   void check(std::string_view plan) const {
     const test::Result accepted = layered.accept(plan);
     ASSERT_EQ(accepted.code, 0) << accepted.output;

@@ -1,5 +1,5 @@
-// Faults of an OpenGL driver, as TRIPTYCH_SHIM says: an EGL library in front of the system's, found
-// by LD_LIBRARY_PATH, that hands out functions of its own.
+// Faults of an OpenGL driver, chosen by TRIPTYCH_SHIM: an EGL library that LD_LIBRARY_PATH makes
+// the loader find before that of the system, and that returns its own functions.
 #include <EGL/egl.h>
 #include <dlfcn.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 #include <string_view>
 
-// Parts of the GL headers, which would declare more than this library is about.
+// Parts of the GL headers, which would declare more than is needed here.
 using GLenum = unsigned int;
 using GLuint = unsigned int;
 using GLint = int;
@@ -39,7 +39,7 @@ Function* gl_function(const char* name) {
       system_function<decltype(eglGetProcAddress)>("eglGetProcAddress")(name));
 }
 
-// Every program works the first time that it is used.
+// Every program works when it is used for the first time.
 bool repeated() {
   static std::map<GLint, int> uses;
   GLint program = 0;

@@ -27,7 +27,7 @@ class FramePrograms : public testing::Test {
         TRIPTYCH_PROGRAM, device, more));
   }
 
-  // That the program prints the image's middle pixel, whatever that is.
+  // Checks that the program prints the middle pixel of the image, whatever it is.
   void expect_same_pixel(const std::string& device, const std::string& libraries,
                          const std::string& choice, const std::string& more) const {
     SCOPED_TRACE(device + " " + more);
@@ -96,7 +96,7 @@ TEST_F(FramePrograms, DumpsListWhatTheDriverWasGiven) {
   EXPECT_THAT(list, HasSubstr("buffer-"));
 }
 
-// A RenderDoc that notes its calls.
+// With a replacement for RenderDoc that records its calls.
 TEST_F(FramePrograms, OneFrameIsCaptured) {
   const test::Result rendered = in_folder(fmt::format(
       "LD_PRELOAD='{}' '{}' render volume --device null:scripted --in-process --out frame",

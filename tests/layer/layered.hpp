@@ -1,5 +1,5 @@
 #pragma once
-// The program on lavapipe behind the layer.
+// Runs the program on lavapipe with the layer.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,13 +16,13 @@
 
 namespace triptych::layer {
 
-// Names of the suites that are drawn through the layer.
+// The names of the suites that are drawn with the layer.
 inline constexpr const char* volume = "volume";
 inline constexpr const char* particles = "particles";
 
 class Layered {
  public:
-  // `change` as TRIPTYCH_LAYER has it; empty: the driver as it is.
+  // `change` is the value of TRIPTYCH_LAYER; empty: the driver without changes.
   [[nodiscard]] test::Result run(std::string_view change, const std::string& arguments) const {
     const std::string layer =
         change.empty() ? std::string()
@@ -35,7 +35,7 @@ class Layered {
                                          arguments));
   }
 
-  // Of tests/layer/PLAN.yaml: one picture and one frame of counters each, into PLAN.sqlite.
+  // Draws tests/layer/PLAN.yaml: one image and one frame for the counters each, into PLAN.sqlite.
   [[nodiscard]] test::Result draw(std::string_view change, std::string_view plan,
                                   const std::string& choice = "--device 'vulkan:*'") const {
     std::filesystem::remove(folder_.path() / fmt::format("{}.sqlite", plan));
@@ -49,7 +49,7 @@ class Layered {
                                file_of(plan), plan));
   }
 
-  // Takes what is drawn now for right.
+  // Accepts what is drawn now as right.
   [[nodiscard]] test::Result accept(std::string_view plan,
                                     const std::string& choice = "--device 'vulkan:*'") const {
     test::Result drawn = draw("", plan, choice);
@@ -58,7 +58,7 @@ class Layered {
                                file_of(plan), plan));
   }
 
-  // Times and statistics, too, of the part that `choice` leaves.
+  // Also measures times and statistics, for the part that `choice` selects.
   [[nodiscard]] test::Result time(std::string_view change, std::string_view plan,
                                   std::string_view choice) const {
     return run(change, fmt::format("run {} --device 'vulkan:*' --store timed.sqlite {}",

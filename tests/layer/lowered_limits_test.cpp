@@ -1,4 +1,4 @@
-// Devices with less than lavapipe has: right pictures and counters, or a skip with its reason.
+// Devices with lower limits than lavapipe: right images and counters, or a skip with its reason.
 #include <gmock/gmock.h>
 
 #include <vector>
@@ -16,11 +16,12 @@ constexpr const char* draws = "--set technique=raycast_fragment";
 struct Lowered {
   const char* change;
   const char* plan;
-  int skipped = 0;          // configurations of the plan
-  const char* reason = "";  // of each that is skipped
+  int skipped = 0;          // configurations of the plan that are skipped
+  const char* reason = "";  // of each of them
 };
 
-// The least that the specification allows, and less where that is what a small picture meets.
+// The lowest values that the specification allows, and lower ones if a small image could not reach
+// those.
 const std::vector<Lowered>& lowered() {
   static const std::vector<Lowered> all{
       {"maxImageDimension1D=4096", volume},
@@ -123,11 +124,12 @@ TEST_F(LoweredLimits, WithoutClockTimesAreOfTheWall) {
   EXPECT_THAT(timed.output, Not(HasSubstr(" ms (device)")));
 }
 
-// The layer itself: what it is not told, and use beyond a limit that nothing asks.
+// Tests the layer itself: properties that it does not show, and use beyond a limit that nobody
+// asked for.
 TEST_F(LoweredLimits, UseBeyondALimitIsRefused) {
   EXPECT_THAT(layered.draw("noSuchLimit", volume).output, HasSubstr("no device matches vulkan:*"));
   const std::string unasked = layered.draw("maxImageDimension1D=128", volume).output;
-  // vkCreateImage, or Device::createImage where Vulkan-Hpp is newer.
+  // vkCreateImage, or Device::createImage with a newer Vulkan-Hpp.
   EXPECT_THAT(unasked, HasSubstr("reateImage returned ErrorUnknown"));
   EXPECT_THAT(layered.draw("maxPerStageResources=12", particles).output,
               HasSubstr("technique=tiles,viewport=64: failed: "));

@@ -1,4 +1,4 @@
-// Memory as a card of its own has it: what is on the device the host does not see.
+// Memory as on a graphics card: the host cannot access memory of the device.
 #include <algorithm>
 #include <array>
 #include <mutex>
@@ -10,11 +10,11 @@
 namespace triptych::layer {
 namespace {
 
-// The types that the program sees; the driver has its own number 0 for both.
+// The types that the program sees. For the driver, both are number 0.
 enum Type : std::uint32_t { on_device, on_host, types };
 
 std::mutex mutex;
-std::set<VkDeviceMemory> unseen;  // by the host
+std::set<VkDeviceMemory> unseen;  // memory that the host cannot access
 
 bool apart() {
   return asked("hostVisibleDeviceLocal");
@@ -26,7 +26,7 @@ VKAPI_ATTR void VKAPI_CALL memory_properties(VkPhysicalDevice physical,
       physical, memory);
   if (asked("memoryHeapSize")) memory->memoryHeaps[0].size = asked_number();
   if (asked("emptyHeap")) {
-    // A heap of no bytes in front, as drivers of cards without memory of their own list it.
+    // A heap of 0 bytes comes first, as drivers list it for cards without memory of their own.
     memory->memoryHeapCount = memory->memoryTypeCount = 2;
     memory->memoryHeaps[1] = memory->memoryHeaps[0];
     memory->memoryHeaps[1].flags = 0;

@@ -1,5 +1,5 @@
-// Faults of an OpenCL driver, as TRIPTYCH_SHIM says; preloaded (LD_PRELOAD), so that the program
-// calls these functions instead of the loader's.
+// Faults of an OpenCL driver, chosen by TRIPTYCH_SHIM. It is preloaded (LD_PRELOAD), so that the
+// program calls these functions instead of those of the loader.
 #ifndef CL_TARGET_OPENCL_VERSION
 #define CL_TARGET_OPENCL_VERSION 120
 #endif
@@ -26,9 +26,9 @@ Function* real(const char* name) {
 
 std::mutex mutex;
 std::map<cl_kernel, int> launches;
-std::set<cl_event> abnormal;  // never taken out: a handle that is reused is of a launch, too
+std::set<cl_event> abnormal;  // never removed: a handle that is used again also belongs to a launch
 
-// Whether this launch of a kernel is one that the fault is about: all but the kernel's first.
+// Whether the fault concerns this launch of a kernel: all launches except the first.
 bool repeated(cl_kernel kernel) {
   const std::lock_guard lock(mutex);
   return ++launches[kernel] > 1;

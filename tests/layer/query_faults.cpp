@@ -1,4 +1,4 @@
-// Faults of a driver in what it measures: time stamps and pipeline statistics.
+// Faults of a driver in its measurements: time stamps and pipeline statistics.
 #include <algorithm>
 #include <array>
 #include <csignal>
@@ -35,17 +35,17 @@ void zero(std::span<std::uint64_t> values) {
   std::ranges::fill(values, 0);
 }
 
-// The clock of a device that says that its ticks are ten times as long as they are.
+// A clock that reports that its ticks are ten times as long as they are.
 void slow(std::span<std::uint64_t> values) {
   values.back() = values.front() + (values.back() - values.front()) / 10;
 }
 
-// What the driver is asked for, it does not do.
+// The driver does not do what it is asked for.
 void crash(std::span<std::uint64_t>) {}
 void not_ready(std::span<std::uint64_t>) {}
 void untouched(std::span<std::uint64_t>) {}
 
-// Results of 64 bits of one type of query, changed by `Spoil`.
+// Changes 64-bit results of one type of query by `Spoil`.
 template <VkQueryType type, auto Spoil>
 VKAPI_ATTR VkResult VKAPI_CALL query_results(VkDevice device, VkQueryPool pool, std::uint32_t first,
                                              std::uint32_t count, std::size_t size, void* data,

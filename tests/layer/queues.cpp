@@ -9,10 +9,11 @@
 namespace triptych::layer {
 namespace {
 
-// Of the pool made last; the program has one.
+// For the pool that was made last; the program has only one.
 std::atomic<bool> pool_draws = true;
 
-// `computeFamilyFirst`: before the driver's family another one, without drawing or clock.
+// `computeFamilyFirst`: another family comes before the driver's, which can neither draw nor has a
+// clock.
 bool one_more() {
   return asked("computeFamilyFirst");
 }

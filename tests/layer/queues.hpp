@@ -7,7 +7,7 @@
 
 namespace triptych::layer {
 
-// The device's queues by the driver's own families.
+// The queues of the device, with the families of the driver.
 [[nodiscard]] std::vector<VkDeviceQueueCreateInfo> queues_of_driver(const VkDeviceCreateInfo& info);
 
 }  // namespace triptych::layer

@@ -1,4 +1,4 @@
-// Drivers of OpenCL and OpenGL that are wrong.
+// Drivers of OpenCL and OpenGL with a fault.
 #include <gmock/gmock.h>
 
 #include "support/command.hpp"

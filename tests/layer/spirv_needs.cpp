@@ -25,7 +25,7 @@ enum Op : std::uint32_t {
 };
 constexpr std::uint32_t local_size = 17;
 constexpr std::uint32_t workgroup = 4;
-constexpr std::uint32_t uniform = 2;  // where SPIR-V 1.0 keeps storage buffers
+constexpr std::uint32_t uniform = 2;  // where SPIR-V 1.0 has storage buffers
 constexpr std::uint32_t storage_buffer = 12;
 constexpr std::size_t header_words = 5;
 
@@ -38,11 +38,11 @@ class Reader {
   void read_type(std::uint32_t op, std::span<const std::uint32_t> words);
   void read_use(std::uint32_t op, std::span<const std::uint32_t> words);
 
-  std::map<std::uint32_t, std::uint64_t> bytes_;  // of types
+  std::map<std::uint32_t, std::uint64_t> bytes_;  // sizes of types
   std::map<std::uint32_t, std::uint32_t> constants_;
-  std::map<std::uint32_t, std::uint32_t> storage_;   // class of pointer types
-  std::map<std::uint32_t, std::uint32_t> pointees_;  // of pointer types
-  std::set<std::uint32_t> into_buffers_;             // pointers
+  std::map<std::uint32_t, std::uint32_t> storage_;   // storage classes of pointer types
+  std::map<std::uint32_t, std::uint32_t> pointees_;  // the types to which pointer types point
+  std::set<std::uint32_t> into_buffers_;             // pointers into buffers
 };
 
 void Reader::read_type(std::uint32_t op, std::span<const std::uint32_t> words) {

@@ -1,4 +1,4 @@
-// Faults of a driver that takes states wrongly: pipelines and samplers.
+// Faults of a driver that uses states wrongly: pipelines and samplers.
 #include <array>
 #include <cstring>
 #include <vector>
@@ -17,7 +17,7 @@ VkResult make_pipelines(VkDevice device, VkPipelineCache cache,
       device, cache, static_cast<std::uint32_t>(infos.size()), infos.data(), allocator, pipelines);
 }
 
-// vkCreateGraphicsPipelines with one state of each pipeline, `member`, changed by `Spoil`.
+// vkCreateGraphicsPipelines with the state `member` of each pipeline changed by `Spoil`.
 template <auto member, auto Spoil>
 VKAPI_ATTR VkResult VKAPI_CALL spoiled(VkDevice device, VkPipelineCache cache, std::uint32_t count,
                                        const VkGraphicsPipelineCreateInfo* infos,
@@ -35,7 +35,7 @@ VKAPI_ATTR VkResult VKAPI_CALL spoiled(VkDevice device, VkPipelineCache cache, s
   return make_pipelines(device, cache, changed, allocator, pipelines);
 }
 
-// Of one pipeline at a time, as the program makes them.
+// The program creates one pipeline at a time.
 void half_pixel(VkPipelineViewportStateCreateInfo& state) {
   static thread_local VkViewport viewport;
   viewport = state.pViewports[0];
@@ -68,7 +68,7 @@ void lost_alpha(VkPipelineColorBlendStateCreateInfo& state) {
   state.pAttachments = targets.data();
 }
 
-// Specialization constants stay at their defaults.
+// Specialization constants keep their default values.
 VKAPI_ATTR VkResult VKAPI_CALL unspecialized(VkDevice device, VkPipelineCache cache,
                                              std::uint32_t count,
                                              const VkComputePipelineCreateInfo* infos,

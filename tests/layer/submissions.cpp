@@ -1,4 +1,4 @@
-// Faults of a driver that loses submissions, ends badly or changes its process.
+// Faults of a driver that loses submissions, crashes when it ends, or changes its process.
 #include <array>
 #include <atomic>
 #include <cfenv>
@@ -18,7 +18,7 @@ namespace triptych::layer {
 namespace {
 
 std::mutex mutex;
-std::set<VkCommandBuffer> executed;  // since they were recorded
+std::set<VkCommandBuffer> executed;  // those that were executed since they were recorded
 std::atomic<int> submissions = 0;
 
 VKAPI_ATTR VkResult VKAPI_CALL begin_commands(VkCommandBuffer commands,
@@ -30,8 +30,8 @@ VKAPI_ATTR VkResult VKAPI_CALL begin_commands(VkCommandBuffer commands,
   return next<PFN_vkBeginCommandBuffer>(commands, "vkBeginCommandBuffer")(commands, info);
 }
 
-// `once_only`: recorded commands are executed the first time they are submitted. `lost_frames=n`:
-// every n-th submission is left out.
+// `once_only`: recorded commands are executed only when they are submitted for the first time.
+// `lost_frames=n`: every n-th submission is not executed.
 bool is_left_out(VkCommandBuffer commands, int number) {
   if (asked("once_only")) {
     const std::lock_guard lock(mutex);
@@ -71,7 +71,7 @@ VKAPI_ATTR void VKAPI_CALL destroy_pipeline(VkDevice, VkPipeline, const VkAlloca
   crash();
 }
 
-// At the end of the process, when the library is unloaded.
+// Runs at the end of the process, when the library is unloaded.
 struct AtExit {
   ~AtExit() {
     if (asked("crash_at_exit") && submissions > 0) crash();
@@ -79,7 +79,7 @@ struct AtExit {
 };
 const AtExit at_exit;
 
-// Memory of the host that is never freed, for every pipeline.
+// Allocates host memory for every pipeline and never frees it.
 void leak() {
   constexpr std::size_t bytes = std::size_t{24} << 20U;
   void* lost = std::malloc(bytes);

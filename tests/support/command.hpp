@@ -1,5 +1,5 @@
 #pragma once
-// A command of the shell, with what it said.
+// Runs a shell command and returns its output.
 
 #include <sys/wait.h>
 
@@ -11,8 +11,8 @@
 namespace triptych::test {
 
 struct Result {
-  int code = -1;       // 128 and the signal's number where one ended it
-  std::string output;  // both streams
+  int code = -1;       // 128 plus the number of the signal that ended it
+  std::string output;  // of both streams
 };
 
 inline Result run_command(const std::string& command) {

@@ -1,5 +1,5 @@
 #pragma once
-// The devices and the scenes that the cases on real devices run with, whatever the API.
+// The devices and scenes for tests on real devices, for every API.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,8 @@
 
 namespace triptych::test {
 
-// Runs `check(device)` for each device that is here; skips the case with the reasons where none is.
+// Runs `check(device)` for each device of this machine. If there is none, the test is skipped with
+// the reasons.
 template <class Check>
 void for_each_device_of(const measure::Backend& backend, Check&& check) {
   const measure::Listing listing = backend.list();
@@ -64,14 +65,14 @@ inline measure::Work make_work(std::string_view technique, scene::VolumeScene sc
   return {std::string(technique), measure::VolumeWork{std::move(scene), options}};
 }
 
-// One timed frame's picture.
+// The image of one timed frame.
 inline core::Image picture(measure::Device& device, const measure::Work& work) {
   const auto prepared = device.prepare(work);
   static_cast<void>(prepared->frame(measure::Purpose::timing));
   return prepared->image();
 }
 
-// Infinity for pictures of different sizes and where a value is not finite.
+// Infinity for images of different sizes, and if a value is not finite.
 inline double largest_difference(const core::Image& a, const core::Image& b) {
   if (a.width != b.width || a.height != b.height) return std::numeric_limits<double>::infinity();
   double largest = 0;
@@ -84,7 +85,8 @@ inline double largest_difference(const core::Image& a, const core::Image& b) {
   return largest;
 }
 
-// A frame of any purpose draws what a timed one draws, and so does a timed one after the others.
+// A frame for any purpose draws the same image as a timed one, and so does a timed frame after the
+// others.
 inline void expect_one_picture(measure::Prepared& prepared) {
   using measure::Purpose;
   static_cast<void>(prepared.frame(Purpose::timing));

@@ -1,5 +1,5 @@
 #pragma once
-// The order of convergence that errors show.
+// The order of convergence of errors.
 
 #include <cmath>
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace triptych::test {
 
-// Least-squares slope of log error over log size, of a step or of voxels.
+// The least-squares slope of log error over log size, where the size is a step or a voxel.
 inline double fitted_order(const std::vector<double>& sizes, const std::vector<double>& errors) {
   double sx = 0;
   double sy = 0;

@@ -7,7 +7,7 @@
 
 namespace triptych::test {
 
-// One of the standard normal distribution, by Box and Muller's transform.
+// A random number with the standard normal distribution, by the transform of Box and Muller.
 inline double normal(core::Random& random) {
   const double radius = std::sqrt(-2 * std::log(1 - random.uniform()));
   return radius * std::cos(2 * std::numbers::pi * random.uniform());

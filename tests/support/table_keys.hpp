@@ -1,5 +1,5 @@
 #pragma once
-// What both suites' keys have to follow.
+// What the keys of both suites must depend on.
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 
 namespace triptych::test {
 
-// Truth and limit by a transfer function's file are others once the file is. `configuration` names
-// a.rgba, `folder` is where the suite looks for it.
+// If the file of a transfer function changes, the keys of the reference image and of the limit
+// change. `configuration` names a.rgba, which the suite finds in `folder`.
 inline void expect_keys_to_follow_the_table(measure::SuiteWithTruth& suite,
                                             const measure::Configuration& configuration,
                                             const TemporaryFolder& folder) {

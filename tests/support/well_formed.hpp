@@ -1,6 +1,7 @@
 #pragma once
-// Whether text is well-formed XML, as far as what we write needs: elements that close in order,
-// attributes in double quotes and each once, known entities, no control character.
+// Whether a text is well-formed XML, as far as needed for our output: elements are closed in order,
+// attributes are in double quotes and appear once, entities are known, and there are no control
+// characters.
 
 #include <cctype>
 #include <set>
@@ -14,7 +15,7 @@ class XmlCheck {
  public:
   explicit XmlCheck(std::string_view text) : rest_(text) {}
 
-  // Empty where it is well-formed; else what is not, and what follows there.
+  // Empty if it is well-formed; otherwise what is wrong, and the text that follows it.
   [[nodiscard]] std::string fault() {
     while (fault_.empty() && !rest_.empty()) {
       if (rest_.front() == '<') {
@@ -53,7 +54,7 @@ class XmlCheck {
     while (take(" ") || take("\n")) {
     }
   }
-  // Of text, which `end` ends.
+  // One character of a text that `end` ends.
   void character(char end) {
     const char c = rest_.front();
     if (c == '<' && end != '<') return fail("'<' in a value");
@@ -108,7 +109,7 @@ class XmlCheck {
   return XmlCheck(text).fault();
 }
 
-// What a program says of strange names must stay text.
+// What a program prints about strange names must be shown as text.
 inline const std::vector<std::string>& hostile_strings() {
   static const std::vector<std::string> all{"<script>alert(1)</script>",
                                             "\" onload=\"x",

@@ -1,4 +1,4 @@
-// Listing and opening; what a device says of itself.
+// Listing and opening devices, and what a device reports about itself.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ TEST(GlDevices, ListingTwiceIsTheSame) {
   EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), all.size());
   for (const std::string& id : all) {
     EXPECT_THAT(id, MatchesRegex("gl:[a-z0-9_]+.*"));
-    // There is one processor, however many ways EGL offers its renderer.
+    // There is only one processor, in however many ways EGL offers its renderer.
     EXPECT_FALSE(id.starts_with("gl:llvmpipe") && id.ends_with("#2")) << id;
   }
 }
@@ -46,7 +46,7 @@ TEST(GlDevices, WhatIsListedOpensAsListed) {
   }
 }
 
-// tests/device/gl/CMakeLists.txt takes one extension after the other from GL 3.3.
+// tests/device/gl/CMakeLists.txt removes one extension after the other from GL 3.3.
 TEST(GlDevices, AnExtensionThatIsMissingIsTheReason) {
   const char* without = std::getenv("MESA_EXTENSION_OVERRIDE");
   if (without == nullptr) GTEST_SKIP() << "no extension is taken away";
@@ -71,7 +71,7 @@ TEST(GlDevices, AnUnknownDeviceIsNotSupported) {
   }
 }
 
-// Both libraries keep the thread's current context in one variable.
+// Both libraries keep the current context of a thread in the same variable.
 TEST(GlDevices, TwoOpenAtOnceDoNotDisturbEachOther) {
   const auto backend = backend_under_test();
   const std::vector<std::string> all = ids(backend->list());
@@ -98,7 +98,7 @@ TEST(GlDevices, TheDefaultPathIsAsExactAsInterpolatingByHand) {
         EXPECT_EQ(path.voxel, native);
       }
     }
-    // Known to be exact: what errs here is our use of it.
+    // This driver is known to be exact, so an error would be in our use of it.
     if (device.info().driver == "llvmpipe") {
       const measure::VolumePath path = device.default_path({scene::VoxelFormat::u8});
       EXPECT_EQ(path.voxel, scene::VoxelFormat::u8);
@@ -139,7 +139,7 @@ TEST(GlDevices, LimitsAreReasonsWithBothNumbers) {
   });
 }
 
-// Neither limit is reached by what frames that are not counted and skip nothing need.
+// Frames that are not counted and skip nothing reach neither limit.
 TEST(GlDevices, CountersAndBrickMapsFitAStorageBlock) {
   static constexpr const char* limit = "GL_MAX_SHADER_STORAGE_BLOCK_SIZE";
   for_each_device([](const measure::Device& device) {
@@ -157,7 +157,7 @@ TEST(GlDevices, CountersAndBrickMapsFitAStorageBlock) {
       if (most < 0x1p27) {
         EXPECT_THAT(reason, AllOf(HasSubstr("brick map"), HasSubstr(limit)));
       } else {
-        EXPECT_EQ(reason, "");  // bricks of more cells
+        EXPECT_EQ(reason, "");  // with bricks of more cells
       }
       EXPECT_FALSE(
           device.unsupported(make_work("raycast", scene, {.skip = technique::Skip::bricks})));

@@ -1,5 +1,5 @@
 #pragma once
-// The API's devices, opened as its cases want them.
+// The devices of the API, opened as the tests need them.
 
 #include <array>
 #include <cstdlib>
@@ -18,7 +18,7 @@ using test::make_work;
 using test::picture;
 using test::SceneOptions;
 
-// Debug contexts, so that any message of the driver fails the case.
+// Debug contexts, so that a test fails at any message of the driver.
 inline std::unique_ptr<measure::Backend> backend_under_test() {
   setenv("TRIPTYCH_GL_DEBUG", "1", 1);
   return make_backend();

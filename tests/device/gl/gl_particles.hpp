@@ -1,5 +1,5 @@
 #pragma once
-// The particles that the cases here run with.
+// The particles for the tests in this folder.
 
 #include <array>
 #include <memory>
@@ -16,7 +16,7 @@ inline constexpr std::array<std::string_view, 8> particle_techniques{
     "quad_screen",  "quad_ray",         "quad_instanced", "quad_tess",
     "polygon_tess", "polygon_adaptive", "point",          "tiles"};
 
-// Spheres x, y, z, r, coloured by their numbers.
+// Spheres x, y, z, r, with colours that depend on their numbers.
 inline std::shared_ptr<const scene::ParticleSet> set_of(
     const std::vector<std::array<double, 4>>& spheres) {
   scene::ParticleSet set;
@@ -62,7 +62,7 @@ inline measure::Work particle_work(std::string_view technique, scene::ParticleSc
   return {std::string(technique), measure::ParticleWork{std::move(scene), options}};
 }
 
-// Runs `check(technique)` for each that the device can do.
+// Runs `check(technique)` for each technique that the device supports.
 template <class Check>
 void for_each_technique(const measure::Device& device, Check&& check) {
   const scene::ParticleScene scene = seen_from({{0, 0, -3, 1}}, {0, 0, 0}, 60);

@@ -28,11 +28,11 @@ std::uint64_t covered(const core::Image& image) {
       std::ranges::count_if(image.ids, [](auto id) { return id != core::Image::no_particle; }));
 }
 
-// Corners of one sphere's sprite.
+// The corners of the sprite of one sphere.
 std::uint64_t corners_of(std::string_view technique) {
   if (technique == "point") return 1;
   if (technique == "polygon_tess") return 8;
-  // At 14 pixels' radius the cube root of 0.323·14² is 3.98.
+  // For a radius of 14 pixels, the cube root of 0.323·14² is 3.98.
   return 4;
 }
 
@@ -55,7 +55,7 @@ TEST(GlParticleFrames, ASingleSphereIsCountedAsItIs) {
                         Contains(Pair("vertices", corners_of(technique)))));
       EXPECT_EQ(counts.at("fragments"),
                 counts.at("fragments_kept") + counts.at("fragments_discarded"));
-      // A square around a disc of k pixels has 4/π·k, an octagon 1.05·k.
+      // A square around a disc of k pixels has 4/π·k pixels, an octagon 1.05·k.
       const double share = static_cast<double>(counts.at("fragments")) / static_cast<double>(kept);
       EXPECT_NEAR(share, technique == "polygon_tess" ? 1.05 : 1.27, 0.15);
     });
@@ -129,7 +129,7 @@ TEST(GlParticleFrames, StatisticsTellTheStagesInUseAndNoOthers) {
   });
 }
 
-// Large spheres in front of small ones, in cells of their own.
+// Large spheres in front of small ones, in separate cells.
 scene::ParticleScene large_before_small() {
   std::vector<std::array<double, 4>> spheres;
   for (int i = 0; i < 400; ++i) spheres.push_back({0.01 * (i % 20), 0.01 * (i / 20.0), -4, 1});
@@ -139,11 +139,11 @@ scene::ParticleScene large_before_small() {
   return seen_from(spheres, {0, 0, 0}, 60);
 }
 
-// Work groups of 64 that a frame has beside those that resolve tiles.
+// The number of work groups of 64 that a frame has in addition to those that resolve tiles.
 std::uint64_t groups_of_other_passes(const scene::ParticleScene& scene,
                                      const technique::TileRounds& rounds) {
   constexpr std::uint64_t group = 64;
-  // Groups that share what there is.
+  // Groups that share all the work.
   const std::uint64_t spread =
       std::min<std::uint64_t>(256, (scene.particles->count() + group - 1) / group);
   std::uint64_t groups = rounds.small ? spread : 0;  // index
@@ -166,15 +166,17 @@ std::uint64_t invocations(measure::Device& device, const scene::ParticleScene& s
 struct InOnePlace {
   double radius;
   std::size_t spheres;
-  std::uint64_t tiles;  // that each may reach
+  std::uint64_t tiles;  // that each of them may reach
   bool at_once;
 };
 
-// Spheres in 45×38 pixels, or 9 tiles: 32 invocations for each tile that they may reach, and for no
-// other. Small ones are drawn when they are binned, few large ones by the last pass.
+// Spheres in 45×38 pixels, which are 9 tiles: 32 invocations for each tile that they may reach, and
+// none for others. Small spheres are drawn when they are sorted, and a few large ones by the last
+// pass.
 TEST(GlParticleFrames, ATileThatHoldsNothingIsNotResolved) {
   for_each_device([](measure::Device& device) {
-    if (device.info().driver != "llvmpipe") return;  // which counts invocations exactly
+    if (device.info().driver != "llvmpipe")
+      return;  // the only one known to count invocations exactly
     for (const auto& [radius, count, tiles, at_once] :
          {InOnePlace{1, 1, 0, true}, {8, 1, 4, true}, {8, 40, 4, false}, {40, 40, 9, false}}) {
       const scene::ParticleScene scene =
@@ -192,7 +194,8 @@ TEST(GlParticleFrames, ATileThatHoldsNothingIsNotResolved) {
   });
 }
 
-// Large spheres before small ones: no round resolves more than all of the 9 tiles, the last none.
+// With large spheres before small ones, no round resolves more than all 9 tiles, and the last one
+// resolves none.
 TEST(GlParticleFrames, RoundsWithoutLargeSpheresAreNotFilled) {
   for_each_device([](measure::Device& device) {
     if (device.info().driver != "llvmpipe") return;
@@ -209,7 +212,7 @@ TEST(GlParticleFrames, RoundsWithoutLargeSpheresAreNotFilled) {
   });
 }
 
-// Two clusters, a cell each: one in the middle of the picture, one at its right edge.
+// Two clusters in one cell each: one in the middle of the image, one at its right edge.
 scene::ParticleScene one_cell_at_the_edge() {
   std::vector<std::array<double, 4>> spheres;
   for (int i = 0; i < 1200; ++i) {
@@ -289,7 +292,8 @@ TEST(GlParticleFrames, ConservativeDepthIsAnotherBuild) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = seen_from({{0, 0, -3, 1}}, {0, 0, 0}, 60);
     for_each_technique(device, [&](std::string_view technique) {
-      if (technique == "tiles") return;  // they reject early by every front, promised or not
+      if (technique == "tiles")
+        return;  // tiles reject early by every front, whether that was promised or not
       const auto hash = [&](const ParticleOptions& options) {
         return device.prepare(particle_work(technique, scene, options))->kernel_hash();
       };

@@ -1,4 +1,4 @@
-// Spheres against the truth, within the bound that the suite derives, and against each other.
+// Compares spheres with the reference image within the suite's bound, and with each other.
 #include <fmt/format.h>
 
 #include <limits>
@@ -16,7 +16,7 @@ using technique::Culling;
 using technique::ParticleFault;
 using technique::ParticleOptions;
 
-// Pixels that are not as the truth has them.
+// The pixels that differ from the reference image.
 struct Wrong {
   int ids = 0;
   int depths = 0;
@@ -109,7 +109,7 @@ TEST(GlParticles, AwkwardCamerasLoseNoPixel) {
   });
 }
 
-// Larger than the points of any device that is known, before others that are not.
+// Larger than the points of any known device, in front of others that are not.
 TEST(GlParticles, SpheresLargerThanPointsAreDrawn) {
   scene::ParticleScene scene =
       seen_from({{0, 0, -3, 1.6}, {1.5, 0.2, -2, 0.2}, {-1.4, -1.2, -2.5, 0.3}}, {0, 0, 0}, 70);
@@ -123,8 +123,9 @@ TEST(GlParticles, SpheresLargerThanPointsAreDrawn) {
   });
 }
 
-// A sphere that the eye's plane cuts, in view on the right only: the sprite of `point` is what it
-// covers, whether the device's points are large enough or not.
+// A sphere that the plane of the eye cuts and that is visible only on the right. The sprite of
+// `point` is as large as what the sphere covers, whether the device's points are large enough or
+// not.
 TEST(GlParticles, APointThatReachesTheEyesPlaneIsNotTheWholeViewport) {
   for_each_device([](measure::Device& device) {
     scene::ParticleScene scene = seen_from({{1.5, 0, -0.9, 1}}, {0, 0, 0}, 60);
@@ -185,7 +186,7 @@ TEST(GlParticles, OptionsThatDecideNothingLeaveEveryBit) {
   });
 }
 
-// A wall before most of the particles: cells are left out, and no bit tells.
+// A wall in front of most particles: cells are left out, and no bit changes.
 TEST(GlParticles, WhatIsHiddenIsNotMissed) {
   for_each_device([](measure::Device& device) {
     scene::ParticleScene scene = generated("generate:uniform:30000");
@@ -201,7 +202,7 @@ TEST(GlParticles, WhatIsHiddenIsNotMissed) {
         EXPECT_EQ(prepared->image(), plain) << i;
       }
       const record::Counts counts = prepared->frame(measure::Purpose::counters).counts;
-      // softpipe's compute shaders do not see what was just drawn: nothing is taken for hidden.
+      // softpipe's compute shaders do not see what was just drawn, so nothing counts as hidden.
       if (device.info().driver != "softpipe") {
         EXPECT_GT(counts.at("cells_culled"), counts.at("cells") / 20);
       }

@@ -1,4 +1,4 @@
-// Pictures against the truth, within the bound that the suite derives, and against each other.
+// Compares images with the reference image within the suite's bound, and with each other.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -15,15 +15,16 @@ using technique::RaycastOptions;
 using technique::Sampler;
 using technique::Skip;
 
-// Pixels outside the bound, and by how much the worst one errs.
+// The pixels outside of the bound, and the error of the worst one.
 struct Verdict {
   int outside = 0;
   double worst = 0;
 };
 
-// The suite's model. An 8-bit filter also rounds its result: an error that does not shrink with the
-// voxels' difference, and that the probe, which looks at full differences, cannot tell from an
-// error of the weights. So both are allowed what the probe found.
+// The model of the suite. An 8-bit filter also rounds its result. That error does not become
+// smaller with the difference of the voxels, and the probe, which uses full differences, cannot
+// distinguish it from an error of the weights. So the error that the probe found is allowed for
+// both.
 reference::ErrorModel error_model(const scene::VolumeScene& scene, double ert,
                                   double filter_error) {
   reference::ErrorModel model =
@@ -103,7 +104,8 @@ TEST(GlPictures, AwkwardCamerasHoldTheBound) {
           make_scene({.data = "generate:gradient_box:24", .transfer_function = "haze"});
       const double edge = scene.box().hi.x;
       const glm::dvec3 centre{edge / 2, edge / 2, edge / 2};
-      // Looking along an axis with an odd number of pixels: the middle rays have components of 0.
+      // The view is along an axis, with an odd number of pixels, so that the middle rays have
+      // components of 0.
       for (const glm::dvec3 eye :
            {centre, glm::dvec3{0, 0, 0}, glm::dvec3{edge, centre.y, edge},
             glm::dvec3{centre.x, centre.y, 2 * edge}, glm::dvec3{centre.x, centre.y, -edge}}) {
@@ -175,7 +177,7 @@ TEST(GlPictures, RepeatsHaveTheSameBits) {
 }
 
 TEST(GlPictures, InjectedFaultsLeaveTheBound) {
-  // A sampler that is worse than 8 bits has a bound that hides faults.
+  // A sampler with an error of more than 8 bits would have a bound that hides faults.
   constexpr double coarse = 1.0 / 64;
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : picture_techniques) {

@@ -1,5 +1,6 @@
-// Every shader is in the GLSL that its first line names. A driver may allow more than that; the
-// reference compiler does not. tests/device/gl/CMakeLists.txt runs this as several versions of GL.
+// Every shader conforms to the GLSL version that its first line names. A driver may accept more
+// than that, but the reference compiler does not. tests/device/gl/CMakeLists.txt runs this for
+// several versions of GL.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -16,7 +17,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-// Sources by the suffix that tells the compiler their stage.
+// Sources, with the suffix that tells the compiler their stage.
 using Sources = std::set<std::pair<std::string, std::string>>;
 
 std::string suffix_of(GLint type) {
@@ -27,7 +28,7 @@ std::string suffix_of(GLint type) {
   return suffixes.at(type);
 }
 
-// All shaders that the context holds: each stays while a program has it.
+// All shaders in the context. Each exists as long as a program uses it.
 void add_sources(const Api& gl, Sources& sources) {
   constexpr GLuint highest_name = 1000;
   for (GLuint name = 1; name < highest_name; ++name) {
@@ -81,7 +82,7 @@ std::vector<measure::Work> particle_works() {
   return works;
 }
 
-// What a device compiles for these works, timed and counting.
+// What a device compiles for these works, for timing and for counting.
 Sources sources_of(const Candidate& candidate, const std::vector<measure::Work>& works) {
   std::unique_ptr<Context> context = candidate.open(false);
   Context& kept = *context;
@@ -106,17 +107,17 @@ void replace_first(std::string& text, std::string_view what, std::string_view wi
   if (const auto at = text.find(what); at != std::string::npos) text.replace(at, what.size(), with);
 }
 
-// What the reference compiler is given of a shader. It knows storage blocks, compute shaders and
-// `precise` from GLSL 4.30 on only, not by the extensions that bring them to 3.30, and
-// gl_BaseInstanceARB from 4.50 on.
+// The text of a shader for the reference compiler. It knows storage blocks, compute shaders and
+// `precise` only from GLSL 4.30 on, and not the extensions that add them to 3.30; and
+// gl_BaseInstanceARB only from 4.50 on.
 std::string as_it_knows_it(std::string text) {
   replace_first(text, "#version 330", "#version 430");
   if (text.starts_with("#version 430")) replace_first(text, "gl_BaseInstanceARB", "0");
   return text;
 }
 
-// Why the reference compiler refuses one of the shaders; empty where it does not. All in one go, as
-// starting it takes longer than compiling.
+// Why the reference compiler refuses one of the shaders; empty if it does not. It compiles all of
+// them at once, because starting it takes longer than compiling.
 std::string refusal(const Sources& sources) {
   const test::TemporaryFolder folder;
   std::string command = TRIPTYCH_GLSLANG;

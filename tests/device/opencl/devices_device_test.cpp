@@ -1,4 +1,4 @@
-// Listing and opening; what a device says of itself.
+// Listing and opening devices, and what a device reports about itself.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -27,7 +27,7 @@ TEST(OpenClDevices, ListingTwiceIsTheSame) {
   EXPECT_FALSE(first.devices.empty() && first.broken.empty());
 }
 
-// Clover without hardware and rusticl without its switch list no device.
+// Clover without hardware and rusticl without its environment variable list no device.
 TEST(OpenClDevices, AnEmptyPlatformIsNamedAndCostsOnlyItself) {
   const measure::Listing listing = make_backend()->list();
   for (const measure::Broken& each : listing.broken) {
@@ -66,7 +66,7 @@ TEST(OpenClDevices, WhatChangesGeneratedCodeIsPartOfTheIdentity) {
   for (const record::Device& each : environment_with("loops")) {
     EXPECT_THAT(each.environment,
                 testing::Contains(testing::Pair("POCL_WORK_GROUP_METHOD", "loops")));
-    EXPECT_EQ(each.environment.count("POCL_PTHREAD_MIN_WGS"), 0U);  // what the program itself sets
+    EXPECT_EQ(each.environment.count("POCL_PTHREAD_MIN_WGS"), 0U);  // set by the program itself
     if (each.driver == "pocl") {
       EXPECT_FALSE(each.cpu_features.empty());
     }
@@ -99,7 +99,7 @@ TEST(OpenClDevices, TheDefaultPathIsAsExactAsInterpolatingByHand) {
     for (const auto voxel :
          {scene::VoxelFormat::u8, scene::VoxelFormat::u16, scene::VoxelFormat::f32}) {
       const double error = device.filter_weight_error({voxel, technique::Sampler::hardware});
-      // The coarsest sampler known rounds its results to 8 bits, more than once.
+      // The coarsest known sampler rounds its results to 8 bits, more than once.
       EXPECT_LT(error, voxel == scene::VoxelFormat::u8 ? 2 : 0.01);
       std::printf("%s %s sampler error %.3g\n", device.info().id.c_str(),
                   std::string(scene::name_of(voxel)).c_str(), error);

@@ -29,7 +29,7 @@ TEST(OpenClFrames, TimesAreThereAndTheDeviceTakesNoLongerThanTheWall) {
       }
       EXPECT_TRUE(frame.counts.empty());
       EXPECT_FALSE(prepared->frame(Purpose::counters).device_ns);
-      // OpenCL has no pipeline statistics: absent, not zero.
+      // OpenCL has no pipeline statistics. They are absent, not zero.
       EXPECT_TRUE(prepared->frame(Purpose::statistics).counts.empty());
     }
   });
@@ -60,7 +60,7 @@ TEST(OpenClFrames, ExtraWorkLeavesThePicture) {
   });
 }
 
-// Samples and hits of the scene, counted on the host with the kernel's own formulas.
+// The samples and hits of the scene, counted on the host with the formulas of the kernel.
 struct Expected {
   std::uint64_t rays_hit = 0;
   std::uint64_t samples = 0;
@@ -98,7 +98,7 @@ TEST(OpenClFrames, CountersEqualACountOnTheHost) {
       const auto counts =
           device.prepare(make_work(technique, scene, options))->frame(Purpose::counters).counts;
       EXPECT_EQ(counts.at("rays"), 61U * 47U);
-      // A chord within rounding of a whole number of steps may count one more or less.
+      // A chord that is a whole number of steps within rounding may count one more or one less.
       const auto off =
           static_cast<double>(counts.at("samples")) - static_cast<double>(expected.samples);
       EXPECT_LE(std::abs(off), 1e-4 * static_cast<double>(expected.samples));
@@ -156,7 +156,7 @@ TEST(OpenClFrames, WhatIsNotSupportedIsNotPrepared) {
   });
 }
 
-// The host pauses between two commands, and the device's clock goes on.
+// The host pauses between two commands, while the device's clock continues.
 TEST(OpenClFrames, WhatLiesBetweenLaunchesIsPartOfTheirTime) {
   constexpr std::chrono::milliseconds pause{20};
   constexpr double pause_ns = std::chrono::duration<double, std::nano>(pause).count();
@@ -172,7 +172,7 @@ TEST(OpenClFrames, WhatLiesBetweenLaunchesIsPartOfTheirTime) {
     }
     const auto first = device_ns({events[0]});
     const auto second = device_ns({events[1]});
-    if (!first || !second || *first == 0) continue;  // it tells no times
+    if (!first || !second || *first == 0) continue;  // the device reports no times
     EXPECT_GE(device_ns(events).value_or(0), *first + pause_ns + *second) << each.info.id;
   }
 }

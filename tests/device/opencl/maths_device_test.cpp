@@ -1,4 +1,4 @@
-// The portable maths gives the same as OpenCL C and as C++.
+// The portable maths has the same results as OpenCL C and as C++.
 #include <algorithm>
 #include <bit>
 #include <cstdio>
@@ -42,7 +42,7 @@ struct Vector {
   float y;
 };
 
-// Opacities and steps: the ends, the smallest, the largest below 1, and seeded ones.
+// Opacities and steps: the ends, the smallest one, the largest one below 1, and seeded ones.
 std::vector<Vector> vectors() {
   std::vector<Vector> all;
   for (const float alpha : {0.0F, 0x1p-30F, 0x1p-24F, 0x1p-20F, 0.25F, 0.5F, 1 - 0x1p-24F}) {
@@ -100,7 +100,7 @@ std::vector<float> on_device(const Found& found, const std::vector<Vector>& in) 
   });
 }
 
-// Distance in units in the last place; 0 for equal bits and for +0 and −0.
+// The distance in units in the last place; 0 for equal bits, and for +0 and −0.
 std::int64_t ulps(float a, float b) {
   if (a == b) return 0;
   const auto ordered = [](float x) {
@@ -119,8 +119,8 @@ TEST(OpenClMaths, EqualsTheHosts) {
     std::int64_t worst = 0;
     for (std::size_t i = 0; i < host.size(); ++i) worst = std::max(worst, ulps(host[i], device[i]));
     std::printf("%s: %lld ulp\n", found.info.id.c_str(), static_cast<long long>(worst));
-    // Nothing but additions, products, divisions and roots: a CPU rounds them all as IEEE 754 says,
-    // others may divide to 2.5 ulp and take roots to 3.
+    // Only additions, products, divisions and roots. A processor rounds all of them as IEEE 754
+    // requires. Other devices may have errors of 2.5 ulp in divisions and 3 ulp in roots.
     EXPECT_LE(worst, found.info.driver == "pocl" ? 0 : 8);
   }
 }

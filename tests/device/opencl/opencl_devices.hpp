@@ -1,5 +1,5 @@
 #pragma once
-// The API's devices, opened as its cases want them.
+// The devices of the API, opened as the tests need them.
 
 #include <cstdlib>
 #include <memory>
@@ -16,7 +16,8 @@ using test::make_work;
 using test::picture;
 using test::SceneOptions;
 
-// As the program starts its workers: PoCL leaves small launches on one thread otherwise.
+// With the environment in which the program starts its workers. Otherwise PoCL runs small launches
+// on one thread.
 inline std::unique_ptr<measure::Backend> backend_under_test() {
   setenv("POCL_PTHREAD_MIN_WGS", "1", 0);
   return make_backend();

@@ -1,5 +1,5 @@
 #pragma once
-// Spheres for the cases here, and what a picture of them is held against.
+// Spheres for the tests in this folder, and the comparison of their images.
 
 #include <array>
 #include <cmath>
@@ -71,8 +71,8 @@ inline reference::SphereTruth truth_of(const scene::ParticleScene& scene) {
       scene, particles_suite::error_model(scene, technique::ComputedAt::pixel));
 }
 
-// Certain pixels whose id or depth is not the truth's, and pixels off in colour by more than their
-// bound.
+// The number of certain pixels whose id or depth differs from the reference image, and of pixels
+// whose colour differs by more than their bound.
 inline int wrong_pixels(const core::Image& image, const reference::SphereTruth& truth) {
   int wrong = 0;
   for (std::size_t i = 0; i < truth.ids.size(); ++i) {

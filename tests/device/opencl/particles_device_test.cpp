@@ -1,5 +1,5 @@
-// Spheres: what is OpenCL's own. That every technique is true is asked of all backends alike
-// (tests/contract).
+// Tests of spheres that concern only OpenCL. The contract tests check that every technique of every
+// backend is right.
 #include <algorithm>
 #include <limits>
 
@@ -14,8 +14,9 @@ using technique::Culling;
 using technique::ParticleFault;
 using technique::ParticleOptions;
 
-// Large particles go into coarse tiles, small ones into fine ones; one that fills the view, some
-// that reach many tiles, and many of a few pixels, in a picture that ends within a coarse tile.
+// Large particles are sorted into coarse tiles, small ones into fine tiles: one that fills the
+// view, some that reach many tiles, and many of a few pixels, in an image that ends within a coarse
+// tile.
 scene::ParticleScene small_and_large() {
   Spheres spheres{{0, 0, -30, 12}, {2, 1, -9, 1.5}, {-3, -2, -8, 2}, {0.2, 0.1, -2, 0.3}};
   for (int i = 0; i < 600; ++i) {
@@ -38,8 +39,8 @@ TEST(OpenClParticles, SmallAndLargeOnesMeet) {
   });
 }
 
-// By the fill rule a rectangle that is the viewport covers each of its pixels once, and one that
-// lies within it covers the pixels whose centres it holds.
+// By the fill rule, a rectangle that is the viewport covers each of its pixels once, and a smaller
+// one covers the pixels whose centres are inside.
 TEST(OpenClParticles, SpritesCoverThePixelsTheyShould) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene around = seen_from({{0, 0, 0, 1}}, {0.2, 0.1, 0.3}, 60);
@@ -47,17 +48,19 @@ TEST(OpenClParticles, SpritesCoverThePixelsTheyShould) {
       EXPECT_EQ(counters(device, make_work(technique, around)).at("fragments"), 97U * 83U)
           << technique;
     }
-    // On the axis the silhouette's edge is at tan α, sin α = r/d; pixels are 2·tan(fov/2)/83 wide.
+    // On the axis, the edge of the silhouette is at tan α, where sin α = r/d. Pixels have a width
+    // of 2·tan(fov/2)/83.
     const scene::ParticleScene one = seen_from({{0, 0, -4, 1}}, {0, 0, 0}, 60);
     const double edge = std::tan(std::asin(0.25)) * 83 / (2 * std::tan(std::acos(-1.0) / 6));
-    const double pixels = 2 * std::floor(edge + 1.0 / 64) + 1;  // odd: a centre is on the axis
+    // Odd, because the centre of a pixel is on the axis.
+    const double pixels = 2 * std::floor(edge + 1.0 / 64) + 1;
     const auto counts = counters(device, make_work("quad_screen", one));
     EXPECT_EQ(static_cast<double>(counts.at("fragments")), pixels * pixels);
     EXPECT_EQ(counts.at("vertices"), 4U);
     EXPECT_EQ(counts.at("sprites"), 1U);
     EXPECT_EQ(counts.at("visible_ids"), 1U);
-    // S6: an n-gon around a disc has n·tan(π/n)/π of its area. The disc is of the sphere's radius,
-    // just before it: there the silhouette is smaller.
+    // S6: an n-gon around a disc has n·tan(π/n)/π times its area. The disc has the radius of the
+    // sphere and is just in front of it, where the silhouette is smaller.
     const double silhouette = 3 * (1 - 1.0 / 1024) * std::tan(std::asin(0.25));
     double before = std::numeric_limits<double>::infinity();
     for (const int corners : {4, 5, 8, 16, 32}) {
@@ -89,7 +92,7 @@ TEST(OpenClParticles, OcclusionLeavesCellsOutAndNoBitsChange) {
       EXPECT_EQ(prepared->image(), plain);
       EXPECT_GT(counts.at("cells_culled"), 0U);
       EXPECT_LT(counts.at("particles_submitted"), 60000U);
-      // Whatever was drawn before, what is counted is the same.
+      // Whatever was drawn before, the counts are the same.
       EXPECT_EQ(counters(device, make_work(technique, scene, {.culling = Culling::occlusion})),
                 counts);
     }
@@ -114,8 +117,8 @@ TEST(OpenClParticles, CountingAndRepeatedWorkLeaveThePicture) {
   });
 }
 
-// A dense cluster in the middle and one between 93 and 99 % of the way to the screen's edge: cells
-// of their own.
+// A dense cluster in the middle, and one between 93 and 99 % of the way to the edge of the screen,
+// in separate cells.
 scene::ParticleScene at_the_edge() {
   Spheres spheres;
   for (int i = 0; i < 2000; ++i) {
@@ -133,7 +136,7 @@ struct Injected {
   bool conservative_depth = false;
 };
 
-// Each fault is one that the picture shows.
+// The image shows each fault.
 TEST(OpenClParticles, InjectedFaultsAreSeen) {
   const std::vector<scene::ParticleScene> scenes{generated("coincident", 4000, "path_z:7/8"),
                                                  generated("uniform", 60000, "random:5"),

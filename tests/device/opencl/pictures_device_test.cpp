@@ -1,4 +1,4 @@
-// Pictures against the truth, and against each other.
+// Compares images with the reference image, and with each other.
 #include <gmock/gmock.h>
 
 #include <cstdio>
@@ -28,11 +28,11 @@ constexpr std::array<Path, 7> paths{{{VoxelFormat::u8, Sampler::manual},
                                      {VoxelFormat::f16, Sampler::manual}}};
 
 struct Distance {
-  double error = 0;  // largest of any channel
-  double share = 0;  // largest share of the bound of its pixel
+  double error = 0;  // the largest of all channels
+  double share = 0;  // the largest share of the bound of a pixel
 };
 
-// Infinite for pictures of different sizes and where a value is not finite.
+// Infinite for images of different sizes, and if a value is not finite.
 Distance from_truth(const core::Image& image, const reference::Truth& truth) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   if (image.width != truth.width || image.height != truth.height) return {infinite, infinite};
@@ -46,7 +46,7 @@ Distance from_truth(const core::Image& image, const reference::Truth& truth) {
   return distance;
 }
 
-// Draws and compares; the truth's bound is the suite's own.
+// Draws and compares. The bound of the reference image is that of the suite.
 Distance against_truth(measure::Device& device, const scene::VolumeScene& scene,
                        const technique::RaycastOptions& options) {
   const reference::ErrorModel model = volume_suite::error_model(
@@ -108,7 +108,8 @@ TEST(OpenClPictures, SkippingLeavesEveryBit) {
   });
 }
 
-// A volume of one voxel, one layer, one row; viewports that are no multiple of a work-group.
+// A volume of one voxel, one of one layer, and one of one row; viewports that are not multiples of
+// a work group.
 TEST(OpenClPictures, ThinVolumesAndOddViewports) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view data : {"generate:uniform_box:1", "generate:gradient_box:9x9x1",
@@ -139,8 +140,8 @@ TEST(OpenClPictures, FromInsideAndAlongTheAxes) {
       glm::dvec3 eye;
       glm::dvec3 forward;
     };
-    // Odd viewports: the middle pixel's ray has components of exactly 0; the second eye stands on
-    // the plane of a slab, the third in a corner.
+    // Viewports have odd sizes, so that the ray of the middle pixel has components of exactly 0.
+    // The second eye is on the plane of a slab, the third in a corner.
     for (const auto& [eye, forward] :
          {View{{20, 20, 20}, {0, 0, -1}}, View{{0, 20, 60}, {0, 0, -1}}, View{{0, 0, 0}, {0, 0, 1}},
           View{{-30, 20, 20}, {1, 0, 0}}, View{{20, 20, 90}, {0, 0, 1}}}) {
@@ -186,8 +187,8 @@ TEST(OpenClPictures, AnInjectedFaultIsOutsideTheBound) {
     for (const Sampler sampler : {Sampler::manual, Sampler::hardware}) {
       for (const Fault fault : {Fault::half_voxel_shift, Fault::flipped_axis, Fault::extra_sample,
                                 Fault::uncorrected_opacity, Fault::coarse_filter}) {
-        // Haze up to the far face shows a sample too many; the steep edges of surfaces show weights
-        // that are a little off.
+        // Haze up to the far face shows one sample too many. The steep edges of surfaces show
+        // weights that are slightly wrong.
         const bool subtle = fault == Fault::coarse_filter;
         const scene::VolumeScene scene =
             make_scene({.data = "generate:frequency_box:40",

@@ -1,4 +1,5 @@
-// The promise of conservative depth is in the SPIR-V that is drawn with, not only in its source.
+// The promise of conservative depth is in the SPIR-V that is drawn with, and not only in its
+// source.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -30,7 +31,7 @@ std::set<std::uint32_t> execution_modes(std::string_view code) {
   return modes;
 }
 
-// In the build that is timed and in the one that counts.
+// In the build that is timed, and in the one that counts.
 TEST(ConservativeDepth, IsPromisedWhereItIsOnAndOnlyThere) {
   for (const std::string build : {"", "_counting"}) {
     SCOPED_TRACE(build);

@@ -1,4 +1,4 @@
-// Listing, opening, limits.
+// Listing and opening devices, and their limits.
 #include <gmock/gmock.h>
 
 #include <regex>
@@ -79,7 +79,7 @@ TEST(VulkanDevices, TheDefaultPathFiltersExactly) {
       EXPECT_EQ(device.filter_weight_error({native, Sampler::manual}), 0);
     }
     if (device.info().driver != "llvmpipe") return;
-    // Cells of eight voxels are the fastest of what is exact, up to a gigabyte.
+    // Of the exact samplers, cells of eight voxels are the fastest, up to a gigabyte.
     EXPECT_EQ(device.default_path({VoxelFormat::u8}).sampler, Sampler::packed);
     EXPECT_EQ(device.default_path({VoxelFormat::u8}).voxel, VoxelFormat::u8);
     for (const measure::VolumeKind& other :
@@ -88,7 +88,7 @@ TEST(VulkanDevices, TheDefaultPathFiltersExactly) {
       EXPECT_EQ(device.default_path(other).sampler, Sampler::hardware);
       EXPECT_EQ(device.default_path(other).voxel, VoxelFormat::f32);
     }
-    // Eight-bit linear sampling is quantised to eight bits there.
+    // Linear sampling of eight-bit voxels is quantised to eight bits there.
     EXPECT_GT(device.filter_weight_error({VoxelFormat::u8, Sampler::hardware}), 1e-3);
   });
 }

@@ -1,4 +1,4 @@
-// What a frame tells beside its picture: times, counters, pipeline statistics.
+// What a frame returns besides its image: times, counters, pipeline statistics.
 #include <gmock/gmock.h>
 
 #include <cstdint>
@@ -18,7 +18,7 @@ record::Counts counters(measure::Device& device, std::string_view technique,
   return device.prepare(make_work(technique, scene, options))->frame(Purpose::counters).counts;
 }
 
-// Samples on every ray's lattice, in double precision.
+// The samples on the lattice of every ray, in double precision.
 struct Lattice {
   std::uint64_t rays_hit = 0;
   std::uint64_t samples = 0;
@@ -108,8 +108,9 @@ TEST(VulkanFrames, StatisticsAreExactAndStayTheSame) {
       EXPECT_EQ(of_draw.at("vertex_invocations"), 3U);
       EXPECT_EQ(of_draw.at("clipping_invocations"), 1U);
       EXPECT_GE(of_draw.at("clipping_primitives"), 1U);
-      // How many is the driver's own way of counting, which the judge asks it for: of 37×26 pixels
-      // lavapipe of Mesa 22.3 counts all and helpers, of Mesa 25.0.7 957.
+      // The number depends on how the driver counts, which the judge checks. For 37×26 pixels,
+      // lavapipe of Mesa 22.3 counts all of them and helper invocations, and that of Mesa 25.0.7
+      // counts 957.
       EXPECT_GT(of_draw.at("fragment_invocations"), 0U);
       if (repeat == 0) fragments = of_draw.at("fragment_invocations");
       EXPECT_EQ(of_draw.at("fragment_invocations"), fragments);
@@ -138,7 +139,7 @@ TEST(VulkanFrames, AWholeRenderPassIsTimedByTheDevice) {
     const auto prepared =
         device.prepare(make_work("raycast_fragment", make_scene({.width = 256, .height = 256})));
     static_cast<void>(prepared->frame(Purpose::timing));  // the first frame compiles
-    double of_wall = 0;  // the best of some: a busy machine may wake us late
+    double of_wall = 0;  // the best of several, because a busy machine may wake up the thread late
     for (int i = 0; i < 20; ++i) {
       const measure::Frame frame = prepared->frame(Purpose::timing);
       if (!frame.device_ns) GTEST_SKIP() << "no clock";
@@ -170,7 +171,7 @@ TEST(VulkanFrames, ExtraWorkIsDone) {
     if (device.info().limits.at("pipelineStatisticsQuery") == "no") GTEST_SKIP();
     const auto prepared =
         device.prepare(make_work("raycast", make_scene(), {.extra_work_stride = 2}));
-    // Three tiles of 16 columns hold the picture, two of them every second one again.
+    // Three tiles of 16 columns cover the image, and two of them are drawn again every second time.
     EXPECT_EQ(prepared->frame(Purpose::statistics).counts.at("compute_invocations"),
               2U * (3U + 2U) * 4U * 64U);
     const auto drawn =

@@ -1,4 +1,5 @@
-// What a device with smaller limits would be asked: the limits of those that are here, lowered.
+// What happens on a device with smaller limits: the limits of the devices of this machine are
+// lowered.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -48,7 +49,7 @@ TEST(VulkanLimits, CountersAndBrickMapsAreAskedFor) {
       EXPECT_THAT(reason(gpu, technique, scene, Skip::distance),
                   AllOf(HasSubstr("brick map"), HasSubstr("maxStorageBufferRange = 1048576")));
       EXPECT_EQ(reason(gpu, technique, scene, Skip::bricks), "");
-      scene.height = 256;  // the last that fits, at 32 bytes of counters per pixel
+      scene.height = 256;  // the largest that fits, with 32 bytes of counters per pixel
       EXPECT_EQ(reason(gpu, technique, scene, Skip::bricks), "");
       scene.height = 257;
       EXPECT_THAT(reason(gpu, technique, scene, Skip::bricks),
@@ -77,7 +78,7 @@ TEST(VulkanLimits, ABufferIsBoundWholeOrNotAtAll) {
   });
 }
 
-// More is a wrong filter, of which the bound of pictures must not become wide.
+// A larger error means a wrong filter, for which the bound of images must not become wide.
 TEST(VulkanLimits, AFilterErrsByNoMoreThanItsFormatAndTheWeightsLeaveOpen) {
   using enum scene::VoxelFormat;
   const Instance instance;

@@ -1,6 +1,6 @@
-// A driver's fault by itself, without a line of ours: Mesa's llvmpipe, and lavapipe with it, end
-// every loop after 65,535 passes. Rays of more samples are cut off there (docs/accuracy.md,
-// "Stress").
+// A fault of a driver, shown without any code of the backend: Mesa's llvmpipe, and lavapipe with
+// it, ends every loop after 65,535 passes. Rays with more samples are cut off there
+// (docs/accuracy.md, "Stress").
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The portable maths as GLSL gives what it gives as C++.
+// The portable maths as GLSL has the same results as in C++.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -21,8 +21,8 @@ namespace {
 
 namespace portable = technique::portable;
 using Vector = std::array<float, 2>;     // opacity, steps
-using Results = std::array<float, 16>;   // maths.comp
-using Doubles = std::array<double, 16>;  // maths_fp64.comp
+using Results = std::array<float, 16>;   // see maths.comp
+using Doubles = std::array<double, 16>;  // see maths_fp64.comp
 
 std::vector<Vector> vectors() {
   std::vector<Vector> all;
@@ -81,7 +81,7 @@ std::vector<Results> on_device(const Gpu& gpu, const std::vector<Vector>& in) {
                                 static_cast<std::uint32_t>(in.size() / 64));
 }
 
-// Distance in units in the last place; 0 for equal bits, for +0 and −0 and for two not-a-numbers.
+// The distance in units in the last place; 0 for equal bits, for +0 and −0, and for two NaNs.
 std::int64_t ulps(float a, float b) {
   if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
   const auto ordered = [](float x) {
@@ -98,8 +98,9 @@ TEST(VulkanMaths, EqualsTheHosts) {
     SCOPED_TRACE(each.info.id);
     const Gpu gpu = open_gpu(each.physical);
     const std::vector<Results> out = on_device(gpu, in);
-    // Only sums, products, quotients and roots. A quotient may be 2.5 ulp off and sums and products
-    // be contracted; the longest chain is stated to 8 ulp of the exact value on either side.
+    // Only sums, products, quotients and roots. A quotient may have an error of 2.5 ulp, and sums
+    // and products may be contracted. The longest chain is within 8 ulp of the exact value on
+    // either side.
     constexpr std::int64_t allowed = 16;
     for (std::size_t i = 0; i < in.size(); ++i) {
       const Results host = on_host(in[i]);
@@ -112,7 +113,7 @@ TEST(VulkanMaths, EqualsTheHosts) {
   }
 }
 
-// On either side 12 u are stated of the longest chain, 2⁻⁵³ each.
+// On either side, the longest chain is within 12 u of the exact value, where u = 2⁻⁵³.
 TEST(VulkanMaths, EqualsTheHostsInDoublePrecision) {
   const std::vector<Vector> in = vectors();
   const Instance instance;

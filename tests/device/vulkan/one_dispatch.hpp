@@ -1,5 +1,5 @@
 #pragma once
-// One compute shader from one storage buffer (binding 0) into another (binding 1).
+// Runs one compute shader that reads a storage buffer (binding 0) and writes another (binding 1).
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,5 @@
-// Particles: every technique against the truth, and what its frames tell.
+// Particles: compares every technique with the reference image, and checks the results of its
+// frames.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -69,12 +70,12 @@ measure::Work particle_work(std::string_view technique, const scene::ParticleSce
   return {std::string(technique), measure::ParticleWork{scene, options}};
 }
 
-// A few roundings of single precision in the ray and in the sphere's place.
+// A few roundings of single precision in the ray and in the position of the sphere.
 constexpr reference::SphereErrorModel bounds{
     .lateral_px = 1e-4, .lateral_relative = 2e-7, .depth_relative = 2e-6};
 
-// Certain pixels whose id differs from the truth's, or whose distance is off by more than the
-// rounding of single precision explains.
+// The number of certain pixels whose id differs from the reference image, or whose distance differs
+// by more than the rounding of single precision.
 int wrong_pixels(const core::Image& image, const reference::SphereTruth& truth) {
   int wrong = 0;
   for (std::size_t i = 0; i < truth.ids.size(); ++i) {
@@ -180,8 +181,9 @@ TEST(VulkanParticles, TiesAndLargeAmongSmallOnes) {
   });
 }
 
-// A sphere that the eye's plane cuts, in view on the right only: the sprite of `point` is what it
-// covers, whether the device's points are large enough or not.
+// A sphere that the plane of the eye cuts and that is visible only on the right. The sprite of
+// `point` is as large as what the sphere covers, whether the device's points are large enough or
+// not.
 TEST(VulkanParticles, APointThatReachesTheEyesPlaneIsNotTheWholeViewport) {
   for_each_device([](measure::Device& device) {
     scene::ParticleScene scene = look_at(spheres({{1.5, 0, -0.9, 1}}), {0, 0, 0}, {0, 0, -1}, 60);
@@ -219,7 +221,7 @@ TEST(VulkanParticles, CountersAddUpAndRepeat) {
     scene.width = 240;
     scene.height = 180;
     for (const std::string_view technique : techniques) {
-      std::uint64_t culled = 0;  // more by each kind of culling than by the one before
+      std::uint64_t culled = 0;  // each kind of culling leaves out more than the one before
       for (const Culling culling : {Culling::none, Culling::frustum, Culling::occlusion}) {
         const auto prepared = device.prepare(particle_work(technique, scene, {.culling = culling}));
         const record::Counts counts = prepared->frame(Purpose::counters).counts;
@@ -227,7 +229,8 @@ TEST(VulkanParticles, CountersAddUpAndRepeat) {
         EXPECT_EQ(counts.at("particles_submitted") + counts.at("particles_culled"), 20000U);
         EXPECT_LE(counts.at("sprites"), counts.at("particles_submitted"));
         EXPECT_EQ(counts.at("particles_culled") == 0, culling == Culling::none) << technique;
-        const std::uint64_t factor = technique == "tiles" ? 1 : 2;  // few rounds hide little
+        // With few rounds, little is hidden.
+        const std::uint64_t factor = technique == "tiles" ? 1 : 2;
         EXPECT_GE(counts.at("particles_culled"), factor * culled) << technique;
         culled = counts.at("particles_culled");
         EXPECT_GT(counts.at("visible_ids"), 100U);
@@ -249,7 +252,7 @@ TEST(VulkanParticles, StatisticsAreThoseOfTheStagesThereAre) {
     for (const std::string_view technique : techniques) {
       const auto prepared = device.prepare(particle_work(technique, scene, {}));
       const record::Counts counts = prepared->frame(Purpose::statistics).counts;
-      if (counts.empty()) continue;  // the device has none
+      if (counts.empty()) continue;  // the device has no statistics
       const bool geometry = technique == "quad_screen" || technique == "quad_ray";
       const bool tessellation =
           technique.find("tess") != std::string_view::npos || technique == "polygon_adaptive";
@@ -263,7 +266,7 @@ TEST(VulkanParticles, StatisticsAreThoseOfTheStagesThereAre) {
   });
 }
 
-// Pixels that an injected fault makes wrong, among those that are certain.
+// The number of certain pixels that an injected fault makes wrong.
 int pixels_wrong_by(measure::Device& device, std::string_view technique,
                     const scene::ParticleScene& scene, ParticleFault fault) {
   const reference::SphereTruth truth = reference::render_spheres(scene, bounds, 1);

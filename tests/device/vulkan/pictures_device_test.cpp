@@ -1,4 +1,4 @@
-// Pictures against the truth within the bound the suite derives, and against each other.
+// Compares images with the reference image within the suite's bound, and with each other.
 #include <fmt/format.h>
 
 #include "reference/volume.hpp"
@@ -16,7 +16,7 @@ using technique::Sampler;
 using technique::Skip;
 
 struct Verdict {
-  int outside = 0;  // channels beyond their pixel's bound
+  int outside = 0;  // channels outside of the bound of their pixel
   double worst = 0;
 };
 
@@ -36,7 +36,7 @@ reference::Truth truth_of(const measure::Device& device, const scene::VolumeScen
   const double filter = device.filter_weight_error({scene.grid->format, options.sampler});
   reference::ErrorModel model =
       volume_suite::error_model(scene, {.ert = options.ert, .filter_weight_error = filter});
-  // A filter that works in eight bits also rounds its result, whatever the voxels' difference.
+  // A filter with eight bits also rounds its result, whatever the difference of the voxels is.
   if (filter > 1e-5) model.value_error += filter;
   return reference::render_volume(scene, model);
 }
@@ -62,7 +62,8 @@ TEST(VulkanPictures, EveryFormatAndSamplerIsWithinTheBound) {
   });
 }
 
-// Every closed form of the step's opacity, the general one, and steps beyond the volume.
+// Every closed form for the opacity of a step, the general form, and steps that are longer than the
+// volume.
 TEST(VulkanPictures, EveryStepIsWithinTheBound) {
   for_each_device([](measure::Device& device) {
     for (const double step : {0.0625, 0.125, 0.25, 0.5, 0.7, 1.0, 2.0, 3.0, 4.0, 8.0, 1000.0}) {
@@ -176,7 +177,8 @@ TEST(VulkanPictures, RepeatsHaveTheSameBits) {
 
 TEST(VulkanPictures, TheSpeedOfLightReadsWhatTheRaycasterReads) {
   for_each_device([](measure::Device& device) {
-    // All entries alike: every sample adds the same colour, so the sums count the samples.
+    // All entries are equal, so every sample adds the same colour, and the sums are the numbers of
+    // samples.
     scene::VolumeScene scene = make_scene({.transfer_function = "haze"});
     scene.transfer_function.entries.fill({1, 0.5F, 0.25F, 0.125F});
     scene.background = {};

@@ -1,4 +1,4 @@
-// A pipeline is built once for each thing that it may be.
+// A pipeline is built only once for each combination of properties.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -13,7 +13,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-// The tests' own shaders use the first two.
+// The shaders of the tests use the first two.
 Layout layout_of(const Gpu& gpu, std::uint32_t bindings) {
   std::vector<vk::DescriptorSetLayoutBinding> all;
   for (std::uint32_t i = 0; i < bindings; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// The API's devices, opened as its cases want them.
+// The devices of the API, opened as the tests need them.
 
 #include <array>
 #include <cstdlib>
@@ -22,7 +22,7 @@ using test::SceneOptions;
 // Volume techniques that draw an image.
 inline constexpr std::array<std::string_view, 2> picture_techniques{"raycast", "raycast_fragment"};
 
-// With the validation layer where it is installed: then any message of it fails the case.
+// With the validation layer if it is installed, so that a test fails at any of its messages.
 inline std::unique_ptr<measure::Backend> backend_under_test() {
   for (const char* folder : {"/usr/share/vulkan", "/usr/local/share/vulkan", "/etc/vulkan"}) {
     if (std::filesystem::exists(std::filesystem::path(folder) / "explicit_layer.d" /
