@@ -47,7 +47,7 @@ TEST(LongestStep, IsNoneWhereTheShortestIsNotEnough) {
   EXPECT_FALSE(longest_step(1e-3, {}, [](double) { return std::nan(""); }).error <= 1e-3);
 }
 
-// What few pixels said is too long for all of them.
+// The step that few pixels suggested is too long for all pixels.
 TEST(ShortenedStep, KeepsTheErrorAndLosesLittle) {
   for (const double order : {1.0, 2.0, 4.0}) {
     int calls = 0;
@@ -105,7 +105,7 @@ TEST(PictureErrors, AreOfEveryMetric) {
   core::Image limit(100, 20);
   core::Image picture = limit;
   for (std::size_t i = 0; i < 20; ++i) limit.rgba[4 * i] = 0.5F;  // 1 % of the pixels
-  picture.rgba[0] = 1.0F;                                         // errs by 0.5, all others too
+  picture.rgba[0] = 1.0F;  // its error is 0.5, and so is that of all others
   const PictureErrors errors = errors_against(limit, picture);
   EXPECT_EQ(errors.covered, 20U);
   EXPECT_DOUBLE_EQ(errors.of(Metric::max), 0.5);

@@ -1,4 +1,4 @@
-// Orders, fronts and times to an error on numbers whose answers are known.
+// Orders, fronts and times to an error, for numbers whose results are known.
 
 #include "accuracy/accuracy.hpp"
 
@@ -69,7 +69,8 @@ TEST(FitOrder, StepsBeyondAVoxelAreNoRefinement) {
   EXPECT_EQ(order->points, 5U);
 }
 
-// With a floor of rounding f beside the step's own error s, √(s² + f²) is measured.
+// With an error of rounding f in addition to the step's own error s, the measured error is
+// √(s² + f²).
 TEST(FitOrder, RoundingDoesNotFlattenIt) {
   const double floor = 1e-4;
   const auto order = fit_order(errors_by(
@@ -91,7 +92,7 @@ TEST(Front, IsWhatNothingBeats) {
   const auto front = pareto_front(cases);
   EXPECT_EQ(front, (std::vector<std::size_t>{0, 1, 3}));
   const auto beaten = dominated(cases, front);
-  ASSERT_EQ(beaten.size(), 2U);  // the equal of one on the front is not beaten by it
+  ASSERT_EQ(beaten.size(), 2U);  // a case that equals one on the front is not beaten by it
   EXPECT_EQ(beaten[0].index, 2U);
   EXPECT_EQ(beaten[0].by, 1U);
   EXPECT_EQ(beaten[1].index, 5U);
@@ -135,7 +136,7 @@ TEST(SwitchedAlone, ChangesOneFactor) {
   EXPECT_EQ(switched[1].to, 1U);
 }
 
-// What was tried on one step only is told of the best of that step.
+// A setting that was tried with only one step is compared with the best case of that step.
 TEST(SwitchedAlone, IsToldOfTheBestThatHasALikeOne) {
   const std::vector<AccuracyCase> cases{at(9, 1, 0.5, "0"), at(5, 2, 1, "0"), at(5, 4, 1, "0.1")};
   const auto switched = switched_alone(cases);
@@ -152,12 +153,12 @@ TEST(SwitchedPicture, FindsTheLikeOneElsewhere) {
   for (AccuracyCase& each : others) each.factors["viewport"] = "96";
   const auto found = switched_picture(cases, others, "viewport");
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->from, 1U);  // the most accurate has none
+  EXPECT_EQ(found->from, 1U);  // the most accurate case has no such partner
   EXPECT_EQ(found->to, 0U);
   EXPECT_FALSE(switched_picture(cases, others, "step"));
 }
 
-// Errors and orders need no times; fronts and times to an error are of what has one.
+// Errors and orders need no times. Fronts and times to an error contain only cases with times.
 TEST(Untimed, HasOrdersButNoFront) {
   std::vector<AccuracyCase> cases;
   for (const double step : {1.0, 0.5, 0.25}) cases.push_back(at(1, 0.1 * step * step, step));

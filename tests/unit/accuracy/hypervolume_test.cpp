@@ -1,4 +1,4 @@
-// The area of a front, on points whose logarithms to the base of ten are whole numbers.
+// The area of a front, for points whose logarithms to base ten are integers.
 
 #include "accuracy/hypervolume.hpp"
 
@@ -24,13 +24,13 @@ AccuracyCase case_at(double time_ns, double rmse) {
           .rmse = rmse};
 }
 
-// In squares of a decade of time and one of error.
+// In squares of one decade of time and one decade of error.
 double area_of(const std::vector<AccuracyCase>& cases, double reference_error = 1) {
   return hypervolume(cases, pareto_front(cases), reference_error) / (decade * decade);
 }
 
-// 1 ms is three decades below the second, 1e-2 two below 1: 3·2; what it takes from 1e-2 to 1e-4 is
-// 10 ms: 2·2 more.
+// 1 ms is three decades below the second, and 1e-2 is two decades below 1: 3·2. Reaching 1e-4 from
+// 1e-2 takes 10 ms: another 2·2.
 TEST(Hypervolume, IsTheSumOfRectangles) {
   EXPECT_NEAR(area_of({case_at(1e6, 1e-2)}), 6, 1e-12);
   EXPECT_NEAR(area_of({case_at(1e6, 1e-2), case_at(1e7, 1e-4)}), 10, 1e-12);
@@ -55,13 +55,14 @@ TEST(Hypervolume, EndsAtTheCorner) {
   EXPECT_NEAR(area_of({case_at(1e6, 1e-2), untimed}), 6, 1e-12);
 }
 
-// Rounding to floats is where errors end: 0 is as good as 2⁻²⁴.
+// Errors end at the rounding to floats: 0 counts as 2⁻²⁴.
 TEST(Hypervolume, AnExactPictureHasAFiniteArea) {
   EXPECT_NEAR(area_of({case_at(1e6, 0)}), 3 * 24 * std::log10(2.0), 1e-12);
   EXPECT_EQ(area_of({case_at(1e6, 1e-9)}), area_of({case_at(1e6, 0)}));
 }
 
-// All times by 2.5: the area is less by ln 2.5 over four decades of error, and that factor is told.
+// If all times are 2.5 times as long, the area is smaller by ln 2.5 over four decades of error, and
+// that factor is reported.
 TEST(Hypervolume, TellsHowManyTimesAsLongADeviceTakes) {
   const auto area_at = [](double factor) {
     const std::vector<AccuracyCase> cases{case_at(1e6 * factor, 1e-2), case_at(1e7 * factor, 1e-4)};

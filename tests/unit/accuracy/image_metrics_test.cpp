@@ -29,7 +29,8 @@ TEST(ImageMetrics, EqualPicturesHaveNoError) {
   EXPECT_EQ(result.worst.ratio, 0);
 }
 
-// The largest error and the worst one against its own bound are different pixels.
+// The pixel with the largest error and the one that is worst relative to its own bound are
+// different.
 TEST(ImageMetrics, FindsWorstAgainstItsOwnBound) {
   const core::Image truth = filled(4, 3, 0.0F);
   core::Image image = truth;
@@ -73,7 +74,7 @@ TEST(ImageMetrics, SizesMustMatch) {
   EXPECT_THROW((void)difference_image(filled(2, 3, 0), filled(3, 2, 0), 1), core::InputError);
 }
 
-// A picture of four pixels: particles 7 and 8 at depths 2 and 3, then nothing, then an uncertain
+// An image of four pixels: particles 7 and 8 at depths 2 and 3, then nothing, then an uncertain
 // pixel.
 core::Image particles() {
   core::Image image = filled(4, 1, 0.5F);

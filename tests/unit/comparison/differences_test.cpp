@@ -49,7 +49,7 @@ class Differences : public testing::Test {
     return find_differences({record_a, device_a, image_a, &truth, {}, open_counts},
                             {record_b, device_b, image_b, &truth, {}, open_counts}, same_setup);
   }
-  // The one difference there must be.
+  // The only difference; there must be exactly one.
   [[nodiscard]] Difference only(bool same_setup = true) const {
     const Comparison found = find(same_setup);
     EXPECT_EQ(found.differences.size(), 1U);
@@ -102,9 +102,10 @@ TEST_F(Differences, ACounterThatIsLostIsARegressionOnTheSameDriverAlone) {
 
 TEST_F(Differences, AStatisticIsHeldToWhatItsDriversCanCount) {
   record_b.statistics["fragment_invocations"] = 160;
-  EXPECT_EQ(only().kind, DifferenceKind::regression);  // one driver, two numbers
+  EXPECT_EQ(only().kind, DifferenceKind::regression);  // one driver with two numbers
   use_another_driver();
-  EXPECT_EQ(only().kind, DifferenceKind::changed);  // both exact, but the API leaves it open
+  EXPECT_EQ(only().kind,
+            DifferenceKind::changed);  // both are exact, but the API leaves the number open
   device_a.statistics_calibration["fragment_invocations"] = {
       .worth = record::Worth::inflated, .low = 1.02, .high = 3.9};
   EXPECT_EQ(only().kind, DifferenceKind::calibration);
@@ -224,7 +225,7 @@ TEST(DeviceDifferences, LimitsAreGainedLostAndChanged) {
   b.limits = {{"x", "2"}, {"z", "1"}};
   a.statistics_calibration = {{"fragment_invocations", {.worth = record::Worth::inflated}}};
   b.statistics_calibration = {{"fragment_invocations", {}},
-                              {"compute_invocations", {}}};  // of which a's run drew nothing
+                              {"compute_invocations", {}}};  // the run of a drew none of these
   const auto found = find_differences(a, b);
   ASSERT_EQ(found.size(), 4U);
   EXPECT_EQ(found[0].text, "1 → 2");
@@ -235,7 +236,7 @@ TEST(DeviceDifferences, LimitsAreGainedLostAndChanged) {
   EXPECT_THAT(find_differences(a, b), IsEmpty());
 }
 
-// OpenCL bins spheres that Vulkan and GL draw at once.
+// OpenCL sorts spheres into bins, and Vulkan and GL draw them at once.
 TEST_F(Differences, WhatAnApiCountsInItsOwnWayIsNoRegressionOfAnother) {
   use_another_driver();
   record_a.counters["bin_entries"] = 44;

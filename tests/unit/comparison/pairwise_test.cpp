@@ -33,7 +33,8 @@ TEST(SignedRank, GivesThePublishedValues) {
   EXPECT_NEAR(estimate_shift(depression_scale(), 0.025).estimate, 0.46, 1e-12);
 }
 
-// Every assignment of signs to the distances, one by one: the null distribution by definition.
+// Enumerates every assignment of signs to the distances, which is the definition of the null
+// distribution.
 TEST(SignedRank, IsTheEnumeratedNullDistributionWithAndWithoutTies) {
   core::Random random(3);
   for (std::size_t n = 1; n <= 10; ++n) {
@@ -68,7 +69,7 @@ TEST(SignedRank, ZerosSayNothing) {
   EXPECT_EQ(wilcoxon_signed_rank(std::vector<double>(30, 0.5), 0.5).p_greater, 1);
 }
 
-// Differences of n distinct sizes whose ranks above 0 add up to `statistic`.
+// Differences of n distinct sizes. The sum of the ranks above 0 is `statistic`.
 std::vector<double> differences_with(std::size_t n, std::size_t statistic) {
   std::vector<double> values;
   for (std::size_t rank = n; rank > 0; --rank) {
@@ -80,7 +81,8 @@ std::vector<double> differences_with(std::size_t n, std::size_t statistic) {
 }
 
 // The first term that the normal approximation leaves out (Edgeworth; V is symmetric) is
-// φ(z)(3z − z³)·κ₄/(24σ⁴) with κ₄ = −Σi⁴/8, and φ(z)(3z − z³) ≤ 0.551. A tenth for the terms after.
+// φ(z)(3z − z³)·κ₄/(24σ⁴) with κ₄ = −Σi⁴/8, and φ(z)(3z − z³) ≤ 0.551. A tenth is added for the
+// following terms.
 TEST(SignedRank, TheApproximationErrsByItsNextTermAtMost) {
   constexpr std::size_t n = most_for_exact + 1;
   std::vector<double> share{1};
@@ -138,13 +140,13 @@ TEST(Shift, TooFewDifferencesHaveAnEndlessInterval) {
   EXPECT_TRUE(std::isnan(estimate_shift({}, 0.01).estimate));
 }
 
-// One comparison on a synthetic machine: both sides share a slow drift (AR(1) from batch to batch),
-// each batch has noise of its own, and now and then something takes a share of the machine away.
+// A comparison on a synthetic machine: both sides share a slow drift (AR(1) from batch to batch),
+// each batch has its own noise, and sometimes something else uses a share of the machine.
 struct Machine {
   double noise = 0.01;
   double drift = 0.01;        // standard deviation of the drift
   double persistence = 0.98;  // from one batch to the next
-  double disturbed = 0.02;    // share of batches half as long again
+  double disturbed = 0.02;    // share of batches that take half as long again
 
   [[nodiscard]] std::vector<double> blocks(double shift, int count, core::Random& random) const {
     std::vector<double> differences;
@@ -195,8 +197,8 @@ Outcomes repeat(const Machine& machine, double shift, int times, std::uint64_t s
   return outcomes;
 }
 
-// The design errs on each side with α = .01; at 300 repetitions 8 or fewer errors are expected with
-// a probability above .99.
+// The design has an error rate of α = .01 on each side. With 300 repetitions, 8 or fewer errors are
+// expected with a probability above .99.
 constexpr int repetitions = 300;
 constexpr int most_errors = 8;
 
@@ -236,7 +238,7 @@ TEST(Sequential, LooksFollowOneAnother) {
   const SequentialDesign design = SequentialDesign::standard();
   EXPECT_EQ(design.next_look(0), 12);
   EXPECT_EQ(design.next_look(12), 24);
-  EXPECT_EQ(design.next_look(20), 24);  // a look at a budget's end
+  EXPECT_EQ(design.next_look(20), 24);  // there is a look when the budget ends
   EXPECT_EQ(design.next_look(384), 0);
   EXPECT_NEAR(design.alpha_of_a_look(), 0.01 / 6, 1e-15);
 }
@@ -266,7 +268,7 @@ TEST(Confirm, WhatOneProcessRunAloneSaidIsTakenBack) {
             PairVerdict::undecided);
 }
 
-// What is no suspect is no hypothesis: nothing can be said of it any more.
+// A configuration that is no suspect is no hypothesis: nothing can be said about it any more.
 TEST(Confirm, CountsTheSuspectsAsHypotheses) {
   std::vector<Suspect> suspects{{{0.0135, 0.0175, 0.0095, 0.0155, 0.0115}, true}};
   EXPECT_EQ(confirm(suspects, 0.05, SequentialDesign::standard())[0].verdict, PairVerdict::slower);
@@ -295,7 +297,7 @@ TEST(Confirm, OneProcessRunHasNoScatter) {
   EXPECT_EQ(confirmed[2].verdict, PairVerdict::slower);
 }
 
-// Process runs of each suspect, handed out one by one.
+// The process runs of each suspect, returned one by one.
 struct ProcessRuns {
   std::vector<std::vector<double>> process_runs;
   std::vector<std::vector<std::size_t>> asked;  // which suspects, by process run
@@ -317,7 +319,7 @@ struct ProcessRuns {
   }
 };
 
-// Five process runs settle what is plain; what they leave open is run five times more.
+// Five process runs decide what is obvious; the rest is run five more times.
 TEST(ConfirmInLooks, GoesOnWithWhatIsOpen) {
   core::Random random(21);
   std::vector<double> scattered{0.05, 0.01, 0.06, 0.012, 0.05, 0.035, 0.03, 0.04, 0.036, 0.03};
@@ -343,10 +345,10 @@ TEST(ConfirmInLooks, EndsWithTheProcessRunsThatThereAre) {
   EXPECT_TRUE(ProcessRuns().confirm_all().empty());
 }
 
-// Process runs shift every block of theirs: one process run's interval is far too narrow, and what
-// it alone calls slower must not survive. Over families of 24 configurations, none of them slower
-// by more than what is tolerated, false discoveries are among at most q of 200 families: at q = .02
-// more than 10 come about with a probability below .003.
+// A process run shifts all of its blocks, so the interval of a single process run is far too
+// narrow, and what is slower only in one of them must not be reported. Over families of 24
+// configurations, none of which is slower by more than the tolerance, at most a share q of 200
+// families has false discoveries: with q = .02, more than 10 happen with a probability below .003.
 TEST(ConfirmInLooks, ProcessRunEffectsAreSeldomBelieved) {
   const SequentialDesign design = SequentialDesign::standard();
   const double between = 0.01;

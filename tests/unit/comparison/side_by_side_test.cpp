@@ -26,7 +26,7 @@ TEST(SideBySide, IsTheGeometricMeanOverWhatAllMeasured) {
   std::vector<record::Record> records{
       measured("gl:x", "a", "1", 100), measured("vulkan:y", "a", "1", 200),
       measured("gl:x", "a", "2", 100), measured("vulkan:y", "a", "2", 80),
-      measured("gl:x", "a", "3", 1),  // alone: compares with nothing
+      measured("gl:x", "a", "3", 1),  // it is alone, so it is compared with nothing
       measured("gl:x", "b", "1", 30),  measured("vulkan:y", "b", "1", 10)};
   records[1].counters["samples"] = 150;
   const auto table = side_by_side(records);
@@ -57,7 +57,8 @@ TEST(SideBySide, TakesTimesWhereNothingWasCountedAndSaysWhatIsMissing) {
   EXPECT_THAT(to_text(*table), HasSubstr("\nbest  a 10 ms  a 20 ms  b 20 ms  \n"));
 }
 
-// The device's clock tells less of a frame than the wall clock: one on either is no race.
+// The device's clock shows less time for a frame than the wall clock, so devices with different
+// clocks are not compared.
 TEST(SideBySide, ComparesTimesOnOneClock) {
   std::vector<record::Record> records{measured("gl:x", "a", "1", 10),
                                       measured("gl:y", "a", "1", 20)};

@@ -50,7 +50,7 @@ TEST(ComparisonText, NamesTheVariablesOfASide) {
               HasSubstr("WIDTH=128\nb: the same, but WIDTH=256\n"));
 }
 
-// One configuration, of which neither side can do anything.
+// One configuration, which neither side supports.
 TEST(ComparisonText, SaysWhyNothingWasCompared) {
   ComparisonResult result;
   Compared skipped;
@@ -64,7 +64,7 @@ TEST(ComparisonText, SaysWhyNothingWasCompared) {
                     Not(HasSubstr("nothing differs"))));
 }
 
-// Its shift is 0 as long as nobody measured it: no number to split by the work.
+// Its shift is 0 because nobody measured it, so it must not be divided by the work.
 TEST(ComparisonText, TellsNoTimePerWorkWhereNoTimeWasTaken) {
   ComparisonResult result;
   result.timed = true;

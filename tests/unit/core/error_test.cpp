@@ -30,7 +30,8 @@ TEST(ApiError, NamesCallCodeAndPlace) {
   EXPECT_EQ(error.code(), "CL_OUT_OF_RESOURCES");
 }
 
-// One catch per configuration needs all of them below Error, and a lost device below API errors.
+// A single catch for each configuration requires that all of them derive from Error, and that a
+// lost device derives from API errors.
 TEST(Errors, FormOneFamily) {
   static_assert(std::is_base_of_v<Error, InputError>);
   static_assert(std::is_base_of_v<Error, IoError>);

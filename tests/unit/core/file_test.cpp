@@ -67,7 +67,7 @@ TEST(File, TextsHaveALargestSize) {
   EXPECT_EQ(read_text(file, 10), std::string(10, 'x'));
   EXPECT_THAT([&] { (void)read_text(file, 9); },
               ThrowsMessage<InputError>(HasSubstr("a.txt: is too large: more than 9 bytes")));
-  // What states no size is read no further either.
+  // A file that states no size is not read any further, either.
   EXPECT_THAT([&] { (void)read_text("/proc/self/status", 100); },
               ThrowsMessage<InputError>(HasSubstr("is too large")));
 }
@@ -87,7 +87,8 @@ TEST(File, ReportsAFullDisk) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
-// Files may not grow beyond `bytes` while this stands: a full disk that even the superuser meets.
+// Files cannot grow beyond `bytes` while this object lives: a full disk that also affects the
+// superuser.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

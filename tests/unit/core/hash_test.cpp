@@ -28,7 +28,8 @@ TEST(ContentHash, TellsContentsApart) {
   EXPECT_EQ(content_hash(text).size(), 32U);
 }
 
-// What every machine must make of these parts: identities in stores and baselines are made of them.
+// Every machine must compute these values from these parts, because identities in stores and
+// baselines consist of them.
 TEST(HashBuilder, IsTheSameEverywhere) {
   const auto of_parts = [](std::int64_t number, double real, std::string_view text) {
     return HashBuilder("kind").add(number).add(real).add(text).hash();

@@ -27,7 +27,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::ThrowsMessage;
 
-// Arbitrary bits, so that NaN payloads, infinities and denormals are among the values.
+// Random bits, so that the values include NaN payloads, infinities and denormals.
 Image noise(int width, int height, bool particles) {
   Random random(7);
   Image image(width, height);
@@ -75,7 +75,7 @@ TEST(Exr, FileAndMemoryAgree) {
   expect_same(read_exr(folder.path() / "a.exr"), image);
 }
 
-// Read by the library's own file reader, as any other program would.
+// Read by the file reader of the library, as any other program would do.
 TEST(Exr, IsWhatOtherProgramsExpect) {
   const TemporaryFolder folder;
   Image image(3, 2);
@@ -98,7 +98,7 @@ TEST(Exr, IsWhatOtherProgramsExpect) {
 TEST(Exr, ReadsHalfFloatsAndShiftedWindows) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "half.exr";
-  // A frame of 5 columns and 7 rows, of which the file gets the lower right 3x2.
+  // A frame of 5 columns and 7 rows, of which the lower right 3×2 pixels are written to the file.
   std::vector<Imf::Rgba> frame(5 * 7);
   frame[5 * 5 + 3] = Imf::Rgba(0, 1, 0, 1);
   frame[5 * 6 + 4] = Imf::Rgba(0, 0, 0.5F, 0.5F);
@@ -137,7 +137,7 @@ TEST(Exr, EveryTruncationIsOneLineOfBadInput) {
   }
 }
 
-// Whatever byte is wrong, the result is an image or a typed error, never a crash or an endless
+// Whichever byte is wrong, the result is an image or a typed error, never a crash or an endless
 // loop.
 TEST(Exr, DamagedBytesNeverEscape) {
   const std::vector<std::byte> bytes = encode_exr(noise(8, 20, false));
@@ -151,7 +151,7 @@ TEST(Exr, DamagedBytesNeverEscape) {
   }
 }
 
-// A header of some hundred bytes would make OpenEXR ask for two gigabytes.
+// A header of some hundred bytes would make OpenEXR allocate two gigabytes.
 TEST(Exr, AnAttributeBeyondTheFileIsRefusedBeforeMemoryIsAskedFor) {
   std::vector<std::byte> bytes = encode_exr(noise(8, 20, false));
   const std::string_view name("channels\0chlist", 15);
@@ -172,7 +172,7 @@ TEST(Exr, ChannelsThatEndElsewhereThanStatedAreRefused) {
               ThrowsMessage<InputError>(HasSubstr("channels that end at byte")));
 }
 
-// Of eight million columns OpenEXR would take half a gigabyte for the first rows.
+// For eight million columns, OpenEXR would allocate half a gigabyte for the first rows.
 TEST(Exr, AWindowThatIsTooWideIsRefusedBeforeMemoryIsAskedFor) {
   std::vector<std::byte> bytes = encode_exr(noise(8, 20, false));
   const std::string_view name("dataWindow\0box2i", 16);

@@ -20,11 +20,11 @@ TEST(ShellQuoted, LeavesAloneWhatNeedsNoQuotes) {
   EXPECT_EQ(shell_quoted("a b"), "'a b'");
   EXPECT_EQ(shell_quoted("it's"), R"('it'\''s')");
   EXPECT_EQ(shell_quoted("vulkan:*"), "'vulkan:*'");
-  EXPECT_EQ(shell_quoted("=ls"), "'=ls'");  // a program's path to zsh
+  EXPECT_EQ(shell_quoted("=ls"), "'=ls'");  // zsh would take it for a program's path
   EXPECT_EQ(shell_quoted("a\x1b'\n"), "\"$(printf 'a\\033\\047')\"'\n'");
 }
 
-// Words that a shell could obey, or lose a part of.
+// Words that a shell could execute, or of which it could lose a part.
 const std::vector<std::string> hostile_words{"ev$(touch x)`id`",
                                              "a;b|c&d>e<f",
                                              "it's \"both\"",
@@ -49,7 +49,7 @@ const std::vector<std::string> hostile_words{"ev$(touch x)`id`",
                                              "no utf-8 \xff'\\",
                                              std::string(20000, '\'')};
 
-// The shells that are here of those that people paste into.
+// The shells on this machine into which people paste commands.
 std::vector<std::string> shells() {
   std::vector<std::string> found;
   for (const std::string& shell : {std::string("dash"), std::string("bash"), std::string("zsh -f"),
@@ -77,7 +77,7 @@ TEST(ShellQuoted, EveryShellReadsTheWordAndRunsNothing) {
   }
 }
 
-// A line of a terminal, but for the line ends that a word ends with.
+// A line on a terminal, except for the line ends at the end of a word.
 TEST(ShellQuoted, HoldsNoHiddenCharacter) {
   for (const std::string& word : hostile_words) {
     if (word.ends_with('\n')) continue;
@@ -89,7 +89,7 @@ TEST(ShellEnvironment, IsReadByEveryShellWhateverTheNames) {
   for (const std::string& shell : shells()) {
     for (const std::string& hostile : hostile_words) {
       if (hostile.find('=') != std::string::npos || hostile.size() > 1000) continue;
-      // `env` takes no option for a variable: each entry holds a '='.
+      // `env` takes no option for a variable, because each entry contains a '='.
       const std::string name = "V" + hostile;
       const std::array words{std::string("printenv"), name};
       EXPECT_EQ(read_back(shell, shell_environment({{"A", "1"}, {name, hostile}}) +
@@ -111,11 +111,11 @@ TEST(Printable, ShowsWhatATerminalWouldObey) {
   EXPECT_EQ(printable("µ\xff\u0085"), "µ\uFFFD\\u{0085}");
 }
 
-// What shows a name as another one: direction, and what is not seen at all.
+// Characters that make a name look like another one: changes of direction, and invisible ones.
 TEST(Printable, ShowsWhatChangesTheDirectionOfText) {
   EXPECT_EQ(printable("\u202Egnp.exe\u2069\u200F"), "\\u{202e}gnp.exe\\u{2069}\\u{200f}");
   EXPECT_EQ(printable("a\u200Bb\uFEFF\U000E0041"), "a\\u{200b}b\\u{feff}\\u{e0041}");
-  EXPECT_EQ(printable("\u0645\u200C\u0627"), "\u0645\u200C\u0627");  // a joiner of letters
+  EXPECT_EQ(printable("\u0645\u200C\u0627"), "\u0645\u200C\u0627");  // joins letters
 }
 
 TEST(Printable, LinesStayLines) {

@@ -1,4 +1,4 @@
-// Lines against data sets with published fits.
+// Lines for data sets with published fits.
 
 #include "estimation/regression.hpp"
 
@@ -89,7 +89,7 @@ TEST(RobustLine, SeesTheCallsAndNotTheMinutes) {
 }
 
 TEST(RobustLine, IsLeastSquaresWhereNothingIsWild) {
-  // A scatter without a trend.
+  // Points without a trend.
   Values x;
   Values y;
   for (int i = 0; i < 20; ++i) {
@@ -102,7 +102,7 @@ TEST(RobustLine, IsLeastSquaresWhereNothingIsWild) {
   EXPECT_NEAR(robust.slope_error, plain.slope_error, 0.25 * plain.slope_error);
   double sum = 0;
   for (const double h : robust.leverages) sum += h;
-  EXPECT_NEAR(sum, 2, 0.2);  // the number of parameters, but for the weights
+  EXPECT_NEAR(sum, 2, 0.2);  // the number of parameters, except for the weights
 }
 
 TEST(RobustLine, AnExactLineHasNoScale) {
@@ -133,7 +133,7 @@ TEST(RobustLine, WithstandsWildPointsOfAlmostHalf) {
 TEST(Lines, TheilAndSenFindTheSlope) {
   Values x;
   Values y;
-  for (int i = 0; i < 26; ++i) {  // 325 pairs: the median is one of them
+  for (int i = 0; i < 26; ++i) {  // with 325 pairs, the median is one of them
     x.push_back(0.2 * i + 0.03 * std::cos(5.0 * i));
     y.push_back(0.4 + 0.18 * i + 0.03 * std::sin(9.0 * i));
   }

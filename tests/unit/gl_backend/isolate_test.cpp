@@ -1,4 +1,4 @@
-// A driver's worst deeds, done by a child.
+// A child does the worst that a driver can do.
 #include "backends/gl/isolate.hpp"
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 using testing::HasSubstr;
 
 TEST(AskInChild, HandsBackWhatTheChildSays) {
-  const std::string long_text(1'000'000, 'x');  // more than a pipe holds
+  const std::string long_text(1'000'000, 'x');  // more than fits into a pipe
   const Answer answer = ask_in_child([&] { return long_text; }, 10s);
   EXPECT_EQ(answer.text, long_text);
   EXPECT_EQ(answer.failure, "");

@@ -1,4 +1,4 @@
-// Libraries that are not there: a machine without a driver still runs.
+// Libraries that are missing: the program also runs on a machine without a driver.
 #include "backends/gl/library.hpp"
 
 #include <gmock/gmock.h>

@@ -106,7 +106,7 @@ TEST_F(AcceptTest, WhatThePlanNoLongerHoldsIsDropped) {
   EXPECT_EQ(std::ranges::distance(std::filesystem::directory_iterator(baseline("images"))), 1);
 }
 
-// Only where one says so: a skip may be the day's.
+// Only on request, because a skip may be temporary.
 TEST_F(AcceptTest, WhatADeviceSkipsNowIsDropped) {
   accept_first([](record::Record& record, core::Image&) { record.memory = {{"buffers", 9}}; });
   const auto timings = device_file("timings", "opencl");
@@ -129,7 +129,7 @@ TEST_F(AcceptTest, WhatADeviceSkipsNowIsDropped) {
   EXPECT_EQ(counters[plain_]["samples"].size() + 1, counters[bricks_]["samples"].size());
 }
 
-// Of the same files: what is dropped does not bring back what was there before.
+// Concerns the same files: dropping does not restore what was there before.
 TEST_F(AcceptTest, DroppingKeepsWhatIsAcceptedBesides) {
   add_run("b", [&](record::Record& record, core::Image&) {
     record.counters["samples"] = 7;
@@ -142,7 +142,7 @@ TEST_F(AcceptTest, DroppingKeepsWhatIsAcceptedBesides) {
     EXPECT_EQ(counters[plain_]["samples"]["gl:llvmpipe-egl"], 7);
     EXPECT_EQ(counters[bricks_]["samples"]["opencl:pocl"], 7);
   };
-  (void)accept_run("b", {.only = "*", .drop = true});  // nothing was there
+  (void)accept_run("b", {.only = "*", .drop = true});  // there was nothing before
   expect_accepted();
   std::filesystem::remove_all(baseline("counters.json").parent_path());
   accept_first();
@@ -150,7 +150,7 @@ TEST_F(AcceptTest, DroppingKeepsWhatIsAcceptedBesides) {
   expect_accepted();
 }
 
-// One device's run replaces its own voxel format's hash, and leaves the others'.
+// The run of one device replaces the hash for its own voxel format and keeps those for the others.
 TEST_F(AcceptTest, DataOfOtherFormatsKeepsItsHash) {
   const auto with_formats = [](record::Record& record, core::Image&) {
     record.factors["voxel"] = record.device == "vulkan:lavapipe" ? "f32" : "u8";
@@ -210,7 +210,7 @@ TEST_F(AcceptTest, TheTimesAreOfOneRun) {
   EXPECT_NEAR(median("opencl") / opencl, 2, 0.05);
 }
 
-// By the plan's checks, not by its name.
+// Depends on the checks of the plan, not on its name.
 TEST_F(AcceptTest, PicturesAndTimesAreKeptOfPlansThatCheckThem) {
   checks_ = {Check::image, Check::timing};
   accept_first();
@@ -326,7 +326,7 @@ TEST_F(AcceptTest, WhatIsNotAsItWasAcceptedIsNotBuiltUpon) {
 
 class WholeAcceptTest : public AcceptTest {
  protected:
-  // Every file below the baselines' root with its content.
+  // Every file below the root of the baselines, with its content.
   [[nodiscard]] std::map<std::string, std::string> everything() const {
     std::map<std::string, std::string> files;
     for (const auto& entry :

@@ -1,4 +1,4 @@
-// Pictures against their limits: the parts of an error, and errors as baselines.
+// Images compared with their limits: the parts of an error, and errors as baselines.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -48,7 +48,7 @@ class AccuracyGateTest : public JudgeTest {
     (void)accept(store_, run, folder_.path() / "baselines", request);
   }
 
-  // A truth that has nine hundredths of a picture's error less than the picture.
+  // A reference image whose error is smaller than that of the image by nine hundredths of it.
   core::Image nearer_truth(const record::Record& record) {
     core::Image image = core::decode_exr(store_.image(record.image));
     const core::Image& limit = limit_of(record)->image;
@@ -58,7 +58,7 @@ class AccuracyGateTest : public JudgeTest {
     return image;
   }
 
-  // A picture 0.02·stepᵒʳᵈᵉʳ from the limit.
+  // An image with the distance 0.02·stepᵒʳᵈᵉʳ from the limit.
   void add_step(const std::string& run, double step, double order) {
     record::Record record;
     record.run = run;
@@ -78,7 +78,7 @@ class AccuracyGateTest : public JudgeTest {
     store_.add_record(record);
   }
 
-  // Moves one device's pictures.
+  // Changes the images of one device.
   static Tweak moved(float by) {
     return [by](record::Record& record, core::Image& image) {
       if (record.device == "vulkan:lavapipe" && record.configuration == plain_) {
@@ -121,7 +121,7 @@ TEST_F(AccuracyGateTest, AcceptedErrorsPass) {
   EXPECT_EQ(json.at("configurations")[1].at("rmse"), result.accuracies[0].cases[1].rmse);
 }
 
-// By the device's clock where it counts for all that it drew.
+// The device's clock is used if it is trusted for everything that the device drew.
 TEST_F(AccuracyGateTest, TimesOfADeviceAreOfOneClock) {
   const auto timed = [](bool all) {
     return [all](record::Record& record, core::Image&) {
@@ -143,7 +143,8 @@ TEST_F(AccuracyGateTest, TimesOfADeviceAreOfOneClock) {
   }
 }
 
-// Farther from the limit than rounding explains, though within the bound on the picture.
+// The distance from the limit exceeds what rounding explains, although it is within the bound of
+// the image.
 TEST_F(AccuracyGateTest, ALargerErrorIsARegression) {
   add_run("a");
   accept_with_errors("a");
@@ -169,7 +170,7 @@ TEST_F(AccuracyGateTest, WithoutAStoredErrorNothingIsDecided) {
   EXPECT_EQ(with(gate("a"), Verdict::cannot_judge, Check::accuracy).size(), 12U);
 }
 
-// A device that was never accepted may be as far off as the worst of those that were.
+// A device that was never accepted may have an error as large as the worst accepted one.
 TEST_F(AccuracyGateTest, AnotherDeviceIsHeldToTheWorstOfTheAccepted) {
   add_run("a");
   accept_with_errors("a");
@@ -189,7 +190,7 @@ TEST_F(AccuracyGateTest, AnotherDeviceIsHeldToTheWorstOfTheAccepted) {
   EXPECT_TRUE(with(gate("c"), Verdict::regression, Check::accuracy).empty());
 }
 
-// At order 1.95 the finest error is 15 % larger, which the accepted rounding leaves room for.
+// With order 1.95 the error of the finest step is 15 % larger, which the accepted rounding permits.
 TEST_F(AccuracyGateTest, AnOrderThatFellIsARegression) {
   request_.truth = [this](const record::Record& record) {
     const core::Image truth = nearer_truth(record);
@@ -211,7 +212,7 @@ TEST_F(AccuracyGateTest, AnOrderThatFellIsARegression) {
   ASSERT_EQ(fallen.size(), 1U) << text(gate("c"));
   EXPECT_NEAR(fallen[0].number("order"), 1.95, 5e-3);
   EXPECT_NEAR(fallen[0].number("stored_order"), 2, 5e-3);
-  // A truth so far from the pictures that hardly an error is the step's.
+  // A reference image so far from the images that almost no error comes from the step.
   request_.truth = [](const record::Record& record) {
     const core::Image truth = truth_of(record.scene);
     return TruthPair{.truth = truth, .bound = truth};
@@ -221,7 +222,7 @@ TEST_F(AccuracyGateTest, AnOrderThatFellIsARegression) {
   EXPECT_EQ(lost[0].cause, Cause::no_order);
 }
 
-// Of what cannot be looked at the others' verdicts are none the worse, and none the better.
+// Configurations that cannot be judged make the verdicts of others neither worse nor better.
 TEST_F(AccuracyGateTest, WhatCannotBeLookedAtIsTold) {
   add_run("a");
   accept_with_errors("a");

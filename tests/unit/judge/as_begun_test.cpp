@@ -1,4 +1,5 @@
-// A run that is less than it set out to be, a machine that lost a device, a plan that lost a check.
+// A run that has less than it set out to measure, a machine that lost a device, a plan that lost a
+// check.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
@@ -30,7 +31,7 @@ class AsBegunTest : public GateTest {
     begun.host = "host1";
     store_.begin(run, begun, configurations_);
   }
-  // A run on such a machine.
+  // Adds a run on such a machine.
   void add_begun(const std::string& run, const record::Beginning& begun = {}) {
     add_run(run);
     begin(run, begun);
@@ -45,7 +46,7 @@ class AsBegunTest : public GateTest {
   void write_absent(const std::string& text) {
     core::write_file(text, folder_.path() / "baselines" / "absent.json");
   }
-  // What cannot be judged: "DEVICE CAUSE NAMES" each.
+  // The findings that cannot be judged, each as "DEVICE CAUSE NAMES".
   static std::vector<std::string> undecided(const GateResult& result) {
     std::vector<std::string> lines;
     for (const Finding& each : with(result, Verdict::cannot_judge)) {
@@ -66,7 +67,7 @@ TEST_F(AsBegunTest, AWholeRunPasses) {
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::pass) << text(gate("run"));
 }
 
-// Cut short after the first device is complete.
+// The run was cut short when the first device was complete.
 TEST_F(AsBegunTest, ADeviceThatWasNotReachedIsNamed) {
   accept_begun();
   add_begun("run");
@@ -81,7 +82,7 @@ TEST_F(AsBegunTest, ADeviceThatWasNotReachedIsNamed) {
 TEST_F(AsBegunTest, AConfigurationThatWasNotReachedIsNamedWithoutThePlan) {
   accept_begun();
   add_begun("run");
-  request_.part = true;  // so that no accepted configuration is missed
+  request_.part = true;  // so that no accepted configuration counts as missing
   delete_rows("DELETE FROM record WHERE run = 'run' AND configuration = '" + plain_ + "'");
   EXPECT_THAT(undecided(gate("run")), Contains("opencl:pocl missing " + plain_));
 }
@@ -133,7 +134,8 @@ TEST_F(AsBegunTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
   EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
 }
 
-// A machine of another kind: no driver version that was accepted, or a run of some devices only.
+// A machine of another kind: it has no driver version that was accepted, or the run asked for some
+// devices only.
 TEST_F(AsBegunTest, OtherMachinesLackNothing) {
   accept_begun();
   const record::Beginning asked{
@@ -188,7 +190,7 @@ TEST_F(AsBegunTest, InjectedFaultsAreCountedWhateverTheVerdict) {
   EXPECT_EQ(gate("run").injected, (std::map<std::string, std::size_t>{{"slowdown", 4}}));
 }
 
-// The manifest proves the other files: what it says of them is compared with them.
+// The manifest proves the other files, so its content is compared with them.
 TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
   accept_begun();
   const std::string whole = folder_.read(baseline("manifest.json"));

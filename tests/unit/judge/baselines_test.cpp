@@ -1,4 +1,4 @@
-// Accepted files that are gone, edited or strange: told from a device that is new.
+// Accepted files that are missing, edited or unknown are distinguished from a device that is new.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -45,7 +45,7 @@ class BaselinesTest : public JudgeTest {
 
 TEST_F(BaselinesTest, AsAcceptedTheyPass) {
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
-  EXPECT_GE(names().size(), 4U + 2 + 3 + 3 + 2);  // of plans, pictures, cost, times, statistics
+  EXPECT_GE(names().size(), 4U + 2 + 3 + 3 + 2);  // of plans, images, cost, times, statistics
 }
 
 TEST_F(BaselinesTest, EveryFileThatIsGoneIsNamed) {
@@ -84,7 +84,7 @@ TEST_F(BaselinesTest, ABrokenManifestIsNamedWithItsLine) {
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
 }
 
-// What a careless merge leaves, even where its checksum was mended.
+// What a careless merge leaves, even if its checksum was corrected.
 TEST_F(BaselinesTest, AWrongValueIsAnErrorWithItsLine) {
   rewrite("counters.json", "{\n \"x\": {\n  \"samples\": {\"gl:a\": \"many\"}}}\n");
   try {

@@ -1,5 +1,5 @@
-// Statistics of a new driver version, judged by the calibrations of this driver and of the stored
-// ones.
+// The statistics of a new driver version are judged by its calibration and by those of the stored
+// versions.
 
 #include <gmock/gmock.h>
 
@@ -20,8 +20,8 @@ const Calibration doubled{
 
 class CalibrationGateTest : public JudgeTest {
  protected:
-  // What is said of a new version of lavapipe, whose calibration is `own` and which counts 49
-  // instead of 48, where only GL's numbers are stored.
+  // The finding about a new version of lavapipe with the calibration `own`, which counts 49 instead
+  // of 48, if only the numbers of GL are stored.
   Finding advice(const Calibration& stored, const Calibration& own) {
     calibrations_["gl:llvmpipe-egl"] = stored;
     accept_first([](record::Record& record, core::Image&) {
@@ -39,7 +39,8 @@ class CalibrationGateTest : public JudgeTest {
   }
 };
 
-// It tells another number of the same picture each time: nothing that a driver could be held to.
+// It reports another number for the same image each time, so there is nothing with which it could
+// be compared.
 TEST_F(CalibrationGateTest, WhatIsUnsteadyIsNotHeldToWhatIsStored) {
   const auto verdict_of = [&](const std::string& run, Worth worth) {
     calibrations_["vulkan:lavapipe"] = {{"fragment_invocations", {.worth = worth}}};
@@ -105,7 +106,7 @@ TEST_F(CalibrationGateTest, ARunThatDidNotLookKeepsTheStoredCalibration) {
       stored.statistics_calibration(device_file("statistics", "vulkan").stem().string()).empty());
 }
 
-// A part of a plan asks for fewer statistics.
+// A part of a plan needs fewer statistics.
 TEST_F(CalibrationGateTest, ARunThatLookedAtSomeKeepsWhatIsStoredOfTheOthers) {
   calibrations_["gl:llvmpipe-egl"] = {{"compute_invocations", {}}, {"fragment_invocations", {}}};
   add_run("a");

@@ -46,7 +46,7 @@ TEST(CodeChange, EachStatisticHasItsDirection) {
   EXPECT_EQ(direction_of({{"Spilled VGPRs", 1}}), CodeDirection::worse);
 }
 
-// Registers matter where they cost occupancy.
+// Registers matter only if they reduce the occupancy.
 TEST(CodeChange, RegistersAndUnknownStatisticsDecideNothing) {
   EXPECT_EQ(direction_of({{"VGPRs", 88}}), CodeDirection::other);
   EXPECT_EQ(direction_of({{"Something new", 6}}), CodeDirection::other);
@@ -157,7 +157,7 @@ TEST_F(CodeGateTest, OtherPartsCannotBeCompared) {
             Cause::other_executables);
 }
 
-// A compiler that crashes, or no longer takes what it took.
+// A compiler that crashes, or that no longer accepts what it accepted before.
 TEST_F(CodeGateTest, WhatNoLongerCompilesIsARegression) {
   const GateResult result = judge(compiled([](record::Record& record) {
     if (record.device != "vulkan:lavapipe" || record.configuration != plain_) return;

@@ -1,4 +1,4 @@
-// What the correlation finds of injected slowdowns, and what it leaves alone.
+// What the correlation finds about injected slowdowns, and what it does not report.
 
 #include <gmock/gmock.h>
 
@@ -17,7 +17,7 @@ constexpr const char* llvmpipe = "gl:llvmpipe-egl";
 constexpr const char* pocl = "opencl:pocl";
 const std::string chosen = "camera=c1,data=d2,step=1,technique=t3";
 
-// Without findings of other devices and of how a whole device is.
+// Without findings about other devices, or about a device as a whole.
 std::vector<Finding> named(const CorrelationFindings& result) {
   std::vector<Finding> findings;
   for (const Finding& finding : result.findings) {
@@ -40,7 +40,7 @@ TEST(AcceptedDevices, JitterWithinTheBoundsIsNothing) {
   }
 }
 
-// The test of the test before: jitter beyond its bound is told.
+// Tests the previous test: jitter beyond its bound is reported.
 TEST(AcceptedDevices, JitterBeyondTheBoundIsTold) {
   CorrelationWorld world(1);
   world.add_device(lavapipe, true);
@@ -70,7 +70,8 @@ TEST(AcceptedDevices, HalfAPercentOfOneConfigurationIsNamedFirst) {
   }
 }
 
-// Half a percent of the frame in the driver alone: PoCL's bound and another's are less together.
+// Half a percent of the frame in the driver only, because the sum of PoCL's bound and another one
+// is smaller.
 TEST(AcceptedDevices, HalfAPercentInTheDriverIsFoundOnPocl) {
   CorrelationWorld world(3);
   world.add_device(lavapipe, true);
@@ -120,7 +121,8 @@ TEST(AcceptedDevices, LessIsAnImprovement) {
   EXPECT_EQ(found[0].verdict, Verdict::improved);
 }
 
-// A change of the program alike on both leaves their residual: that is for the check of cost.
+// A change of the program that affects both devices equally does not change their residual; the
+// check of cost finds it.
 TEST(AcceptedDevices, WhatBothChangedAlikeLeavesTheResidual) {
   CorrelationWorld world(7);
   world.add_device(lavapipe, true, 0.02, {}, on_configuration(chosen, 1.5));
@@ -128,7 +130,7 @@ TEST(AcceptedDevices, WhatBothChangedAlikeLeavesTheResidual) {
   EXPECT_TRUE(named(world.judge()).empty()) << text(world.judge());
 }
 
-// Of one device in the run, the stored costs of others are what it is held against.
+// If a run has only one device, it is compared with the stored costs of others.
 TEST(AcceptedDevices, OneAloneIsHeldAgainstWhatIsStored) {
   CorrelationWorld world(8);
   world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.01));
@@ -151,7 +153,7 @@ TEST(AcceptedDevices, CountsByAnotherCounterAreNotCompared) {
   EXPECT_THAT(text(result), HasSubstr("no_partner"));
 }
 
-// What a new device costs: a factor, and 96 configurations that scatter about the line.
+// The costs of a new device: a factor, and 96 configurations that scatter around the line.
 struct Trials {
   int found = 0;
   int wrong = 0;
@@ -176,9 +178,9 @@ Trials new_devices(const CorrelationWorld::Change& injected, const std::string& 
   return trials;
 }
 
-// Of 100 trials one false name is what q lets expect; four would be another q. Normal scatter of 2
-// % and 96 configurations: 10 % are 4.8 standard deviations, 4 are needed to be wrong in 1 % only.
-// At 1.5 % nearly all are found.
+// In 100 trials, q permits one false name on average; four would mean another q. With normal
+// scatter of 2 % and 96 configurations, 10 % are 4.8 standard deviations, and 4 are needed to be
+// wrong in only 1 %. With a scatter of 1.5 % almost all are found.
 TEST(NewDevice, TenPercentOfOneConfiguration) {
   const Trials wide = new_devices(on_configuration(chosen, 1.1), chosen, "", 0.02);
   EXPECT_GE(wide.found, 60);
@@ -194,7 +196,7 @@ TEST(NewDevice, ThreePercentOfALevel) {
   EXPECT_LE(trials.wrong, 3);
 }
 
-// 1 % of them is 5 of 500; of 1,500 once tried it was 14.
+// 1 % of them is 5 of 500. Of 1,500 in an earlier trial it was 14.
 TEST(NewDevice, NothingInjected) {
   const Trials trials = new_devices({}, "none", "none", 0.02, 500);
   EXPECT_LE(trials.wrong, 10);
@@ -210,7 +212,7 @@ TEST(NewDevice, WhatDoesNotCorrelateIsRefused) {
   EXPECT_TRUE(named(result).empty());
 }
 
-// Of two accepted devices the one with the least scatter.
+// Of two accepted devices, the one with the least scatter judges.
 TEST(NewDevice, TheNearestJudges) {
   CorrelationWorld world(11);
   world.add_device(lavapipe, true, 0.1);

@@ -1,4 +1,4 @@
-// The line of one device along another, and when it may tell something.
+// The line of one device against another, and when it can tell something.
 
 #include <gmock/gmock.h>
 
@@ -9,7 +9,7 @@
 namespace triptych::judge {
 namespace {
 
-// y = 0.7 + slope·x with a wave of this size on it.
+// y = 0.7 + slope·x with a wave of this size.
 CorrelationPair pair_of(std::size_t points, double slope = 1, double wave = 0.02) {
   CorrelationPair pair{.device_a = "a", .device_b = "b", .signal = "cost"};
   for (std::size_t i = 0; i < points; ++i) {
@@ -54,8 +54,8 @@ TEST(FitLine, TooFewForALineHaveNone) {
   EXPECT_FALSE(line_of(alike).admitted());
 }
 
-// A level that lies off by far more than the scatter is no outlier to itself, and what is not in it
-// is held against the line beside it.
+// A level that is off the line by far more than the scatter is no outlier to itself, and everything
+// else is compared with the line beside it.
 TEST(OffTheLine, ALevelAndOneConfiguration) {
   CorrelationPair pair = pair_of(60);
   std::vector<Factors> factors;

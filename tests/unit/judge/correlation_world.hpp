@@ -1,5 +1,5 @@
 #pragma once
-// Synthetic costs of one plan on several devices, today's and what was accepted.
+// Synthetic costs of one plan on several devices, those of today and the accepted ones.
 
 #include <fmt/format.h>
 
@@ -22,10 +22,10 @@ class CorrelationWorld {
 
   bool with_times = false;
 
-  // What a configuration's device code and driver are multiplied by today.
+  // The factor by which the device code and the driver of a configuration changed today.
   using Change = std::function<double(const record::Record&)>;
 
-  // ±1, uniform.
+  // Uniform between −1 and 1.
   double jitter() { return random_.uniform(-1, 1); }
   double normal() {
     double sum = 0;
@@ -33,8 +33,8 @@ class CorrelationWorld {
     return sum - 6;
   }
 
-  // Counts today: those that `cost_of` gives, changed, with the driver's jitter within bounds.
-  // `accepted`: they are stored as well, with a jitter of their own.
+  // The counts of today: those of `cost_of`, changed, with the driver's jitter within its bounds.
+  // `accepted`: they are also stored, with another jitter.
   void add_device(const std::string& id, bool accepted, double scatter = 0.02,
                   const Change& device_code = {}, const Change& driver = {}) {
     record::Device device;
@@ -55,7 +55,7 @@ class CorrelationWorld {
       record->outcome = record::Outcome::measured;
       record->counted_by = "emulator";
       const double frame = std::exp(15 + 0.02 * i + scatter * normal());
-      // Half of a bound each: two counts are apart by no more than it.
+      // Half of a bound for each, so that two counts differ by at most the bound.
       const double bound =
           repeatability(id, record->technique, {0.7 * frame, 0.3 * frame}).driver / 2.01;
       stored.configurations[record->configuration].frame =

@@ -1,4 +1,4 @@
-// What the gate says of instructions per frame.
+// What the gate finds about instructions per frame.
 
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@ class CostGateTest : public JudgeTest {
  protected:
   CostGateTest() { request_.checks = {Check::cost}; }
 
-  // Every frame as counted by one emulator, then changed.
+  // Every frame as one emulator counted it, and then changed.
   static Tweak counted(const std::function<void(record::Record&)>& change = {}) {
     return [change](record::Record& record, core::Image&) {
       record.cost = {{"device_code", device_code},
@@ -29,7 +29,7 @@ class CostGateTest : public JudgeTest {
       if (change) change(record);
     };
   }
-  // Of one configuration on one device.
+  // Changes one configuration on one device.
   static Tweak changed(const std::string& device, const std::string& part, std::int64_t by) {
     return counted([=](record::Record& record) {
       if (record.device != device || record.configuration != plain_) return;
@@ -43,7 +43,7 @@ class CostGateTest : public JudgeTest {
       record.cost["misses"] *= 2;
     });
   }
-  // Of a frame that `change` makes of one configuration, against what was accepted.
+  // Judges a frame that `change` makes of one configuration against the accepted one.
   GateResult judge(const Tweak& change) {
     accept_first(counted());
     add_run("b", change);
@@ -70,7 +70,7 @@ TEST_F(CostGateTest, OneInstructionOfDeviceCodeIsARegression) {
   EXPECT_EQ(wrong[0].number("instructions"), 2000001);
 }
 
-// A run that was resumed, or merged of shards.
+// A run that was resumed, or merged from shards.
 TEST_F(CostGateTest, CountsOfTwoEmulatorsAreNotJudged) {
   const GateResult result = judge(counted([](record::Record& record) {
     if (record.configuration != plain_) return;
@@ -90,7 +90,8 @@ TEST_F(CostGateTest, OneInstructionLessIsAnImprovement) {
   EXPECT_EQ(with(result, Verdict::improved).size(), 1U) << text(result);
 }
 
-// Saved in one, spent in the other: each by itself.
+// Fewer instructions in one part do not compensate for more in another: each part is judged by
+// itself.
 TEST_F(CostGateTest, MoreDeviceCodeIsNotMadeUpForByTheDriver) {
   const GateResult result = judge(counted([](record::Record& record) {
     if (record.configuration != plain_) return;
@@ -103,7 +104,7 @@ TEST_F(CostGateTest, MoreDeviceCodeIsNotMadeUpForByTheDriver) {
   EXPECT_EQ(change_of(wrong[0], "driver").now, 900000);
 }
 
-// 5e-4 of a frame of two millions, and 2,000.
+// 5e-4 of a frame of two million instructions, plus 2,000.
 TEST_F(CostGateTest, TheDriverMayDifferByItsTolerance) {
   EXPECT_EQ(judge(changed("gl:llvmpipe-egl", "driver", 3000)).exit_code(), ExitCode::pass);
 }
@@ -113,7 +114,8 @@ TEST_F(CostGateTest, TheDriverMayNotDifferByMore) {
   EXPECT_EQ(change_of(wrong[0], "driver").now, 1003001);
 }
 
-// 16 and a hundredth of 20,000: a buffer may begin elsewhere within a line.
+// 16 plus a hundredth of 20,000, because a buffer may begin at another position within a cache
+// line.
 TEST_F(CostGateTest, CacheMissesMayDifferByTheirTolerance) {
   EXPECT_EQ(judge(changed("gl:llvmpipe-egl", "misses", 216)).exit_code(), ExitCode::pass);
 }
@@ -126,7 +128,7 @@ TEST_F(CostGateTest, MoreCacheMissesAreARegressionThoughNoInstructionIsMore) {
 TEST_F(CostGateTest, CacheMissesOfSpeedOfLightAreJudgedToo) {
   EXPECT_EQ(judge(twice_the_misses("speed_of_light")).exit_code(), ExitCode::regression);
 }
-// Those of sprites do not repeat.
+// The misses of sprites do not repeat.
 TEST_F(CostGateTest, CacheMissesOfParticlesAreShown) {
   const GateResult result = judge(twice_the_misses("quad_ray"));
   EXPECT_TRUE(with(result, Verdict::regression).empty()) << text(result);
@@ -189,7 +191,7 @@ TEST_F(CostGateTest, PreparingIsShown) {
   EXPECT_EQ(change_of(advice[0], "driver").now, 1200000);
 }
 
-// One line a device, with what is known of the other.
+// One line for each device, with what is known about the other version.
 TEST_F(CostGateTest, AnotherDriverVersionIsAdvice) {
   accept_first(counted());
   driver_versions_["vulkan:lavapipe"] = "23.0";

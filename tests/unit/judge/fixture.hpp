@@ -1,5 +1,5 @@
 #pragma once
-// A small world to judge: three devices, two scenes, two paths each, in a store and a folder of
+// A small world to judge: three devices, two scenes and two paths each, in a store and a folder of
 // baselines of their own.
 
 #include <gtest/gtest.h>
@@ -25,35 +25,34 @@ class JudgeTest : public testing::Test {
   static constexpr const char* plan = "volume/quick";
   static constexpr float bound = 1e-3F;
 
-  // Changes a record and its picture before they are stored.
+  // Changes a record and its image before they are stored.
   using Tweak = std::function<void(record::Record&, core::Image&)>;
 
  protected:
   JudgeTest();
 
-  // Twelve measured records, times with 0.5 % noise around a level per
-  // configuration.
+  // Twelve measured records. Times have 0.5 % noise around a level for each configuration.
   void add_run(const std::string& run, const Tweak& tweak = {});
-  // `how`: all but the plan, the reason, the date and the truth.
+  // `how`: everything except the plan, the reason, the date and the reference image.
   std::vector<std::string> accept_run(const std::string& run, AcceptRequest how = {});
-  // An accepted run, "accepted".
+  // Accepts a run with the id "accepted".
   void accept_first(const Tweak& tweak = {});
   [[nodiscard]] GateResult gate(const std::string& run) const { return gate(run, request_); }
   [[nodiscard]] GateResult gate(const std::string& run, const GateRequest& request) const;
-  // Changes an accepted file as if it had been accepted so.
+  // Changes an accepted file, as if it had been accepted with this content.
   void rewrite(const std::string& name, const std::string& content);
   [[nodiscard]] std::filesystem::path baseline(const std::string& name) const;
-  // The only file in a folder of the plan's baselines whose name begins so.
+  // The only file in a folder of the plan's baselines whose name begins with `prefix`.
   [[nodiscard]] std::filesystem::path device_file(const std::string& folder,
                                                   const std::string& start) const;
 
   [[nodiscard]] static core::Image truth_of(const std::string& scene);
-  // Findings of one verdict, and those of them in one check.
+  // The findings with one verdict, and those of them that are from one check.
   [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Verdict verdict);
   [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Verdict verdict,
                                                  Check check);
   [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Cause cause);
-  // All of a result's findings as text, for failed expectations.
+  // All findings of a result as text, for expectations that fail.
   [[nodiscard]] static std::string text(const GateResult& result);
 
   static inline const std::string plain_ = "camera=front,data=ball,technique=raycast";
@@ -63,11 +62,11 @@ class JudgeTest : public testing::Test {
   TemporaryFolder folder_;
   record::Store store_;
   GateRequest request_;
-  record::Checks checks_;  // of the plan of runs to come
+  record::Checks checks_;  // of the plan, for runs that are added later
   std::string plan_hash_;
-  // Of the devices of runs to come, by id.
+  // Driver versions of devices by id, for runs that are added later.
   std::map<std::string, std::string> driver_versions_;
-  std::map<std::string, std::string> settings_;  // of all of them
+  std::map<std::string, std::string> settings_;  // for all devices
   std::map<std::string, std::map<std::string, record::StatisticWorth>> calibrations_;
 
  private:
@@ -77,7 +76,7 @@ class JudgeTest : public testing::Test {
   core::Random random_{7};
 };
 
-// The change of one value; fails the test where the value did not change.
+// The change of one value; the test fails if the value did not change.
 [[nodiscard]] Change change_of(const Observation& what, const std::string& name);
 // Whether this cause is among those that lost points.
 [[nodiscard]] bool has(const std::vector<Observation>& because, Cause cause);

@@ -1,5 +1,5 @@
 #pragma once
-// What the gate's tests share beside the fixture.
+// Shared by the tests of the gate, in addition to the fixture.
 
 #include "core/file.hpp"
 #include "core/json.hpp"

@@ -1,4 +1,4 @@
-// What the gate says of pictures.
+// What the gate finds about images.
 
 #include <gmock/gmock.h>
 
@@ -74,7 +74,7 @@ TEST_F(GateTest, ChangedTruthIsNamedAsSuch) {
   EXPECT_EQ(wrong[0].cause, Cause::reference_changed);
 }
 
-// Of plans whose pictures are not kept.
+// For plans whose images are not stored.
 TEST_F(GateTest, ATruthWithoutAStoredPictureIsKnownByItsHash) {
   checks_ = {Check::image, Check::counters};
   accept_first();
@@ -86,7 +86,7 @@ TEST_F(GateTest, ATruthWithoutAStoredPictureIsKnownByItsHash) {
       return pair;
     };
   };
-  request_.truth = moved(1e-7F);  // another libm
+  request_.truth = moved(1e-7F);  // another math library
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
   request_.truth = moved(5e-4F);
   const auto wrong = with(gate("accepted"), Verdict::regression);
@@ -108,7 +108,7 @@ TEST_F(GateTest, DevicesMustAgreeAndTheFartherOneIsNamed) {
     record.kernel_hash = "new";
   });
   const auto wrong = with(gate("b"), Verdict::regression);
-  ASSERT_EQ(wrong.size(), 2U) << text(gate("b"));  // one per scene
+  ASSERT_EQ(wrong.size(), 2U) << text(gate("b"));  // one for each scene
   EXPECT_EQ(wrong[0].device, "gl:llvmpipe-egl");
   EXPECT_EQ(wrong[0].configuration, front_);
   EXPECT_EQ(wrong[0].cause, Cause::devices_disagree);

@@ -1,4 +1,4 @@
-// What the gate says of counters and statistics, and the verdict on the whole.
+// What the gate finds about counters and statistics, and the verdict on the whole.
 
 #include <gmock/gmock.h>
 
@@ -70,7 +70,7 @@ TEST_F(GateTest, AnotherDeviceMayDifferByOneInTenThousand) {
   EXPECT_EQ(change_of(far.findings.front(), "samples").accepted.at("llvmpipe"), 1000000);
 }
 
-// A version that was accepted repeats itself; another is another driver.
+// A version that was accepted must repeat its values; another version is another driver.
 TEST_F(GateTest, AnotherVersionOfADriverMayDifferByOneInTenThousand) {
   accept_first();
   request_.checks = {Check::counters};
@@ -88,7 +88,7 @@ TEST_F(GateTest, AnotherVersionOfADriverMayDifferByOneInTenThousand) {
   EXPECT_EQ(gate("lost").exit_code(), ExitCode::regression);
 }
 
-// Where a sprite's edge lies is the driver's to say, which of its fragments hit the sphere is not.
+// The driver decides where the edge of a sprite is, but not which of its fragments hit the sphere.
 TEST_F(GateTest, AnotherVersionOfADriverMayMoveTheEdgesOfSprites) {
   const auto fragments = [](std::uint64_t discarded, std::uint64_t kept) {
     return [=](record::Record& record, core::Image&) {
@@ -114,7 +114,7 @@ TEST_F(GateTest, AnotherVersionOfADriverMayMoveTheEdgesOfSprites) {
   EXPECT_THAT(gate("version as accepted").findings.front().accepted_on, testing::IsEmpty());
 }
 
-// Of what was accepted on two programs, both are right.
+// Two programs were accepted with different values, and both are right.
 TEST_F(GateTest, AnotherDeviceIsHeldToTheRangeOfTheAccepted) {
   const auto count = [](std::uint64_t pocl, std::uint64_t mesa) {
     return [=](record::Record& record, core::Image&) {
@@ -135,7 +135,7 @@ TEST_F(GateTest, AnotherDeviceIsHeldToTheRangeOfTheAccepted) {
   EXPECT_EQ(change.accepted, (std::map<std::string, double>{{"llvmpipe", 1e6}, {"pocl", 9e5}}));
 }
 
-// What rounding decides of a scene is asked of the suite, and only where counters differ.
+// The suite is asked what rounding decides in a scene, and only if counters differ.
 TEST_F(GateTest, OfAnotherDriverAsManyCountsAreOpenAsTheSuiteSays) {
   accept_first([](record::Record& record, core::Image&) {
     record.counters["samples"] = 1000;
@@ -234,7 +234,7 @@ TEST(GateResultTest, Precedence) {
   EXPECT_EQ(code({waived}), ExitCode::pass);
 }
 
-// What is decided of one device says nothing of another.
+// A decision about one device says nothing about another.
 TEST(GateResultTest, EveryDeviceNeedsADecision) {
   GateResult result{.devices = {"gl:a", "vulkan:b"}};
   Finding passed;
@@ -262,7 +262,7 @@ TEST(GateResultTest, NamesReadBack) {
   EXPECT_THROW((void)check("colour"), core::InputError);
 }
 
-// A file that was replaced under its name: no regression of the driver, and never a pass.
+// A file was replaced under the same name. That is no regression of the driver, and never a pass.
 TEST_F(GateTest, OtherDataUnderTheSameNameIsNamed) {
   const auto with_data = [](const std::string& hash) {
     return [hash](record::Record& record, core::Image&) { record.data_hash = hash; };
@@ -280,7 +280,8 @@ TEST_F(GateTest, OtherDataUnderTheSameNameIsNamed) {
   EXPECT_EQ(findings[0].fact("accepted"), "0a0a");
 }
 
-// After the run: the truth would be of other data than the picture.
+// The file was replaced after the run, so the reference image would be of other data than the
+// image.
 TEST_F(GateTest, DataThatChangedSinceTheRunAreNoRegression) {
   accept_first([](record::Record& record, core::Image&) { record.data_hash = "0a0a"; });
   request_.data_hash = [](const record::Record&) { return "0a0a"; };
@@ -295,7 +296,7 @@ TEST_F(GateTest, DataThatChangedSinceTheRunAreNoRegression) {
   EXPECT_TRUE(with(gate("accepted"), Verdict::regression).empty());
 }
 
-// Devices prefer different voxel formats, in which the same data has different hashes.
+// Devices prefer different voxel formats, in which the same data have different hashes.
 TEST_F(GateTest, DataHasAHashPerVoxelFormat) {
   const auto with_lavapipe_as = [](const std::string& hash) {
     return [hash](record::Record& record, core::Image&) {

@@ -1,4 +1,4 @@
-// What the gate says of runs and baselines that are not whole.
+// What the gate finds about runs and baselines that are not complete.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ TEST_F(GateTest, NoBaselinesNamesTheCommandThatMakesThem) {
   EXPECT_EQ(finding.advice.command, "triptych accept volume/quick --reason TEXT");
 }
 
-// Commands are pasted.
+// Users paste commands.
 TEST_F(GateTest, CommandsAreQuoted) {
   add_run("a");
   GateRequest request = request_;
@@ -75,7 +75,8 @@ TEST_F(GateTest, RequiredDeviceMustHaveMeasured) {
   EXPECT_EQ(with(result, Verdict::cannot_judge).at(0).fact("glob"), "gl:softpipe");
 }
 
-// Its driver is new, of which there is advice alone: the code is 2, and why has to stand there.
+// Its driver is new, so there are only advisory findings about it: the exit code is 2, and the
+// reason must be printed.
 TEST_F(GateTest, ADeviceOfWhichNothingIsDecidedIsNamed) {
   accept_first();
   driver_versions_["vulkan:lavapipe"] = "99";
@@ -170,7 +171,7 @@ TEST_F(GateTest, EveryUnhappyOutcomeIsARegressionOnce) {
   }
 }
 
-// Whoever has measured it before or not: a broken file lets nobody judge.
+// Whether a device has measured it before or not, a broken file cannot be judged.
 TEST_F(GateTest, BadInputCannotBeJudged) {
   const auto broken = [](record::Record& record, core::Image&) {
     if (record.configuration != bricks_) return;

@@ -1,4 +1,4 @@
-// What is known to fail: written by one run, expected of the next.
+// Known failures: one run writes them, and the next one expects them.
 
 #include <gmock/gmock.h>
 
@@ -22,7 +22,7 @@ class KnownGateTest : public GateTest {
     (void)accept_run("accepted");
   }
 
-  // What the run leaves, read back from its file.
+  // The known failures that the run leaves, read back from their file.
   [[nodiscard]] std::vector<Waiver> written_by(const GateResult& result) const {
     const auto file = folder_.path() / "known.json";
     core::write_file(
@@ -49,7 +49,7 @@ TEST_F(KnownGateTest, AFailureIsWaivedTheNextTime) {
   EXPECT_EQ(second.exit_code(), ExitCode::pass) << text(second);
   ASSERT_THAT(with(second, Verdict::waived), SizeIs(1));
   EXPECT_EQ(with(second, Verdict::waived).at(0).excuse.of, Excuse::Of::known);
-  // And once more: what is waived stays known.
+  // Once more: what is waived remains known.
   EXPECT_EQ(expected_text(written_by(second)), expected_text(*request_.known));
 }
 
@@ -57,7 +57,7 @@ TEST_F(KnownGateTest, ANewFailureIsRed) {
   request_.known.emplace();
   add_run("b", wrong_image_on(lavapipe));
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
-  // Of another configuration, device or check.
+  // Another configuration, device or check.
   add_run("c", wrong_image_on("opencl:pocl"));
   request_.known = written_by(gate("c"));
   EXPECT_EQ(gate("c").exit_code(), ExitCode::pass);
@@ -87,7 +87,7 @@ TEST_F(KnownGateTest, ASkipThatWasNotExpectedIsNoPass) {
   ASSERT_THAT(*request_.known, SizeIs(1));
   EXPECT_EQ(request_.known->front().known, Known::skip);
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
-  EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(1));  // drawn after all
+  EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(1));  // it was drawn after all
   request_.known->clear();
   EXPECT_EQ(gate("b").exit_code(), ExitCode::cannot_judge);
   EXPECT_EQ(with(gate("b"), Verdict::cannot_judge).at(0).excuse.of, Excuse::Of::unexpected);
@@ -131,11 +131,12 @@ TEST_F(KnownGateTest, WhatIsRightWhenDrawnAgainIsAFlakeAndNoPass) {
   ASSERT_THAT(known, SizeIs(1));
   EXPECT_EQ(known[0].known, Known::flake);
   request_.known = known;
-  EXPECT_EQ(gate("b").exit_code(), ExitCode::pass);                   // this time it shows
-  EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(0));  // a pass is no surprise
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::pass);  // the flake fails this time
+  EXPECT_THAT(with(gate("accepted"), Verdict::improved),
+              SizeIs(0));  // a pass of a flake is no surprise
 }
 
-// Neither a fault nor a pass: a slow driver on a busy machine ends so, too.
+// Neither a failure nor a pass, because a slow driver on a busy machine also ends like this.
 TEST_F(KnownGateTest, AHangThatIsRightWhenDrawnAgainCannotBeJudged) {
   add_run("b", [](record::Record& record, core::Image&) {
     if (record.device != lavapipe || record.configuration != plain_) return;
@@ -151,7 +152,8 @@ TEST_F(KnownGateTest, AHangThatIsRightWhenDrawnAgainCannotBeJudged) {
   EXPECT_THAT(written_by(right.result), SizeIs(0));
 }
 
-// A crash stands under the first check. Drawn again, sums have no picture, hence no such finding.
+// A crash is reported under the first check. Sums have no image when they are drawn again, so there
+// is no such finding then.
 TEST_F(KnownGateTest, ACrashOfWhatHasNoPictureIsAFlakeToo) {
   const auto sums = [](record::Record& record, core::Image&) {
     if (record.device != lavapipe || record.configuration != plain_) return;

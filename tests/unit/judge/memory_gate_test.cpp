@@ -1,4 +1,4 @@
-// What the gate says of bytes allocated on a device.
+// What the gate finds about bytes allocated on a device.
 
 #include <gmock/gmock.h>
 
@@ -37,7 +37,7 @@ TEST_F(MemoryGateTest, OneByteMoreIsARegression) {
   EXPECT_EQ(change_of(wrong[0], "buffers").unit, Unit::bytes);
 }
 
-// It keeps what it draws again; that is no fault of its own.
+// It stores what it draws again, which is not its own fault.
 TEST_F(MemoryGateTest, AnInjectedSlowdownIsNotJudged) {
   accept_first(taking(4096));
   add_run("b", [](record::Record& record, core::Image& image) {
@@ -69,7 +69,7 @@ TEST_F(MemoryGateTest, ANewDeviceIsOneLineOfAdvice) {
   const auto advice = with(gate("b"), Verdict::advisory);
   ASSERT_EQ(advice.size(), 1U) << text(gate("b"));
   EXPECT_EQ(advice[0].device, "opencl:pocl");
-  EXPECT_EQ(with(gate("accepted"), Verdict::skipped).size(), 1U);  // it tells nothing
+  EXPECT_EQ(with(gate("accepted"), Verdict::skipped).size(), 1U);  // it reports nothing
 }
 
 TEST_F(MemoryGateTest, WhatAnAcceptedDeviceLacksCannotBeJudged) {

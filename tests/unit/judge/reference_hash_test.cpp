@@ -17,14 +17,15 @@ core::Image picture(std::uint64_t seed) {
   return image;
 }
 
-// Each colour moved by the last bit of a float, which is 10⁵ times what another libm does.
+// Each colour is changed by the last bit of a float, which is 10⁵ times the effect of another math
+// library.
 TEST(ReferenceHash, LastBitsAreTheSamePicture) {
   int same = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const core::Image image = picture(seed);
     core::Image other = image;
     core::Random random(1000 + seed);
-    // As libm does: of a few thousand values one rounds to another float.
+    // As for a math library: of a few thousand values, one rounds to another float.
     for (float& value : other.rgba) {
       if (random.uniform() < 1e-3) value = std::nextafter(value, 2.0F);
     }
@@ -60,7 +61,7 @@ TEST(ReferenceHash, SizeCountsAndStrangeNumbersAreNoTrouble) {
   EXPECT_TRUE(is_same_reference(reference_hash(image), reference_hash(image)));
 }
 
-// Colours that scenes are made of lie on no edge of either grid.
+// The colours of scenes are on no edge of either grid.
 TEST(ReferenceHash, RoundNumbersMayMoveByALastBit) {
   for (const float value : {0.0F, 0.25F, 0.5F, 1.0F, 1.0F / 4096, 1.0F / 8192}) {
     core::Image image(1, 1);

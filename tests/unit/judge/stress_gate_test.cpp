@@ -1,4 +1,5 @@
-// Stress cases: what each point is for, scores as baselines, and what is expected beside the truth.
+// Stress cases: the reason for each point, scores as baselines, and expectations besides the
+// reference image.
 
 #include <gmock/gmock.h>
 
@@ -34,14 +35,14 @@ class StressGateTest : public JudgeTest {
     (void)accept(store_, run, folder_.path() / "baselines", request);
   }
 
-  // Changes the plain picture of one device.
+  // Changes the plain image of one device.
   static Tweak on_lavapipe(const std::function<void(record::Record&, core::Image&)>& change) {
     return [change](record::Record& record, core::Image& image) {
       if (record.device == lavapipe && record.configuration == plain_) change(record, image);
     };
   }
 
-  // The one finding about it, after a first run was accepted without a tweak.
+  // The only finding about it, after a first run was accepted without a change.
   Finding found(const Tweak& tweak) {
     add_run("accepted");
     accept_scores("accepted");
@@ -86,7 +87,8 @@ TEST_F(StressGateTest, WithinTheBoundOnlyAgreementIsLost) {
   EXPECT_TRUE(has(finding.because, Cause::farther_device));
 }
 
-// The other devices are nearer to the truth, so the one that strays must not cost them a point.
+// The other devices are closer to the reference image, so the one that differs must not cost them a
+// point.
 TEST_F(StressGateTest, TheNearerKeepsItsPoint) {
   (void)found(on_lavapipe([](record::Record&, core::Image& image) {
     for (float& value : image.rgba) value += bound / 2;
@@ -157,15 +159,15 @@ TEST_F(StressGateTest, ARefusalIsRightOnlyWhereItIsAllowed) {
     record.reason = {.cause = record::Cause::not_supported, .detail = "too large"};
   });
   const Finding finding = found(refuse);
-  EXPECT_EQ(finding.verdict, Verdict::cannot_judge);  // it drew it when it was accepted
-  EXPECT_TRUE(finding.numbers.empty());               // and has no score now
+  EXPECT_EQ(finding.verdict, Verdict::cannot_judge);  // it drew the case when it was accepted
+  EXPECT_TRUE(finding.numbers.empty());               // and it has no score now
   expected_ = [](const record::Record&) {
     return std::vector<record::Expectation>{{"may be refused", record::MayBeRefused{}}};
   };
   EXPECT_EQ(with(gate("judged"), Verdict::pass, Check::stress).size(), 12U);
 }
 
-// Skipping must change no bit, though the truth's bound would allow it.
+// Skipping must change no bit, although the bound would permit it.
 TEST_F(StressGateTest, OtherBitsThanAnotherConfigurationLoseAPoint) {
   expected_ = [](const record::Record& record) {
     std::vector<record::Expectation> result;
@@ -187,7 +189,7 @@ TEST_F(StressGateTest, OtherBitsThanAnotherConfigurationLoseAPoint) {
   EXPECT_EQ(finding.because[0].number("x"), 1);
 }
 
-// A shard may hold one of the two.
+// A shard may contain only one of the two.
 TEST_F(StressGateTest, OfAPartOfAPlanThePicturesThatAreNotInItAreNotMissed) {
   add_run("a");
   accept_scores("a");
@@ -228,7 +230,7 @@ TEST_F(StressGateTest, OnlyAStressPlanIsJudgedUnasked) {
   }
 }
 
-// Expectations by themselves: two configurations of one device.
+// Expectations alone: two configurations of one device.
 class ExpectationTest : public JudgeTest {
  protected:
   static constexpr int width = 3;
@@ -245,7 +247,7 @@ class ExpectationTest : public JudgeTest {
     return records_.back();
   }
 
-  // Each pixel tells its place.
+  // Each pixel contains its position.
   static core::Image places(int w, int h, const std::function<float(int, int)>& at) {
     core::Image image(w, h);
     for (int y = 0; y < h; ++y) {
@@ -259,7 +261,7 @@ class ExpectationTest : public JudgeTest {
     return image;
   }
 
-  // The observation; Cause::none where the expectation is met.
+  // The observation; its cause is Cause::none if the expectation is met.
   Observation judge(const record::SamePicture& rule) {
     StressRun run(store_, records_);
     const auto what = unmet({"a test", rule}, records_.front(), run, [](const record::Record&) {

@@ -1,4 +1,4 @@
-// Runs for pictures and counters alone: what was not measured is neither judged nor accepted.
+// Runs for images and counters only: what was not measured is neither judged nor accepted.
 
 #include <gmock/gmock.h>
 
@@ -55,7 +55,7 @@ TEST_F(UntimedGateTest, WhatIsStoredOfTimesAndStatisticsStays) {
   EXPECT_EQ(contents(device_file("statistics", "vulkan")), statistics);
 }
 
-// A plan that is judged by statistics and by no times.
+// A plan that judges statistics and no times.
 TEST_F(UntimedGateTest, StatisticsThatWereReadAreAccepted) {
   const auto without_times = [](record::Record& record, core::Image&) {
     record.warm_up_frames = 0;
@@ -65,11 +65,11 @@ TEST_F(UntimedGateTest, StatisticsThatWereReadAreAccepted) {
   (void)accept_run("a");
   EXPECT_FALSE(std::filesystem::exists(baseline("timings")));
   add_run("b", without_times);
-  const GateResult result = gate("b");  // one of three devices tells none
+  const GateResult result = gate("b");  // one of three devices reports none
   EXPECT_EQ(with(result, Verdict::pass, Check::statistics).size(), 8U) << text(result);
 }
 
-// Accepted without times first: nothing that reads like a time is stored.
+// The first run is accepted without times: nothing is stored that looks like a time.
 TEST_F(UntimedGateTest, AcceptsNoMissingTimeAsATime) {
   add_run("a", untimed);
   (void)accept_run("a");
@@ -79,8 +79,7 @@ TEST_F(UntimedGateTest, AcceptsNoMissingTimeAsATime) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
 }
 
-// Times that were never stored are not lost ones: of the whole device, or of all but one
-// configuration.
+// Times that were never stored are not lost, for a whole device or for all configurations but one.
 TEST_F(UntimedGateTest, AfterThemTimesAreNewAndOnlyAdvise) {
   add_run("a", untimed);
   (void)accept_run("a");

@@ -1,4 +1,4 @@
-// What excuses a finding, and for how long.
+// What excuses a finding, and until when.
 
 #include <gmock/gmock.h>
 

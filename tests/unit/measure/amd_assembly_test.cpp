@@ -1,4 +1,4 @@
-// Instructions counted in disassembly, against a count by hand.
+// Compares the instructions that are counted in a disassembly with a count by hand.
 
 #include "measure/code/amd_assembly.hpp"
 
@@ -56,7 +56,7 @@ TEST(AmdAssembly, OneMoreInstructionInTheLoopCounts) {
   EXPECT_EQ(count_amd_instructions(text)->sampling_loop->vector, 43);
 }
 
-// The volume's bricks are looked up by loops of their own, which read a buffer.
+// The bricks of the volume are read by loops of their own, from a buffer.
 TEST(AmdAssembly, ALoopWithASamplerIsLikelierThanOneThatReadsMemory) {
   const auto counts = count_amd_instructions(
       "BB0:\n\tv_mov_b32 v0, 0\nBB1:\n\tbuffer_load_dword v1, v0, s[0:3], 0\n"
@@ -76,7 +76,7 @@ TEST(AmdAssembly, TwoLoopsThatSampleAreNotCertain) {
   EXPECT_EQ(counts->sampling_loops, 2);
 }
 
-// LLVM's names of blocks, and an outer loop, which is not the one that counts.
+// LLVM's names of blocks, and an outer loop, which must not be counted.
 TEST(AmdAssembly, TheInnermostLoopCounts) {
   const auto counts = count_amd_instructions(
       "main:\nBB0_1:\n\ts_mov_b32 s0, 1 ; BE800301\nBB0_2:\n"

@@ -61,7 +61,7 @@ TEST(CompiledCode, NothingReportedIsNotSupported) {
   EXPECT_THROW(static_cast<void>(code.take()), core::NotSupported);
 }
 
-// Two drivers of one GPU: one reports instructions, the other's are counted.
+// Two drivers for one GPU: one reports instructions, and those of the other are counted.
 TEST(CompiledCode, CountsInstructionsThatAreNotReported) {
   const std::string assembly = "BB0:\n\tv_mov_b32 v0, 0\n\ts_endpgm\n";
   CompiledCode code;

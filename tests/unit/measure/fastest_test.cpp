@@ -1,4 +1,4 @@
-// The choice of `auto`, from records alone.
+// The choice for `auto`, from records only.
 
 #include "measure/request/fastest.hpp"
 
@@ -69,11 +69,11 @@ TEST_F(FastestTest, IsChosenOfEachSceneAndDeviceByItself) {
       add("raycast_fragment", {2e6}, device, data);
     }
   }
-  add("raycast", {1e6}, "null:c");  // nothing to choose from
+  add("raycast", {1e6}, "null:c");  // there is nothing to choose from
   EXPECT_EQ(answers().size(), 4U);
 }
 
-// A clock for compute and another for drawing say nothing about each other.
+// A clock for compute work and one for drawing cannot be compared.
 TEST_F(FastestTest, IsToldByOneClock) {
   record::Record& trusted = add("raycast", {9e6});
   trusted.device_ns = {1e6};
@@ -85,7 +85,7 @@ TEST_F(FastestTest, IsToldByOneClock) {
   EXPECT_THAT(text(), HasSubstr("raycast is the fastest, 1.000 ms (median 1.000, device clock)"));
 }
 
-// Of what repeats the choice repeats.
+// If the records repeat, the choice repeats.
 TEST_F(FastestTest, IsThatOfTheFewestInstructionsWhereTheyWereCounted) {
   add("raycast", {}).cost = {{"device_code", 5'000'000}, {"driver", 1'000'000}, {"libc", 9}};
   add("raycast_fragment", {}).cost = {{"device_code", 2'000'000}, {"driver", 2'000'000}};

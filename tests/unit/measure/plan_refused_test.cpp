@@ -1,4 +1,4 @@
-// What is no plan, and what it is told.
+// Texts that are not plans, and the errors for them.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -117,7 +117,7 @@ TEST_F(PlanTest, WhatIsNoPlan) {
   EXPECT_THAT(refusal("suite: fake\nname: x\n"), HasSubstr("unknown factor 'name'"));
 }
 
-// yaml-cpp tells of empty documents without end where such a token stands at the root.
+// yaml-cpp reports empty documents without end if there is such a token at the root.
 TEST_F(PlanTest, WhatStandsWhereNothingCanBeginIsNoPlan) {
   EXPECT_THAT(refusal(",\n"), AllOf(StartsWith(at(1, 1)), HasSubstr("not valid YAML")));
   EXPECT_THAT(refusal("&R, x\n"), HasSubstr("not valid YAML"));
@@ -160,8 +160,8 @@ TEST_F(PlanTest, TooManyCombinations) {
   std::string list = "[1";
   for (int i = 2; i <= 101; ++i) list += ", " + std::to_string(i);
   list += "]\n";
-  const std::string yaml =
-      "suite: fake\ndata: " + list + "camera: " + list + "viewport: " + list;  // 101³
+  // 101³.
+  const std::string yaml = "suite: fake\ndata: " + list + "camera: " + list + "viewport: " + list;
   EXPECT_THAT(refusal(yaml), AllOf(StartsWith(at(3, 1)), HasSubstr("1000000 combinations")));
 }
 

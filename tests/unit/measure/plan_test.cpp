@@ -227,7 +227,7 @@ TEST_F(PlanTest, ShardOutOfRange) {
   }
 }
 
-// Five million, of which a shard holds its own, and a list none.
+// Five million combinations: a shard stores only its own, and a list stores none.
 TEST_F(PlanTest, MillionsAreListedAndCutWithoutBeingHeld) {
   std::string cameras;
   for (int i = 0; i < 250; ++i) cameras += "random:" + std::to_string(i) + ", ";
@@ -250,7 +250,7 @@ TEST_F(PlanTest, MillionsAreListedAndCutWithoutBeingHeld) {
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 20 << 10) << "KiB";
 }
 
-// 10¹² combinations: neither run nor listed, and refused before the first.
+// 10¹² combinations are neither run nor listed, and refused before the first one.
 TEST_F(PlanTest, AListThatWouldNotEndIsRefused) {
   std::string values;
   for (int i = 1; i <= 1000; ++i) values += std::to_string(0.01 * i) + ", ";

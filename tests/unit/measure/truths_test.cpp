@@ -1,4 +1,4 @@
-// Truths are rendered once, for a command and for those that follow.
+// Reference images are rendered once, for a command and for those that follow.
 
 #include "measure/truth/truths.hpp"
 
@@ -14,7 +14,7 @@
 namespace triptych::measure {
 namespace {
 
-// Of one picture, in which the step is seen.
+// Has one image, which depends on the step.
 class TruthfulSuite final : public SuiteWithTruth {
  public:
   int rendered = 0;
@@ -91,7 +91,8 @@ TEST_F(TruthsTest, AreRenderedOnceAndKeptForTheNext) {
   EXPECT_EQ(suite_.rendered, 2);
 }
 
-// Whoever gives a store away can seal whatever he wrote: only what was drawn here is believed.
+// A person who gives a store away can seal whatever they wrote, so only images that were drawn here
+// are believed.
 TEST_F(TruthsTest, ABoundThatAnybodyWroteIsDrawnAgain) {
   {
     record::Store first = store();
