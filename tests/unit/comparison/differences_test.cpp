@@ -104,8 +104,7 @@ TEST_F(Differences, AStatisticIsHeldToWhatItsDriversCanCount) {
   record_b.statistics["fragment_invocations"] = 160;
   EXPECT_EQ(only().kind, DifferenceKind::regression);  // one driver with two numbers
   use_another_driver();
-  EXPECT_EQ(only().kind,
-            DifferenceKind::changed);  // both are exact, but the API leaves the number open
+  EXPECT_EQ(only().kind, DifferenceKind::changed);  // open, though both are exact
   device_a.statistics_calibration["fragment_invocations"] = {
       .worth = record::Worth::inflated, .low = 1.02, .high = 3.9};
   EXPECT_EQ(only().kind, DifferenceKind::calibration);

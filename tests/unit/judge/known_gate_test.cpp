@@ -132,8 +132,8 @@ TEST_F(KnownGateTest, WhatIsRightWhenDrawnAgainIsAFlakeAndNoPass) {
   EXPECT_EQ(known[0].known, Known::flake);
   request_.known = known;
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass);  // the flake fails this time
-  EXPECT_THAT(with(gate("accepted"), Verdict::improved),
-              SizeIs(0));  // a pass of a flake is no surprise
+  // A pass of a flake is no surprise.
+  EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(0));
 }
 
 // Neither a failure nor a pass, because a slow driver on a busy machine also ends like this.

@@ -22,7 +22,7 @@ using ::testing::Pair;
 
 constexpr const char* no_nvml = "no such library";
 
-// The folders of a Linux machine.
+// The folders of a Linux system.
 class EnergyMetersTest : public ::testing::Test {
  protected:
   void write(const std::string& file, const std::string& text) const {
@@ -40,7 +40,7 @@ class EnergyMetersTest : public ::testing::Test {
   core::TemporaryFolder system_;
 };
 
-// Long enough that ten of them last a tenth of a second.
+// So long that ten of them last a tenth of a second.
 void take_a_while() {
   std::this_thread::sleep_for(std::chrono::milliseconds(12));
 }
@@ -56,7 +56,7 @@ TEST_F(EnergyMetersTest, WhatIsCountedAlreadyOrNotAtAllIsNoMeter) {
   zone("intel-rapl:0/intel-rapl:0:1", "dram", "1");
   zone("intel-rapl:1", "psys", "1");
   zone("intel-rapl-mmio:0", "package-0", "1");
-  zone("intel-rapl:2", "package-1", "");   // as what only root may read
+  zone("intel-rapl:2", "package-1", "");   // as a file that only root may read
   zone("intel-rapl:3", "package-2", "0");  // as in a virtual machine
   write("hwmon/hwmon0/name", "coretemp");
   write("hwmon/hwmon0/energy1_input", "1");
@@ -66,8 +66,8 @@ TEST_F(EnergyMetersTest, WhatIsCountedAlreadyOrNotAtAllIsNoMeter) {
   EXPECT_THAT(meters().names(), ElementsAre("package-0", "package-0/dram", "xe-0"));
 }
 
-// A meter that is renewed with every third frame: what lies before its first renewal and behind its
-// last does not count.
+// A meter that is updated with every third frame: what comes before its first update and after its
+// last one does not count.
 TEST_F(EnergyMetersTest, CountsBetweenRenewals) {
   zone("intel-rapl:0", "package-0", "1000");
   int drawn = 0;

@@ -93,11 +93,11 @@ TEST(CacheFolder, FallsBackToTheNextPlaceThatCanBeWritten) {
   EXPECT_THAT(CacheFolder("opencl:pocl").path().string(), StartsWith(scratch.path().string()));
 }
 
-// Code that somebody else compiled lies in a folder of the expected name, in a place that everybody
-// may write to.
+// Somebody else has put compiled code into a folder of the expected name, in a place to which
+// everybody may write.
 class PlantedCache : public testing::Test {
  protected:
-  // Where nothing but the folder for temporary files is left.
+  // Only the folder for temporary files is left.
   const ScratchFolder scratch_;
   const Variable cache_home_{"XDG_CACHE_HOME", "/proc/nowhere"};
   const Variable home_{"HOME", "/proc/nowhere"};

@@ -1,4 +1,4 @@
-// What counts as the same work, and what runs make of it.
+// What counts as the same work, and what runs do with it.
 
 #include "measure/contract/equivalents.hpp"
 
@@ -74,7 +74,7 @@ TEST_F(EquivalentsOf, TheReasonNamesWhatWasReplacedInOneOfThem) {
   EXPECT_EQ(equivalent->reason, "skip: nothing is empty");
 }
 
-// The fake suite's data "full" cannot tell skip=bricks from none.
+// The data "full" of the fake suite are the same work for skip=bricks and none.
 class RunTwins : public RunTest {
  protected:
   Plan full(const std::string& data = "full",
@@ -85,7 +85,8 @@ class RunTwins : public RunTest {
                  {"camera", {"random:7"}},
                  {"skip", skip}});
   }
-  // By configuration key: bricks first, as it is the standard level, which no key names.
+  // By configuration key. Bricks come first, because that is the default level, which keys leave
+  // out.
   [[nodiscard]] std::map<std::string, record::Record> by_key(const RunResult& result) const {
     std::map<std::string, record::Record> all;
     for (const record::Record& record : records(result.run)) all[record.configuration] = record;
@@ -129,7 +130,7 @@ TEST_F(RunTwins, AreMeasuredWhereAFaultIsInjected) {
   EXPECT_EQ(run(full()).taken_over, 0);
 }
 
-// Without times a plan shares what it shares with them: its records are of the same frames.
+// A plan shares the same work without times: its records contain the same frames.
 TEST_F(RunTwins, TakeOverPicturesOfAnUntimedRunToo) {
   options.protocol.timed = false;
   const RunResult result = run(full());

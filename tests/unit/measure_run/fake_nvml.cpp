@@ -1,4 +1,4 @@
-// A libnvidia-ml of two cards, the second of which tells no energy.
+// A libnvidia-ml with two cards, the second of which reports no energy.
 
 namespace {
 unsigned long long millijoules = 5000;

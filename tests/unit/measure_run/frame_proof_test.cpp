@@ -1,4 +1,4 @@
-// Drivers that report frames as finished that they did not draw.
+// Drivers that report frames as finished although they did not draw them.
 #include "measure/protocol/frame_proof.hpp"
 
 #include <gmock/gmock.h>

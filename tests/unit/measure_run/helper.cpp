@@ -84,7 +84,7 @@ int supervise(const std::string& program, const std::string& file) {
   return 0;
 }
 
-// Code as a driver's compiler would leave it in memory.
+// Code as the compiler of a driver would leave it in memory.
 template <typename Function>
 Function* in_memory(std::span<const unsigned char> code) {
   void* memory = ::mmap(nullptr, code.size(), PROT_READ | PROT_WRITE | PROT_EXEC,
@@ -100,7 +100,7 @@ void (*loop_in_memory(std::uint32_t loops))() {
   return in_memory<void()>(code);
 }
 
-// Three times what `act` takes of these, a line each.
+// Prints what `act` counts, three times, one line each.
 template <typename Act>
 void print_counts(const measure::InstructionCounter& counter, const std::vector<std::string>& names,
                   Act act) {
@@ -128,7 +128,8 @@ int count_stride(unsigned char stride) {
   return 0;
 }
 
-// `busy`: beside a thread that has much to do first, as a driver's that writes a cache.
+// `busy`: besides a thread that has much to do at the beginning, like that of a driver that writes
+// a cache.
 int count_loop(std::uint32_t loops, bool busy) {
   const auto counter = measure::InstructionCounter::of_this_process();
   if (!counter) return 2;
@@ -140,7 +141,7 @@ int count_loop(std::uint32_t loops, bool busy) {
     loop();
     void* volatile memory = std::malloc(100);
     std::free(memory);
-    if (busy) std::this_thread::sleep_for(std::chrono::milliseconds(1));  // lets others run
+    if (busy) std::this_thread::sleep_for(std::chrono::milliseconds(1));  // lets other threads run
   });
   return 0;
 }

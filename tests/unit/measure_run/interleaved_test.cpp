@@ -34,7 +34,7 @@ class TurnsTest : public RunTest {
     return result;
   }
 
-  // How a side ended when b holds a configuration with this fault in it.
+  // How a side ended when b holds a configuration with this fault.
   struct Ended {
     Side side;
     Outcome outcome;
@@ -60,7 +60,7 @@ TEST_F(TurnsTest, TheDifferenceIsTheLogarithmOfTheRatio) {
   hold(interleaved);
   const std::vector<Block> all = blocks(interleaved, 6);
   EXPECT_EQ(interleaved.frames_per_batch(), 1);
-  EXPECT_EQ(interleaved.times_per_block(), 4);  // of four batches of 3 ms, 40 at least
+  EXPECT_EQ(interleaved.times_per_block(), 4);  // for four batches of 3 ms, at least 40 ms
   EXPECT_THAT(differences(all, SideClock::wall), Each(DoubleNear(std::log(1.1), 1e-9)));
   EXPECT_THAT(differences(all, SideClock::device), Each(DoubleNear(std::log(1.1), 1e-9)));
   EXPECT_TRUE(device_clock_holds(all));
@@ -87,14 +87,16 @@ TEST_F(TurnsTest, ShortFramesAreBatchedAlikeOnBothSides) {
   b.environment = {script_with(R"("base_ns": 4e5, "ns_per_sample": 0)")};
   Interleaved interleaved = open();
   hold(interleaved);
-  EXPECT_EQ(interleaved.frames_per_batch(), 10);  // the faster side's batch lasts the millisecond
-  EXPECT_EQ(interleaved.times_per_block(), 10);   // and a block of its batches 40
+  // The batch of the faster side lasts a millisecond.
+  EXPECT_EQ(interleaved.frames_per_batch(), 10);
+  EXPECT_EQ(interleaved.times_per_block(), 10);  // and a block of its batches lasts 40
   const Block block = interleaved.block();
-  EXPECT_NEAR(block.a.wall_ns[0], 1e5, 1);  // means, not sums
+  EXPECT_NEAR(block.a.wall_ns[0], 1e5, 1);  // means and not sums
   EXPECT_NEAR(block.b.wall_ns[1], 4e5, 1);
 }
 
-// All ten of b's first or of its second batches in a block are disturbed once in 85000.
+// The probability that all ten first or all ten second batches of b in a block are disturbed is
+// 1/85000.
 TEST_F(TurnsTest, WhatDisturbsSomeOfABlocksTurnsDoesNotCount) {
   a.environment = {script_with(R"("base_ns": 1e6, "ns_per_sample": 0)")};
   b.environment = {script_with(
@@ -157,7 +159,7 @@ TEST_F(TurnsTest, ALostDeviceCostsItsWorker) {
 TEST_F(TurnsTest, AnErrorInAFrameEndsTheBlockAndNoWorker) {
   b.environment = {script_with(
       R"("base_ns": 3e6, "failures": [{"kind": "api_error", "at": "frame", "frame": 12, "only": "*data=*"}])")};
-  options_.kinds = {};  // the calibration's frames would meet it too
+  options_.kinds = {};  // otherwise the frames of the calibration would also have the fault
   Interleaved interleaved = open();
   hold(interleaved);
   try {
@@ -202,7 +204,7 @@ TEST_F(TurnsTest, AnEnvironmentThatChangesTheWorkIsRefused) {
 }
 
 TEST(TurnDifferences, ADriftThatIsLinearOverABlockCancels) {
-  // ln t = 0, 0.1, 0.2, 0.3 over the four batches, b slower by 0.05.
+  // ln t = 0, 0.1, 0.2, 0.3 over the four batches, and b is slower by 0.05.
   const Block abba{.b_first = false,
                    .a = {.wall_ns = {1e6, 1e6 * std::exp(0.3)}, .device_ns = {}},
                    .b = {.wall_ns = {1e6 * std::exp(0.15), 1e6 * std::exp(0.25)}, .device_ns = {}}};

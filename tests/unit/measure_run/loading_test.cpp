@@ -17,10 +17,10 @@ using ::testing::Field;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-// What is told of loads whose steps come at known times.
+// Reports about loads whose steps happen at known times.
 class PacedLoading : public testing::Test {
  protected:
-  // `steps` + 1 words, the first (share 0) now and the last (share 1) after `length`.
+  // `steps` + 1 reports: the first one (share 0) now and the last one (share 1) after `length`.
   void load(const std::string& what, milliseconds length, int steps) {
     for (int i = 0; i <= steps; ++i) {
       tell_({.what = what, .share = static_cast<double>(i) / steps});
@@ -72,7 +72,7 @@ TEST_F(RunTest, AWorkersSlowLoadingIsToldByTheRun) {
   EXPECT_THAT(loads, AllOf(SizeIs(2), Each(Field(&Loading::what, "slow"))));
   EXPECT_EQ(loads.at(0).share, 0.5);
   EXPECT_EQ(loads.at(1).share, 1);
-  EXPECT_THAT(told, SizeIs(1));  // of the configuration itself, once
+  EXPECT_THAT(told, SizeIs(1));  // about the configuration itself, once
 }
 
 TEST_F(RunTest, NothingIsToldOfLoadingThatIsSoonDone) {

@@ -26,7 +26,7 @@ Process shell(const std::string& text) {
   return Process({"/bin/sh", "-c", text}, {"PATH=/usr/bin:/bin"});
 }
 
-// Everything the child wrote until it closed the pipe.
+// Everything that the child wrote until it closed the pipe.
 std::string all_from(int fd) {
   std::string text;
   std::array<char, 4096> piece{};
@@ -58,10 +58,11 @@ TEST(Process, ConnectsRequestsAnswersAndBothOutputs) {
 
 TEST(Process, GivesNoOtherDescriptorAndOnlyTheGivenEnvironment) {
   const FileDescriptor opened(::open("/dev/null", O_RDONLY));
-  const FileDescriptor stray(::dup2(opened.get(), 40));  // neither is close-on-exec
+  const FileDescriptor stray(::dup2(opened.get(), 40));  // neither of them is close-on-exec
   ASSERT_EQ(::setenv("TRIPTYCH_STRAY", "1", 1), 0);
   Process process = shell("for fd in /proc/$$/fd/*; do echo ${fd##*/}; done; echo $TRIPTYCH_STRAY");
-  EXPECT_EQ(all_from(process.log_fd()), "0\n1\n2\n3\n4\n5\n\n");  // 5 reads the list
+  // 5 is the descriptor that reads the list.
+  EXPECT_EQ(all_from(process.log_fd()), "0\n1\n2\n3\n4\n5\n\n");
 }
 
 TEST(Process, SaysHowItEnded) {
@@ -91,7 +92,7 @@ TEST(Process, DestructionTakesTheWholeGroupAndLeavesNoZombie) {
   EXPECT_EQ(errno, ECHILD);
 }
 
-// A shell with a daemon in a session of its own, whose number it answers with.
+// A shell that starts a daemon in a session of its own and prints its process id.
 constexpr const char* starts_a_daemon =
     "setsid sh -c 'echo $$ >&4; exec sleep 100 4>&-' & exec 4>&-; ";
 
@@ -118,7 +119,8 @@ TEST(Process, WhatItLeftBehindDiesWhereItEndsByItself) {
   EXPECT_TRUE(dies(daemon));
 }
 
-// Whose daemon it is cannot be told while two are at work: neither loses one that it may need.
+// While two processes are running, nobody can tell whose daemon it is, so neither loses one that it
+// may need.
 TEST(Process, WhatWasLeftBehindDiesWithTheLastAndHarmsNoOther) {
   pid_t daemon = 0;
   {
@@ -134,7 +136,7 @@ TEST(Process, WhatWasLeftBehindDiesWithTheLastAndHarmsNoOther) {
   EXPECT_TRUE(dies(daemon));
 }
 
-// Who replaces himself by this program may have children of his own.
+// A program that replaced itself by this one may have children of its own.
 TEST(Process, AChildFromBeforeIsLeftAlone) {
   Process process = shell("sleep 100 & exec '" MEASURE_RUN_HELPER "' keeps $!");
   EXPECT_EQ(describe(process.wait(seconds(20)).value()), "exited with code 0");

@@ -64,7 +64,7 @@ TEST(Protocol, ShortFramesWarmUpForATenthOfTheLoop) {
 }
 
 TEST(Protocol, TheFastestWarmUpFramePredictsTheLoop) {
-  // The first is cold; 7 ms fill 100 ms with 15 frames.
+  // The first frame is cold. 15 frames of 7 ms fill 100 ms.
   ScriptedPrepared prepared([](int n) { return frame_of(n == 0 ? 900 * ms : 7 * ms); });
   EXPECT_EQ(measured(prepared).record.frames_per_100ms, 15);
 }
@@ -139,7 +139,7 @@ TEST(Protocol, AClockIsTrustedOnlyForTheKindItWasCalibratedFor) {
   ScriptedPrepared prepared = steady(50 * ms, 49 * ms);
   const record::Record record = measured(prepared, {}, trusting(technique::Work::draw)).record;
   EXPECT_FALSE(record.device_clock_trusted);
-  EXPECT_THAT(record.device_ns, Each(49 * ms));  // kept all the same
+  EXPECT_THAT(record.device_ns, Each(49 * ms));  // kept nevertheless
 }
 
 TEST(Protocol, ATrustedClockThatLiesInThisConfigurationIsNotBelieved) {
@@ -161,7 +161,8 @@ TEST(Protocol, ATrustedClockThatLeavesOutTheWorkOfThisConfigurationIsNotBelieved
 }
 
 TEST(Protocol, AnErrorOfAFrameComesOutAsItWas) {
-  for (const int failing : {2, 7, 13}) {  // warming up, timed, for the counters
+  // During warm-up, a timed frame, the frame for the counters.
+  for (const int failing : {2, 7, 13}) {
     ScriptedPrepared prepared([=](int n) {
       if (n == failing) throw core::ApiError("vkQueueSubmit", "VK_ERROR_UNKNOWN");
       return frame_of(50 * ms);

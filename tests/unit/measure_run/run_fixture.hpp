@@ -17,7 +17,7 @@
 
 namespace triptych::measure {
 
-// What waits for a hang in vain waits so long; what does not hang has to answer within it.
+// How long a wait for a hang lasts. What does not hang has to answer within this time.
 inline constexpr std::chrono::seconds hang_limit{MEASURE_RUN_PATIENCE};
 
 class RunTest : public testing::Test {
@@ -31,7 +31,7 @@ class RunTest : public testing::Test {
     return {scratch.path() / "store.sqlite", record::Store::Mode::append};
   }
 
-  // The configurations of one line of factors over the suite's defaults.
+  // The configurations of one line of factors; the others have the defaults of the suite.
   [[nodiscard]] Plan plan(const Overrides& overrides) {
     return load_plan("fake/quick", overrides, find());
   }
@@ -49,7 +49,7 @@ class RunTest : public testing::Test {
     });
   }
 
-  // Records by configuration and device, of the latest run.
+  // The records of the latest run, by configuration and device.
   [[nodiscard]] std::vector<record::Record> records(const std::string& run) const {
     return open_store().records(run);
   }

@@ -20,8 +20,8 @@ using ::testing::HasSubstr;
 
 class RunFaults : public RunTest {
  protected:
-  // Runs four configurations with a mishap in the second, and returns the record of that one. The
-  // others must have been measured.
+  // Runs four configurations, of which the second has the fault, and returns the record of that
+  // one. The others must have been measured.
   record::Record outcome_of(const std::string& fault) {
     const Plan what = small_plan();
     options.faults = {{fault, configuration_key(suite, what.configurations.at(1))}};

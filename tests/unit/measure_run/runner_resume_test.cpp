@@ -1,4 +1,4 @@
-// Runs that are stopped from outside, and what a later one finds.
+// Runs that are stopped from outside, and how a later one continues.
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,10 +19,10 @@ using std::chrono::seconds;
 
 class RunResume : public RunTest {
  protected:
-  // Frames of 4 ms that last: a configuration takes about 0.15 s.
+  // Frames really last 4 ms, so that a configuration takes about 0.15 s.
   Variable slow{"TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 4e6, "sleep": true})"};
 
-  // A supervisor of its own, in a process that can be killed.
+  // A separate supervisor, in a process that can be killed.
   [[nodiscard]] Process supervise() const {
     std::vector<std::string> environment;
     for (char** entry = environ; *entry != nullptr; ++entry) environment.emplace_back(*entry);
@@ -30,7 +30,7 @@ class RunResume : public RunTest {
                    environment);
   }
 
-  // Waits until the supervisor has stored so many records.
+  // Waits until the supervisor has stored this many records.
   void wait_for_records(std::size_t count) const {
     const record::Store store = open_store();
     for (int i = 0; i < 2000; ++i) {
@@ -41,7 +41,7 @@ class RunResume : public RunTest {
     FAIL() << "the supervisor stores nothing";
   }
 
-  // Runs, or goes on, until a worker is started for the first configuration; it never answers.
+  // Runs or continues until a worker is started for the first configuration, and never answers.
   void end_at_the_first(int signal) const {
     const Variable stuck("TRIPTYCH_NULL_SCRIPT",
                          R"({"failures": [{"kind": "hang", "at": "open"}]})");
@@ -89,7 +89,7 @@ TEST_F(RunResume, AKilledSupervisorLosesAtMostTheConfigurationInFlight) {
   EXPECT_EQ(store.records(result.run).size(), whole.configurations.size());
 }
 
-// As a driver does that takes the machine with it: nobody is left to say so.
+// Like a driver that crashes the machine: nobody is left to report it.
 TEST_F(RunResume, WhatTwiceEndedAllIsPassedBy) {
   end_at_the_first(SIGKILL);
   end_at_the_first(SIGKILL);
@@ -171,7 +171,7 @@ TEST_F(RunAgain, AResumedRunKeepsItsClocksAndRefusesAnotherDriver) {
   static_cast<void>(run(plan({{"technique", {"raycast"}}, {"data", {"cube"}}, {"step", {"1"}}})));
   options.resume = true;
   {
-    // Would no longer be trusted if it were calibrated again.
+    // It would not be trusted if it were calibrated again.
     const Variable lying("TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 3e6, "device_over_wall": 0.5})");
     const RunResult more = run(small_plan());
     EXPECT_EQ(more.measured, 4);
@@ -182,7 +182,7 @@ TEST_F(RunAgain, AResumedRunKeepsItsClocksAndRefusesAnotherDriver) {
   EXPECT_THROW(run(plan({{"technique", {"raycast"}}, {"data", {"ball"}}})), core::InputError);
 }
 
-// Where nothing is timed.
+// If nothing is timed.
 TEST_F(RunTest, WorkersOfOneDeviceShareAPlan) {
   options.jobs = 3;
   options.protocol.timed = false;

@@ -24,7 +24,7 @@ TEST_F(RunTest, MeasuresEveryConfigurationOnEveryDeviceAndTellsOfEach) {
   EXPECT_EQ(result.measured, 8);
   EXPECT_EQ(result.skipped + result.failed, 0);
   EXPECT_EQ(told.size(), 8U);
-  EXPECT_EQ(started_workers().size(), 2U);  // one worker serves all of a device
+  EXPECT_EQ(started_workers().size(), 2U);  // one worker serves a device for the whole run
   EXPECT_GT(result.wall_ns, result.overhead_ns);
   std::set<std::pair<std::string, std::string>> cells;
   for (const record::Record& record : records(result.run)) {

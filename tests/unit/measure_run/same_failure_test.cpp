@@ -56,7 +56,8 @@ TEST(SameFailure, WhereNothingIsSharedNothingIsNamed) {
   EXPECT_EQ(reason.shared_levels, "");
 }
 
-// What does not matter to one case does not to the next: that one is paid for once.
+// A factor that does not matter in one case does not matter in the next one, so that is tried only
+// once.
 TEST(SameFailure, WhatDoesNotMatterIsRemembered) {
   SameFailure failures({"data", "step"});
   for (const char* step : {"1", "2", "3"}) {
@@ -100,7 +101,7 @@ TEST(SameFailure, WhatWasNotTriedIsNoWitness) {
 
 class SameFailureRun : public RunTest {};
 
-// Six configurations of two data sets; every one of the cube's ends its worker.
+// Six configurations with two data sets; every configuration with the cube ends its worker.
 TEST_F(SameFailureRun, IsPaidForTwice) {
   const Plan what = plan({{"technique", {"raycast"}},
                           {"data", {"ball", "cube"}},

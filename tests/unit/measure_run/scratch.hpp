@@ -1,5 +1,5 @@
 #pragma once
-// What tests of processes need to leave nothing behind: a folder and variables of their own.
+// A folder and environment variables for tests of processes, which leave nothing behind.
 
 #include <stdlib.h>
 #include <unistd.h>
@@ -14,7 +14,7 @@ namespace triptych::measure {
 
 using ScratchFolder = core::TemporaryFolder;
 
-// Sets a variable, or unsets it when there is no value, and puts back what was.
+// Sets a variable, or unsets it if there is no value, and restores the previous value.
 class Variable {
  public:
   explicit Variable(std::string name, const std::optional<std::string>& value = std::nullopt)

@@ -1,5 +1,5 @@
 #pragma once
-// A prepared technique that returns scripted times at once and writes down what it was asked.
+// A prepared technique that returns scripted times immediately and records the calls.
 
 #include <algorithm>
 #include <functional>
@@ -15,7 +15,7 @@ namespace triptych::measure {
 
 class ScriptedPrepared final : public Prepared {
  public:
-  // What the n-th frame says, n from 0, whatever its purpose.
+  // The result of the n-th frame, counted from 0, whatever its purpose.
   using Script = std::function<Frame(int n)>;
   explicit ScriptedPrepared(Script script) : script_(std::move(script)) {}
 
@@ -36,8 +36,8 @@ class ScriptedPrepared final : public Prepared {
   }
   std::string kernel_hash() const override { return "kernel"; }
 
-  std::vector<std::string> calls;  // but for poison(), of which frame_proof_test.cpp knows
-  // Whether the n-th frame, n from 1, leaves an image, and the value of its pixels.
+  std::vector<std::string> calls;  // except poison(), which frame_proof_test.cpp tests
+  // Whether the n-th frame, counted from 1, leaves an image, and the value of its pixels.
   std::function<bool(int n)> draws = [](int) { return true; };
   std::function<float(int n)> picture = [](int) { return 1.0F; };
 

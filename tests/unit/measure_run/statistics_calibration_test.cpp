@@ -1,4 +1,4 @@
-// Verdicts on pipeline statistics, on a device that tells what it is scripted to.
+// Verdicts on pipeline statistics, for a device that reports scripted numbers.
 
 #include "measure/protocol/statistics_calibration.hpp"
 
@@ -28,12 +28,12 @@ using Calibration = std::map<std::string, StatisticWorth>;
 
 const StatisticWorth exact;
 
-// That a statistic is worth this.
+// A statistic has this worth.
 MATCHER_P(Is, worth, "") {
   return arg.worth == worth;
 }
 
-// The fragments of the many small sprites, by our own counter.
+// The fragments of the many small sprites, as Triptych counts them.
 constexpr std::uint64_t true_fragments = 2500;
 constexpr std::uint64_t kept_fragments = 2090;
 

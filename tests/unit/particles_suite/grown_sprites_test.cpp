@@ -1,4 +1,4 @@
-// Fragments by which ray-aligned sprites grow, against their areas on the image.
+// Compares the fragments by which ray-aligned sprites grow with their areas on the image.
 
 #include "suites/particles/grown_sprites.hpp"
 
@@ -10,7 +10,7 @@
 namespace triptych::particles_suite {
 namespace {
 
-// One sphere seen from the origin along −z, in a square picture of 200².
+// One sphere, seen from the origin along −z, in a square image of 200² pixels.
 scene::ParticleScene one(double x, double z, double radius, double fov_y_deg) {
   auto set = std::make_shared<scene::ParticleSet>();
   set->spheres = {{static_cast<float>(x), 0, static_cast<float>(-z), static_cast<float>(radius)}};
@@ -22,9 +22,10 @@ scene::ParticleScene one(double x, double z, double radius, double fov_y_deg) {
   return scene;
 }
 
-// On the axis a square of half-size h pixels grows by g: by 8·h·g + 4·g², but for the pixels that
-// its border hits or misses, at most one along each of its sides. With a field of view of 90° a
-// pixel is 1/100 at distance 1; the plane lies 1 % before the centre's depth.
+// On the axis, a square with half the size h pixels grows by g: by 8·h·g + 4·g² fragments, except
+// for pixels that its border hits or misses, at most one along each side. With a field of view of
+// 90°, a pixel has the size 1/100 at distance 1; the plane is 1 % in front of the depth of the
+// centre.
 TEST(GrownSprites, OnTheAxisAnEdgeMovesByTheGrowth) {
   const double growth = 3;
   const double plane = 10 - 0.5;
@@ -34,7 +35,8 @@ TEST(GrownSprites, OnTheAxisAnEdgeMovesByTheGrowth) {
   EXPECT_NEAR(fragments_of_growth(one(0, 10, 0.5, 90), growth), expected, 8 * grown);
 }
 
-// 70° from the axis a length along the radius covers 1/cos 70° as many pixels, here of two edges.
+// 70° away from the axis, a length along the radius covers 1/cos 70° as many pixels; here for two
+// edges.
 TEST(GrownSprites, AwayFromTheAxisMuchMore) {
   const double sideways = 10 * std::tan(70 * std::acos(-1.0) / 180);
   const double near_axis = fragments_of_growth(one(0, 10, 1, 150), 1);

@@ -1,4 +1,4 @@
-// What tells whether a truth is that of the scene as it is now.
+// What shows whether a reference image belongs to the present scene.
 
 #include <gtest/gtest.h>
 
@@ -24,12 +24,13 @@ TEST(Keys, ChangeWithTheTransferFunctionsFile) {
   measure::Configuration configuration = configuration_of(*suite, "generate:uniform:10");
   configuration["colour"] = "intensity";
   const std::string preset = suite->truth_key(configuration, {});
-  EXPECT_EQ(preset.find("table"), std::string::npos);  // truths in stores stay of use
+  // So reference images in stores remain useful.
+  EXPECT_EQ(preset.find("table"), std::string::npos);
   configuration["transfer_function"] = "a.rgba";
   test::expect_keys_to_follow_the_table(*suite, configuration, folder);
 }
 
-// A case's own camera is not among the factors.
+// The camera of a stress case is not one of the factors.
 TEST(Keys, HoldTheFrameOfAStressCase) {
   const auto suite = make_suite({});
   measure::Configuration configuration = configuration_of(*suite, "stress:widest");

@@ -1,4 +1,4 @@
-// What quads in place of points leave open, against spheres of known size on the image.
+// What quads instead of points leave open, compared with spheres of known size on the image.
 
 #include "suites/particles/large_points.hpp"
 
@@ -11,8 +11,8 @@
 namespace triptych::particles_suite {
 namespace {
 
-// Spheres of radius 1, seen from the origin along −z, in a square picture of 200² and 90°: at
-// distance z a sphere on the axis is 200/√(z² − 1) pixels wide, and a margin of 1/32.
+// Spheres with radius 1, seen from the origin along −z, in a square image of 200² pixels and 90°:
+// at distance z, a sphere on the axis has a width of 200/√(z² − 1) pixels, and a margin of 1/32.
 scene::ParticleScene at_distances(const std::vector<float>& distances) {
   auto set = std::make_shared<scene::ParticleSet>();
   for (const float z : distances) set->spheres.push_back({0, 0, -z, 1});
@@ -36,7 +36,7 @@ TEST(OpenByQuads, OnlySpheresThatAreLargerThanThePoints) {
 TEST(OpenByQuads, FragmentsInTheCornersOfSquares) {
   const scene::ParticleScene round = at_distances({3});
   EXPECT_EQ(open_by_quads(round, 10, false).at("fragments"), 72 * 72 - 70 * 70);
-  // Half of it beyond the edge of the picture: 72² less the 70 rows of 35 and a half.
+  // Half of it is outside of the image: 72², minus the 70 rows of 35 and a half.
   scene::ParticleScene cut = round;
   auto set = std::make_shared<scene::ParticleSet>();
   set->spheres = {{3, 0, -3, 1}};
@@ -61,7 +61,7 @@ TEST(OpenByQuads, BehindQuadsOcclusionCullsMore) {
   EXPECT_FALSE(open.contains("cells"));
 }
 
-// A device whose points are as large as a picture has no quads, whatever it counts.
+// A device whose points are as large as an image draws no quads, whatever it counts.
 TEST(OpenByQuads, AsADeviceTells) {
   const auto suite = make_suite({});
   measure::Configuration configuration;

@@ -1,5 +1,5 @@
-// Do the hostile scenes show what they are about? Their truth against closed forms and against what
-// was put into them.
+// Do the hostile scenes show what they are meant to test? Their reference images are compared with
+// closed forms, and with the data from which they were made.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -48,14 +48,14 @@ Seen see(const std::string& data, bool before = false) {
   return seen;
 }
 
-// A picture that is mostly uncertain would ask for nothing. Borders of surfaces are uncertain for
-// 1/256 pixel to each side: a fiftieth where every pixel has two and a half times its own edge of
-// them, and as much again for chance in a picture of 221 pixels.
+// An image that is mostly uncertain would test nothing. The borders of surfaces are uncertain for
+// 1/256 pixel on each side: a fiftieth if every pixel contains two and a half times its own edge of
+// them, and as much again for chance in an image of 221 pixels.
 TEST(StressScenes, AreCertainNearlyEverywhere) {
   for (const StressCase& each : stress_cases()) {
     for (std::size_t i = 0; i < std::max<std::size_t>(each.variants.size(), 1); ++i) {
       const StressData data{&each, each.variants.empty() ? std::string_view() : each.variants[i]};
-      if (data.variant == "10000000") continue;  // as 200000 in all but size
+      if (data.variant == "10000000") continue;  // like 200000 except for its size
       SCOPED_TRACE(name_of(data));
       const Seen seen = see(name_of(data));
       const auto pixels = static_cast<double>(seen.truth.ids.size());
@@ -79,15 +79,15 @@ TEST(StressScenes, OfAnyScaleAreOnePicture) {
   }
 }
 
-// From so far both silhouettes are discs, 32 pixels to a unit of length; a disc of radius R covers
-// πR² pixels to within a few times √R (the lattice problem of Gauss).
+// From so far away, both silhouettes are discs, with 32 pixels for a unit of length. A disc of
+// radius R covers πR² pixels within a few times √R (the lattice problem of Gauss).
 TEST(StressScenes, FarSilhouettesAreDiscs) {
   for (const char* distance : {"1e3", "1e4", "1e5", "2e5"}) {
     SCOPED_TRACE(distance);
     const Seen seen = see(fmt::format("stress:far:{}", distance));
     const auto area = [](double radius) { return std::numbers::pi * radius * radius; };
     EXPECT_NEAR(static_cast<double>(seen.covered()), area(32) + area(0.6 * 32), 25);
-    // A ring of 1/256 pixel to each side of both.
+    // A ring of 1/256 pixel on each side of both.
     EXPECT_LE(seen.uncertain(), 10);
   }
 }
@@ -133,7 +133,7 @@ TEST(StressScenes, EqualSpheresShowTheLowestId) {
   EXPECT_EQ(seen.ids(), (std::set<std::uint32_t>{0, 1, 2, 3, 4}));
 }
 
-// S4: what is seen of a sphere lies on its side of every bisecting plane.
+// S4: the visible part of a sphere is on its side of every bisecting plane.
 TEST(StressScenes, InterpenetratingSpheresMeetInBisectingPlanes) {
   const Seen seen = see("stress:interpenetrating");
   const scene::ParticleSet& set = *seen.scene.particles;
@@ -177,7 +177,7 @@ TEST(StressScenes, ThePileShowsItsLastAlone) {
   EXPECT_EQ(seen.truth.certain[16 * 33 + 16], 1);
 }
 
-// Nothing but the wall is seen from both sides.
+// Only the wall is visible from both sides.
 TEST(StressScenes, AfterTheJumpOtherSpheresAreSeen) {
   const Seen after = see("stress:jump");
   const Seen before = see("stress:jump", true);

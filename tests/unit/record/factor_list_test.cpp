@@ -34,8 +34,8 @@ TEST(FactorList, WhatNamesNoFactorIsLeftOut) {
   EXPECT_EQ(parse_factor_list("a=1,none,,b="), (Factors{{"a", "1"}, {"b", ""}}));
 }
 
-// All texts of up to six of the characters that matter: every value comes back, and no two are
-// spelled alike.
+// All texts of up to six of the relevant characters: every value can be read back, and no two have
+// the same spelling.
 TEST(FactorList, UnescapingInvertsEscaping) {
   std::vector<std::string> values{""};
   std::set<std::string> texts;

@@ -1,5 +1,5 @@
-// A record knows its technique by name alone, and the room sees no catalogue: what both say of
-// pictures is held together here.
+// A record knows its technique only by name, and this room cannot use the catalogue. This test
+// compares what both say about images.
 
 #include "record/has_picture.hpp"
 

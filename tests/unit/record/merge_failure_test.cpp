@@ -1,4 +1,4 @@
-// Merges that there is no room for: none ends as if it were whole.
+// Merges for which there is no space on the disk: none looks complete.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ using ::testing::StartsWith;
 
 class MergeFailure : public StoreTest {
  protected:
-  // Its device's row takes pages of its own, which are written last.
+  // The row of its device takes pages of its own, which are written last.
   fs::path shard(int number, std::size_t record_bytes = 100) {
     fs::path file = folder_ / fmt::format("shard-{}", number);
     Store store(file, Store::Mode::append);
@@ -39,7 +39,7 @@ class MergeFailure : public StoreTest {
     return file;
   }
 
-  // Empty, or why not.
+  // Empty, or the reason why it failed.
   static std::string merge(const std::vector<fs::path>& files, const fs::path& out) {
     try {
       static_cast<void>(merge_stores(files, out));
@@ -58,7 +58,7 @@ class MergeFailure : public StoreTest {
   }
 };
 
-// Whichever page is the first that there is no room for.
+// Whichever page is the first for which there is no space.
 TEST_F(MergeFailure, WithoutRoomLeavesNothing) {
   constexpr std::size_t page = 4096;
   const std::vector<fs::path> files{shard(1), shard(2)};

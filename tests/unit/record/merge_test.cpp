@@ -1,4 +1,5 @@
-// Stores into one: the same bytes from any order, all that was measured in it, and what is refused.
+// Merges stores: any order gives the same bytes, everything that was measured is in the result, and
+// some stores are refused.
 
 #include "record/merge/merge.hpp"
 
@@ -57,7 +58,7 @@ std::vector<std::byte> bytes_of(std::string_view text) {
 
 class Merge : public StoreTest {
  protected:
-  // A shard, its run begun at some second.
+  // A shard whose run began at a given second.
   fs::path shard(int second, const std::vector<Record>& records,
                  const Device& device = sample_device()) {
     fs::path file = folder_ / fmt::format("shard-{}.sqlite", second);
@@ -82,7 +83,7 @@ class Merge : public StoreTest {
     return merge_stores(files, folder_ / out);
   }
 
-  // Of a fresh merge into this name.
+  // For a new merge with this name.
   [[nodiscard]] std::string hash_of_merged(const Files& files, const std::string& out) const {
     for (const char* part : {"", "-wal", "-shm"}) fs::remove(folder_ / (out + part));
     static_cast<void>(merge(files, out));
@@ -102,7 +103,7 @@ class Merge : public StoreTest {
   }
 };
 
-// The same in every field but the run.
+// The same in every field except the run.
 std::string text_of(Record record) {
   record.run = "";
   return core::Json(record).dump();
@@ -143,7 +144,7 @@ TEST_F(Merge, HoldsEverythingThatItsPartsHold) {
       << "what was under way still is";
 }
 
-// Overlapping shards of two devices, some records measured twice, some failed once.
+// Overlapping shards of two devices; some records were measured twice, some failed once.
 TEST_F(Merge, AnyOrderAndGroupingMakesTheSameBytes) {
   Device second = sample_device("null:scripted#2");
   Files files;
@@ -191,7 +192,7 @@ TEST_F(Merge, OfTwoRecordsOneThatWasMeasuredIsKept) {
   EXPECT_EQ(merged_records().at(0).outcome, Outcome::measured);
 }
 
-// A fault that was injected for a trial is not what the device does, measured or not.
+// An injected fault is not what the device does, whether it was measured or not.
 TEST_F(Merge, OneWithoutAnInjectedFaultIsKept) {
   const auto clean = [](Record record) {
     record.injected = "";
@@ -280,7 +281,7 @@ TEST_F(Merge, TheLatestRunOfEachPlanCounts) {
   const fs::path file = shard(1, {record_of(1)});
   {
     Store store(file, Mode::append);
-    record::Run newer = sample_run("run-000");  // whatever its name
+    record::Run newer = sample_run("run-000");  // whatever its name is
     newer.plan_hash = "text";
     newer.configurations = 2;
     store.add_run(newer);
@@ -309,7 +310,7 @@ TEST_F(Merge, NamesWhatAShardLacks) {
   EXPECT_EQ(gaps[0].configurations, 2U);
 }
 
-// What each part set out to measure is what the whole has to hold.
+// The merged run must contain what each part was to measure.
 TEST_F(Merge, NamesWhatWasNeverBegun) {
   const fs::path file = shard(1, {record_of(1)});
   {
@@ -331,7 +332,7 @@ TEST_F(Merge, NamesWhatWasNeverBegun) {
   EXPECT_EQ(gaps[1].missing, std::vector{configuration(2)});
 }
 
-// A shard of a plan with fewer configurations than shards.
+// A shard of a plan that has fewer configurations than shards.
 TEST_F(Merge, AnEmptyShardIsAGap) {
   const fs::path file = folder_ / "empty.sqlite";
   Store store(file, Mode::append);
@@ -344,7 +345,7 @@ TEST_F(Merge, AnEmptyShardIsAGap) {
   EXPECT_EQ(gaps[0].configurations, 0U);
 }
 
-// A value that was changed in a part is found in what was made of it.
+// A value that was changed in a part is found in the merged store.
 TEST_F(Merge, SealsHoldAfterwards) {
   const fs::path file = shard(1, {record_of(1)});
   static_cast<void>(merge({file}));
@@ -356,7 +357,7 @@ TEST_F(Merge, SealsHoldAfterwards) {
               ThrowsMessage<core::InputError>(HasSubstr("not as it was written")));
 }
 
-// More than are open at a time.
+// More stores than are open at the same time.
 TEST_F(Merge, HundredsOfStoresAreMergedInGroups) {
   Files files;
   std::vector<Record> all;

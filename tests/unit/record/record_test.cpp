@@ -118,7 +118,7 @@ TEST(DeviceTest, KeyChangesWithEverythingTimingsDependOn) {
   add([](Device& d) { d.environment["LP_NUM_THREADS"] = "1"; });
   add([](Device& d) { d.environment["GALLIVM_PERF"] = ""; });
   add([](Device& d) { d.environment.clear(); });
-  add([](Device& d) {  // must not look like the part it imitates
+  add([](Device& d) {  // must not look like the part that it imitates
     d.api_version += "; CPU " + d.cpu_features;
     d.cpu_features.clear();
   });
@@ -132,7 +132,7 @@ TEST(DeviceTest, KeyChangesWithEverythingTimingsDependOn) {
   EXPECT_EQ(other.key(), device.key());
 }
 
-// One driver serves many boards.
+// One driver serves many graphics cards.
 TEST(DeviceTest, HardwareIsKnownByItsName) {
   Device device = sample_device("vulkan:nvidia");
   device.cpu_features.clear();
@@ -159,7 +159,7 @@ TEST(DeviceTest, StatisticsKeyIsOfIdAndDriverAlone) {
   other.cpu_features = "none";
   other.statistics_calibration.clear();
   EXPECT_EQ(other.statistics_key(), device.statistics_key());
-  other.driver_version = "1.2 LLVM-15";  // the same letters once made a file name
+  other.driver_version = "1.2 LLVM-15";  // these letters once gave the same file name
   EXPECT_NE(other.statistics_key(), device.statistics_key());
 }
 

@@ -1,4 +1,4 @@
-// Pages that SQLite finds whole, with another value in them: nothing is judged by it.
+// Pages that SQLite considers intact, but in which a value was changed: nothing is judged by them.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -39,7 +39,7 @@ class StoreDamage : public StoreTest {
     ASSERT_GT(database.exec(sql), 0) << sql << " changes nothing";
   }
 
-  // What gate, accept and report read of it.
+  // What gate, accept and report read from it.
   void read_all() const {
     const Store store(file_, Mode::read);
     store.require_whole();

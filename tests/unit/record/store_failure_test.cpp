@@ -1,4 +1,4 @@
-// What can go wrong around a store: other files, rights, other processes, kills, full disks.
+// What can go wrong with a store: other files, access rights, other processes, kills, full disks.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fcntl.h>
@@ -112,7 +112,8 @@ TEST_F(StoreTest, DamagedFile) {
   }
 }
 
-// An index that shares the pages of another: every query through it finds nothing, silently.
+// An index that uses the pages of another one: every query through it finds nothing, without an
+// error.
 TEST_F(StoreTest, DamagedIndex) {
   make_store(file_);
   EXPECT_NO_THROW(Store(file_, Mode::read).require_whole());
@@ -183,7 +184,7 @@ TEST_F(StoreTest, ReadOnlyFolder) {
             "a reason");
 }
 
-// Leaves a store with records that stand in its log only.
+// Leaves a store with records that are only in its log.
 void leave_log(const std::filesystem::path& file) {
   const pid_t child = fork();
   if (child == 0) {
@@ -200,7 +201,8 @@ TEST_F(StoreTest, ReadOnlyFolderWithALogLeftBehind) {
   ASSERT_GT(std::filesystem::file_size(file_.string() + "-wal"), 0U);
   std::filesystem::remove(file_.string() + "-shm");
   std::filesystem::permissions(folder_, read_only_folder);
-  // The newest records are in the log: better none than old ones without a word.
+  // The newest records are in the log: reading nothing is better than reading old ones without a
+  // warning.
   EXPECT_THAT(as_nobody([&] { return refusal<core::IoError>(file_, Mode::read); }),
               HasSubstr("log cannot be replayed"));
 }
@@ -238,7 +240,8 @@ TEST_F(StoreTest, KilledWriterLosesAtMostTheRecordInFlight) {
     store.add_run(sample_run());
     for (int i = 0;; ++i) {
       store.add_record(sample_record(std::to_string(i)));
-      if (write(ends[1], &i, sizeof i) != sizeof i) std::_Exit(1);  // says: number i is kept
+      // Reports that number i is stored.
+      if (write(ends[1], &i, sizeof i) != sizeof i) std::_Exit(1);
     }
   }
   close(ends[1]);
@@ -264,7 +267,7 @@ TEST_F(StoreTest, KilledWriterLosesAtMostTheRecordInFlight) {
   EXPECT_NO_THROW(store.add_record(sample_record("after")));
 }
 
-// Adds records until one is refused, then says whether those before it are whole.
+// Adds records until one is refused, then says whether those before it are intact.
 std::string fill(const std::filesystem::path& file) {
   int added = 0;
   try {

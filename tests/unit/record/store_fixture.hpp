@@ -1,5 +1,5 @@
 #pragma once
-// A folder for stores, and processes to misuse them from.
+// A folder for stores, and processes that misuse them.
 
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -22,7 +22,7 @@
 
 namespace triptych::record {
 
-// Of one run with one record.
+// A store with one run and one record.
 inline void make_store(const std::filesystem::path& file) {
   Store store(file, Store::Mode::append);
   store.add_run(sample_run());
@@ -42,7 +42,7 @@ inline  // A disk of 1 MiB that only this process sees; needs no root where user
          mount("none", folder.c_str(), "tmpfs", 0, "size=1m") == 0;
 }
 
-// From here on no file of this process grows beyond so many bytes.
+// From now on, no file of this process can have more than this many bytes.
 inline void limit_files(rlim_t bytes) {
   std::signal(SIGXFSZ, SIG_IGN);
   const rlimit limit{.rlim_cur = bytes, .rlim_max = bytes};
@@ -54,16 +54,17 @@ class StoreTest : public ::testing::Test {
   StoreTest() {
     std::string pattern = ::testing::TempDir() + "triptych-store-XXXXXX";
     folder_ = mkdtemp(pattern.data());
-    // Open to other users: some tests give up root, for whom nothing is read-only.
+    // Accessible to other users: some tests drop the rights of root, for whom nothing is read-only.
     std::filesystem::permissions(folder_, std::filesystem::perms::all);
-    file_ = folder_ / "a store?#%.sqlite";  // what must be escaped in an SQLite URI
+    // Contains characters that must be escaped in a URI of SQLite.
+    file_ = folder_ / "a store?#%.sqlite";
   }
   ~StoreTest() override {
     std::filesystem::permissions(folder_, std::filesystem::perms::all);
     std::filesystem::remove_all(folder_);
   }
 
-  // The text `action` returns, or its exception's, from a process of its own.
+  // The text that `action` returns in a process of its own, or the text of its exception.
   static std::string in_child(const std::function<std::string()>& action) {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) != 0) return "no pipe";
@@ -89,7 +90,7 @@ class StoreTest : public ::testing::Test {
     return text;
   }
 
-  // The same without root's rights.
+  // The same without the rights of root.
   static std::string as_nobody(const std::function<std::string()>& action) {
     return in_child([&]() -> std::string {
       if (geteuid() == 0 && (setgid(65534) != 0 || setuid(65534) != 0)) return "still root";

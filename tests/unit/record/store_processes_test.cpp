@@ -21,8 +21,8 @@
 namespace triptych::record {
 namespace {
 
-// Of a connection of the test itself: the late writer looks at the file at any time, even as this
-// one commits.
+// For a connection of the test itself: the late writer may look at the file at any time, even while
+// this connection commits.
 constexpr int patience_ms = 10'000;
 
 using std::chrono::milliseconds;
@@ -61,7 +61,7 @@ TEST_F(StoreTest, BusyForAShortTimeIsNoError) {
   release.join();
 }
 
-// CTest starts a plan's devices at once: all of them have to add to one run.
+// CTest starts the devices of a plan at the same time, and all of them have to add to one run.
 TEST_F(StoreTest, OfManyThatWouldBeginARunOneDoes) {
   { const Store empty(file_, Mode::append); }
   std::array<std::string, 8> ids;
@@ -117,8 +117,8 @@ TEST_F(StoreTest, SeveralProcessesCreateOneStore) {
   for (const record::Run& each : store.runs()) EXPECT_THAT(store.records(each.id), SizeIs(10));
 }
 
-// A process that appends as soon as it is told to. Forked before its parent opens a connection, as
-// none must cross a fork.
+// A process that appends as soon as it is told to. It is forked before its parent opens a
+// connection, because a connection must not be used across a fork.
 class LateWriter {
  public:
   explicit LateWriter(const std::filesystem::path& file) {
@@ -134,7 +134,7 @@ class LateWriter {
   LateWriter(const LateWriter&) = delete;
   LateWriter& operator=(const LateWriter&) = delete;
 
-  // It has time to come as far as it can.
+  // It gets time to proceed as far as it can.
   void begin() const {
     ASSERT_EQ(write(ends_[1], "x", 1), 1);
     std::this_thread::sleep_for(milliseconds(300));
@@ -150,8 +150,8 @@ class LateWriter {
   pid_t child_ = 0;
 };
 
-// Another has made the file and is about to switch it to the log: SQLite refuses whoever wants
-// that, too, without waiting.
+// Another process has created the file and is about to switch it to the log. SQLite refuses others
+// that also want to switch it, without waiting.
 TEST_F(StoreTest, SwitchedToTheLogByAnotherMeanwhile) {
   make_store(file_);
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA journal_mode = DELETE");
@@ -168,7 +168,7 @@ TEST_F(StoreTest, CreatedByAnotherBetweenLookAndLock) {
   const std::filesystem::path model = folder_ / "model.sqlite";
   make_store(model);
   const LateWriter late(file_);
-  // RESERVED: others still read a blank file, but must wait to write.
+  // RESERVED: others can still read a blank file, but have to wait before they write.
   SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, patience_ms);
   other.exec("BEGIN IMMEDIATE");
   late.begin();

@@ -143,7 +143,7 @@ TEST_F(StoreTest, RunsInTheOrderTheyWereAdded) {
   EXPECT_EQ(store.latest_run("fake/quick")->id, "a");
   EXPECT_EQ(store.latest_run("fake/other")->id, "c");
 
-  // A resumed run is said again; it keeps its place and its records.
+  // A run that is resumed is added again; it keeps its position and its records.
   store.add_record(sample_record("x", "d", "b"));
   record::Run again = sample_run("b");
   again.system["resumed"] = "yes";
@@ -219,7 +219,7 @@ TEST_F(StoreTest, StoresCanBeMoved) {
   EXPECT_THAT(third.runs(), SizeIs(2));
 }
 
-// docs/store.md promises these columns to people.
+// docs/store.md promises these columns to users.
 TEST_F(StoreTest, ColumnsForQueriesByHand) {
   {
     Store store(file_, Mode::append);

@@ -1,4 +1,4 @@
-// What is plainer than a level.
+// The levels that are simpler than a level.
 
 #include "reduction/plainer.hpp"
 

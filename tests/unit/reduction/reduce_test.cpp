@@ -1,4 +1,4 @@
-// Configurations of the volume suite that fail by a rule known here.
+// Configurations of the volume suite that fail by a known rule.
 
 #include "reduction/reduce.hpp"
 
@@ -23,7 +23,7 @@ class Reduce : public testing::Test {
   [[nodiscard]] Configuration configuration(const measure::Overrides& overrides) const {
     return measure::default_plan(*suite, overrides).configurations.front();
   }
-  // Every frame for which `fails` holds fails by this kind.
+  // Every frame for which `fails` returns true fails in this way.
   [[nodiscard]] Reduction reduce_from(const Configuration& start,
                                       const std::function<bool(const Configuration&)>& fails,
                                       int most_frames = 1000) const {
@@ -64,7 +64,7 @@ TEST_F(Reduce, WhatTheFaultNeedsStays) {
                                             {"ert", {"0"}}}));
 }
 
-// One factor stands in the way of another until it is plainer itself.
+// One factor cannot be made simpler until another one has been.
 TEST_F(Reduce, FactorsAreTriedAgainWhenOthersBecamePlainer) {
   const Reduction result = reduce_from(
       configuration({{"adapt", {"0.1"}}, {"skip", {"bricks"}}}), [](const Configuration& each) {

@@ -1,5 +1,5 @@
-// The error bound must hold for arithmetic of the precision it is told about, and must be tight
-// enough to catch a renderer that is wrong.
+// The error bound must hold for arithmetic of the given precision, and must be tight enough to find
+// a renderer that is wrong.
 
 #include <gtest/gtest.h>
 
@@ -19,9 +19,9 @@ namespace {
 
 struct Comparison {
   int violations = 0;
-  int visible = 0;           // pixels that are not the background
-  int visible_exceeded = 0;  // … of which this many are off by more than their bound
-  double largest_ratio = 0;  // error over bound
+  int visible = 0;           // pixels that do not show only the background
+  int visible_exceeded = 0;  // the number of these whose error exceeds their bound
+  double largest_ratio = 0;  // error divided by bound
   double largest_bound = 0;
 };
 
@@ -72,13 +72,14 @@ TEST(Bound, HoldsForSinglePrecisionOnRandomScenes) {
       largest_ratio = std::max(largest_ratio, c.largest_ratio);
     }
   }
-  // It would hold of any large number; that some pixel comes near shows that it is not one.
+  // The bound would also hold if it were any large number. That some pixel comes close to it shows
+  // that it is not.
   EXPECT_GT(largest_ratio, 0.05);
 }
 
 // Every kind of ray that needs a rule of its own: in a face, along an edge, from a corner, with
-// zero components, grazing, and through a silhouette. An opaque table makes a missing sample count
-// fully.
+// components of zero, grazing, and through a silhouette. With an opaque table, a missing sample has
+// its full effect.
 TEST(Bound, HoldsWhereRaysGrazeTheBox) {
   const std::array<glm::dvec3, 7> eyes{
       {{0, 4, 30}, {0, 0, 30}, {8, 8, 30}, {1e-7, 4, 30}, {8 + 1e-6, 4, 30}, {0, 0, 0}, {8, 4, 4}}};
@@ -100,15 +101,15 @@ TEST(Bound, HoldsWhereRaysGrazeTheBox) {
   }
 }
 
-// A device whose places are all off by the same amount draws what a perfect one sees from an eye
-// that far off. That uses up the position error to the last bit, so it finds whatever the bound
-// forgets: cells and table entries just beyond, the lattice sliding along a grazing ray, samples
-// that appear at its end.
+// A device whose positions all have the same error draws what a perfect device sees from an eye
+// that is displaced by that error. That uses the whole position error, so it finds everything that
+// the bound forgets: neighbouring cells and table entries, the lattice that slides along a grazing
+// ray, and samples that appear at its end.
 Comparison compare_displaced(const scene::VolumeScene& scene, const glm::dvec3& sign,
                              double voxels) {
   ErrorModel model;
   model.position_error_voxels = voxels;
-  model.compositing_error = 0x1.0p-24;  // the image is rounded to float
+  model.compositing_error = 0x1.0p-24;  // the image is rounded to floats
   scene::VolumeScene displaced = scene;
   for (int axis = 0; axis < 3; ++axis) {
     displaced.camera.eye[axis] +=
@@ -117,7 +118,8 @@ Comparison compare_displaced(const scene::VolumeScene& scene, const glm::dvec3& 
   return compare(render_volume(displaced).image(), render_volume(scene, model), scene.background);
 }
 
-// Cuts move with the eye, and cells at grazing angles come and go; the rule's own error changes.
+// Cuts move with the eye, and cells at grazing angles appear and disappear; the error of the rule
+// itself changes.
 TEST(Bound, OfCellsHoldsForADisplacedEye) {
   double largest_ratio = 0;
   for (std::uint64_t seed = 208; seed < 216; ++seed) {
@@ -157,8 +159,8 @@ TEST(Bound, HoldsForADisplacedEye) {
   EXPECT_GT(largest_ratio, 0.5);
 }
 
-// Rays at a small angle to the faces that they enter and leave by, at the ends of which every
-// sample is opaque and colours change along the ray.
+// Rays at a small angle to the faces at which they enter and leave. At their ends every sample is
+// opaque, and colours change along the ray.
 TEST(Bound, HoldsForADisplacedEyeAtGrazingIncidence) {
   for (const double height : {0.01, 0.2, -0.05}) {
     for (const float alpha : {0.2F, 1.0F}) {
@@ -264,11 +266,11 @@ TEST(Bound, GrowsWithEveryTermOfTheModel) {
     ErrorModel two;
     two.*term = 2e-5;
     EXPECT_GT(total(one), 0.0);
-    EXPECT_NEAR(total(two) / total(one), 2.0, 0.1);  // first order
+    EXPECT_NEAR(total(two) / total(one), 2.0, 0.1);  // of first order
   }
 }
 
-// Both ways of bounding the corrected opacity against brute force over the allowed range.
+// Compares both ways of bounding the corrected opacity with brute force over the allowed range.
 TEST(StepOpacity, EncloseEveryAllowedValue) {
   for (const double alpha : {1e-6, 0.01, 0.5, 0.99, 1 - 1e-7, 1.0}) {
     for (const double error : {0.0, 1e-8, 1e-4, 0.03}) {

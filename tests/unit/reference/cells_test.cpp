@@ -1,5 +1,5 @@
-// Quadrature cells in double: exact where nothing bends, of fourth order elsewhere, sharp functions
-// included.
+// Quadrature cells in double precision: exact where nothing bends, of fourth order elsewhere, also
+// for sharp functions.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ TEST(CellsPicture, TendsToTheLimitOfTheMidpointRule) {
   }
 }
 
-// Opacity and red rise straight to the ridge and fall behind it.
+// Opacity and red rise linearly to the ridge and fall behind it.
 scene::TransferFunction roof(double ridge) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {
@@ -62,8 +62,8 @@ double order_of(std::string_view data, double ridge) {
   return std::log2(coarse / rms(render_volume(scene), limit)) / 2;
 }
 
-// Rays that touch the surface of a kink's value see the root of a distance: a little less than
-// four.
+// For rays that touch the surface with the value of a kink, the error has the form of the root of a
+// distance, so the order is slightly below four.
 TEST(CellsPicture, IsOfFourthOrder) {
   for (const char* data : {"gaussian_blob", "marschner_lobb"}) {
     EXPECT_GE(order_of(data, 255), 3.9) << data << ", which no kink meets";
@@ -71,7 +71,7 @@ TEST(CellsPicture, IsOfFourthOrder) {
   }
 }
 
-// Steps longer than a cell cut none of it.
+// Steps longer than a cell do not cut any cell.
 TEST(CellsPicture, IsTheSameForEveryStepFromACellOn) {
   scene::VolumeScene scene = volume_scene_of("mandelbulb", "haze");
   const Truth one = render_volume(scene);

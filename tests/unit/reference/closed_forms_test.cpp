@@ -1,5 +1,5 @@
-// Closed forms against adaptive Gauss–Kronrod quadrature of the definition, which shares nothing
-// with them.
+// Compares closed forms with adaptive Gauss–Kronrod quadrature of their definitions, with which
+// they have no code in common.
 
 #include "reference/closed_forms.hpp"
 
@@ -21,7 +21,7 @@ double quadrature(const std::function<double(double)>& f, double a, double b) {
   return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(f, a, b, 12, 1e-14);
 }
 
-// The integral as defined, given the optical depth from the start to t.
+// The integral by its definition, for a given optical depth from the start to t.
 Radiance by_quadrature(const std::function<double(double)>& tau,
                        const std::function<double(double)>& colour,
                        const std::function<double(double)>& depth, double length) {
@@ -61,7 +61,7 @@ TEST(ClosedForms, RampMatchesItsFormulaAndQuadrature) {
 TEST(ClosedForms, RandomSegmentsMatchQuadrature) {
   core::Random random(1);
   for (int n = 0; n < 2000; ++n) {
-    // From thin to thick, rising, falling and nearly flat.
+    // From thin to thick, increasing, decreasing and almost constant.
     const double thickness = std::exp2(random.uniform(-12, 6));
     const double length = std::exp2(random.uniform(-4, 4));
     const double start = thickness / length * random.uniform();
@@ -86,7 +86,7 @@ TEST(ClosedForms, SegmentIsContinuousAsItsSlopeVanishes) {
     const double flat = transmittance_integral(depth, 0.0, 1.0);
     EXPECT_NEAR(flat, -std::expm1(-depth) / depth, 1e-15);
     for (const double slope : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 1e-18, 1e-30, 1e-300}) {
-      // dE/db = −∫t²/2·e^(−at) lies in [−1/6, 0].
+      // dE/db = −∫t²/2·e^(−at) is in [−1/6, 0].
       EXPECT_NEAR(transmittance_integral(depth, slope, 1.0), flat, slope / 6 + 2e-15) << slope;
       EXPECT_NEAR(transmittance_integral(depth, -slope, 1.0), flat, slope / 6 + 2e-15) << slope;
     }

@@ -1,5 +1,5 @@
-// The limit of the step: the order of its rule, how many points it takes, and that it keeps what it
-// states.
+// The limit of the step: the order of its rule, the number of points that it needs, and that it
+// keeps its stated tolerance.
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ TEST(PieceOfRay, OfOneColourIsItsOpacityTimesTheColour) {
 }
 
 TEST(Polynomial, ChangesItsSignAtItsRoots) {
-  // (s − 0.2)(s − 0.5)²(s − 0.9)(s + 3)(s − 7): at 0.5 it only touches zero.
+  // (s − 0.2)(s − 0.5)²(s − 0.9)(s + 3)(s − 7), which only touches zero at 0.5.
   std::vector<double> c{1};
   for (const double root : {0.2, 0.5, 0.5, 0.9, -3.0, 7.0}) {
     c.push_back(0);
@@ -113,7 +113,7 @@ TEST(Converged, StaysWithinItsToleranceAndSaysSo) {
   }
 }
 
-// A rough table jumps, holds 0 and 1, and bends at every entry.
+// A rough table has jumps, contains 0 and 1, and bends at every entry.
 TEST(Converged, StaysWithinItsToleranceAcrossOpacityOne) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     scene::VolumeScene scene = random_scene(seed, Character::rough, scene::VoxelFormat::f32);
@@ -127,7 +127,7 @@ TEST(Converged, StaysWithinItsToleranceAcrossOpacityOne) {
   }
 }
 
-// Nothing shows through it, however short the way into it is.
+// Nothing is visible through it, however short the way through it is.
 TEST(Converged, ShowsTheFaceOfWhatIsOpaque) {
   scene::VolumeScene scene;
   scene.grid = make_grid({4, 4, 16}, {1, 1, 1}, scene::VoxelFormat::f32,
@@ -146,7 +146,7 @@ TEST(Converged, ShowsTheFaceOfWhatIsOpaque) {
   }
 }
 
-// Cut where shading has its kinks, a ray needs hardly more points than without it.
+// If it is cut where shading has its kinks, a ray needs hardly more points than without shading.
 TEST(Converged, TakesFewPointsWithShadingToo) {
   const auto points = [](const char* function, bool shaded) {
     return static_cast<double>(

@@ -1,4 +1,5 @@
-// The renderer against closed forms, at the order of convergence that the midpoint rule must show.
+// Compares the renderer with closed forms. The order of convergence must be that of the midpoint
+// rule.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ namespace {
 struct Difference {
   double rms = 0;
   double largest = 0;
-  double excess = 0;  // largest beyond the pixel's model error
+  double excess = 0;  // the largest amount by which a pixel exceeds its model error
 };
 
 Difference difference(const AnalyticScene& analytic, const Truth& truth) {
@@ -98,8 +99,9 @@ double order_against_limit(AnalyticProblem problem, int size, const std::vector<
   return test::fitted_order(steps, errors);
 }
 
-// The blob's grid is not its closed form, so the order in the step is taken against the grid's own
-// limit; from one step more, as on a smooth field the kinks at cell boundaries dominate only late.
+// The grid of the blob differs from its closed form, so the order in the step is measured against
+// the limit of the grid itself. It begins with one step more, because on a smooth field the kinks
+// at the boundaries of cells dominate only for small steps.
 TEST(Convergence, BlobIsOfSecondOrderInTheStep) {
   EXPECT_GE(order_against_limit(AnalyticProblem::v4_gaussian, 24, more_halvings), 1.9);
 }
@@ -132,15 +134,15 @@ TEST(Convergence, LayersAreLimitedByTheirEdge) {
   EXPECT_LT(order, 1.7);
 }
 
-// Against the grid's own limit, which is not the closed form.
+// Compared with the limit of the grid itself, which is not the closed form.
 TEST(Convergence, AShellIsLimitedByItsFaces) {
   const double order = order_against_limit(AnalyticProblem::v7_shell, 24, halvings);
   EXPECT_GT(order, 0.4);
   EXPECT_LT(order, 1.7);
 }
 
-// Of the limit of the step, by rays that cross the faces steeply: what is left is the grid's
-// distance from the centre. The table's ramp lies about a face evenly.
+// For the limit of the step, with rays that cross the faces steeply: what remains is the distance
+// of the grid from the centre. The ramp of the table is symmetric about a face.
 TEST(Convergence, AShellIsOfSecondOrderInTheVoxelSize) {
   std::vector<double> sizes;
   std::vector<double> errors;
@@ -167,7 +169,7 @@ TEST(Convergence, LayersSeenFromBehindAreReversed) {
   EXPECT_LT(difference(reversed, render_volume(reversed.scene)).largest, 2e-3);
 }
 
-// The limit of the step must be the closed form, up to how finely grid and table represent it.
+// The limit of the step must be the closed form, except for what grid and table cannot represent.
 TEST(Convergence, LimitIsTheClosedForm) {
   for (const AnalyticProblem problem : analytic_problems) {
     for (const int size : {8, 32}) {

@@ -23,7 +23,7 @@ vec3 single(const glm::dvec3& v) {
   return vec3(v);
 }
 
-// One scene in the numbers a device is given; positions in voxels.
+// One scene in the numbers that a device gets. Positions are in voxels.
 class FloatRenderer {
  public:
   FloatRenderer(const scene::VolumeScene& scene, const FloatOptions& options)
@@ -116,7 +116,7 @@ class FloatRenderer {
   [[nodiscard]] float voxel(const ivec3& at) const {
     const ivec3 p = glm::clamp(at, ivec3(0), size_ - 1);
     const auto index = static_cast<std::size_t>(p.x + size_.x * (p.y + size_.y * p.z));
-    // Recovers what is stored; exact, as the format holds it exactly.
+    // Recovers what is stored, which is exact because the format represents it exactly.
     return static_cast<float>((grid_.normalised(index) - grid_.offset) / grid_.scale);
   }
 
@@ -223,17 +223,17 @@ ErrorModel float_model(const scene::VolumeScene& scene, const FloatOptions& opti
   const glm::dvec3 spacing{grid.spacing[0], grid.spacing[1], grid.spacing[2]};
   const glm::dvec3 size{grid.size[0], grid.size[1], grid.size[2]};
   const glm::dvec3 eye = scene.camera.eye / spacing;
-  // The direction is about 20 operations old when it is multiplied by the distance, which is a
-  // quotient of it, and the products and sums that place a sample add 10 more.
+  // The direction is the result of about 20 operations when it is multiplied by the distance, which
+  // is a quotient of it. The products and sums that compute the position of a sample add 10 more.
   const double reach = glm::length(glm::max(glm::abs(eye), glm::abs(eye - size)));
   ErrorModel model;
   model.position_error_voxels = unit * (glm::length(eye) + 50 * reach);
-  // Three interpolations of three operations, the mapping, the table position.
+  // Three interpolations with three operations each, the mapping, and the position in the table.
   model.value_error = 14 * unit;
   model.filter_weight_error =
       options.weight_bits > 0 ? 3 * std::exp2(-options.weight_bits - 1) : unit;
   model.table_error = 3 * unit;
-  // log1p and expm1 to two units each, and the exponent's two factors.
+  // log1p and expm1 with two units each, and the two factors of the exponent.
   model.opacity_error = 12 * unit;
   model.compositing_error = 4 * unit;
   model.ert = options.ert;

@@ -1,6 +1,6 @@
 #pragma once
-// The sample sum in single precision, as a device would do it: the subject of the error bound's
-// tests.
+// The sum over samples in single precision, as a device would compute it, for the tests of the
+// error bound.
 
 #include "core/image.hpp"
 #include "reference/volume.hpp"
@@ -10,8 +10,8 @@ namespace triptych::reference {
 
 struct FloatOptions {
   double ert = 0;
-  double shift_voxels = 0;  // an injected fault: the field is read that far off along x
-  int weight_bits = 0;      // interpolation weights rounded to so many bits; 0: not rounded
+  double shift_voxels = 0;  // an injected fault: the field is read with this offset along x
+  int weight_bits = 0;      // interpolation weights are rounded to this many bits; 0: not rounded
 };
 
 [[nodiscard]] core::Image render_float(const scene::VolumeScene& scene,
@@ -19,13 +19,13 @@ struct FloatOptions {
 
 struct FloatCounts {
   double hits = 0;     // rays
-  double samples = 0;  // of which so many have opacity:
+  double samples = 0;  // the number of these that have opacity:
   double nonzero = 0;
 };
-// Of all rays, none of which ends early.
+// For all rays, none of which ends early.
 [[nodiscard]] FloatCounts count_float(const scene::VolumeScene& scene, const FloatOptions& options);
 
-// What the arithmetic of render_float may do wrong.
+// The errors that the arithmetic of render_float may make.
 [[nodiscard]] ErrorModel float_model(const scene::VolumeScene& scene, const FloatOptions& options);
 
 }  // namespace triptych::reference

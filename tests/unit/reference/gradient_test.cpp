@@ -1,5 +1,6 @@
-// The gradient by which the truth shades, against closed forms: V9's factor where samples stand at
-// voxel centres, and quadratics, on which central differences are exact everywhere.
+// Compares the gradient with which the reference renderer shades with closed forms: the factor of
+// V9 for samples at voxel centres, and quadratic fields, for which central differences are exact
+// everywhere.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ constexpr int voxels = 24;
 // Steeper than any field below, so that a white opaque sample is as bright as the field is steep.
 constexpr double steeper = 0.25;
 
-// A cube of voxels of the stored value z ↦ value(z), z in voxels, whatever value is opaque white.
+// A cube of voxels with the stored values value(z), with z in voxels. Every value is opaque white.
 scene::VolumeScene lit_scene(const std::function<double(double)>& value) {
   scene::Volume volume;
   volume.size = {voxels, voxels, voxels};
@@ -41,7 +42,7 @@ scene::VolumeScene lit_scene(const std::function<double(double)>& value) {
   return scene;
 }
 
-// |gradient · direction| per voxel where the first sample stands, half a step before the eye.
+// gradient · direction| per voxel at the first sample, which is half a step in front of the eye.
 double steepness_at(scene::VolumeScene scene, const glm::dvec3& p, const glm::dvec3& direction) {
   scene.camera.eye = p - 0.5 * scene.step_voxels * direction;
   scene.camera.forward = direction;
@@ -49,7 +50,7 @@ double steepness_at(scene::VolumeScene scene, const glm::dvec3& p, const glm::dv
   return render_volume(scene).rgba[0] * steeper;
 }
 
-// Half the difference of two stored values, each rounded to float.
+// Half the difference of two stored values, each of which is rounded to a float.
 double rounding_of(double largest) {
   return 0x1.0p-24 * largest;
 }
@@ -69,7 +70,7 @@ TEST(Gradient, OfASineIsTheDerivativeTimesV9sFactor) {
   }
 }
 
-// Halving the spacing of a wave quarters the error.
+// Half the spacing of a wave gives a quarter of the error.
 TEST(Gradient, IsOfSecondOrderInTheVoxelSize) {
   std::vector<double> errors;
   for (const double k : {0.4, 0.2, 0.1}) {

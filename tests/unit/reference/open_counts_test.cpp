@@ -1,5 +1,5 @@
-// What rounding leaves open of a raycaster's counters: enough for arithmetic that rounds otherwise,
-// and no room for a fault.
+// What rounding leaves open in the counters of a raycaster: enough for arithmetic that rounds
+// differently, but not enough to hide a fault.
 
 #include "reference/open_counts.hpp"
 
@@ -22,7 +22,7 @@ scene::VolumeScene volume_seen_by(scene::Camera camera, double size = 1, int vox
                             value),
           .transfer_function = table,
           .camera = camera,
-          .width = 65,  // a column of rays runs where the camera looks
+          .width = 65,  // a column of rays is exactly in the direction of the camera
           .height = 49,
           .step_voxels = 0.5};
 }
@@ -30,7 +30,7 @@ scene::VolumeScene volume_seen_by(scene::Camera camera, double size = 1, int vox
 scene::Camera oblique() {
   return look_at({-9.1, 30.3, -17.7}, {12.3, 11.9, 12.2});
 }
-// Rays within the face x = 0, and others that pass edges of cells two at a time.
+// Rays within the face x = 0, and others that pass two edges of cells at a time.
 scene::Camera within_a_face() {
   return look_at({0, 11, 40}, {0, 11, 0});
 }
@@ -60,7 +60,7 @@ TEST(OpenCounts, CoverArithmeticThatRoundsOtherwise) {
   EXPECT_GT(largest, 0) << "no rounding decided anything";
 }
 
-// One more sample of a tenth of the rays is beyond them.
+// One additional sample for a tenth of the rays exceeds them.
 TEST(OpenCounts, AreFewInAGeneralPosition) {
   const scene::VolumeScene scene = volume_seen_by(oblique());
   const FloatOptions options;
@@ -82,7 +82,7 @@ TEST(OpenCounts, AreWholeRaysWhereTheyRunWithinAFace) {
   EXPECT_GT(open.at("bricks_visited"), open.at("rays_hit"));
 }
 
-// No rounding decides where nothing is rounded.
+// If nothing is rounded, rounding decides nothing.
 TEST(OpenCounts, AreNoneOfExactArithmetic) {
   for (const scene::Quadrature quadrature :
        {scene::Quadrature::midpoint, scene::Quadrature::cells}) {

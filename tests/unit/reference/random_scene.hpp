@@ -1,5 +1,5 @@
 #pragma once
-// Seeded scenes for the tests of this folder.
+// Seeded scenes for the tests in this folder.
 
 #include <array>
 #include <cstdint>
@@ -19,12 +19,12 @@ namespace triptych::reference {
 [[nodiscard]] scene::Camera look_at(const glm::dvec3& eye, const glm::dvec3& target,
                                     const glm::dvec3& up = {0, 1, 0}, double fov_y_deg = 45);
 
-// The same straight RGBA for every value.
+// The same RGBA (not premultiplied) for every value.
 [[nodiscard]] scene::TransferFunction constant_table(const std::array<float, 4>& rgba);
 
 enum class Character {
-  smooth,  // low frequencies, gentle table: what a picture for people looks like
-  rough    // white noise, a table of random entries with spikes, zeros and full opacity
+  smooth,  // low frequencies and a gentle table, as in images for people
+  rough    // white noise, and a table of random entries with peaks, zeros and full opacity
 };
 [[nodiscard]] scene::VolumeScene random_scene(std::uint64_t seed, Character character,
                                               scene::VoxelFormat format);

@@ -1,5 +1,5 @@
-// What the error model allows of rays and spheres stays within the truth's bounds, and those are
-// not needlessly wide.
+// What the error model permits for rays and spheres is within the bounds of the reference image,
+// and these are not wider than necessary.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ struct Place {
   double x, y;
 };
 
-// Places within `reach` pixels of a pixel's centre, its rim included.
+// Positions within `reach` pixels of the centre of a pixel, including the rim.
 std::vector<Place> places_around(std::size_t i, int width, double reach) {
   const double x = static_cast<double>(i % static_cast<std::size_t>(width)) + 0.5;
   const double y = static_cast<double>(i / static_cast<std::size_t>(width)) + 0.5;
@@ -45,8 +45,9 @@ std::vector<Place> places_around(std::size_t i, int width, double reach) {
   return places;
 }
 
-// Every certain pixel keeps its id for every ray within the margin, every pixel its colour within
-// the bound; depth and colour of the certain ones stay within theirs for rays `lateral_px` away.
+// Every certain pixel keeps its id for every ray within the margin, and every pixel its colour
+// within the bound. The depth and colour of certain pixels are within theirs for rays that are
+// `lateral_px` away.
 void expect_bounded(const scene::ParticleScene& scene, const SphereErrorModel& model,
                     const std::string& what) {
   const SphereTruth truth = render_spheres(scene, model);
@@ -94,7 +95,7 @@ TEST(SphereBounds, CoverEveryRayThatTheModelAllows) {
   }
 }
 
-// From inside, beside the centre: the depth changes because the centre slides along the ray.
+// From inside, beside the centre: the depth changes because the centre moves along the ray.
 TEST(SphereBounds, CoverTheInsideOfASphere) {
   auto scene = scene_of(set_of({{0.3, 0, -0.3, 1}}), 15, 15, 40);
   SphereErrorModel model;
@@ -106,11 +107,11 @@ TEST(SphereBounds, CoverTheInsideOfASphere) {
   EXPECT_EQ(std::ranges::count(truth.certain, 1), 15 * 15);
 }
 
-// A wobbling eye moves all centres across the ray as the model allows them to be.
+// A displaced eye moves all centres perpendicular to the ray, by as much as the model permits.
 TEST(SphereBounds, CoverCentresThatAreOff) {
   auto scene = scene_of(set_of({{0, 0, 0, 1}}), 64, 64, 0.1);
   SphereErrorModel model;
-  model.lateral_relative = 0.01;  // of the radius, which is 1
+  model.lateral_relative = 0.01;  // relative to the radius, which is 1
   const glm::dvec3 eye{0, 0, 1e3};
   scene.camera = look_at(eye, {0, 0, 0}, {0, 1, 0}, 0.15);
   const SphereTruth truth = render_spheres(scene, model);
@@ -130,7 +131,8 @@ TEST(SphereBounds, CoverCentresThatAreOff) {
   }
 }
 
-// First order: what a ray one pixel's share off may change at most, and not much more.
+// First order: the largest possible change for a ray that is displaced by a share of a pixel, and
+// not much more.
 TEST(SphereBounds, AreAsTightAsTheyCanBe) {
   auto scene = scene_of(set_of({{0, 0, -10, 2}}), 101, 101, 30);
   SphereErrorModel model;
@@ -164,7 +166,7 @@ TEST(SphereBounds, OnlyTheSilhouetteIsUncertain) {
 }
 
 TEST(SphereBounds, AParticleSmallerThanTheMarginIsNoticed) {
-  // Beside the central ray: neither that nor the rim of the margin meets it.
+  // Beside the central ray, so that neither it nor the rim of the margin meets the sphere.
   const double pixel = 2 * std::tan(std::numbers::pi / 6) / 9;
   const double off = 0.05 * pixel * 2;
   auto scene = scene_of(set_of({{0, 0, -5, 2}, {off, 0, -2, 0.2 * off}}), 9, 9, 60);
@@ -194,7 +196,7 @@ TEST(SphereBounds, SurfacesAsNearAsTheDepthErrorAreUncertain) {
   EXPECT_FALSE(certain(0.25, 0.02));  // two errors of 0.14
   EXPECT_FALSE(certain(0.002, 1e-3));
   EXPECT_TRUE(certain(0.002, 1e-5));
-  EXPECT_FALSE(certain(0x1p-20, 1e-6));  // nearly the same sphere, but not quite
+  EXPECT_FALSE(certain(0x1p-20, 1e-6));  // almost the same sphere, but not quite
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The truth for particles against what is known of spheres in closed form.
+// Compares the reference image of particles with closed forms for spheres.
 
 #include "reference/sphere_closed_forms.hpp"
 
@@ -21,7 +21,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Bounds and number of the pixels that are not empty; columns and rows count from 0.
+// The bounds and the number of the pixels that are not empty. Columns and rows are counted from 0.
 struct Extent {
   int left = 1 << 20, right = -1, top = 1 << 20, bottom = -1;
   std::size_t count = 0;
@@ -91,7 +91,8 @@ TEST(SphereClosedForms, EntryIsOnTheSphereAndIsWhatIsShown) {
   }
 }
 
-// 1e5 radii away, a disc of about 200 pixels, S2's form misplaces no pixel of the mask.
+// At a distance of 1e5 radii, with a disc of about 200 pixels, the form of S2 has every pixel of
+// the mask right.
 TEST(SphereClosedForms, FarSpheresKeepTheirMask) {
   const double fov = 2 * std::asin(1e-5) * 180 / pi * 1.3;
   auto scene = scene_of(set_of({{0, 0, 0, 1}}), 256, 256, fov);
@@ -143,7 +144,8 @@ TEST(SphereClosedForms, EqualSpheresMeetInTheBisectingPlane) {
   EXPECT_GT(seen[1], 1000U);
 }
 
-// Seen from afar, spheres are discs at random places: on the inner window the expected share holds.
+// From far away, spheres are discs at random positions. Within the inner window, the expected share
+// remains free.
 TEST(SphereClosedForms, RandomDiscsLeaveTheExpectedShareFree) {
   core::Random random(11);
   const double radius = 0.02;
@@ -159,7 +161,7 @@ TEST(SphereClosedForms, RandomDiscsLeaveTheExpectedShareFree) {
   scene.camera =
       look_at({0, 0, distance}, {0, 0, 0}, {0, 1, 0}, 2 * std::atan(0.9 / distance) * 180 / pi);
   const double uncovered = 1 - render_spheres(scene).coverage;
-  // Discs of relative area a scatter the share by about √(N·a²·share²) at most.
+  // Discs with the relative area a change the share by at most about √(N·a²·share²).
   const double area = pi * radius * radius / 4;
   const double expected = s5_uncovered(discs, radius, 4);
   EXPECT_NEAR(expected, 0.778, 1e-3);

@@ -1,5 +1,5 @@
 #pragma once
-// Particle scenes built by hand, and a renderer that tries every sphere for every pixel.
+// Particle scenes that are made by hand, and a renderer that tries every sphere for every pixel.
 
 #include <array>
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace triptych::reference {
 
-// Looks from the origin along −z.
+// The view is from the origin along −z.
 [[nodiscard]] scene::ParticleScene scene_of(scene::ParticleSet set, int width, int height,
                                             double fov_y_deg);
 
@@ -25,7 +25,7 @@ namespace triptych::reference {
 [[nodiscard]] scene::ParticleSet random_set(std::uint64_t seed, int count, double smallest,
                                             double largest);
 
-// The same particles, ids and colours carried along, in another order.
+// The same particles in another order, with their ids and colours.
 [[nodiscard]] scene::ParticleSet shuffled(const scene::ParticleSet& set, std::uint64_t seed);
 
 struct Shown {
@@ -34,10 +34,10 @@ struct Shown {
   std::array<double, 4> rgba{};
 };
 
-// What the ray in this direction shows; every sphere is tried.
+// What the ray in this direction shows, found by trying every sphere.
 [[nodiscard]] Shown brute_force(const scene::ParticleScene& scene, const glm::dvec3& direction);
 
-// The ray through a place in the image, in pixels from its upper left corner.
+// The ray through a position in the image, in pixels from its upper left corner.
 [[nodiscard]] glm::dvec3 ray_at(const scene::ParticleScene& scene, double x, double y);
 
 }  // namespace triptych::reference

@@ -1,4 +1,5 @@
-// The truth for particles against a loop over all of them, and what must not change it.
+// Compares the reference image of particles with a loop over all of them, and checks what must not
+// change it.
 
 #include "reference/spheres.hpp"
 
@@ -39,7 +40,8 @@ void expect_equal(const SphereTruth& a, const SphereTruth& b, const std::string&
   EXPECT_EQ(a.coverage, b.coverage) << what;
 }
 
-// To the bit; returns how many different things are seen, so that a test can tell it saw some.
+// Compares to the bit. Returns the number of different particles that are visible, so that a test
+// can check that it saw some.
 std::size_t expect_brute_force(const scene::ParticleScene& scene, const SphereErrorModel& model,
                                const std::string& what) {
   const SphereTruth truth = render_spheres(scene, model, 2);
@@ -162,7 +164,7 @@ TEST(Spheres, LowestIdOnATie) {
     EXPECT_EQ(truth.certain[middle], 1);
     EXPECT_LT(truth.bound[middle], 1e-2);
   }
-  // Equal at one point only: the lowest id is shown, but nobody must agree.
+  // They are equal at one point only: the lowest id is visible there, but nobody has to agree.
   const auto touching = scene_of(set_of({{0, 0, -4, 2}, {0, 0, -3, 1}}), 21, 21, 60);
   const SphereTruth truth = render_spheres(touching);
   EXPECT_EQ(truth.ids[10 * 21 + 10], 0U);

@@ -34,7 +34,7 @@ accuracy::AccuracyScene some_scene() {
   return scene;
 }
 
-// Of a scene where no time was measured.
+// For a scene in which no time was measured.
 std::string untimed_section(accuracy::AccuracyScene scene = some_scene()) {
   for (accuracy::AccuracyCase& each : scene.cases) each.time_ns.reset();
   accuracy::evaluate(scene);
@@ -59,7 +59,8 @@ TEST(AccuracyChart, ShowsWhatLogarithmicAxesCan) {
   EXPECT_THAT(accuracy_chart(scenes, Cost::energy).text(), HasSubstr("step=2: RMSE 0.004, 0.25 J"));
 }
 
-// Each axis has its own front: the most accurate that has an error holds the least, so it is alone.
+// Each axis has its own front: the most accurate case that has an error needs the least memory, so
+// it is alone.
 TEST(AccuracyChart, DrawsTheFrontOfWhatItShows) {
   std::vector<accuracy::AccuracyScene> scenes{some_scene()};
   scenes[0].cases[2].memory = 1U << 20;
@@ -91,7 +92,7 @@ TEST(AccuracySection, TellsOrdersTimesAndParts) {
   EXPECT_THAT(text, HasSubstr("fetched past a cache, MiB"));
 }
 
-// Of a counted plan, which no clock was read for.
+// For a plan that counts instructions and reads no clock.
 TEST(AccuracySection, TellsInstructionsWhereThereAreNoTimes) {
   const std::string text = untimed_section();
   EXPECT_THAT(text, HasSubstr("1.0 M instructions"));  // to 1/255
@@ -122,7 +123,7 @@ TEST(AccuracySection, ComparesDevicesByTheArea) {
   EXPECT_THAT(text, HasSubstr(">1.00<"));
 }
 
-// Pictures of another size are scenes of their own, and are named so.
+// Images of another size are scenes of their own, with names of their own.
 TEST(AccuracySection, TellsPicturesOfOneDataApart) {
   accuracy::AccuracyScene finer = some_scene();
   finer.limit = "ball of 128";

@@ -1,4 +1,4 @@
-// What the charts draw.
+// What the charts show.
 
 #include "report/charts.hpp"
 
@@ -74,7 +74,7 @@ TEST(TimeChart, HasAFigureForEachSceneAndARowForEachDevice) {
   EXPECT_EQ(time_chart({}).text(), "");
 }
 
-// Compute and draws have clocks of their own, and one of them may not be believed.
+// Compute work and draws have separate clocks, and one of them may not be trusted.
 TEST(SpeedOfLight, DividesTimesOnOneClock) {
   PlanData plan;
   for (const char* technique : {"raycast", "speed_of_light"}) {
@@ -105,7 +105,7 @@ TEST(TimesSection, SaysWhetherTimesDecided) {
   EXPECT_THAT(times_section(plan).text(), Not(HasSubstr("not judged")));
 }
 
-// What moved stands in sight, the other pairs are folded away.
+// Pairs in which something moved are visible, the others are folded.
 TEST(CorrelationSection, FoldsPairsInWhichNothingMoved) {
   judge::CorrelationPair moved{.device_a = "gl:x", .device_b = "gl:y", .signal = "cost"};
   for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// What CTest is told: which tests there are, and how a check went.
+// What CTest gets: the list of tests, and the results of a check.
 
 #include <gmock/gmock.h>
 

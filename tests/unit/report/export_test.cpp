@@ -31,7 +31,7 @@ TEST(Csv, QuotesWhatNeedsItAndLeavesMissingEmpty) {
   EXPECT_EQ(csv_field(std::string("say \"x\"\n")), "\"say \"\"x\"\"\n\"");
 }
 
-// A line's fields where none of them holds a line end.
+// The fields of a line, if none of them contains the end of a line.
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> fields{""};
   bool quoted = false;
@@ -65,7 +65,7 @@ class ExportTest : public testing::Test {
   ExportedRows write(const std::string& plan = "") {
     return export_tables({&store_}, {.plan = plan, .folder = folder_.path(), .made_by = "a test"});
   }
-  // Column → field, of each row.
+  // Column → field, for each row.
   std::vector<std::map<std::string, std::string>> rows(const std::string& table) {
     std::istringstream text(folder_.read(table + ".csv"));
     std::string line;
@@ -120,10 +120,10 @@ TEST_F(ExportTest, ARowForEachRecordAndAColumnForEachFactor) {
   ASSERT_EQ(cost.size(), 3U);
   EXPECT_EQ(cost.at(1).at("unit"), "cache lines");
   EXPECT_EQ(cost.at(2).at("of"), "prepare");
-  EXPECT_EQ(rows("counters").at(0).at("count"), "0");  // counted, and none
+  EXPECT_EQ(rows("counters").at(0).at("count"), "0");  // counted, but there were none
 }
 
-// Not one zero where nothing was measured.
+// There is no zero where nothing was measured.
 TEST_F(ExportTest, MissingIsEmpty) {
   add("step=1", [](Record& each) {
     each.outcome = record::Outcome::skipped;
@@ -136,7 +136,7 @@ TEST_F(ExportTest, MissingIsEmpty) {
   for (const auto& [column, field] : record) EXPECT_NE(field, "0") << column;
   EXPECT_EQ(record.at("median_wall_ns"), "");
   EXPECT_EQ(record.at("clock"), "");
-  EXPECT_EQ(rows("clocks").at(0).at("ratio"), "");  // of a clock that tells no time
+  EXPECT_EQ(rows("clocks").at(0).at("ratio"), "");  // for a clock that reports no time
 }
 
 TEST_F(ExportTest, TheDictionaryDescribesEveryColumn) {

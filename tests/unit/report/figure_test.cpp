@@ -24,7 +24,8 @@ TEST(Ticks, AreWholeStepsWithinTheAxis) {
   EXPECT_THAT(ticks(1, 1000, true, 5), ElementsAre(1, 10, 100, 1000));
   EXPECT_THAT(ticks(0.9, 6, true, 5), ElementsAre(1, 2, 5));
   EXPECT_THAT(ticks(1e-9, 1e9, true, 4).size(), testing::Le(5U));
-  EXPECT_THAT(ticks(100, 102, true, 4).size(), testing::Ge(2U));  // within a decade as on a line
+  // Within a decade as on a linear axis.
+  EXPECT_THAT(ticks(100, 102, true, 4).size(), testing::Ge(2U));
 }
 
 TEST(Ticks, OfNoRangeAreOne) {
@@ -77,7 +78,7 @@ TEST(Figure, IsWellFormedWhateverItIsTold) {
 
 TEST(Figure, DrawsNothingAtNoNumber) {
   Figure figure("f", {.logarithmic = true}, {}, 100, 50);
-  figure.point({0, 1}, {});  // a logarithm has no 0
+  figure.point({0, 1}, {});  // there is no 0 on a logarithmic axis
   figure.point({1, NAN}, {});
   figure.box({1, 1}, {NAN, 2}, {});
   figure.line(std::array{Figure::Place{-1, 1}}, {});
@@ -94,7 +95,7 @@ TEST(Figure, ABoxLiesWhereItsCornersAre) {
   EXPECT_THAT(figure.svg().text(), HasSubstr("width=\"20.0\" height=\"50.0\""));
 }
 
-// Of one value, of many that are the same: an axis has a length all the same.
+// For a single value, or many equal ones, the axis also has a length.
 TEST(Figure, OfOneValueHasAxes) {
   for (const bool logarithmic : {false, true}) {
     Figure figure("f", {.logarithmic = logarithmic}, {.logarithmic = logarithmic}, 100, 50);
@@ -104,7 +105,7 @@ TEST(Figure, OfOneValueHasAxes) {
   }
 }
 
-// Every text lies within the view box, by the width that is reckoned with.
+// Every text is within the view box, by the width that is assumed for it.
 TEST(Figure, LabelsStayInside) {
   Figure figure("f", {.title = "across"}, {.names = {"a device with a long name", "b"}}, 200, 60);
   figure.box({0, -0.3}, {1'000'000, 0.3}, {});
@@ -137,7 +138,7 @@ TEST(Figure, LabelsDoNotCoverEachOther) {
   EXPECT_THAT(figure.svg().text(), Not(HasSubstr("second")));
 }
 
-// Whose middle tells them apart, as factors in the order of their names do.
+// Names that differ in the middle, like factors in the order of their names.
 TEST(Figure, ALegendTellsLongNamesApart) {
   Figure figure("", {}, {}, 100, 100);
   figure.point({1, 1}, {}, "");

@@ -191,8 +191,8 @@ TEST(CommandOf, DrawsTheConfigurationAgain) {
   EXPECT_THAT(command_of(hung, quick), Not(HasSubstr("--limit")));
 }
 
-// Of what is stored, a command has to judge by it: of one configuration of the plan as it was
-// typed.
+// If a finding compares with stored values, the command has to judge by them: one configuration of
+// the plan as it was typed.
 TEST(CommandOf, JudgesAgainWhatIsHeldAgainstBaselines) {
   const Finding cost = finding(regression, "gl:x", "step=1", dearer, Check::cost);
   judge::GateResult mine{.plan = "mine", .run = "r", .findings = {}};
@@ -217,7 +217,7 @@ TEST(CommandOf, MeasuresTimesAgainWhereTheyDecided) {
   EXPECT_EQ(command_of(slower, quick), command + " --times");
 }
 
-// By what is stored: a picture alone tells no error. An order is of all steps.
+// An image alone shows no error, which needs stored values. An order needs all steps.
 TEST(CommandOf, JudgesAnErrorAgain) {
   const judge::GateResult plan{.plan = "volume/accuracy", .run = "r", .findings = {}};
   EXPECT_EQ(

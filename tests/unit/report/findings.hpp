@@ -1,5 +1,5 @@
 #pragma once
-// Findings for the tests of what is written about them.
+// Findings for the tests of texts about them.
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ namespace triptych::report {
   return finding;
 }
 
-// An image of which so many of 36,864 pixels are wrong.
+// An image in which this many of 36,864 pixels are wrong.
 [[nodiscard]] inline judge::Observation over_bound(double pixels) {
   return {.cause = judge::Cause::pixels_over_bound,
           .against = judge::Against::reference,

@@ -1,4 +1,4 @@
-// A page of a store in which every string is hostile: each of them stays text.
+// The page of a store in which every string is hostile: each of them must remain text.
 
 #include <gmock/gmock.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 using core::Json;
 
-// Tags and attributes that our pages have; anything else came out of a string.
+// Tags and attributes that our pages contain. Anything else came from a string.
 const std::set<std::string>& known_tags() {
   static const std::set<std::string> tags{
       "a",   "article", "b",  "body",   "br",   "button", "details", "dialog", "div",  "figcaption",
@@ -38,7 +38,8 @@ bool is_known_attribute(const std::string& name) {
   return names.contains(name) || name.starts_with("data-") || name.starts_with("aria-");
 }
 
-// What is no element of ours; empty where all are. Script and style are those built in, once each.
+// An element that is not ours; empty if there is none. The script and the style sheet are those in
+// the program, once each.
 std::string stranger_in(std::string page) {
   for (const char* file : {"page.js", "style.css"}) {
     const std::string ours(embedded(file));
@@ -77,7 +78,7 @@ std::string stranger_in(std::string page) {
   return seen["script"] > 1 || seen["style"] > 1 ? "a second script or style" : "";
 }
 
-// Each string, and each name in a map of any: hostile, and different from each other.
+// Each string, and each name in a map, is hostile and different from all others.
 Json hostile(const Json& json, const std::string& string, int& number) {
   const auto next = [&] { return std::to_string(++number) + string; };
   if (json.is_string()) return next();
@@ -260,7 +261,7 @@ TEST(HostilePage, EveryStringStaysText) {
   }
 }
 
-// The test can fail: it sees what an unescaped name would bring.
+// Shows that the test can fail: it finds what an unescaped name would insert.
 TEST(HostilePage, AStrangerIsSeen) {
   for (const char* page :
        {"<p><blink>x</blink></p>", "<p onload=\"x\">", "<a href=\"javascript:x\">", "<p class=x>",
@@ -284,7 +285,7 @@ TEST(HostilePage, HistoryToo) {
   }
 }
 
-// What is inserted in spite of all that does not run: only the page's own script has this hash.
+// Even if something is inserted, it does not run: only the page's own script has this hash.
 TEST(HostilePage, ThePolicyNamesTheScriptAlone) {
   const std::string drawn = page_of("x");
   EXPECT_THAT(drawn, testing::HasSubstr("<meta http-equiv=\"Content-Security-Policy\" content=\""

@@ -15,7 +15,7 @@ TEST(Html, ShowsHiddenCharacters) {
   EXPECT_EQ(escape("\u202Egnp.exe\x1b\n"), "\\u{202e}gnp.exe\\x1b\n");
 }
 
-// Whoever makes an element cannot forget to escape: only a literal is markup.
+// Code that makes an element cannot forget to escape, because only a literal is markup.
 TEST(Html, MarkupEscapesItsArguments) {
   const std::string name = "<script>\"";
   const Html inner = markup("<b>{}</b>", name);

@@ -53,7 +53,7 @@ TEST(LastScreen, OfAPassIsShort) {
   EXPECT_LE(std::ranges::count(text, '\n'), 10);
 }
 
-// A bound that no picture comes near sees nothing: that is to be noticed.
+// A bound to which no image comes close shows nothing, and that must be visible.
 TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   for (const auto& [device, ratio] :
@@ -62,7 +62,7 @@ TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
     result.findings.back().numbers["ratio"] = ratio;
   }
   add(result, Check::image, pass, "", "", {.cause = judge::Cause::reference_as_stored});
-  result.findings.back().numbers["ratio"] = 7;  // no device's
+  result.findings.back().numbers["ratio"] = 7;  // about no device
   EXPECT_THAT(
       last_screen(std::vector{result}, 3, {}, {.width = 120}),
       HasSubstr("3 within their error bounds; nearest 0.61 of it, farthest 0.003 on opencl:y in "
@@ -75,7 +75,7 @@ TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
   EXPECT_EQ(all.bounds[1].share, 0.003);
 }
 
-// What is excused is no picture within its bound.
+// A finding that is excused is not an image within its bound.
 TEST(LastScreen, NamesWhatIsWaived) {
   GateResult result = passing();
   result.findings.back().numbers["ratio"] = 0.5;
@@ -176,7 +176,7 @@ TEST(LastScreen, RepeatsTheEnvironment) {
               HasSubstr("LP_NUM_THREADS=2 triptych render"));
 }
 
-// A driver's one fault shows in every plan.
+// A single fault of a driver appears in every plan.
 TEST(LastScreen, OneCauseInSeveralPlansIsToldOnce) {
   GateResult stress{.plan = "volume/stress", .run = "r", .findings = {}};
   add(stress, Check::image, regression, "vulkan:lavapipe", "technique=raycast", over_bound(3));

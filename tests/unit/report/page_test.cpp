@@ -29,7 +29,7 @@ TEST(Page, OfAPassShowsVerdictRowsAndPicturesAndFoldsTheRest) {
   EXPECT_THAT(page, HasSubstr("<header id=\"verdict\" class=\"pass\"><h1>PASS (0)</h1>"));
   EXPECT_THAT(page, HasSubstr("16 within their error bounds"));
   EXPECT_THAT(page, Not(HasSubstr("id=\"findings\"")));
-  // One of each scene in sight: reference, picture and difference.
+  // One image of each scene is visible: reference, image and difference.
   const std::string open = before(page.substr(page.find("id=\"pictures\"")), "<details>");
   int pictures = 0;
   for (auto at = open.find("<img "); at != std::string::npos; at = open.find("<img ", at + 1)) {
@@ -79,7 +79,7 @@ TEST(Page, TellsHowMuchOfWhatWasTakenThePictureNeeded) {
       "<td class=\"number\">0.750</td>";
   EXPECT_THAT(page, HasSubstr(row));
   const std::string devices = before(page.substr(page.find(row) + row.size()), "</tr>");
-  EXPECT_THAT(devices, HasSubstr(", "));  // the same on each
+  EXPECT_THAT(devices, HasSubstr(", "));  // the same on each device
 }
 
 TEST(Page, NeedsNoNetwork) {
@@ -88,7 +88,7 @@ TEST(Page, NeedsNoNetwork) {
   EXPECT_THAT(page, Not(HasSubstr("href=\"http")));
 }
 
-// The pictures of a scene's truth are one.
+// The reference image of a scene is on the page only once.
 TEST(Page, KeepsAPictureOnce) {
   const std::string page = page_of(false);
   std::set<std::string> seen;
@@ -99,10 +99,10 @@ TEST(Page, KeepsAPictureOnce) {
   EXPECT_THAT(page, HasSubstr("<img data-same=\"0\""));
 }
 
-// Factors' names come from plans, levels and reasons from anywhere.
+// The names of factors come from plans, and levels and reasons from anywhere.
 TEST(Page, KeepsTextText) {
   const std::string page = page_of(true, "<script>\"&\x1b");
-  EXPECT_EQ(page.find("<script"), page.rfind("<script"));  // the page's own
+  EXPECT_EQ(page.find("<script"), page.rfind("<script"));  // that of the page itself
   EXPECT_EQ(page.find('\x1b'), std::string::npos);
 }
 

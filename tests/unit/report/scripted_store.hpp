@@ -1,5 +1,5 @@
 #pragma once
-// A store and verdict as a gate of two devices leaves them, without a device.
+// A store and a verdict as a gate with two devices leaves them, made without a device.
 
 #include <cmath>
 #include <span>
@@ -38,7 +38,7 @@ inline judge::TruthPair truth_of(const record::Record& record) {
   return {disc(record.factors.at("data") == "ball" ? 20 : 12, 0.9F), bound};
 }
 
-// `wrong`: raycast of the second device draws a smaller disc, one of its frames crashes.
+// `wrong`: raycast on the second device draws a smaller disc, and one of its frames crashes.
 class ScriptedStore {
  public:
   ScriptedStore(const std::filesystem::path& file, bool wrong, const std::string& name = "step")

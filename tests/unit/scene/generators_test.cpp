@@ -27,7 +27,7 @@ std::size_t index_of(const Volume& volume, int i, int j, int k) {
               static_cast<std::size_t>(volume.size[1]) * static_cast<std::size_t>(k));
 }
 
-// Compares a generator with its formula in the C library's functions: field(u, v, w).
+// Compares a generator with its formula, computed with functions of the C library: field(u, v, w).
 template <typename Field>
 void expect_field(const Volume& volume, double tolerance, Field&& field) {
   for (int k = 0; k < volume.size[2]; ++k) {
@@ -44,8 +44,8 @@ void expect_field(const Volume& volume, double tolerance, Field&& field) {
 
 constexpr double float_rounding = 0x1p-24;
 
-// The bits that every machine must make. A changed value is a changed data set: every baseline that
-// rests on it has to be accepted anew.
+// Every machine must compute these bits. If a value changes, the data set changes, and every
+// baseline that depends on it has to be accepted again.
 TEST(Generators, MakeTheSameBitsEverywhere) {
   const std::map<std::string_view, std::string> golden{
       {"uniform_box", "d0e96d0c4eb979ba168352d2fa7c40d7"},
@@ -148,8 +148,8 @@ TEST(Generators, SparseFieldIsMostlyExactlyZero) {
   EXPECT_GT(largest, 250);
 }
 
-// The set holds the origin, is bounded by a radius below 1.2 and repeats eight-fold (here checked
-// by its four-fold part) about the z axis in the plane z = 0.
+// The set contains the origin, has a radius below 1.2 and an eightfold symmetry about the z axis in
+// the plane z = 0 (here only the fourfold part is checked).
 TEST(Generators, MandelbulbLooksLikeOne) {
   const Volume volume = generate_volume("mandelbulb", {48, 48, 48});
   EXPECT_EQ(volume.value(index_of(volume, 24, 24, 24)), 255);

@@ -30,7 +30,7 @@ TEST(Half, HasTheValuesOfTheStandard) {
   EXPECT_EQ(value_of(0xc000), -2);
 }
 
-// Between two neighbours: either half way goes to the even one, the rest to the nearer.
+// Between two neighbours: the middle goes to the even one, everything else to the nearer one.
 TEST(Half, IsTheNearestOfAll) {
   for (unsigned bits = 0; bits < 0x7bff; ++bits) {
     const double below = value_of(bits);

@@ -12,7 +12,8 @@ std::ptrdiff_t count(const TransferFunction& function) {
   return std::ranges::count(kinks(function), true);
 }
 
-// Two for a control point between entries, one for one at an entry; none where nothing shows.
+// Two for a control point between entries, one for a control point at an entry; none where
+// everything is transparent.
 TEST(Kinks, OfAPresetAreItsControlPoints) {
   EXPECT_EQ(count(load_transfer_function("surfaces")), 21);
   const auto found = kinks(load_transfer_function("haze"));

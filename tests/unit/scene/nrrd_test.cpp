@@ -98,8 +98,7 @@ TEST(Nrrd, SpaceDirectionsGiveTheLengths) {
   EXPECT_NEAR(turned.spacing[1], 1, 1e-15);
 }
 
-// Where nothing states the spacing itself. Cells are what the format's own library takes samples
-// for.
+// If nothing states the spacing itself. The library of the format assumes that samples are cells.
 TEST(Nrrd, SpacingFollowsFromWhereAxesBeginAndEnd) {
   std::string head = minimal;
   head.replace(head.find("2 1 1"), 5, "2 3 1");
@@ -202,7 +201,7 @@ TEST(Nrrd, RangeIgnoresWhatIsNotFinite) {
   EXPECT_EQ(none.range_hi, 0);
 }
 
-// One broken file and what its message must say after the file's name.
+// A broken file, and what its message must say after the name of the file.
 struct Broken {
   std::string text;
   std::string message;
@@ -219,7 +218,7 @@ void expect_rejected(const std::vector<Broken>& cases) {
   }
 }
 
-// A header whose third line is `line`, before lines that are in order.
+// A header whose third line is `line`, before lines that are valid.
 std::string with_line(const std::string& line) {
   std::string text = "NRRD0004\n# one\n" + line + "\n";
   for (const std::string other :
@@ -350,7 +349,7 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-// What the header claims is within what gzip could hold, but far from what it does.
+// The size that the header claims is possible for gzip, but far more than the data have.
 TEST(Nrrd, AClaimTakesNoMemoryBeforeTheDataAreThere) {
   core::Random random(1);
   std::string bytes(std::size_t{1} << 20, '\0');

@@ -1,4 +1,5 @@
-// What arranging takes in memory, counted by replacing the allocation of this program.
+// The memory that arranging needs, which is counted by replacing the allocation functions of this
+// program.
 
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -14,13 +15,13 @@
 
 namespace {
 
-// Constant-initialised, as allocations come before main.
+// Initialised at compile time, because allocations happen before main.
 constinit std::atomic<std::size_t> held_bytes{0};
 constinit std::atomic<std::size_t> most_bytes{0};
 
 }  // namespace
 
-// Not inlined: where only one of the two is, GCC 12 takes the pair for a mismatch.
+// Not inlined: if only one of the two is inlined, GCC 12 considers the pair a mismatch.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   void* memory = std::malloc(std::max<std::size_t>(size, 1));
   if (memory == nullptr) throw std::bad_alloc();
@@ -50,7 +51,7 @@ std::size_t bytes_of(const scene::ParticleSet& set) {
 
 class ArrangementMemory : public testing::TestWithParam<scene::ColourKind> {};
 
-// The order is the only array beside the set's; a hundredth of the set is for cells.
+// The order is the only array besides those of the set; a hundredth of the set is for cells.
 TEST_P(ArrangementMemory, ArrangingTakesFourBytesPerParticle) {
   scene::ParticleScene scene;
   const std::size_t before = held_bytes;

@@ -33,7 +33,7 @@ std::vector<std::uint32_t> ids_of(const Arrangement& arranged) {
   return ids;
 }
 
-// A property as a device gets it, piece by piece.
+// A property in the pieces in which a device gets it.
 std::vector<std::byte> gathered(const Arrangement& arranged, Property property,
                                 std::size_t piece_bytes) {
   std::vector<std::byte> all(arranged.bytes(property));
@@ -48,7 +48,7 @@ std::vector<std::byte> gathered(const Arrangement& arranged, Property property) 
   return gathered(arranged, property, arranged.bytes(property));
 }
 
-// The bytes of value(place in the set) for all particles in the arrangement's order.
+// The bytes of value(index in the set) for all particles, in the order of the arrangement.
 template <typename Value>
 std::vector<std::byte> expected(const Arrangement& arranged, const Value& value) {
   std::vector<decltype(value(0U))> values;
@@ -150,7 +150,8 @@ TEST(Arrangement, CellsComeFrontToBackAndIdsAscend) {
   }
 }
 
-// They fill more than one run, and of two at one place the lower id is to be drawn first.
+// They fill more than one run, and of two at one position, the one with the lower id must be drawn
+// first.
 TEST(Arrangement, CrowdsThatCannotBeDividedStayInOrder) {
   scene::ParticleSet set = scene::generate_particles("uniform", 2600, scene::ColourKind::rgba8);
   for (auto& sphere : set.spheres) {
@@ -194,7 +195,7 @@ TEST(Arrangement, DoesNotDependOnTheOrderOfTheSet) {
   }
 }
 
-// A sphere that would make its cell's box too large to be culled is put apart.
+// A sphere that would make the box of its cell too large to be culled gets a cell of its own.
 TEST(Arrangement, ALargeSphereGrowsNoCell) {
   scene::ParticleSet set = scene::generate_particles("uniform", 20000, scene::ColourKind::rgba8);
   set.spheres[777][3] = 20;

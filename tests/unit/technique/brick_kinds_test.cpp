@@ -1,4 +1,4 @@
-// Which bricks may be merged, against looking at every value and at every way through a brick.
+// Which bricks may be merged, compared with a test of every value and every way through a brick.
 
 #include "technique/volume/brick_kinds.hpp"
 
@@ -30,14 +30,15 @@ scene::VolumeScene generated_volume(std::string_view name, std::string_view func
   return scene_of(scene::generate_volume(name, {40, 40, 40}), function);
 }
 
-// A single brick that holds the values lo … hi.
+// A single brick with the values lo … hi.
 BrickRanges one_brick(float lo, float hi) {
   return {.counts = {1, 1, 1}, .minimum = {lo}, .maximum = {hi}};
 }
 
 scene::TransferFunction random_function(core::Random& random) {
   scene::TransferFunction function;
-  // From nearly flat to rough, so that ranges of values lie on both sides of every budget.
+  // From almost constant to rough, so that there are ranges of values on both sides of every
+  // budget.
   const double roughness = std::exp2(random.uniform(-16, 0));
   const std::array<double, 4> base{random.uniform(), random.uniform(), random.uniform(),
                                    0.5 * random.uniform()};
@@ -95,7 +96,7 @@ TEST(BrickKinds, MergedBricksKeepTheirBudget) {
     const BrickRanges brick = one_brick(static_cast<float>(lo), static_cast<float>(hi));
     if (brick_kinds(brick, scene, adapt)[0] != merged) continue;
     ++merged_bricks;
-    // The volume is full of such bricks: a ray takes one value of each, the lattice many.
+    // The volume is full of such bricks: a ray takes one value of each, and the lattice takes many.
     const int bricks = 9;
     const int steps = 8;
     std::vector<Sample> lattice;
@@ -120,7 +121,7 @@ TEST(BrickKinds, MergedBricksKeepTheirBudget) {
   EXPECT_LT(merged_bricks, 3500);
 }
 
-// The criterion itself, with the extremes found by looking at many values.
+// The criterion itself, with the extremes found by trying many values.
 TEST(BrickKinds, AreThoseOfTheCriterion) {
   core::Random random(12);
   scene::VolumeScene scene = generated_volume("uniform_box", "haze");
@@ -155,7 +156,8 @@ TEST(BrickKinds, AreThoseOfTheCriterion) {
     const double cost =
         largest.extinction - least.extinction + (colours - spent) * largest.extinction;
     const double budget = (adapt / 2 - spent) * least.extinction + adapt / 2 / longest;
-    // Neither rounding of the range nor its widening by rounding decides.
+    // Cases that the rounding of the range, or its widening for rounding, would decide are left
+    // out.
     if (std::abs(cost - budget) < 1e-3 * (cost + budget)) continue;
     ++decided;
     const BrickRanges brick = one_brick(static_cast<float>(lo), static_cast<float>(hi));
@@ -186,7 +188,7 @@ TEST(BrickKinds, AnOpaqueBrickIsNot) {
   EXPECT_EQ(brick_kinds(one_brick(0.2F, 0.4F), scene, 0.5)[0], sampled);
 }
 
-// Shading brightens by as much as the range of values lets the gradient be steep.
+// Shading brightens by as much as the range of values permits the gradient to be steep.
 TEST(BrickKinds, ShadingCountsAsColour) {
   scene::VolumeScene scene = generated_volume("uniform_box", "haze");
   scene.transfer_function.entries.fill({0.5F, 0.5F, 0.5F, 0.25F});

@@ -1,4 +1,4 @@
-// How far a ray may leap, against looking at every brick.
+// How far a ray may leap, compared with a search through every brick.
 
 #include "technique/volume/brick_reach.hpp"
 
@@ -16,7 +16,7 @@
 namespace triptych::technique {
 namespace {
 
-// The distance to the nearest brick of the other kind by looking at all of them.
+// The distance to the nearest brick of the other kind, found by testing all of them.
 int distance_to_other_kind(const std::array<int, 3>& counts,
                            const std::vector<std::uint32_t>& visible,
                            const std::array<int, 3>& at) {
@@ -65,7 +65,7 @@ TEST(BrickLayout, CoversWhatASampleInABrickMayRead) {
   EXPECT_EQ(brick_layout(scene, Skip::distance),
             (BrickLayout{.edge = 2, .border = 0, .of_cells = true}));
   scene.quadrature = scene::Quadrature::preintegrated;
-  scene.step_voxels = 0.25;  // reads up to 5/8 of a voxel and rounding beyond a face
+  scene.step_voxels = 0.25;  // reads up to 5/8 of a voxel, plus rounding, outside of a face
   EXPECT_EQ(brick_layout(scene, Skip::bricks).border, 1);
   EXPECT_EQ(brick_layout(scene, Skip::distance).border, 1);
   scene.step_voxels = 1;

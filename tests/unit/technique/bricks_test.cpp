@@ -12,8 +12,8 @@
 namespace triptych::technique {
 namespace {
 
-// A function that is opaque over one stretch of its table only, or transparent over it only: bricks
-// at a corner as well as within may then be the empty ones.
+// A function that is opaque only in one range of its table, or transparent only there. So the empty
+// bricks may be at a corner or inside.
 scene::TransferFunction stretch(core::Random& random) {
   scene::TransferFunction function;
   const std::size_t begin = random.bits() % 256;
@@ -25,7 +25,7 @@ scene::TransferFunction stretch(core::Random& random) {
   return function;
 }
 
-// Looks at every voxel of brick (x, y, z) and its border.
+// Tests every voxel of brick (x, y, z) and of its border.
 void expect_range(const scene::VoxelGrid& grid, const BrickLayout& layout, std::array<int, 3> brick,
                   float minimum, float maximum) {
   float lo = std::numeric_limits<float>::infinity();
@@ -91,7 +91,7 @@ TEST(Bricks, AnyIsEmptyAgreesWithTheVisibilityOfAll) {
       with_empty += empty ? 1 : 0;
     }
   }
-  EXPECT_GT(with_empty, trials / 10);  // both answers were there
+  EXPECT_GT(with_empty, trials / 10);  // both results occurred
   EXPECT_LT(with_empty, 2 * trials - trials / 10);
 }
 

@@ -35,8 +35,8 @@ std::vector<std::size_t> counts_of(const scene::ParticleScene& scene, const Divi
   return counts;
 }
 
-// 316 × 316 spheres in a wall, 900,144 behind it. Cells of the grid alone would hold 71,507 of
-// those together with the wall's.
+// 316 × 316 spheres in a wall and 900,144 behind it. Without division, the cells of the grid would
+// contain 71,507 of those together with spheres of the wall.
 TEST(Division, AWallIsPartedFromWhatIsBehindIt) {
   constexpr std::size_t wall = 316 * 316;
   const scene::ParticleScene scene = scene_without_camera(generated_set("hidden", 1'000'000));
@@ -51,7 +51,8 @@ TEST(Division, AWallIsPartedFromWhatIsBehindIt) {
   EXPECT_LT(with_wall, wall * 11 / 10);
 }
 
-// A part of evenly spread particles pays from 1.5 times their number on; 512 ± 23 stay together.
+// With evenly distributed particles, dividing a cell pays from 1.5 times their number on; 512 ± 23
+// stay together.
 TEST(Division, EvenlySpreadParticlesStayInTheCellsOfTheGrid) {
   const scene::ParticleScene scene =
       scene_without_camera(generated_set("uniform", 13 * 13 * 13 * 512));
@@ -60,7 +61,7 @@ TEST(Division, EvenlySpreadParticlesStayInTheCellsOfTheGrid) {
   EXPECT_EQ(division.parts(), grid.cells() + 1);
 }
 
-// One far away makes all the others lie in one cell of the grid.
+// A single particle far away puts all others into one cell of the grid.
 TEST(Division, AFarParticleDoesNotKeepTheOthersTogether) {
   scene::ParticleSet set = generated_set("uniform", 20'000);
   set.spheres[777][0] = 1e5F;

@@ -48,13 +48,13 @@ TEST(ExtraWork, NoPixelIsDrawnTwiceAndTheShareIsAsAsked) {
       EXPECT_EQ(once.size(), pixels.size());
       const double tiles = size * size / 128.0;
       const double share = static_cast<double>(pixels.size()) / (size * size);
-      // The golden ratio's multiples deal up to 64 rows evenly to within three tiles.
+      // Multiples of the golden ratio distribute up to 64 rows evenly, within three tiles.
       EXPECT_NEAR(share, 1.0 / stride, 3 / tiles + 1e-12) << size << " pixels, stride " << stride;
     }
   }
 }
 
-// Rows are dealt out to processors in advance, halves of them to two.
+// Rows are assigned to processors in advance, half of them to each of two.
 TEST(ExtraWork, EveryHalfHasItsShare) {
   for (const int size : {192, 320, 512}) {
     for (const int stride : {5, 10, 20, 33}) {
@@ -68,7 +68,7 @@ TEST(ExtraWork, EveryHalfHasItsShare) {
   }
 }
 
-// The middle of a picture is where rays are long: no quarter may have all of the extra work.
+// Rays are long in the middle of an image, so no quarter may have all of the extra work.
 TEST(ExtraWork, IsSpreadOverThePicture) {
   for (const int stride : {5, 10, 20, 33}) {
     const Pixels pixels = drawn_again(512, 512, stride);

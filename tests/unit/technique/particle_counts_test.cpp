@@ -18,7 +18,7 @@ core::Image picture_of(std::vector<std::uint32_t> ids) {
   return image;
 }
 
-// Each counter's number is its weight, in the first and in the last row.
+// Each counter has its number as its value, in the first and in the last row.
 std::vector<std::uint32_t> two_rows() {
   std::vector<std::uint32_t> sums(particle_counter_rows * particle_counter_columns);
   for (std::uint32_t column = 0; column < particle_counter_columns; ++column) {

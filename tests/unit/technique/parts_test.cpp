@@ -14,7 +14,7 @@ namespace {
 
 constexpr Layers of_one_byte{.bytes = 1, .more = 1, .whole = 102};
 
-// Of 100 slices, the eye at this height.
+// A volume of 100 slices, with the eye at this height.
 scene::VolumeScene scene_of(double eye_z) {
   scene::VolumeScene scene;
   scene.grid = std::make_shared<const scene::VoxelGrid>(scene::VoxelGrid{
@@ -50,7 +50,7 @@ TEST(Parts, TakeEveryCellOnceAndHoldWhatItsSamplesReach) {
           for (int cell = part.begin; cell < part.end; ++cell)
             ++taken[static_cast<std::size_t>(cell)];
         }
-        // Those beside the first part are its own, too.
+        // The slices next to the first part also belong to it.
         const Part& first = parts.front();
         for (const int beside : {first.begin, first.end - 1}) {
           int& times = taken[static_cast<std::size_t>(beside)];
@@ -62,7 +62,7 @@ TEST(Parts, TakeEveryCellOnceAndHoldWhatItsSamplesReach) {
   }
 }
 
-// Every ray meets them in this order: begins where the eye is, and goes up or down.
+// Every ray meets the parts in this order: they begin where the eye is, and continue up or down.
 TEST(Parts, BeginAtTheEyeAndGoOutwards) {
   for (const double eye : {-30.0, 0.0, 37.0, 50.0, 99.0, 200.0}) {
     const std::vector<Part> parts = cut(scene_of(eye), 20);
@@ -83,7 +83,7 @@ TEST(Parts, BeginAtTheEyeAndGoOutwards) {
   }
 }
 
-// A preintegrated step reads both its ends.
+// A preintegrated step reads both of its ends.
 TEST(Parts, HoldAWholeStep) {
   scene::VolumeScene scene = scene_of(50);
   scene.quadrature = scene::Quadrature::preintegrated;
@@ -131,7 +131,7 @@ TEST(Parts, AreReadWhereABrickNearThemIsVisible) {
       const bool has_slice_70 = pass.part.begin <= 71 && pass.part.end > 70;
       EXPECT_TRUE(pass.read || !has_slice_70);
     }
-    // A walk reads behind the exit, whatever part that is.
+    // A walk reads behind the exit, in whatever part that is.
     if (skip == Skip::distance) {
       EXPECT_LE(read, 3);
     } else {

@@ -1,5 +1,5 @@
-// A step of quadrature preintegrated as preintegrated.glsl takes it, in floats on the host, against
-// the reference and its bound.
+// A step of quadrature preintegrated as preintegrated.glsl computes it, in floats on the host,
+// compared with the reference and its bound.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace {
 using Texel = std::array<float, 4>;
 using Colour = std::array<float, 3>;
 
-// What a chunk may be; infinite: all whole cells at once, as once was done.
+// The largest depth of a piece; infinite: all whole cells at once, as in an earlier version.
 constexpr float any_depth = 1e30F;
 
 class Step {
@@ -29,7 +29,7 @@ class Step {
   Step(const scene::TransferFunction& function, const std::vector<Texel>& pairs, float deepest)
       : function_(function), pairs_(pairs), deepest_(deepest) {}
 
-  // Premultiplied colour and opacity between two positions among the entries.
+  // Premultiplied colour and opacity between two positions in the table.
   [[nodiscard]] Texel operator()(float from, float to, float length) {
     gathered_ = {};
     const int first_cell = static_cast<int>(std::floor(from));
@@ -124,11 +124,11 @@ scene::TransferFunction rough_table(core::Random& random) {
 }
 
 struct Found {
-  double largest = 0;  // error of the light where both ends are exact
-  int beyond = 0;      // steps outside their bound
+  double largest = 0;  // error of the light if both ends are exact
+  int beyond = 0;      // steps outside of their bound
 };
 
-// Random steps, whose ends a device finds up to `error` entries away.
+// Random steps whose ends a device computes with an error of up to `error` entries.
 Found find(const scene::TransferFunction& function, double length, double error, float deepest,
            int count = 1000) {
   constexpr double u = 0x1p-24;
@@ -179,8 +179,8 @@ TEST(PreintegratedStep, IsExactHoweverOpaqueItIs) {
   }
 }
 
-// Whole cells taken at once, however deep: three coefficients do not carry their light, and the
-// bound sees it.
+// Whole cells are taken at once, however deep they are: three coefficients cannot represent their
+// light, and the bound shows that.
 TEST(PreintegratedStep, ByOneChunkIsWrongAndBeyondTheBound) {
   const scene::TransferFunction function = scene::load_transfer_function("surfaces");
   for (const auto& [length, error] : {std::pair{2.0, 5e-3}, {64.0, 0.25}}) {
@@ -216,11 +216,11 @@ TEST(PreintegratedStep, IsTakenInChunksWhereItMayBeDeep) {
   EXPECT_EQ(preintegration_form(scene), 2);
 }
 
-// The place in a cell as a function of the share of its depth: what three coefficients leave of it,
-// for straight extinction and for straight opacity.
+// The position in a cell as a function of the share of its depth: the error of three coefficients,
+// for linear extinction and for linear opacity.
 double left_behind(double tau_a, double tau_b, const auto& tau) {
   constexpr int parts = 4000;
-  const auto place = [](int i) {  // closer towards the ends
+  const auto place = [](int i) {  // closer together at the ends
     const double x = static_cast<double>(i) / parts;
     return x * x * x * (x * (6 * x - 15) + 10);
   };

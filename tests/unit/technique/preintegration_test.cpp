@@ -1,4 +1,5 @@
-// The table of paths and the maths around it, against integration by brute force in long double.
+// Compares the table of paths and the maths around it with integration by brute force in long
+// double.
 
 #include "technique/volume/preintegration.hpp"
 
@@ -23,8 +24,8 @@ struct Light {
   std::array<Wide, 3> colour{};
 };
 
-// The light of a path from one position among the entries to another of `length` voxels, by the
-// midpoint rule with very many parts.
+// The light of a path of `length` voxels between two positions in the table, by the midpoint rule
+// with very many parts.
 Light integrate(const scene::TransferFunction& function, Wide from, Wide to, Wide length,
                 int parts) {
   Light light;
@@ -45,7 +46,7 @@ Light integrate(const scene::TransferFunction& function, Wide from, Wide to, Wid
   return light;
 }
 
-// As the kernels do.
+// As the kernels compute it.
 Light by_table(const std::vector<std::array<float, 4>>& pairs, std::size_t from, std::size_t to,
                float length) {
   const auto* pair = &pairs[texels_per_pair * (256 * from + to)];
@@ -70,8 +71,8 @@ double largest_difference(const Light& a, const Light& b) {
   return static_cast<double>(largest);
 }
 
-// A smooth function: what is cut off is (range of colour)·D⁴/635 at most, and far less where colour
-// is smooth; the rest is the rounding of a dozen operations.
+// A smooth function: what is cut off is at most (range of colour)·D⁴/635, and far less where colour
+// is smooth. The rest is the rounding of a dozen operations.
 TEST(PreintegratedPairs, AreTheIntegralsOfPathsBetweenEntries) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {
@@ -118,7 +119,7 @@ TEST(PreintegratedPairs, SteepFunctionsStayWithinTheCutOff) {
   }
 }
 
-// The bits that every machine must make: a device looks them up.
+// Every machine must compute these bits, because a device reads them.
 TEST(PreintegratedPairs, AreTheSameEverywhere) {
   const auto pairs = preintegrated_pairs(scene::load_transfer_function("surfaces"));
   EXPECT_EQ(core::HashBuilder("pairs").add_array(std::span(pairs)).hash(),
@@ -171,7 +172,7 @@ TEST(PreintegrationMath, AttenuationIsOfTheLangevinFunction) {
     const float opacity = portable::tri_1m_exp2(-2.885390082F * z);
     const Wide wide = z;
     const Wide q = wide * wide;
-    Wide w = q / 61;  // its continued fraction, far beyond need
+    Wide w = q / 61;  // its continued fraction, with far more terms than needed
     for (int level = 59; level >= 5; level -= 2) w = q / (level + w);
     const Wide langevin = wide / (3 + w);
     const float found = portable::tri_attenuation(z, opacity);

@@ -41,7 +41,7 @@ TEST(TileRounds, HoldEveryCellOnceAndKeepTheirLimits) {
   }
 }
 
-// Of 2,048 spheres around the eye an invocation takes 32, each of which is in every tile.
+// An invocation takes 32 of 2,048 spheres around the eye, each of which is in every tile.
 TEST(TileRounds, SpheresAroundTheEyeMakeAsManyPassesAsTheyHaveTiles) {
   scene::ParticleScene scene = uniform(2048, 1000);
   scene.camera.eye = {0.5, 0.5, 0.5};
@@ -62,16 +62,17 @@ TEST(TileRounds, SmallSpheresNeedNoEntries) {
   EXPECT_TRUE(rounds.small);
 }
 
-// Nothing is cleared for small ones where there cannot be any.
+// If there cannot be any small spheres, nothing is cleared for them.
 TEST(TileRounds, LargeSpheresAlonePromiseThatNoneIsSmall) {
   const scene::ParticleScene large = uniform(8, 2);
   EXPECT_FALSE(tile_rounds(large, arrange(large), 65535, 1U << 20U).small);
-  scene::ParticleScene edge = large;  // where one may be in sight by a few pixels only
+  scene::ParticleScene edge = large;  // one may be visible by only a few pixels
   edge.camera.eye = {5, 5, 5};
   EXPECT_TRUE(tile_rounds(edge, arrange(edge), 65535, 1U << 20U).small);
 }
 
-// Their entries are gone through once a pixel: more are resolved, once for all pixels of a column.
+// Their entries are read once for each pixel. If there are more, they are resolved once for all
+// pixels of a column.
 TEST(TileRounds, FewLargeSpheresAreDrawnAtOnce) {
   for (const auto& [count, at_once] : {std::pair{8U, true}, {200U, false}, {60000U, false}}) {
     const scene::ParticleScene scene = uniform(count, 2);
@@ -82,7 +83,7 @@ TEST(TileRounds, FewLargeSpheresAreDrawnAtOnce) {
   }
 }
 
-// A tile's loop over its entries stays below what Mesa's drivers allow.
+// The loop of a tile over its entries has fewer passes than Mesa's drivers permit.
 TEST(TileRounds, ARoundHasNotMoreLargeSpheresThanALoopMayTake) {
   scene::ParticleScene scene = uniform(200000, 1000);
   scene.width = scene.height = 16;

@@ -1,4 +1,4 @@
-// Logarithm, exponential and opacity in both precisions, against long double.
+// Compares logarithm, exponential and opacity in both precisions with long double.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 using Wide = long double;
 
-// Errors in units of the roundoff, 2⁻²⁴ of float and 2⁻⁵³ of double: what volume_math.h states.
+// Errors in units of the roundoff (2⁻²⁴ for float, 2⁻⁵³ for double), as volume_math.h states them.
 struct Single {
   using Real = float;
   static constexpr Wide roundoff = 0x1p-24L;
@@ -44,7 +44,7 @@ class VolumeMath : public testing::Test {
  protected:
   using Number = typename Precision::Real;
 
-  // From the smallest opacity that is told from 0 to the largest below 1, dense at both ends and
+  // From the smallest opacity that differs from 0 to the largest below 1; dense at both ends, and
   // around √½, where an exponent is split off.
   static std::vector<Number> opacities() {
     core::Random random(5);

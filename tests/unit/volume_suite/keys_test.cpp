@@ -1,4 +1,4 @@
-// What tells whether a truth is that of the scene as it is now.
+// What shows whether a reference image belongs to the present scene.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ TEST(Keys, ChangeWithTheTransferFunctionsFile) {
   test::expect_keys_to_follow_the_table(*suite, configuration, folder);
 }
 
-// So that truths in stores stay of use.
+// So that reference images in stores remain useful.
 TEST(Keys, SayNothingOfTablesThatCannotChange) {
   const auto suite = make_suite({});
   for (const char* function : {"haze", "surfaces", "own"}) {
@@ -38,7 +38,7 @@ TEST(Keys, SayNothingOfTablesThatCannotChange) {
   }
 }
 
-// What was stored before there were windows is found as it was.
+// What was stored before windows existed must still be found.
 TEST(Keys, NameAWindowAndAMappingOnlyWhereThereIsOne) {
   const auto suite = make_suite({});
   measure::Configuration configuration = configuration_of(*suite, "haze");

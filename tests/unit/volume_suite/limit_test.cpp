@@ -1,4 +1,4 @@
-// The limit of a configuration against its closed form.
+// Compares the limit of a configuration with its closed form.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,8 @@ double largest_difference(const core::Image& a, const core::Image& b) {
   return largest;
 }
 
-// What the table cannot represent, by analytic_scenes.hpp's model, is below 4e-5 for the ramp.
+// The part that the table cannot represent is below 4e-5 for the ramp, by the model of
+// analytic_scenes.hpp.
 TEST(Limit, OfARampIsItsClosedForm) {
   const auto suite = make_suite({});
   const measure::Configuration ramp = limited_configuration(*suite, "analytic:v2_ramp:16");
@@ -39,7 +40,7 @@ TEST(Limit, OfARampIsItsClosedForm) {
   ASSERT_TRUE(exact);
   ASSERT_EQ(limit.image.rgba.size(), exact->rgba.size());
   EXPECT_LT(largest_difference(limit.image, *exact), 4e-5);
-  EXPECT_GT(*std::ranges::max_element(limit.image.rgba), 0.3F);  // there is a picture
+  EXPECT_GT(*std::ranges::max_element(limit.image.rgba), 0.3F);  // the image is not empty
   EXPECT_LT(*std::ranges::max_element(limit.uncertainty.rgba), 1e-7F);
 }
 

@@ -1,4 +1,4 @@
-// What volumes cannot tell apart.
+// Configurations that are the same work in a scene with a volume.
 
 #include "suites/volume/plain_work.hpp"
 
@@ -35,7 +35,7 @@ TEST(PlainVolumeWork, LeapsOverNothingAreNone) {
   EXPECT_EQ(full.levels, plain("uniform_box", technique::Skip::none).levels);
 }
 
-// A ray counts the brick by which it sees that.
+// A ray counts the brick in which it sees that.
 TEST(PlainVolumeWork, OfCellsLeapsOverNothingAreWork) {
   measure::VolumeWork work = work_of("uniform_box", technique::Skip::distance);
   work.scene.quadrature = scene::Quadrature::cells;

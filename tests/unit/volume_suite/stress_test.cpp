@@ -1,5 +1,5 @@
-// The stress cases of volumes: each is a scene, the plan has them all, and the truth can tell what
-// they are about.
+// The stress cases of volumes: each is a scene, the plan contains all of them, and their reference
+// images can show what they are meant to test.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,8 @@ accuracy::TruthPair truth_of(const std::string& data) {
   return make_suite({})->truth(configuration(data), {{"filter_weight_error", 0}});
 }
 
-// Largest difference over the larger bound, of a picture and one that is read at other places.
+// The largest ratio of a difference to the larger bound, for an image and the same image read at
+// other positions.
 double largest_ratio(const accuracy::TruthPair& truth, bool flip_x, bool flip_y) {
   double largest = 0;
   for (int y = 0; y < truth.truth.height; ++y) {
@@ -113,7 +114,7 @@ TEST(Stress, UnknownNamesAreRefusedWithWhatThereIs) {
   }
 }
 
-// Which way up and which hand: every flip is far outside the bound.
+// Up and down, left and right: every flip is far outside of the bound.
 TEST(Stress, TheAsymmetricSceneTellsEveryFlip) {
   const accuracy::TruthPair truth = truth_of("stress:asymmetric");
   EXPECT_GT(largest_ratio(truth, true, false), 100);
@@ -139,17 +140,17 @@ TEST(Stress, MirroredOctantsHaveMirroredTruths) {
   EXPECT_GT(largest_ratio(first, true, false), 100);
 }
 
-// 1 − (1 − 2⁻²⁰)^n for a ray of n samples, n known from its chord.
+// 1 − (1 − 2⁻²⁰)^n for a ray with n samples, where n is known from its chord.
 TEST(Stress, FaintSamplesAddUpToTheirClosedForm) {
   const StressScene scene = stress_scene(*stress_data("stress:faint"));
   const accuracy::TruthPair truth = truth_of("stress:faint");
-  // The scene's background is opaque: the colour tells what is covered.
+  // The background of the scene is opaque, so the colour shows how much is covered.
   const double covered = (static_cast<double>(truth.truth.pixel(1, 1)[0]) - 0.25) / (0.875 - 0.25);
   const double samples = std::log1p(-covered) / std::log1p(-0x1.0p-20);
   EXPECT_NEAR(samples, 3.9 / scene.step_voxels, 0.05 / scene.step_voxels);
 }
 
-// Their bounds alone would let a third of the samples be missing.
+// Their bounds alone would permit that a third of the samples is missing.
 TEST(Stress, ScenesOfManySamplesExpectEverySample) {
   for (const std::string data : {"stress:faint", "stress:march:1e5", "stress:march:1e6"}) {
     const StressScene scene = stress_scene(*stress_data(data));
@@ -162,10 +163,11 @@ TEST(Stress, ScenesOfManySamplesExpectEverySample) {
   }
 }
 
-// A picture of nothing would be right on every device.
+// An empty image would be right on every device.
 TEST(Stress, EveryCaseShowsSomething) {
   for (const std::string& data : all_data()) {
-    if (data.starts_with("stress:march")) continue;  // a second each; told by the plan's pictures
+    // A second each; the images of the plan show it.
+    if (data.starts_with("stress:march")) continue;
     const StressScene scene = stress_scene(*stress_data(data));
     const bool is_empty = std::ranges::any_of(scene.expectations, [&](const auto& each) {
       const auto* one = std::get_if<record::OneColour>(&each.rule);
@@ -188,8 +190,8 @@ TEST(Stress, EveryCaseShowsSomething) {
   }
 }
 
-// A picture by a long lens is known as well as one from near by; from the eye itself it would not
-// be known at all.
+// An image through a long lens is as accurate as one from nearby; with the position of the eye
+// itself, nothing would be known.
 TEST(Stress, AFarEyeCostsNoPrecision) {
   const auto error_at = [](const char* data) {
     const StressScene stress = stress_scene(*stress_data(data));
@@ -206,7 +208,8 @@ TEST(Stress, AFarEyeCostsNoPrecision) {
   EXPECT_LT(error_at("stress:far:1e7"), 1e-3);
 }
 
-// The rounding of a direction moves samples by voxels of the smallest spacing, whatever the others.
+// The rounding of a direction moves samples by voxels of the smallest spacing, whatever the others
+// are.
 TEST(Stress, AnisotropicVoxelsAreCountedInTheSmallest) {
   scene::VolumeScene scene;
   scene::VoxelGrid grid;

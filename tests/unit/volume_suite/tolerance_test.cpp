@@ -1,4 +1,4 @@
-// The bound that devices are judged by, on arithmetic that is known.
+// The bound by which devices are judged, tested with known arithmetic.
 
 #include "suites/volume/tolerance.hpp"
 
@@ -15,7 +15,7 @@
 namespace triptych::volume_suite {
 namespace {
 
-// A box as flat as a plate: from just above it, rays enter at its far edge.
+// A box as flat as a plate. From just above it, rays enter at its far edge.
 scene::VolumeScene plate(const glm::dvec3& eye) {
   scene::VolumeScene scene =
       reference::random_scene(5, reference::Character::rough, scene::VoxelFormat::f32);
@@ -33,7 +33,7 @@ TEST(Tolerance, PaysForTheWayToTheFarthestEntry) {
   };
   expect({1, 5, 1}, std::hypot(63, 5, 63), std::hypot(63, 1, 63));
   expect({1, 3, 1}, std::hypot(63, 3, 63), 0);
-  // Beyond an edge the eye sees two faces, and the corner farthest from it on the larger one.
+  // Outside of an edge the eye sees two faces, and the farthest corner is on the larger one.
   expect({-10, 5, 1}, std::hypot(74, 5, 63), std::hypot(74, 1, 63));
 }
 
@@ -59,11 +59,11 @@ TEST(Tolerance, HoldsForSinglePrecision) {
   for (const glm::dvec3& eye : {glm::dvec3{1, 5, 1}, {-40, 4.1, -30}, {32, 300, 32}}) {
     judge(plate(eye));
   }
-  EXPECT_GT(largest, 0.02);  // it would hold of any large number
+  EXPECT_GT(largest, 0.02);  // otherwise any large number would do
 }
 
-// A picture of rounded voxels against the truth of those that they were; without the term for it,
-// the bound does not hold.
+// An image of rounded voxels compared with the reference image of the original ones. Without the
+// term for rounding, the bound does not hold.
 TEST(Tolerance, PaysForVoxelsRoundedToHalves) {
   double paid = 0;
   double unpaid = 0;
