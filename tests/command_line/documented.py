@@ -24,7 +24,8 @@ PLANS = {
 ELSEWHERE = {
     "ci/gate": "ci_test and CI", "ci/test": "CI", "ci/build": "ci_test", "ci/setup": "CI", "ci/lint": "CI",
     "ci/fresh": "needs root and a network", "ci/fuzz": "CI", "ci/package": "ci/fresh", "ci/arm64": "needs root and a network",
-    "ci/drivers/fetch": "needs a network", "ci/bench": "takes hours", "ci/cluster/submit": "cluster tests",
+    "ci/drivers/fetch": "needs a network",
+    "ci/drivers/history": "needs a network", "ci/gpu": "needs a GPU", "ci/bench": "takes hours", "ci/cluster/submit": "cluster tests",
     "ci/dashboard": "command_line.dashboard", "ci/ratios": "command_line.ratios", "ci/publish": "analysis.publish", "analysis/analyze": "analysis.end_to_end",
     "apt-get": "examples_test",
     "ctest": "CI", "cmake": "CI", "git": "the triptych command in it is run", "cc": "layer.FramePrograms", "gdb": "interactive", "renderdoccmd": "the triptych command in it is run",
@@ -32,7 +33,8 @@ ELSEWHERE = {
 }
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 LANGUAGES = ("", "sh", "text")  # text: output of a program, which may print a command to paste
-COMMAND = re.compile(r"(?:^|[\s;(/])triptych (?P<words>[a-z][^)\n]*)")
+# Not the last line of `run`, which says how much time "triptych itself" took.
+COMMAND = re.compile(r"(?:^|[\s;(/])triptych (?!itself)(?P<words>[a-z][^)\n]*)")
 FORM = re.compile(r"…| {2,}[a-z]")  # "STORE…", or an explanation beside it: a synopsis, not a command
 
 
