@@ -68,7 +68,7 @@ class GlDevice final : public measure::Device {
 
   [[nodiscard]] std::optional<std::string> unsupported(const measure::Work& work) const override {
     const Entry* entry = find(work.technique);
-    if (entry == nullptr) return fmt::format("{} is not implemented in OpenGL", work.technique);
+    if (entry == nullptr) return fmt::format("OpenGL has no technique '{}'", work.technique);
     if (is_software(info_) && std::getenv("LP_PERF") != nullptr) {
       return "LP_PERF is set: the driver leaves work out";
     }

@@ -1,7 +1,6 @@
 // Rays through a hierarchy of boxes, which kernels build and traverse (particle_hierarchy.cl,
 // particle_rays.cl).
 #include <array>
-#include <chrono>
 #include <string_view>
 
 #include "backends/opencl/launches.hpp"
@@ -88,7 +87,7 @@ class BvhFrames final : public measure::Prepared {
   cl::Buffer counters_;  // a row of 8 per tile
   std::vector<Launch> timed_;
   std::vector<Launch> counting_;
-  std::vector<cl::Event> events_;
+  FrameRun run_;
 };
 
 BvhFrames::BvhFrames(const Session& session, Programs& programs, const measure::ParticleWork& work)
@@ -193,26 +192,21 @@ measure::Frame BvhFrames::frame(measure::Purpose purpose) {
       if (counting_.empty()) counting_ = picture(ray_programs(programs_, constants), 0);
       fill_buffer(session_, counters_, 0, 8 * tiles_ * sizeof(cl_uint));
     }
-    measure::Frame frame;
-    const auto begin = std::chrono::steady_clock::now();
-    const std::vector<Launch>& launches = counts ? counting_ : timed_;
-    run(session_, launches, events_);
-    const auto end = std::chrono::steady_clock::now();
-    frame.wall_ns = std::chrono::duration<double, std::nano>(end - begin).count();
-    check_executed(launches, events_);
-    if (purpose == measure::Purpose::timing) frame.device_ns = device_ns(events_);
+    measure::Frame frame = run_.draw(session_, counts ? counting_ : timed_, purpose);
     if (counts) frame.counts = read_counters();
     return frame;
   });
 }
 
 record::Counts BvhFrames::read_counters() {
+  run_.check();
   std::vector<cl_uint> rows(8 * tiles_);
   read_buffer(session_, counters_, rows.size() * sizeof(cl_uint), rows.data());
   return technique::particle_counts({.method = technique::Method::rays}, rows, image());
 }
 
 core::Image BvhFrames::image() {
+  run_.check();
   return read_picture(session_, {.width = width_,
                                  .height = height_,
                                  .near = near_,

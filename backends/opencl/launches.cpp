@@ -3,6 +3,37 @@
 #include <algorithm>
 
 namespace triptych::opencl_backend {
+namespace {
+
+// `events` gets one for each launch.
+void enqueue_all(const Session& session, const std::vector<Launch>& launches,
+                 std::vector<cl::Event>& events, core::CodePlace place) {
+  events.resize(launches.size());
+  std::size_t at = 0;
+  try {
+    for (; at < launches.size(); ++at) {
+      session.queue.enqueueNDRangeKernel(launches[at].kernel, cl::NullRange, launches[at].global,
+                                         launches[at].local, nullptr, &events[at]);
+    }
+    session.queue.finish();
+  } catch (const cl::Error& error) {
+    throw_api_error(error, place,
+                    at < launches.size() ? fmt::format("kernel {}", launches[at].name) : "");
+  }
+}
+
+// `launches`: null if the events do not belong to plain launches.
+void check_all(const std::vector<cl::Event>& events, const std::vector<Launch>* launches,
+               core::CodePlace place) {
+  for (std::size_t at = 0; at < events.size(); ++at) {
+    const std::string command = launches == nullptr
+                                    ? fmt::format("command {} of {}", at + 1, events.size())
+                                    : fmt::format("kernel {}", launches->at(at).name);
+    check_executed(events[at], "clEnqueueNDRangeKernel", command, place);
+  }
+}
+
+}  // namespace
 
 std::size_t round_up(std::size_t n, std::size_t multiple) {
   return (n + multiple - 1) / multiple * multiple;
@@ -18,50 +49,38 @@ cl::Buffer upload_bytes(const Session& session, std::span<const std::byte> bytes
   return buffer;
 }
 
-void run(const Session& session, const std::vector<Launch>& launches,
-         std::vector<cl::Event>& events, core::CodePlace place) {
-  events.resize(launches.size());
-  std::size_t at = 0;
-  try {
-    for (; at < launches.size(); ++at) {
-      session.queue.enqueueNDRangeKernel(launches[at].kernel, cl::NullRange, launches[at].global,
-                                         launches[at].local, nullptr, &events[at]);
-    }
-    session.queue.finish();
-  } catch (const cl::Error& error) {
-    throw_api_error(error, place,
-                    at < launches.size() ? fmt::format("kernel {}", launches[at].name) : "");
-  }
-}
-
-void check_executed(const std::vector<Launch>& launches, const std::vector<cl::Event>& events,
-                    core::CodePlace place) {
-  for (std::size_t i = 0; i < launches.size(); ++i) {
-    check_executed(events[i], "clEnqueueNDRangeKernel", fmt::format("kernel {}", launches[i].name),
-                   place);
-  }
-}
-
 void run_checked(const Session& session, const std::vector<Launch>& launches,
                  core::CodePlace place) {
   std::vector<cl::Event> events;
-  run(session, launches, events, place);
-  check_executed(launches, events, place);
+  enqueue_all(session, launches, events, place);
+  check_all(events, &launches, place);
 }
 
-std::optional<double> device_ns(const std::vector<cl::Event>& events) {
-  if (events.empty()) return std::nullopt;
+measure::Frame FrameRun::draw(const Session& session, const std::vector<Launch>& launches,
+                              measure::Purpose purpose, core::CodePlace place) {
+  measure::Frame frame =
+      draw(purpose, [&](auto& events) { enqueue_all(session, launches, events, place); });
+  launches_ = &launches;
+  return frame;
+}
+
+std::optional<double> FrameRun::device_ns() const {
+  if (events_.empty()) return std::nullopt;
   cl_ulong start = 0;
   cl_ulong end = 0;
   try {
-    events.front().getProfilingInfo(CL_PROFILING_COMMAND_START, &start);
-    events.back().getProfilingInfo(CL_PROFILING_COMMAND_END, &end);
+    events_.front().getProfilingInfo(CL_PROFILING_COMMAND_START, &start);
+    events_.back().getProfilingInfo(CL_PROFILING_COMMAND_END, &end);
   } catch (const cl::Error& error) {
     if (error.err() == CL_PROFILING_INFO_NOT_AVAILABLE) return std::nullopt;
     throw;
   }
   if (end < start) return std::nullopt;
   return static_cast<double>(end - start);
+}
+
+void FrameRun::check(core::CodePlace place) const {
+  check_all(events_, launches_, place);
 }
 
 }  // namespace triptych::opencl_backend

@@ -5,12 +5,12 @@
 
 #include <chrono>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "backends/opencl/objects.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::opencl_backend {
 
@@ -50,23 +50,45 @@ template <typename... Arguments>
 // A read-only buffer with a copy of `bytes`; it has 16 bytes if `bytes` is empty.
 [[nodiscard]] cl::Buffer upload_bytes(const Session& session, std::span<const std::byte> bytes);
 
-// Runs the launches in their order and waits without spinning. `events` gets one for each launch;
-// pass them to check_executed() outside of what is timed. Throws core::ApiError, core::DeviceLost.
-void run(const Session& session, const std::vector<Launch>& launches,
-         std::vector<cl::Event>& events, core::CodePlace place = core::CodePlace::current());
-
-// Throws if one of the launches that run() waited for ended abnormally, which clFinish does not
-// report.
-void check_executed(const std::vector<Launch>& launches, const std::vector<cl::Event>& events,
-                    core::CodePlace place = core::CodePlace::current());
-
-// Both together, for launches that are not timed.
+// Runs launches that are not timed, in their order, and waits for them. Throws core::ApiError,
+// core::DeviceLost, also if one of the launches ended abnormally, which clFinish does not report.
 void run_checked(const Session& session, const std::vector<Launch>& launches,
                  core::CodePlace place = core::CodePlace::current());
 
-// The time on the device's clock from the beginning of the first launch to the end of the last one.
-// The time between launches is included, as it is for the other APIs. nullopt if the device reports
-// no time.
-[[nodiscard]] std::optional<double> device_ns(const std::vector<cl::Event>& events);
+// The commands of the last frame, which it times.
+class FrameRun {
+ public:
+  // Runs the launches in their order and waits without spinning. The launches have to exist until
+  // check(). The frame has its wall time and, for Purpose::timing, the device's: from the beginning
+  // of the first command to the end of the last one. The time between commands is included, as it
+  // is for the other APIs. Throws core::ApiError, core::DeviceLost.
+  [[nodiscard]] measure::Frame draw(const Session& session, const std::vector<Launch>& launches,
+                                    measure::Purpose purpose,
+                                    core::CodePlace place = core::CodePlace::current());
+  // The same for commands that are not plain launches: `enqueue` gets the list of events to fill,
+  // one for each command, and waits until the queue has finished.
+  template <typename Enqueue>
+  [[nodiscard]] measure::Frame draw(measure::Purpose purpose, const Enqueue& enqueue) {
+    launches_ = nullptr;
+    measure::Frame frame;
+    const auto begin = std::chrono::steady_clock::now();
+    enqueue(events_);
+    const auto end = std::chrono::steady_clock::now();
+    frame.wall_ns = std::chrono::duration<double, std::nano>(end - begin).count();
+    if (purpose == measure::Purpose::timing) frame.device_ns = device_ns();
+    return frame;
+  }
+
+  // Throws if a command of the last frame ended abnormally, which clFinish does not report. Call it
+  // before the frame's result is read: the status of an event costs instructions in the driver that
+  // must not be counted as the frame's.
+  void check(core::CodePlace place = core::CodePlace::current()) const;
+
+ private:
+  [[nodiscard]] std::optional<double> device_ns() const;  // nullopt if the device reports no time
+
+  std::vector<cl::Event> events_;
+  const std::vector<Launch>* launches_ = nullptr;  // null: other commands
+};
 
 }  // namespace triptych::opencl_backend

@@ -1,7 +1,6 @@
 #include "backends/opencl/particle_frames.hpp"
 
 #include <array>
-#include <chrono>
 #include <limits>
 
 #include "technique/particles/particle_counts.hpp"
@@ -52,14 +51,7 @@ measure::Frame ParticleFrames::frame(measure::Purpose purpose) {
   return checked([&] {
     const bool counts = purpose == measure::Purpose::counters;
     if (counts) prepare_counting();
-    measure::Frame frame;
-    const auto begin = std::chrono::steady_clock::now();
-    const std::vector<Launch>& launches = counts ? counting_ : timed_;
-    run(session_, launches, events_);
-    const auto end = std::chrono::steady_clock::now();
-    frame.wall_ns = std::chrono::duration<double, std::nano>(end - begin).count();
-    check_executed(launches, events_);
-    if (purpose == measure::Purpose::timing) frame.device_ns = device_ns(events_);
+    measure::Frame frame = run_.draw(session_, counts ? counting_ : timed_, purpose);
     if (counts) frame.counts = read_counters();
     return frame;  // OpenCL has no pipeline statistics: they stay absent
   });
@@ -81,6 +73,7 @@ void ParticleFrames::prepare_counting() {
 }
 
 record::Counts ParticleFrames::read_counters() {
+  run_.check();
   std::vector<cl_uint> rows(particle_counter_stride * stages_.counter_rows());
   read_buffer(session_, stages_.counters(), rows.size() * sizeof(cl_uint), rows.data());
   record::Counts counts;
@@ -96,6 +89,7 @@ record::Counts ParticleFrames::read_counters() {
 }
 
 core::Image ParticleFrames::image() {
+  run_.check();
   return read_picture(session_, {.width = width_,
                                  .height = height_,
                                  .near = near_,

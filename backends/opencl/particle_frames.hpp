@@ -51,7 +51,7 @@ class ParticleFrames final : public measure::Prepared {
   std::optional<Pass> extra_;  // the injected slowdown
   std::vector<Launch> timed_;
   std::vector<Launch> counting_;
-  std::vector<cl::Event> events_;
+  FrameRun run_;
 };
 
 }  // namespace triptych::opencl_backend

@@ -1,6 +1,5 @@
 #include "backends/opencl/volume_frames.hpp"
 
-#include <chrono>
 #include <cstdint>
 #include <span>
 
@@ -120,28 +119,17 @@ void VolumeFrames::poison() {
 measure::Frame VolumeFrames::frame(measure::Purpose purpose) {
   return checked([&] {
     const bool counts = purpose == measure::Purpose::counters;
-    measure::Frame frame;
-    const auto begin = std::chrono::steady_clock::now();
     const std::vector<Launch>& launches = counts ? counting_ : timed_;
-    if (parts_) {
-      parts_->run(launches.front(), events_);
-    } else {
-      run(session_, launches, events_);
-    }
-    const auto end = std::chrono::steady_clock::now();
-    frame.wall_ns = std::chrono::duration<double, std::nano>(end - begin).count();
-    if (parts_) {
-      for (const cl::Event& each : events_) check_executed(each, "a command of a volume in parts");
-    } else {
-      check_executed(launches, events_);
-    }
-    if (purpose == measure::Purpose::timing) frame.device_ns = device_ns(events_);
+    measure::Frame frame =
+        parts_ ? run_.draw(purpose, [&](auto& events) { parts_->run(launches.front(), events); })
+               : run_.draw(session_, launches, purpose);
     if (counts) frame.counts = read_counters();
     return frame;  // OpenCL has no pipeline statistics: they stay absent
   });
 }
 
 record::Counts VolumeFrames::read_counters() {
+  run_.check();
   read_buffer(session_, counters_, counts_.size() * sizeof(std::uint32_t), counts_.data());
   measure::check_counted(counts_);
   std::array<std::uint64_t, technique::raycast_counters.size()> sums{};
@@ -157,6 +145,7 @@ record::Counts VolumeFrames::read_counters() {
 }
 
 core::Image VolumeFrames::image() {
+  run_.check();
   core::Image image(width_, height_);
   read_buffer(session_, image_, image.rgba.size() * sizeof(float), image.rgba.data());
   return image;

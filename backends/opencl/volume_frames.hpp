@@ -51,7 +51,7 @@ class VolumeFrames final : public measure::Prepared {
   std::optional<VolumeParts> parts_;  // for a volume that does not fit the device as a whole
   std::vector<Launch> timed_;         // one launch, with the injected extra work if there is any
   std::vector<Launch> counting_;      // one launch, for the image only
-  std::vector<cl::Event> events_;     // of the last frame, one for each launch
+  FrameRun run_;
   std::vector<std::uint32_t> counts_;
 };
 

@@ -62,7 +62,7 @@ Device::Device(std::unique_ptr<const Instance> instance, Candidate candidate)
 std::optional<std::string> Device::unsupported(const measure::Work& work) const {
   return translated([&]() -> std::optional<std::string> {
     const Entry* entry = find_entry(work.technique);
-    if (entry == nullptr) return fmt::format("Vulkan has no technique {}", work.technique);
+    if (entry == nullptr) return fmt::format("Vulkan has no technique '{}'", work.technique);
     if (entry->prepare.index() != work.scene.index()) {
       return fmt::format("the technique {} draws scenes of another suite", work.technique);
     }

@@ -1,6 +1,7 @@
 #include "accuracy/requested_error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>

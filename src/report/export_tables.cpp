@@ -1,6 +1,7 @@
 #include "report/export_tables.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 #include "report/finding_groups.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 // One configuration for each kind of work.
-constexpr const char* few = "--set data=generate:mandelbulb:32";
+constexpr const char* few = "--set data=generate:mandelbulb:40";
 
 struct DeviceFaultCase {
   const char* change;

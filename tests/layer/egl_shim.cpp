@@ -39,12 +39,22 @@ Function* gl_function(const char* name) {
       system_function<decltype(eglGetProcAddress)>("eglGetProcAddress")(name));
 }
 
+std::map<GLuint, int>& uses_of_programs() {
+  static std::map<GLuint, int> uses;
+  return uses;
+}
+
+// A driver gives the names of deleted programs to new ones.
+void link(GLuint program) {
+  uses_of_programs().erase(program);
+  gl_function<void(GLuint)>("glLinkProgram")(program);
+}
+
 // Every program works when it is used for the first time.
 bool repeated() {
-  static std::map<GLint, int> uses;
   GLint program = 0;
   gl_function<void(GLenum, GLint*)>("glGetIntegerv")(gl_current_program, &program);
-  return ++uses[program] > 1;
+  return ++uses_of_programs()[static_cast<GLuint>(program)] > 1;
 }
 
 void dispatch_once(GLuint x, GLuint y, GLuint z) {
@@ -84,6 +94,7 @@ using Any = void (*)();
 
 Any fault_for(std::string_view name) {
   if (asked("once_only")) {
+    if (name == "glLinkProgram") return reinterpret_cast<Any>(&link);
     if (name == "glDispatchCompute") return reinterpret_cast<Any>(&dispatch_once);
     if (name == "glDrawArrays") return reinterpret_cast<Any>(&draw_once);
     if (name == "glMultiDrawArraysIndirect") return reinterpret_cast<Any>(&draw_indirect_once);

@@ -99,7 +99,8 @@ TEST_F(FramePrograms, DumpsListWhatTheDriverWasGiven) {
 // With a replacement for RenderDoc that records its calls.
 TEST_F(FramePrograms, OneFrameIsCaptured) {
   const test::Result rendered = in_folder(fmt::format(
-      "LD_PRELOAD='{}' '{}' render volume --device null:scripted --in-process --out frame",
+      "LD_PRELOAD='{}' TRIPTYCH_NULL_SCRIPT={{}} '{}' render volume --device null:scripted "
+      "--in-process --out frame",
       TRIPTYCH_CAPTURE_SHIM, TRIPTYCH_PROGRAM));
   EXPECT_THAT(rendered.output, HasSubstr("capture to "));
   EXPECT_THAT(rendered.output, HasSubstr("capture begins\ncapture ends\n"));

@@ -68,7 +68,7 @@ const std::vector<Lowered>& lowered() {
       {"memoryHeapSize=150000", volume, 2, "the largest heap has 150000"},
       {"emptyHeap", volume},
       {"emptyHeap", particles},
-      {"maxMemoryAllocationSize=100000", volume, 2, "maxMemoryAllocationSize = 100000"},
+      {"maxMemoryAllocationSize=150000", volume, 2, "maxMemoryAllocationSize = 150000"},
   };
   return all;
 }

@@ -69,8 +69,8 @@ std::string canonical_choice(const Factor& factor, const PlacedText& value) {
 std::string canonical_text(const Factor& factor, const PlacedText& value) {
   if (value.text.empty() || !core::is_line(value.text)) {
     throw core::InputError(value.place,
-                           fmt::format("'{}': a value must be one line of UTF-8 without "
-                                       "control characters; found {}",
+                           fmt::format("'{}': a value must not be empty, and must be UTF-8 "
+                                       "without line breaks or control characters; found {}",
                                        factor.name, core::json_text(value.text)));
   }
   return value.text;

@@ -108,7 +108,7 @@ std::unique_ptr<Prepared> prepare_long_enough(Device& device, Work work) {
 }  // namespace
 
 record::ClockTrust calibrate(Prepared& prepared, technique::Work work_kind) {
-  FrameProof proof(prepared, false);
+  FrameProof proof(prepared);
   const int frames = frames_within_budget(proof.draw(Purpose::timing).wall_ns);
   proof.check("the first frame of the clock's calibration");
   std::vector<double> ratios;

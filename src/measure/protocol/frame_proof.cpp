@@ -62,7 +62,7 @@ void FrameProof::read(std::string_view what) {
   without_value_ = pixels_without_value(last_);
   const std::size_t pixels = last_.pixel_count();
   if (!first_) {
-    if (!image_is_judged_ && pixels > 0 && without_value_ == pixels) {
+    if (pixels > 0 && without_value_ == pixels) {
       throw NotDrawn(fmt::format("{} was not drawn: none of {} pixels got a value", what, pixels));
     }
     first_ = last_;

@@ -18,21 +18,19 @@ namespace triptych::measure {
 // scene and the camera stand still. Both happen outside of what the frame times.
 class FrameProof {
  public:
-  // `image_is_judged`: an image that no frame wrote is found later, when it is compared with the
-  // reference image. Otherwise a first frame that writes nothing is an error here.
-  explicit FrameProof(Prepared& prepared, bool image_is_judged = true)
-      : prepared_(prepared), image_is_judged_(image_is_judged) {}
+  explicit FrameProof(Prepared& prepared) : prepared_(prepared) {}
 
   // Overwrites the outputs. Everything that is drawn until the next check() counts as one frame.
   // The first call also checks whether the outputs were overwritten, and throws NotDrawn if they
   // were not.
   void start();
-  // Throws NotDrawn if nothing was drawn since start(), or if the image differs from that of the
-  // first check. `what` names the frame in the message, "timed frame 3 of 8". Returns the image.
+  // Throws NotDrawn if no pixel or fewer pixels than in the first check were drawn since start(),
+  // or if the image differs from that of the first check. `what` names the frame in the message,
+  // "timed frame 3 of 8". Returns the image.
   const core::Image& check(std::string_view what);
   // For frames whose image need not equal the first one bit for bit: frames of the build that
   // counts, and frames after a jump of the camera, which draw what the frame before did not show.
-  // Throws NotDrawn if more pixels have no value than in the first frame.
+  // Throws NotDrawn if no pixel has a value, or fewer have one than in the first frame.
   void check_drawn(std::string_view what);
 
   // The image of the next check() is the one that later ones have to repeat, instead of the
@@ -54,7 +52,6 @@ class FrameProof {
   void read(std::string_view what);
 
   Prepared& prepared_;
-  bool image_is_judged_;
   bool started_ = false;
   bool renewed_ = false;
   std::optional<core::Image> first_;

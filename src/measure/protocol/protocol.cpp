@@ -112,7 +112,7 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
   const Stopwatch whole;
   Measurement result;
   record::Record& record = result.record;
-  FrameProof proof(prepared, protocol.image_is_judged);
+  FrameProof proof(prepared);
   double work_ns = 0;
   const auto draw = [&](Purpose purpose) {
     proof.start();
@@ -155,7 +155,7 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
 Measurement count_instructions(Prepared& prepared, const Protocol& protocol,
                                const InstructionCounter& counter) {
   constexpr int frames_before = 2;
-  FrameProof proof(prepared, protocol.image_is_judged);
+  FrameProof proof(prepared);
   for (int i = 0; i < frames_before; ++i) {
     proof.begin_again();
     static_cast<void>(proof.draw(Purpose::timing));
@@ -196,7 +196,7 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
     return value;
   };
 
-  FrameProof proof(prepared, protocol.image_is_judged);
+  FrameProof proof(prepared);
   const WarmUp warm = counted([&] { return warm_up(proof, protocol); });
   proof.begin_again();
   record.warm_up_frames = warm.frames;

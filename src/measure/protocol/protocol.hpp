@@ -40,8 +40,6 @@ struct Protocol {
   // Set by the worker itself and never sent to it: the frame before the first is drawn from another
   // camera, so the first frames may differ where surfaces are equally far away.
   bool camera_jumps = false;
-  // Set by the worker itself: the image is compared with a reference image.
-  bool image_is_judged = true;
 
   [[nodiscard]] bool has_loop() const noexcept { return timed && least_loop_ns > 0; }
 };

@@ -1,6 +1,7 @@
 #include "measure/protocol/statistics_calibration.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

@@ -54,7 +54,6 @@ technique::Work kind_named(std::string_view name) {
 Protocol protocol_for(const Job& job, const Work& work, bool has_statistics) {
   Protocol protocol = job.protocol;
   protocol.statistics = protocol.statistics && has_statistics;
-  protocol.image_is_judged = technique::technique(work.technique).picture;
   if (const auto* particles = std::get_if<ParticleWork>(&work.scene)) {
     protocol.camera_jumps = particles->camera_before.has_value();
   }

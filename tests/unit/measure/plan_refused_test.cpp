@@ -72,7 +72,7 @@ TEST_F(PlanTest, EmptyListAndMissingValue) {
   EXPECT_THAT(refusal("suite: fake\nstep: []\n"), AllOf(StartsWith(at(2, 7)), HasSubstr("empty")));
   EXPECT_THAT(refusal("suite: fake\nstep:\n"), HasSubstr("'step' has no value"));
   EXPECT_THAT(refusal("suite: fake\nstep: [1, ~]\n"), HasSubstr("'step' has no value"));
-  EXPECT_THAT(refusal("suite: fake\ndata: ''\n"), HasSubstr("not empty"));
+  EXPECT_THAT(refusal("suite: fake\ndata: ''\n"), HasSubstr("not be empty"));
 }
 
 TEST_F(PlanTest, DuplicateValueAlsoInAnotherSpelling) {

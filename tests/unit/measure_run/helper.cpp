@@ -6,7 +6,8 @@
 // measure_run_helper count-busy LOOPS    the same beside a thread that has much to do first
 // measure_run_helper count-stride BYTES  instructions and cache misses of 1,000 loads, each so far
 //                                        behind the last
-// keeps PID                              0 where this child is alive after a process was started and
+// keeps PID                              0 where this child is alive after a process was started
+// and
 //                                        has ended
 //
 // What counts does so three times, a line each.
@@ -15,6 +16,7 @@
 // TRIPTYCH_TEST_FAILING_STARTS says how many of the first workers leave at once with code 7.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
