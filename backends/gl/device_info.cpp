@@ -57,6 +57,31 @@ std::string host_of(std::string_view renderer) {
   return std::string(renderer.substr(begin + 1, end - begin - 1));
 }
 
+std::map<std::string, std::string> limits_of(const Api& gl) {
+  std::map<std::string, std::string> limits;
+  const auto add = [&](const char* name, std::int64_t value) {
+    limits.emplace(name, fmt::to_string(value));
+  };
+  add("GL_MAX_3D_TEXTURE_SIZE", gl.limit(GL_MAX_3D_TEXTURE_SIZE));
+  add("GL_SUBPIXEL_BITS", gl.limit(GL_SUBPIXEL_BITS));
+  add("GL_MAX_RENDERBUFFER_SIZE", gl.limit(GL_MAX_RENDERBUFFER_SIZE));
+  GLint bits = 0;
+  gl.GetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
+  add("GL_QUERY_COUNTER_BITS(GL_TIMESTAMP)", bits);
+  if (gl.ARB_shader_storage_buffer_object != 0 || gl.VERSION_4_3 != 0) {
+    add("GL_MAX_SHADER_STORAGE_BLOCK_SIZE", gl.limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE));
+    add("GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS", gl.limit(GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS));
+  }
+  if (gl.ARB_compute_shader != 0 || gl.VERSION_4_3 != 0) {
+    add("GL_MAX_COMPUTE_WORK_GROUP_COUNT[0]", gl.limit(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0));
+    add("GL_MAX_COMPUTE_WORK_GROUP_COUNT[1]", gl.limit(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 1));
+    add("GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS", gl.limit(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS));
+  }
+  return limits;
+}
+
+}  // namespace
+
 // A short name, depending on what the vendor and renderer strings contain; otherwise the first word
 // of the renderer string.
 std::string driver_name(const std::string& vendor, const std::string& renderer) {
@@ -98,31 +123,6 @@ std::string driver_version(const std::string& version, const std::string& render
   }
   return text;
 }
-
-std::map<std::string, std::string> limits_of(const Api& gl) {
-  std::map<std::string, std::string> limits;
-  const auto add = [&](const char* name, std::int64_t value) {
-    limits.emplace(name, fmt::to_string(value));
-  };
-  add("GL_MAX_3D_TEXTURE_SIZE", gl.limit(GL_MAX_3D_TEXTURE_SIZE));
-  add("GL_SUBPIXEL_BITS", gl.limit(GL_SUBPIXEL_BITS));
-  add("GL_MAX_RENDERBUFFER_SIZE", gl.limit(GL_MAX_RENDERBUFFER_SIZE));
-  GLint bits = 0;
-  gl.GetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
-  add("GL_QUERY_COUNTER_BITS(GL_TIMESTAMP)", bits);
-  if (gl.ARB_shader_storage_buffer_object != 0 || gl.VERSION_4_3 != 0) {
-    add("GL_MAX_SHADER_STORAGE_BLOCK_SIZE", gl.limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE));
-    add("GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS", gl.limit(GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS));
-  }
-  if (gl.ARB_compute_shader != 0 || gl.VERSION_4_3 != 0) {
-    add("GL_MAX_COMPUTE_WORK_GROUP_COUNT[0]", gl.limit(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0));
-    add("GL_MAX_COMPUTE_WORK_GROUP_COUNT[1]", gl.limit(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 1));
-    add("GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS", gl.limit(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS));
-  }
-  return limits;
-}
-
-}  // namespace
 
 bool is_software(const record::Device& info) {
   // The driver below a layered one is a part of its version.
