@@ -1,4 +1,5 @@
-// Prints the statistics and the disassembly that one device's compiler produces for a configuration.
+// Prints the statistics and the disassembly that one device's compiler produces for a
+// configuration.
 
 #include <fmt/format.h>
 
@@ -8,7 +9,7 @@
 #include "app/arguments.hpp"
 #include "app/one_frame.hpp"
 #include "app/registry.hpp"
-#include "app/saying.hpp"
+#include "app/terminal.hpp"
 #include "core/quoting.hpp"
 #include "core/temporary_folder.hpp"
 #include "judge/code/code_change.hpp"
@@ -40,17 +41,15 @@ void print_statistics(const record::Executable& executable) {
   }
   const bool disassembled = !executable.assembly.empty();
   if (disassembled && !executable.statistics.contains("Loop instructions")) {
-    put(
-        "  the loop that samples the volume was not found for certain, so the instructions of one "
+    put("  the loop that samples the volume was not found for certain, so the instructions of one "
         "iteration are not reported\n");
   }
 }
 
 void print_text(const record::Device& device, const record::Record& record,
                 const record::Store& store, bool brief) {
-  put("{}: {}, driver {}{}\n", device.id, device.name,
-             device.driver_version,
-             device.compiles_for.empty() ? "" : "; it only compiles, nothing is executed on it");
+  put("{}: {}, driver {}{}\n", device.id, device.name, device.driver_version,
+      device.compiles_for.empty() ? "" : "; it only compiles, nothing is executed on it");
   put("{}\n", record.configuration);
   for (const auto& [name, executable] : record.code) {
     put("\n{}\n", name);
@@ -62,7 +61,8 @@ void print_text(const record::Device& device, const record::Record& record,
 
 void print_json(const record::Device& device, const record::Record& record,
                 const record::Store& store, bool brief) {
-  core::Json json{{"device", device}, {"configuration", record.configuration}, {"code", record.code}};
+  core::Json json{
+      {"device", device}, {"configuration", record.configuration}, {"code", record.code}};
   if (!brief) {
     for (const auto& [name, executable] : record.code) {
       if (const auto text = store.listing(executable.assembly)) json["disassembly"][name] = *text;
@@ -85,9 +85,8 @@ core::ExitCode code(const CodeArguments& arguments) {
   const Registry registry = make_registry();
   measure::SuiteWithTruth& suite = registry.suite(arguments.frame.suite);
   const measure::Plan plan = plan_of(suite, arguments);
-  const std::string device =
-      measure::choose_device(registry.devices_and_compilers({arguments.frame.device}), "--device",
-                             arguments.frame.device);
+  const std::string device = measure::choose_device(
+      registry.devices_and_compilers({arguments.frame.device}), "--device", arguments.frame.device);
   const core::TemporaryFolder folder;
   record::Store store(folder.path() / "code.sqlite", record::Store::Mode::append);
   const measure::RunResult result =

@@ -3,10 +3,10 @@
 
 #include <set>
 
-#include "app/comparing.hpp"
-#include "app/judging.hpp"
+#include "app/compare_sides.hpp"
 #include "app/registry.hpp"
-#include "app/saying.hpp"
+#include "app/terminal.hpp"
+#include "app/verdicts.hpp"
 #include "comparison/side_by_side.hpp"
 #include "comparison/store_diff.hpp"
 #include "core/quoting.hpp"
@@ -62,7 +62,8 @@ core::ExitCode show_apis(const CompareArguments& arguments) {
     const auto table = comparison::side_by_side(store.records(run.id));
     if (!table) continue;
     json[run.plan] = comparison::to_json(*table);
-    if (!arguments.json) put_lines(fmt::format("{}\n\n{}\n", run.plan, comparison::to_text(*table)));
+    if (!arguments.json)
+      put_lines(fmt::format("{}\n\n{}\n", run.plan, comparison::to_text(*table)));
   }
   if (json.empty()) {
     throw core::NotSupported(comparing.store + ": no two devices measured the same configuration");

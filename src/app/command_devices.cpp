@@ -4,7 +4,7 @@
 
 #include "app/arguments.hpp"
 #include "app/registry.hpp"
-#include "app/saying.hpp"
+#include "app/terminal.hpp"
 #include "measure/worker/listing.hpp"
 #include "report/words/outcome.hpp"
 
@@ -20,12 +20,12 @@ std::string why(const measure::Broken& broken) {
 
 void print_text(const std::vector<Greeting>& greeted, const std::vector<measure::Broken>& broken) {
   for (const Greeting& each : greeted) {
-    put("{}\n  {} ({}), driver {}, {}\n", each.device.id, each.device.name,
-               each.device.vendor, each.device.driver_version, each.device.api_version);
+    put("{}\n  {} ({}), driver {}, {}\n", each.device.id, each.device.name, each.device.vendor,
+        each.device.driver_version, each.device.api_version);
     if (each.refused) put("  cannot be used: {}\n", text_of(*each.refused));
     if (!each.device.compiles_for.empty()) {
       put("  only compiles, for the GPU family {}: nothing is executed on it\n",
-                 each.device.compiles_for);
+          each.device.compiles_for);
     }
     for (const record::ClockTrust& clock : each.clocks) {
       put("  clock for {}: {}\n", clock.work, clock.verdict);
@@ -41,8 +41,7 @@ void print_text(const std::vector<Greeting>& greeted, const std::vector<measure:
       put("  environment: {}={}\n", name, value);
     }
   }
-  for (const measure::Broken& each : broken)
-    put("not usable: {}: {}\n", each.what, why(each));
+  for (const measure::Broken& each : broken) put("not usable: {}: {}\n", each.what, why(each));
 }
 
 void print_json(const std::vector<Greeting>& greeted, const std::vector<measure::Broken>& broken) {

@@ -3,13 +3,13 @@
 #include <algorithm>
 
 #include "app/arguments.hpp"
-#include "app/judging.hpp"
-#include "app/saying.hpp"
+#include "app/terminal.hpp"
+#include "app/verdicts.hpp"
 #include "app/version.hpp"
 #include "core/output_files.hpp"
 #include "measure/plan/plan.hpp"
 #include "record/store.hpp"
-#include "report/export_tables.hpp"
+#include "report/exports/export_tables.hpp"
 
 namespace triptych::app {
 namespace {
@@ -46,8 +46,7 @@ core::ExitCode write_tables(const ExportArguments& arguments) {
     print({{"folder", arguments.out}, {"rows", rows}}, 1);
     return core::ExitCode::pass;
   }
-  for (const auto& [table, count] : rows)
-    put("{}/{}.csv: {} rows\n", arguments.out, table, count);
+  for (const auto& [table, count] : rows) put("{}/{}.csv: {} rows\n", arguments.out, table, count);
   put("{}/dictionary.json: the meaning and unit of each column\n", arguments.out);
   return core::ExitCode::pass;
 }

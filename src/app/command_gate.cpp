@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/comparing.hpp"
-#include "app/judging.hpp"
-#include "app/measuring.hpp"
+#include "app/compare_sides.hpp"
+#include "app/measure_plans.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
-#include "app/saying.hpp"
+#include "app/terminal.hpp"
+#include "app/verdicts.hpp"
 #include "app/version.hpp"
 #include "core/foreign_error.hpp"
 #include "core/glob.hpp"
@@ -131,8 +131,8 @@ core::ExitCode judge_by_base(const GateArguments& arguments) {
   return compare_and_tell(comparisons, arguments.json);
 }
 
-// Returns whether a plan that checks code has anything to judge: a device with a GPU's compiler, or,
-// if the gate does not measure, a run in the store.
+// Returns whether a plan that checks code has anything to judge: a device with a GPU's compiler,
+// or, if the gate does not measure, a run in the store.
 bool has_compilers(const GateArguments& arguments, const Registry& registry,
                    const JudgedPlan& judged) {
   if (!arguments.measure) {
@@ -157,8 +157,8 @@ bool has_compilers(const GateArguments& arguments, const Registry& registry,
 void leave_out_compilers(const GateArguments& arguments, const Registry& registry,
                          std::vector<JudgedPlan>& plans) {
   const bool required = measure::name_a_compiler(arguments.required);
-  const auto compiled = std::ranges::find_if(
-      plans, [](const JudgedPlan& each) { return each.plan.compiled(); });
+  const auto compiled =
+      std::ranges::find_if(plans, [](const JudgedPlan& each) { return each.plan.compiled(); });
   if (!arguments.plans.empty() || required || compiled == plans.end()) return;
   if (has_compilers(arguments, registry, *compiled)) return;
   std::erase_if(plans, [](const JudgedPlan& each) { return each.plan.compiled(); });

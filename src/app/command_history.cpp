@@ -5,12 +5,12 @@
 #include <filesystem>
 
 #include "app/arguments.hpp"
-#include "app/judging.hpp"
 #include "app/registry.hpp"
-#include "app/saying.hpp"
+#include "app/terminal.hpp"
+#include "app/verdicts.hpp"
 #include "comparison/history.hpp"
 #include "core/output_files.hpp"
-#include "report/history_page.hpp"
+#include "report/page/history_page.hpp"
 
 namespace triptych::app {
 namespace {

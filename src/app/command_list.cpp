@@ -9,7 +9,7 @@
 
 #include "app/arguments.hpp"
 #include "app/registry.hpp"
-#include "app/saying.hpp"
+#include "app/terminal.hpp"
 
 namespace triptych::app {
 namespace {
@@ -31,8 +31,8 @@ std::string levels_text(const measure::Factor& factor) {
 void print_factor(const measure::Factor& factor) {
   const std::string levels = levels_text(factor);
   put("  {}: {}{}{}{}\n      {}\n", factor.name, levels, levels.empty() ? "" : "; ",
-             factor.standard.empty() ? "required" : "default " + factor.standard,
-             factor.of_scene ? "" : "; does not change the image", factor.summary);
+      factor.standard.empty() ? "required" : "default " + factor.standard,
+      factor.of_scene ? "" : "; does not change the image", factor.summary);
 }
 
 core::Json json_of(const measure::Factor& factor) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/arguments.hpp"
-#include "app/saying.hpp"
+#include "app/terminal.hpp"
 #include "core/output_files.hpp"
 #include "record/merge/merge.hpp"
 
@@ -29,15 +29,14 @@ void tell_left_out(const record::RecordCounts& counts) {
   }
   if (counts.injected > 0) {
     put("  {} records with an injected fault were replaced by records without one\n",
-               counts.injected);
+        counts.injected);
   }
   if (counts.measured_anew > 0) {
     put("  {} failed or skipped records were replaced by measured ones of another store\n",
-               counts.measured_anew);
+        counts.measured_anew);
   }
   if (counts.not_chosen > 0) {
-    put(
-        "  {} records were dropped, because another store has a different record of the same "
+    put("  {} records were dropped, because another store has a different record of the same "
         "configuration and device; the one with the lower seal is kept\n",
         counts.not_chosen);
   }
@@ -45,12 +44,12 @@ void tell_left_out(const record::RecordCounts& counts) {
 
 void tell(const record::MergeResult::Plan& plan, const std::string& out) {
   put("{}: run {} in {}: {} configurations\n", plan.run.plan, plan.run.id, out,
-             plan.run.configurations);
+      plan.run.configurations);
   for (const auto& [device, records] : plan.counts.records) {
     put("  {}: {}{}\n", device, records,
-               records < plan.run.configurations
-                   ? fmt::format(", {} missing", plan.run.configurations - records)
-                   : "");
+        records < plan.run.configurations
+            ? fmt::format(", {} missing", plan.run.configurations - records)
+            : "");
   }
   tell_left_out(plan.counts);
 }
@@ -67,10 +66,10 @@ std::vector<std::string> gaps_in(const record::Store& store,
       told.push_back(gap.plan + ": was to measure no configuration, as an empty shard is");
       continue;
     }
-    told.push_back(fmt::format("{}{}: {} of {} configurations{}{}", gap.plan,
-                               gap.device.empty() ? "" : " on " + gap.device, gap.records,
-                               gap.configurations, gap.missing.empty() ? "" : "; missing: ",
-                               gap.missing.empty() ? "" : gap.missing.front()));
+    told.push_back(fmt::format(
+        "{}{}: {} of {} configurations{}{}", gap.plan,
+        gap.device.empty() ? "" : " on " + gap.device, gap.records, gap.configurations,
+        gap.missing.empty() ? "" : "; missing: ", gap.missing.empty() ? "" : gap.missing.front()));
     if (gap.missing.size() > 1) told.back() += ", …";
   }
   if (told.empty() && store.runs().empty()) told.emplace_back("holds no run");
@@ -119,7 +118,7 @@ core::ExitCode merge(const MergeArguments& arguments) {
   for (const record::MergeResult::Plan& each : result.plans) tell(each, arguments.out);
   if (result.older_runs > 0) {
     put("{} older runs were left out: each store contributes the latest run of a plan\n",
-               result.older_runs);
+        result.older_runs);
   }
   // A configuration that no device of a shard has is no gap in the whole run.
   if (!tell_gaps(arguments)) {

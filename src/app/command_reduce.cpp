@@ -5,7 +5,7 @@
 
 #include "app/arguments.hpp"
 #include "app/one_frame.hpp"
-#include "app/saying.hpp"
+#include "app/terminal.hpp"
 #include "app/version.hpp"
 #include "core/json_text.hpp"
 #include "core/output_files.hpp"
@@ -15,9 +15,9 @@
 #include "record/factor_list.hpp"
 #include "reduction/reduce.hpp"
 #include "reduction/trial.hpp"
-#include "report/bug_report.hpp"
+#include "report/ci/bug_report.hpp"
 #include "report/command.hpp"
-#include "report/frame_folder.hpp"
+#include "report/exports/frame_folder.hpp"
 #include "report/words/finding.hpp"
 
 namespace triptych::app {

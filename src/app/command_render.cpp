@@ -9,7 +9,7 @@
 
 #include "app/arguments.hpp"
 #include "app/one_frame.hpp"
-#include "app/saying.hpp"
+#include "app/terminal.hpp"
 #include "core/json_text.hpp"
 #include "core/output_files.hpp"
 #include "core/temporary_folder.hpp"
@@ -18,7 +18,7 @@
 #include "measure/run/in_process.hpp"
 #include "measure/run/runner.hpp"
 #include "measure/worker/own_program.hpp"
-#include "report/frame_folder.hpp"
+#include "report/exports/frame_folder.hpp"
 #include "report/words/finding.hpp"
 
 namespace triptych::app {

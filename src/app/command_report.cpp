@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include "app/arguments.hpp"
-#include "app/judging.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
-#include "app/saying.hpp"
+#include "app/terminal.hpp"
+#include "app/verdicts.hpp"
 #include "core/output_files.hpp"
-#include "report/benchmark_json.hpp"
+#include "report/exports/benchmark_json.hpp"
 
 namespace triptych::app {
 namespace {

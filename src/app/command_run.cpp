@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "app/measuring.hpp"
+#include "app/measure_plans.hpp"
 #include "app/registry.hpp"
 #include "measure/system/process.hpp"
 #include "measure/worker/listing.hpp"

@@ -6,14 +6,14 @@
 #include <algorithm>
 
 #include "app/arguments.hpp"
-#include "app/judging.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
-#include "app/saying.hpp"
+#include "app/terminal.hpp"
+#include "app/verdicts.hpp"
 #include "core/output_files.hpp"
 #include "measure/worker/own_program.hpp"
-#include "report/ctest_answer.hpp"
-#include "report/ctest_list.hpp"
+#include "report/ci/ctest_answer.hpp"
+#include "report/ci/ctest_list.hpp"
 
 namespace triptych::app {
 namespace {

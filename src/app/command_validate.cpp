@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "app/arguments.hpp"
-#include "app/judging.hpp"
-#include "app/measuring.hpp"
+#include "app/measure_plans.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
-#include "app/saying.hpp"
+#include "app/terminal.hpp"
+#include "app/verdicts.hpp"
 #include "core/output_files.hpp"
 #include "judge/gate/flakes.hpp"
 #include "measure/run/runner.hpp"
@@ -22,8 +22,8 @@ namespace {
 // Everything that a driver must get right, whatever its speed: ordinary scenes with every
 // technique, hostile scenes, and closed forms.
 constexpr std::array<const char*, 6> validation_plans{"volume/quick",     "volume/stress",
-                                           "volume/accuracy",  "particles/quick",
-                                           "particles/stress", "particles/accuracy"};
+                                                      "volume/accuracy",  "particles/quick",
+                                                      "particles/stress", "particles/accuracy"};
 
 struct ValidateArguments {
   std::vector<std::string> devices;

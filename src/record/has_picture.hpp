@@ -5,8 +5,9 @@
 
 namespace triptych::record {
 
-// What speed_of_light leaves behind is sums, and where only compilers were asked nothing was drawn. By name, as a record is all there is: the test holds
-// it to the catalogue's techniques without a picture.
+// speed_of_light leaves sums instead of an image, and where only compilers were asked, nothing was
+// drawn. A record knows only the name of its technique; a test compares it with the catalogue,
+// which lists the techniques without a picture.
 [[nodiscard]] inline bool has_picture(const Record& record) {
   return record.technique != "speed_of_light" && record.code.empty();
 }

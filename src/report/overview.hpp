@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "judge/gate/gate.hpp"
 #include "report/finding_groups.hpp"
-#include "report/nearest_bounds.hpp"
+#include "report/page/nearest_bounds.hpp"
 
 namespace triptych::report {
 

@@ -11,7 +11,7 @@
 #include "core/hash.hpp"
 #include "core/image_io.hpp"
 #include "fixture.hpp"
-#include "report/verdict_json.hpp"
+#include "report/exports/verdict_json.hpp"
 
 namespace triptych::judge {
 namespace {

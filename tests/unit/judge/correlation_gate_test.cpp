@@ -5,7 +5,7 @@
 #include <map>
 
 #include "correlation_world.hpp"
-#include "report/verdict_json.hpp"
+#include "report/exports/verdict_json.hpp"
 
 namespace triptych::judge {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/image_io.hpp"
-#include "report/verdict_json.hpp"
+#include "report/exports/verdict_json.hpp"
 
 namespace triptych::judge {
 namespace {

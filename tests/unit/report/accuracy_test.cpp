@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "report/accuracy_chart.hpp"
-#include "report/page_sections.hpp"
+#include "report/figures/accuracy_chart.hpp"
+#include "report/page/page_sections.hpp"
 #include "support/well_formed.hpp"
 
 namespace triptych::report {

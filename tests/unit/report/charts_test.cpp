@@ -1,11 +1,11 @@
 // What the charts show.
 
-#include "report/charts.hpp"
+#include "report/page/charts.hpp"
 
 #include <gmock/gmock.h>
 
-#include "report/page_sections.hpp"
-#include "report/scatter_figure.hpp"
+#include "report/figures/scatter_figure.hpp"
+#include "report/page/page_sections.hpp"
 #include "support/well_formed.hpp"
 
 namespace triptych::report {

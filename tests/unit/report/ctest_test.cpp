@@ -4,8 +4,8 @@
 
 #include "core/temporary_folder.hpp"
 #include "findings.hpp"
-#include "report/ctest_answer.hpp"
-#include "report/ctest_list.hpp"
+#include "report/ci/ctest_answer.hpp"
+#include "report/ci/ctest_list.hpp"
 
 namespace triptych::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/figure.hpp"
+#include "report/figures/figure.hpp"
 
 #include <gmock/gmock.h>
 
@@ -143,7 +143,8 @@ TEST(Figure, ALegendTellsLongNamesApart) {
   Figure figure("", {}, {}, 100, 100);
   figure.point({1, 1}, {}, "");
   figure.legend("precision=fp32, quadrature=cells, sampler=manual", {});
-  EXPECT_THAT(figure.svg().text(), HasSubstr(">precision=fp32, quadrature=cells, sampler=manual</text>"));
+  EXPECT_THAT(figure.svg().text(),
+              HasSubstr(">precision=fp32, quadrature=cells, sampler=manual</text>"));
 }
 
 TEST(WellFormed, TellsWhatIsNot) {

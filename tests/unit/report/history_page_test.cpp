@@ -1,4 +1,4 @@
-#include "report/history_page.hpp"
+#include "report/page/history_page.hpp"
 
 #include <gmock/gmock.h>
 

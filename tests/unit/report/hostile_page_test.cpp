@@ -8,8 +8,8 @@
 
 #include "core/image_io.hpp"
 #include "core/json.hpp"
-#include "report/history_page.hpp"
-#include "report/page.hpp"
+#include "report/page/history_page.hpp"
+#include "report/page/page.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/well_formed.hpp"
 #include "triptych_report_embedded.hpp"
@@ -22,19 +22,49 @@ using core::Json;
 // Tags and attributes that our pages contain. Anything else came from a string.
 const std::set<std::string>& known_tags() {
   static const std::set<std::string> tags{
-      "a",   "article", "b",  "body",   "br",   "button", "details", "dialog", "div",  "figcaption",
-      "figure", "form", "g",  "h1",     "h2",   "h3",     "h4",      "h5",     "head", "header",
-      "html", "img",    "input", "label", "li", "link",   "main",    "meta",   "ol",   "option",
-      "output", "p",    "path", "pre",  "rect", "section", "select", "span",   "style", "summary",
-      "svg", "code",  "mark",  "table",   "td", "text",   "th",   "title",  "tr",      "wbr",    "script"};
+      "a",    "article",    "b",      "body",    "br",     "button", "details", "dialog",
+      "div",  "figcaption", "figure", "form",    "g",      "h1",     "h2",      "h3",
+      "h4",   "h5",         "head",   "header",  "html",   "img",    "input",   "label",
+      "li",   "link",       "main",   "meta",    "ol",     "option", "output",  "p",
+      "path", "pre",        "rect",   "section", "select", "span",   "style",   "summary",
+      "svg",  "code",       "mark",   "table",   "td",     "text",   "th",      "title",
+      "tr",   "wbr",        "script"};
   return tags;
 }
 bool is_known_attribute(const std::string& name) {
-  static const std::set<std::string> names{
-      "alt",    "charset", "class", "content", "d",     "height", "hidden", "href",        "http-equiv",
-      "id",     "lang",    "max",   "method",  "min",   "name",   "opacity", "placeholder", "rel",
-      "role",   "scope",   "src",   "style",   "stroke-dasharray", "stroke-width", "text-anchor",
-      "transform", "type", "value", "viewBox", "width", "x",      "xmlns",  "y"};
+  static const std::set<std::string> names{"alt",
+                                           "charset",
+                                           "class",
+                                           "content",
+                                           "d",
+                                           "height",
+                                           "hidden",
+                                           "href",
+                                           "http-equiv",
+                                           "id",
+                                           "lang",
+                                           "max",
+                                           "method",
+                                           "min",
+                                           "name",
+                                           "opacity",
+                                           "placeholder",
+                                           "rel",
+                                           "role",
+                                           "scope",
+                                           "src",
+                                           "style",
+                                           "stroke-dasharray",
+                                           "stroke-width",
+                                           "text-anchor",
+                                           "transform",
+                                           "type",
+                                           "value",
+                                           "viewBox",
+                                           "width",
+                                           "x",
+                                           "xmlns",
+                                           "y"};
   return names.contains(name) || name.starts_with("data-") || name.starts_with("aria-");
 }
 
@@ -274,8 +304,9 @@ TEST(HostilePage, HistoryToo) {
   const Json point{{"name", ""}, {"driver_version", ""}, {"started_at", ""}, {"changes", "x"}};
   for (const std::string& each : strings()) {
     int number = 0;
-    Json device = hostile(
-        {{"device", ""}, {"first_worse", ""}, {"points", Json::array({point, point})}}, each, number);
+    Json device =
+        hostile({{"device", ""}, {"first_worse", ""}, {"points", Json::array({point, point})}},
+                each, number);
     for (Json& at : device["points"]) {
       at["worse"] = true;
       at["injected"] = Json::array({each});

@@ -1,4 +1,4 @@
-#include "report/last_screen.hpp"
+#include "report/screen/last_screen.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

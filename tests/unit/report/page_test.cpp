@@ -1,4 +1,4 @@
-#include "report/page.hpp"
+#include "report/page/page.hpp"
 
 #include <gmock/gmock.h>
 

@@ -9,7 +9,7 @@
 #include "core/image_io.hpp"
 #include "findings.hpp"
 #include "record/factor_list.hpp"
-#include "report/page.hpp"
+#include "report/page/page.hpp"
 
 namespace triptych::report {
 

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "findings.hpp"
-#include "report/junit.hpp"
-#include "report/markdown.hpp"
+#include "report/ci/junit.hpp"
+#include "report/ci/markdown.hpp"
 #include "support/well_formed.hpp"
 
 namespace triptych::report {

@@ -2,7 +2,7 @@
 
 #include "findings.hpp"
 #include "golden.hpp"
-#include "report/last_screen.hpp"
+#include "report/screen/last_screen.hpp"
 
 namespace triptych::report {
 namespace {

@@ -1,0 +1,175 @@
+#include "app/compare_sides.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "app/registry.hpp"
+#include "app/terminal.hpp"
+#include "comparison/comparison.hpp"
+#include "comparison/text.hpp"
+#include "core/exit_code.hpp"
+#include "core/output_files.hpp"
+#include "core/quoting.hpp"
+#include "core/temporary_folder.hpp"
+#include "measure/protocol/injected_fault.hpp"
+#include "measure/system/environment.hpp"
+#include "measure/system/process.hpp"
+#include "measure/worker/own_program.hpp"
+
+namespace triptych::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+void print_comparison_progress(const comparison::ComparisonProgress& progress) {
+  if (progress.loading) return show_loading(*progress.loading);
+  const auto seconds = progress.left.count();
+  const std::string left = seconds > 0 ? fmt::format(", left at most {} s", seconds) : "";
+  show("{}/{} {}: {}{}", progress.done, progress.total, progress.stage, progress.configuration,
+       left);
+}
+
+comparison::ComparisonCommand command_of(const Comparing& comparing, const std::string& typed,
+                                         const measure::Plan& plan) {
+  comparison::ComparisonCommand command{
+      .plan = typed, .sides = comparing.sides, .varied = plan.varied};
+  for (const std::string& each : comparing.faults)
+    command.sides += " --inject " + core::shell_quoted(each);
+  // A factor that the command line sets to one value no longer varies, but printed commands must
+  // repeat it.
+  for (const auto& [factor, values] : comparing.choice.overrides()) {
+    if (std::ranges::find(command.varied, factor) == command.varied.end()) {
+      command.varied.push_back(factor);
+    }
+  }
+  return command;
+}
+
+struct Told {
+  comparison::ComparisonResult result;
+  comparison::ComparisonCommand command;
+};
+
+class Comparer {
+ public:
+  Comparer(const Registry& registry, const std::string& store)
+      : registry_(registry),
+        store_(store.empty() ? (folder_.emplace().path() / "compared.sqlite").string() : store,
+               record::Store::Mode::append),
+        truths_(registry.find_suite(), store_) {
+    store_.require_whole();  // reference images are read from it
+  }
+
+  [[nodiscard]] Told compare(const Comparing& comparing, const std::string& typed) {
+    comparison::ComparisonOptions options{
+        .plan = comparing.choice.load(typed, registry_.find_suite()),
+        .a = comparing.a,
+        .b = comparing.b,
+        .faults = measure::parse_faults(comparing.faults),
+        .limit = std::chrono::seconds(comparing.limit_s),
+        .seed = comparing.seed,
+        .times = comparing.times,
+    };
+    for (const measure::InjectedFault& each : options.faults) measure::check_fault(each.fault);
+    if (comparing.budget_s > 0) options.budget = std::chrono::seconds(comparing.budget_s);
+    comparison::ComparisonResult result = comparison::compare(
+        options, registry_.suite(options.plan.suite), store_, truths_, print_comparison_progress);
+    clear_line();
+    return {std::move(result), command_of(comparing, typed, options.plan)};
+  }
+
+ private:
+  const Registry& registry_;
+  std::optional<core::TemporaryFolder> folder_;
+  record::Store store_;
+  measure::Truths truths_;
+};
+
+bool is_program(const std::string& file) {
+  return ::access(file.c_str(), X_OK) == 0 && fs::is_regular_file(file);
+}
+
+void tell(const std::vector<Told>& all, bool json) {
+  if (json) {
+    core::Json found = core::Json::array();
+    for (const Told& each : all) found.push_back(to_json(each.result, each.command));
+    return print(found.size() == 1 ? found.front() : found);
+  }
+  for (const Told& each : all) put_lines(to_text(each.result, each.command) + "\n");
+  if (all.size() == 1) return;
+  for (const Told& each : all) {
+    put("{:<16} {:<16} {}\n", each.result.b.id, each.command.plan,
+        comparison::headline(each.result));
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string> main_job{"volume/quick", "particles/quick", "volume/cost",
+                                        "particles/cost"};
+
+core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool json) {
+  const Registry registry = make_registry();
+  std::vector<Told> all;
+  core::ExitCode code = core::ExitCode::pass;
+  for (const Comparing& each : comparisons) {
+    if (!each.store.empty()) core::require_writable(fs::path(each.store).parent_path());
+    Comparer comparer(registry, each.store);
+    for (const std::string& typed : each.plans.empty() ? main_job : each.plans) {
+      try {
+        all.push_back(comparer.compare(each, typed));
+      } catch (const measure::Interrupted&) {
+        throw core::Error("interrupted; a comparison cannot be continued: start it again");
+      }
+      code = core::worse_of(code, all.back().result.exit_code());
+    }
+  }
+  tell(all, json);
+  return code;
+}
+
+std::vector<std::string> worker_of(const std::string& option, const std::string& program) {
+  if (!is_program(program)) {
+    throw core::InputError(fmt::format("{} {}: is not an executable program", option, program));
+  }
+  const std::string file = fs::absolute(program).string();
+  // A driver may have printed something before the version.
+  const std::string told = measure::output_of({file, "--version"}).value_or("");
+  if (("\n" + told).find("\ntriptych ") == std::string::npos) {
+    throw core::InputError(fmt::format(
+        "{} {}: is not a build of triptych, according to its --version", option, program));
+  }
+  return measure::worker_command(file);
+}
+
+std::vector<Comparing> against_base(const std::string& base,
+                                    const std::vector<std::string>& devices) {
+  const bool program = is_program(base);
+  const std::vector<std::string> own = measure::worker_command();
+  std::vector<std::string> command = own;
+  std::vector<std::string> environment;
+  if (program) {
+    command = worker_of("--base", base);
+  } else if (base.find('=') == std::string::npos) {
+    throw core::InputError(
+        fmt::format("--base {}: is neither an executable program nor NAME=VALUE", base));
+  } else {
+    environment = measure::parse_environment(base, "--base " + base);
+  }
+  std::vector<Comparing> comparisons;
+  for (const std::string& device : devices) {
+    const std::string a = program ? device : device + "," + base;
+    std::string sides =
+        fmt::format("--a {} --b {}", core::shell_quoted(a), core::shell_quoted(device));
+    if (program) sides += " --a-program " + core::shell_quoted(base);
+    comparisons.push_back(
+        {.plans = {}, .a = {device, command, environment}, .b = {device, own}, .sides = sides});
+  }
+  return comparisons;
+}
+
+}  // namespace triptych::app

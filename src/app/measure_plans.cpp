@@ -1,0 +1,263 @@
+#include "app/measure_plans.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "app/registry.hpp"
+#include "app/terminal.hpp"
+#include "app/version.hpp"
+#include "core/output_files.hpp"
+#include "measure/request/error_request.hpp"
+#include "measure/request/fastest.hpp"
+#include "measure/system/compile_only.hpp"
+#include "measure/system/system_facts.hpp"
+#include "measure/worker/listing.hpp"
+#include "measure/worker/own_program.hpp"
+#include "report/words/outcome.hpp"
+
+namespace triptych::app {
+namespace {
+
+std::string outcome_text(const record::Record& record) {
+  if (record.outcome != record::Outcome::measured) {
+    return report::words::text_of(record.outcome, record.reason);
+  }
+  if (!record.same_as.empty()) {
+    return fmt::format("the same as {} ({})", record.same_as,
+                       report::words::text_of(record.reason));
+  }
+  const auto summary = record::summarise(record.time_ns());
+  return summary ? fmt::format("{:.3f} ms ({})", summary->median / 1e6, record.clock())
+                 : "measured";
+}
+
+// On a terminal the line also shows the time left; elsewhere there is a line for configurations
+// that are done.
+void print_progress(const measure::Progress& progress) {
+  if (progress.loading) return show_loading(*progress.loading);
+  const std::string what = progress.record != nullptr ? outcome_text(*progress.record) : "";
+  if (watched()) {
+    show("{}/{} {} {} {} left {} s", progress.done, progress.total, progress.device,
+         progress.configuration, what, progress.left.count());
+    if (progress.done == progress.total) say("\n");
+  } else if (progress.record != nullptr) {
+    show("{}/{} {} {}: {}", progress.done, progress.total, progress.device, progress.configuration,
+         what);
+  }
+}
+
+// An option for a factor or an error applies to a single plan: a factor belongs to one suite, and
+// an error to the scenes of a plan.
+void refuse_for_several(const Measuring& measuring) {
+  if (measuring.plans.size() < 2) return;
+  if (!measuring.choice.set.empty()) {
+    throw core::InputError(
+        "--set changes the factors of one plan: name a single plan, or write a YAML file for each");
+  }
+  if (measuring.error) throw core::InputError("--error works with one plan: name a single plan");
+}
+
+std::vector<measure::Plan> load_plans(const Measuring& measuring, const Registry& registry) {
+  refuse_for_several(measuring);
+  std::vector<measure::Plan> plans;
+  for (const std::string& name : measuring.plans) {
+    measure::Plan plan = measuring.choice.load(name, registry.find_suite());
+    if (std::ranges::find(plans, plan.name, &measure::Plan::name) != plans.end()) {
+      throw core::InputError(fmt::format(
+          "two plans are called {}: rename one, because runs are found by the plan's name",
+          plan.name));
+    }
+    const bool chooses = measuring.chooses && !plan.automatic.empty();
+    if (chooses && measuring.untimed && !plan.counted()) {
+      throw core::InputError(
+          fmt::format("{}: technique=auto needs frame times: remove --untimed", plan.name));
+    }
+    if ((measuring.timed || chooses) && !plan.counted()) {
+      plan.checks.insert(record::Check::timing);
+    }
+    plans.push_back(std::move(plan));
+  }
+  return plans;
+}
+
+measure::RunOptions options_of(const Measuring& measuring, const record::Beginning& begun) {
+  measure::Protocol protocol = measuring.brief ? measure::brief_protocol : measure::Protocol{};
+  protocol.timed = !measuring.untimed;
+  protocol.statistics = protocol.timed || measuring.statistics;
+  protocol.measure_every = measuring.measure_every;
+  std::vector<std::string> more;
+  if (measuring.memory) more = {"--memory", fmt::to_string(*measuring.memory)};
+  return {.protocol = protocol,
+          .limit = std::chrono::seconds(measuring.limit_s),
+          .resume = measuring.resume,
+          .again = measuring.again,
+          .faults = measure::parse_faults(measuring.faults),
+          .jobs = measuring.jobs,
+          .worker_command = measure::worker_command(measure::own_program(), more),
+          .begun = begun,
+          .program = version()};
+}
+
+// Where plans are measured, and with what.
+struct Bench {
+  const Measuring& measuring;
+  const Registry& registry;
+  std::vector<std::string> devices;
+  record::Beginning begun;
+  record::Store& store;
+};
+
+record::Beginning begun_with(const measure::Listing& listing,
+                             const std::vector<std::string>& asked) {
+  record::Beginning begun{.host = measure::host_name(), .asked = asked};
+  for (const record::Device& each : listing.devices) begun.found.push_back(each.id);
+  for (const measure::Broken& each : listing.broken) {
+    begun.unusable.push_back({each.what, each.reason, each.ended});
+  }
+  return begun;
+}
+
+std::vector<measure::RunResult> measure_on(const Bench& bench,
+                                           const std::vector<measure::Plan>& plans) {
+  const measure::RunOptions options = options_of(bench.measuring, bench.begun);
+  std::vector<measure::PlannedRun> runs;
+  runs.reserve(plans.size());
+  for (const measure::Plan& plan : plans) {
+    runs.push_back({plan, bench.registry.suite(plan.suite), options});
+  }
+  std::vector<measure::RunResult> results =
+      measure::run_plans(runs, bench.devices, bench.store, print_progress);
+  for (const auto& [fault, only] : measure::faults_that_hit_nothing(runs, bench.devices)) {
+    say("triptych: --inject {}@{} hits nothing: no configuration or device matches; `triptych list "
+        "PLAN` prints the names of configurations, in which defaults are left out\n",
+        fault, only);
+  }
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    put_lines(describe(results[i], plans[i].name, bench.measuring.store), bench.measuring.told_to);
+  }
+  return results;
+}
+
+// Measures what keeps the requested error, and the fastest of that for each scene and device.
+Measured measure_within_error(const Bench& bench, const measure::Plan& plan) {
+  const auto wanted = accuracy::parse_requested_error(*bench.measuring.error);
+  measure::SuiteWithTruth& suite = bench.registry.suite(plan.suite);
+  measure::Truths truths(bench.registry.find_suite(), bench.store);
+  const measure::ErrorRequest request = measure::request_error(
+      plan, suite, wanted, truths, [](const std::string& what) { say("{}\n", what); });
+  Measured measured{.error_kept = request.out_of_reach.empty()};
+  std::vector<record::Record> records;
+  if (!request.plan.configurations.empty()) {
+    measured.results = measure_on(bench, {request.plan});
+    records = bench.store.records(measured.results.front().run);
+  }
+  for (const measure::ErrorAnswer& answer : measure::answer_error(records, suite, wanted, truths)) {
+    put_lines(describe(answer, wanted) + "\n");
+    measured.error_kept = measured.error_kept && answer.record != nullptr;
+  }
+  for (const std::string& scene : request.out_of_reach) put("{}\n", scene);
+  return measured;
+}
+
+void tell_the_fastest(const Bench& bench, const measure::Plan& plan, const std::string& run) {
+  if (plan.automatic.empty()) return;
+  const std::vector<record::Record> records = bench.store.records(run);
+  for (const measure::FastestAnswer& answer :
+       measure::answer_fastest(records, bench.registry.suite(plan.suite), plan.automatic)) {
+    put_lines(describe(answer, plan.automatic) + "\n");
+  }
+}
+
+// Devices that only compile are used by plans that check their code, and by no others. If the user
+// names no device, such a plan leaves out devices that are the processor: the plans that check cost
+// count their instructions.
+std::vector<std::string> devices_of(const measure::Listing& listing,
+                                    const std::vector<std::string>& globs, bool compiled) {
+  std::vector<std::string> chosen = measure::choose_devices(listing, globs);
+  std::vector<std::string> fit;
+  for (const std::string& id : chosen) {
+    const auto device = std::ranges::find(listing.devices, id, &record::Device::id);
+    const bool computes_here = !device->cpu_features.empty();
+    const bool fits = compiled ? !globs.empty() || !computes_here : device->compiles_for.empty();
+    if (fits) fit.push_back(id);
+  }
+  // If the user names only devices that do not fit, they are skipped with the reason.
+  if (fit.empty() && !globs.empty()) return chosen;
+  return fit;
+}
+
+measure::Listing listing_for(const Measuring& measuring, const Registry& registry,
+                             const std::vector<measure::Plan>& plans) {
+  const bool compiled = std::ranges::any_of(plans, &measure::Plan::compiled);
+  return compiled || measure::name_a_compiler(measuring.devices)
+             ? registry.devices_and_compilers(measuring.devices)
+             : registry.devices();
+}
+
+// Plans that only compile have other devices than plans that draw.
+std::vector<measure::RunResult> measure_each(const Measuring& measuring, const Registry& registry,
+                                             const std::vector<measure::Plan>& plans,
+                                             const measure::Listing& listing,
+                                             record::Store& store) {
+  std::vector<measure::RunResult> results(plans.size());
+  for (const bool compiled : {false, true}) {
+    std::vector<measure::Plan> group;
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+      if (plans[i].compiled() != compiled) continue;
+      group.push_back(plans[i]);
+      places.push_back(i);
+    }
+    if (group.empty()) continue;
+    const Bench bench{measuring, registry, devices_of(listing, measuring.devices, compiled),
+                      begun_with(listing, measuring.devices), store};
+    if (bench.devices.empty()) {
+      std::string missing;
+      for (const measure::Broken& each : listing.broken) {
+        if (measure::compile_only(each.what)) {
+          missing += fmt::format("; {}: {}", each.what, each.reason);
+        }
+      }
+      throw core::NotSupported(fmt::format("{}: no device with a GPU's compiler is here{}",
+                                           group.front().name, missing));
+    }
+    std::vector<measure::RunResult> measured = measure_on(bench, group);
+    for (std::size_t i = 0; i < places.size(); ++i) results[places[i]] = std::move(measured[i]);
+  }
+  return results;
+}
+
+}  // namespace
+
+Measured measure_and_tell(const Measuring& measuring) {
+  const Registry registry = make_registry();
+  const std::vector<measure::Plan> plans = load_plans(measuring, registry);
+  const measure::Listing listing = listing_for(measuring, registry, plans);
+  core::require_writable(std::filesystem::path(measuring.store).parent_path());
+  record::Store store(measuring.store, record::Store::Mode::append);
+  const Bench bench{measuring, registry,
+                    devices_of(listing, measuring.devices, plans.front().compiled()),
+                    begun_with(listing, measuring.devices), store};
+  if (measuring.error) return measure_within_error(bench, plans.front());
+  Measured measured{.results = measure_each(measuring, registry, plans, listing, store)};
+  for (std::size_t i = 0; measuring.chooses && i < plans.size(); ++i) {
+    tell_the_fastest(bench, plans[i], measured.results[i].run);
+  }
+  measured.scored = std::ranges::any_of(
+      plans, [](const measure::Plan& plan) { return plan.checks.contains(record::Check::stress); });
+  return measured;
+}
+
+Measured measure_resumably(const Measuring& measuring) {
+  try {
+    return measure_and_tell(measuring);
+  } catch (const measure::Interrupted& interrupted) {
+    throw measure::Interrupted(
+        interrupted.signal(),
+        "interrupted; the records so far are in the store; --resume continues");
+  }
+}
+
+}  // namespace triptych::app

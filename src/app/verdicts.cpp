@@ -1,0 +1,160 @@
+#include "app/verdicts.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <map>
+#include <utility>
+
+#include "app/arguments.hpp"
+#include "app/paths.hpp"
+#include "core/foreign_error.hpp"
+#include "core/output_files.hpp"
+#include "core/quoting.hpp"
+#include "measure/plan/plan.hpp"
+#include "record/factor_list.hpp"
+#include "report/ci/folder.hpp"
+#include "report/ci/junit.hpp"
+#include "report/ci/markdown.hpp"
+#include "report/exports/benchmark_json.hpp"
+#include "report/overview.hpp"
+#include "report/page/page.hpp"
+#include "report/screen/last_screen.hpp"
+
+namespace triptych::app {
+namespace {
+
+report::ScreenOptions screen() {
+  report::ScreenOptions options;
+  options.colours = ::isatty(STDOUT_FILENO) == 1 && std::getenv("NO_COLOR") == nullptr;
+  return options;
+}
+
+std::string page_about(const record::Store& store, measure::Truths& truths,
+                       const std::vector<judge::GateResult>& results) {
+  report::PageRequest request{
+      .plans = {}, .truth = [&](const record::Record& record) { return truths.of(record); }};
+  const std::vector<record::Run> runs = store.runs();
+  for (const judge::GateResult& result : results) {
+    const auto run = std::ranges::find(runs, result.run, &record::Run::id);
+    request.plans.push_back(
+        {.run = run == runs.end() ? record::Run{.plan = result.plan} : *run, .verdict = result});
+  }
+  return core::naming(store.file().string(), [&] { return report::page(store, request); });
+}
+
+}  // namespace
+
+void require_store(const std::filesystem::path& file) {
+  // An empty name is refused when the store is opened.
+  if (file.empty() || std::filesystem::exists(file)) return;
+  throw core::NotSupported(
+      fmt::format("there is no store {}: measure first with `triptych run PLAN --store {}`",
+                  file.string(), core::shell_quoted(file.string())));
+}
+
+record::Store open_to_judge(const std::string& file) {
+  require_store(file);
+  record::Store store = [&]() -> record::Store {
+    try {
+      return {file, record::Store::Mode::append};
+    } catch (const core::IoError&) {
+      return {file, record::Store::Mode::read};
+    }
+  }();
+  store.require_whole();
+  return store;
+}
+
+std::string latest_run_of(const record::Store& store, const std::string& plan,
+                          const std::string& file) {
+  const std::string name = measure::plan_name(plan);
+  const std::optional<record::Run> run = store.latest_run(name);
+  if (run) return run->id;
+  throw core::NotSupported(
+      fmt::format("{} holds no run of {}: measure first with `triptych run {} --store {}`", file,
+                  name, core::shell_quoted(plan), core::shell_quoted(file)));
+}
+
+std::string store_option(const std::string& file) {
+  return file == standard_store ? std::string() : " --store " + core::shell_quoted(file);
+}
+
+judge::GateResult judge_named(const record::Store& store, const std::string& run,
+                              const std::string& baselines, const judge::GateRequest& request) {
+  return core::naming(fmt::format("{}: run {}", store.file().string(), run), [&] {
+    judge::GateRequest complete = request;
+    complete.store_option = store_option(store.file().string());
+    const bool elsewhere = baselines != default_baselines().string();
+    if (elsewhere) complete.baselines_option = " --baselines " + core::shell_quoted(baselines);
+    judge::GateResult result =
+        judge::judge_run(store, run, judge::Baselines(baselines, request.plan), complete);
+    if (elsewhere) result.baselines = baselines;
+    return result;
+  });
+}
+
+judge::GateRequest request_of(measure::Truths& truths, const std::string& plan) {
+  using record::Record;
+  return {
+      .plan = plan,
+      .checks = {},
+      .devices = {},
+      .required_devices = {},
+      .truth = [&truths](const Record& record) { return truths.of(record); },
+      .limit = [&truths](const Record& record) { return truths.limit_of(record); },
+      .expectations = [&truths](const Record& record) { return truths.expectations_of(record); },
+      .open_counts = [&truths](const Record& record) { return truths.open_counts_of(record); },
+      .today = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))),
+      .data_hash = [&truths](const Record& record) { return truths.data_hash_of(record); }};
+}
+
+judge::GateRequest request_of(measure::Truths& truths, const measure::Plan& plan,
+                              const measure::Suite& suite) {
+  judge::GateRequest request = request_of(truths, plan.name);
+  request.argument = plan.argument;
+  request.plan_hash = plan.hash;
+  for (const measure::Configuration& each : plan.configurations) {
+    request.expected.push_back(measure::configuration_key(suite, each));
+    const auto said = record::parse_factor_list(request.expected.back());
+    for (const std::string& factor : plan.named) {
+      if (!said.contains(factor)) request.defaults.emplace(factor, each.at(factor));
+    }
+  }
+  return request;
+}
+
+std::string page_of(const record::Store& store, measure::Truths& truths,
+                    const std::string& baselines) {
+  std::vector<judge::GateResult> results;
+  for (const record::Run& run : latest_runs(store)) {
+    results.push_back(judge_named(store, run.id, baselines, request_of(truths, run.plan)));
+  }
+  return page_about(store, truths, results);
+}
+
+core::ExitCode tell_verdict(const record::Store& store, measure::Truths& truths,
+                            const std::vector<judge::GateResult>& results, double seconds,
+                            const VerdictFiles& files) {
+  if (!files.junit.empty()) core::write_text(files.junit, report::junit(results));
+  if (!files.markdown.empty()) core::write_text(files.markdown, report::markdown(results));
+  std::vector<std::string> written;
+  if (!files.folder.empty()) {
+    core::require_writable(files.folder);
+    written = report::write_folder(files.folder, results, page_about(store, truths, results),
+                                   report::benchmark_json(store, latest_runs(store)));
+  }
+  if (files.json == "-") {
+    fmt::print("{}", report::json(results));
+  } else {
+    if (!files.json.empty()) core::write_text(files.json, report::json(results));
+    fmt::print("{}", report::last_screen(results, seconds, written, screen()));
+  }
+  return report::overview(results).code;
+}
+
+}  // namespace triptych::app

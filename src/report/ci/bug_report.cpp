@@ -1,0 +1,81 @@
+#include "report/ci/bug_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "report/ci/markdown.hpp"
+
+namespace triptych::report {
+namespace {
+
+std::string row(std::string_view name, std::string_view value) {
+  if (value.empty()) return {};
+  return fmt::format("| {} | {} |\n", markdown_escaped(name), markdown_escaped(value));
+}
+
+std::string facts(const BugReport& report) {
+  const record::Device& device = report.device;
+  std::string text = "\n| | |\n|---|---|\n";
+  text += row("device", device.name);
+  text += row("driver", device.driver + " " + device.driver_version);
+  text += row("API", device.api_version);
+  text += row("processor features", device.cpu_features);
+  for (const auto& [name, value] : device.environment) text += row(name, value);
+  for (const char* name : {"os", "kernel", "processor", "triptych"}) {
+    if (const auto found = report.system.find(name); found != report.system.end()) {
+      text += row(name, found->second);
+    }
+  }
+  return text;
+}
+
+struct File {
+  std::string_view name;
+  std::string_view what;
+};
+constexpr std::array files{
+    File{"frame.json", "camera, scene, transfer function and every factor"},
+    File{"image.png", "what was drawn; `image.exr`: as floats, linear and premultiplied"},
+    File{"truth.png", "what is right, from a renderer in double precision; `truth.exr`: as floats"},
+    File{"difference.png", "their difference; white is the largest error"},
+};
+
+std::string list_of_files(const BugReport& report) {
+  std::string text;
+  for (const auto& [name, what] : files) {
+    if (std::ranges::find(report.files, name) == report.files.end()) continue;
+    text += fmt::format("- `{}`: {}\n", name, what);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string text_of(const std::vector<BugReport::Change>& changes) {
+  std::string text;
+  for (const auto& [factor, from, to] : changes) {
+    text += fmt::format("{}{} {} → {}", text.empty() ? "" : ", ", factor, from, to);
+  }
+  return text.empty() ? "nothing" : text;
+}
+
+std::string markdown(const BugReport& report) {
+  std::string text =
+      fmt::format("# A frame that {} gets wrong\n\n{}\n", markdown_escaped(report.device.id),
+                  markdown_escaped(report.message));
+  text += facts(report);
+  text += "\n## To see it again\n" + fenced(report.command, "");
+  text += "\nIt ends with 0 where nothing is wrong.\n\n## Files\n\n" + list_of_files(report);
+  text += "\n## The frame\n\n| factor | level |\n|---|---|\n";
+  for (const auto& [factor, level] : report.factors) text += row(factor, level);
+  text += fmt::format("\n{} frames were drawn to find it. Made plainer: {}.\n", report.frames,
+                      markdown_escaped(text_of(report.changes)));
+  text += report.complete
+              ? "With any plainer level of one factor it does not fail so.\n"
+              : "The search ended at its limit of frames: a plainer one may fail too.\n";
+  return text;
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,91 @@
+#include "report/ci/ctest_answer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <string_view>
+
+#include "accuracy/image_metrics.hpp"
+#include "core/image_io.hpp"
+#include "core/private_folder.hpp"
+#include "core/quoting.hpp"
+#include "report/words/finding.hpp"
+
+namespace triptych::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string number(std::string_view name, double value) {
+  return fmt::format(
+      "<CTestMeasurement type=\"numeric/double\" name=\"{}\">{}</CTestMeasurement>\n", name, value);
+}
+
+// Writes an image of a test; `what` is part of the file's name. CTest reads the file after this
+// process has ended, so it is not removed. It is in a folder in which nobody else can create a link
+// with that name.
+std::string picture(std::string_view name, std::string test, std::string_view what,
+                    const core::Image& image) {
+  // Names come from a store, and must not lead to another folder.
+  std::ranges::replace_if(
+      test, [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-'; }, '_');
+  const core::PrivateFolder folder = core::private_temporary_folder("ctest");
+  const fs::path file = folder.path() / fmt::format("{}.{}.png", test, what);
+  core::write_png(image, file);
+  return fmt::format(
+      "<CTestMeasurementFile type=\"image/png\" name=\"{}\">{}</CTestMeasurementFile>\n", name,
+      fs::absolute(file).string());
+}
+
+std::string pictures(const record::Store& store, const std::string& run,
+                     const judge::FindTruth& truth, const judge::Finding& worst) {
+  for (const record::Record& record : store.records(run)) {
+    if (record.configuration != worst.configuration || record.device != worst.device) continue;
+    if (record.image.empty()) return {};
+    const core::Image image = store.picture(record.image);
+    const core::Image right = truth(record).truth;
+    return picture("TestImage", worst.test, "test", image) +
+           picture("ValidImage", worst.test, "valid", right) +
+           picture("DifferenceImage", worst.test, "difference",
+                   accuracy::difference_image(image, right, 16));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string ctest_answer(const judge::GateResult& result, const record::Store& store,
+                         const judge::FindTruth& truth) {
+  std::string text;
+  for (const judge::Finding& finding : result.findings) {
+    if (finding.verdict == judge::Verdict::pass) continue;
+    text += fmt::format("{} {}: {}\n", judge::name_of(finding.verdict),
+                        core::printable(finding.configuration),
+                        core::printable(words::text_of(finding)));
+  }
+  if (!result.findings.empty()) {
+    const judge::Finding& worst = result.findings.front();
+    for (const auto& [name, value] : worst.numbers) text += number(name, value);
+    if (truth && !worst.device.empty()) text += pictures(store, result.run, truth, worst);
+  }
+  return text + words::headline(result) + "\n";
+}
+
+std::optional<std::string> reason_to_skip(const judge::GateResult& result) {
+  std::string reason;
+  for (const judge::Finding& finding : result.findings) {
+    const bool idle =
+        finding.verdict == judge::Verdict::advisory || finding.verdict == judge::Verdict::skipped;
+    // A pass of a whole device is a summary; one of a correlation is a result.
+    const bool sums_up = finding.verdict == judge::Verdict::pass && finding.configuration.empty() &&
+                         finding.check != judge::Check::correlation;
+    if (!idle && !sums_up) return std::nullopt;
+    if (idle && reason.empty()) reason = words::text_of(finding);
+  }
+  if (reason.empty()) return std::nullopt;
+  return reason;
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,108 @@
+#include "report/ci/ctest_list.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+namespace triptych::report {
+namespace {
+
+struct Test {
+  std::string name;
+  std::vector<std::string> command;  // arguments for triptych
+  std::vector<std::string> labels;
+  std::vector<std::string> requires_fixtures = {};
+  std::string sets_up = {};
+  std::string lock = {};
+};
+
+// [=[…]=] takes every text literally.
+std::string quoted(const std::vector<std::string>& words, std::string_view separator) {
+  std::string text;
+  for (const std::string& word : words) {
+    if (!text.empty()) text += separator;
+    text += "[=[" + word + "]=]";
+  }
+  return text;
+}
+
+std::string as_cmake(const Test& test, const std::string& program) {
+  std::string text = fmt::format("add_test([=[{}]=] [=[{}]=] {})\n", test.name, program,
+                                 quoted(test.command, " "));
+  text += fmt::format(
+      "set_tests_properties([=[{}]=] PROPERTIES\n  LABELS [=[{}]=] SKIP_RETURN_CODE 77 "
+      "TIMEOUT 1800",
+      test.name, fmt::join(test.labels, ";"));
+  if (!test.requires_fixtures.empty()) {
+    text += fmt::format("\n  FIXTURES_REQUIRED [=[{}]=]", fmt::join(test.requires_fixtures, ";"));
+  }
+  if (!test.sets_up.empty()) text += fmt::format("\n  FIXTURES_SETUP [=[{}]=]", test.sets_up);
+  if (!test.lock.empty()) text += fmt::format("\n  RESOURCE_LOCK [=[{}]=]", test.lock);
+  return text + ")\n";
+}
+
+bool is_of_all(record::Check check) {
+  return check == record::Check::stress || check == record::Check::correlation;
+}
+
+std::vector<Test> tests_of(const PlanTests& plan, std::span<const record::Device> devices) {
+  const auto& [suite, argument, stem, store, checks] = plan;
+  std::vector<Test> tests{{.name = stem + ".start",
+                           .command = {"test-start", "--store", store},
+                           .labels = {suite, "device"},
+                           .sets_up = stem}};
+  std::vector<std::string> measured;
+  for (const record::Device& device : devices) measured.push_back(stem + "." + device.id);
+  for (const record::Device& device : devices) {
+    const std::string fixture = stem + "." + device.id;
+    tests.push_back({.name = stem + ".measure." + device.id,
+                     .command = {"test-measure", argument, "--device", device.id, "--store", store},
+                     .labels = {suite, "measure", "device", device.api, device.id},
+                     .requires_fixtures = {stem},
+                     .sets_up = fixture,
+                     .lock = device.id});
+    for (const record::Check each : checks) {
+      const std::string check(record::name_of(each));
+      tests.push_back(
+          {.name = fmt::format("{}.{}.{}", stem, check, device.id),
+           .command = {"test-check", argument, "--check", check, "--device", device.id, "--store",
+                       store},
+           .labels = {suite, check, "device", device.api, device.id},
+           // A score compares the device with all others, and so does a correlation.
+           .requires_fixtures = is_of_all(each) ? measured : std::vector<std::string>{fixture}});
+    }
+  }
+  if (checks.contains(record::Check::image)) {
+    tests.push_back({.name = stem + ".agreement",
+                     .command = {"test-check", argument, "--check", "image", "--store", store},
+                     .labels = {suite, "image", "agreement", "device"},
+                     .requires_fixtures = measured});
+  }
+  return tests;
+}
+
+}  // namespace
+
+std::string ctest_stem(std::string_view suite, std::string_view plan) {
+  std::string stem = fmt::format("{}.{}", suite, plan.substr(plan.find('/') + 1));
+  const auto is_kept = [](char c) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    return letter || c == '.' || c == '-' || c == '_';
+  };
+  std::ranges::replace_if(stem, std::not_fn(is_kept), '_');
+  return stem;
+}
+
+std::string ctest_list(const std::string& program, std::span<const PlanTests> plans,
+                       std::span<const record::Device> devices) {
+  std::string text = "# Made by asking triptych which devices are here.\n";
+  for (const PlanTests& plan : plans) {
+    for (const Test& test : tests_of(plan, devices)) text += as_cmake(test, program);
+  }
+  return text;
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,85 @@
+#include "report/ci/folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/file.hpp"
+#include "core/json.hpp"
+#include "core/json_text.hpp"
+#include "core/quoting.hpp"
+#include "report/ci/junit.hpp"
+#include "report/ci/markdown.hpp"
+#include "report/exports/verdict_json.hpp"
+#include "report/finding_groups.hpp"
+#include "report/words/cause.hpp"
+#include "report/words/finding.hpp"
+
+namespace triptych::report {
+namespace {
+
+// Details of a group that is open: its configurations, if the line names more than one, and the
+// command.
+std::string details_of(const FindingGroup& group, const judge::GateResult& result) {
+  if (!is_open(*group.first)) return {};
+  std::vector<std::string> lines;
+  if (group.members.size() > 1) {
+    for (const judge::Finding* each : group.members) lines.push_back(each->configuration);
+  }
+  lines.push_back(command_of(*group.first, result));
+  std::string text;
+  for (const std::string& line : lines) {
+    if (!line.empty()) text += fmt::format("{:13}{}\n", "", core::printable(line));
+  }
+  return text;
+}
+
+// All findings except those that pass, by cause, and then the number of findings of each verdict
+// and the headline.
+std::string log_of(const judge::GateResult& result) {
+  std::string text;
+  for (const FindingGroup& group : grouped(result.findings)) {
+    const judge::Finding& finding = *group.first;
+    if (finding.verdict == judge::Verdict::pass) continue;
+    const std::string subject = words::subject(group);
+    text += fmt::format("{:<12} {}{}{}: {}\n", judge::name_of(finding.verdict),
+                        core::printable(finding.test), subject.empty() ? "" : " ",
+                        core::printable(subject), core::printable(words::text_of(finding)));
+    text += details_of(group, result);
+  }
+  std::map<judge::Verdict, int> counts;
+  for (const judge::Finding& finding : result.findings) ++counts[finding.verdict];
+  for (const auto& [verdict, count] : counts) {
+    text += fmt::format("{} {}  ", count, judge::name_of(verdict));
+  }
+  return text + fmt::format("\n{}\n", words::headline(result));
+}
+
+}  // namespace
+
+std::vector<std::string> write_folder(const std::filesystem::path& folder,
+                                      std::span<const judge::GateResult> results,
+                                      const std::string& page, const std::string& benchmark) {
+  std::string log;
+  for (const judge::GateResult& result : results) {
+    log += log_of(result);
+    std::string name = result.plan + ".xml";
+    std::ranges::replace(name, '/', '-');
+    core::write_file(junit(result), folder / name);
+  }
+  core::write_file(log, folder / "gate.log");
+  core::write_file(markdown(results), folder / "summary.md");
+  core::write_file(page, folder / "report.html");
+  core::write_file(benchmark, folder / "benchmark.json");
+  return {(folder / "report.html").string(), (folder / "gate.log").string(),
+          (folder / "summary.md").string()};
+}
+
+std::string json(std::span<const judge::GateResult> results) {
+  core::Json json = core::Json::array();
+  for (const judge::GateResult& result : results) json.push_back(to_json(result));
+  return core::json_text(results.size() == 1 ? json.front() : json, 2) + "\n";
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,99 @@
+#include "report/ci/junit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "report/finding_groups.hpp"
+#include "report/html.hpp"
+#include "report/words/finding.hpp"
+
+namespace triptych::report {
+namespace {
+
+using judge::Finding;
+using judge::Verdict;
+
+bool is_skip(const Finding& finding) {
+  return finding.verdict == Verdict::skipped || finding.verdict == Verdict::advisory;
+}
+
+// The cause and all numbers, so that a reader need not parse the message.
+std::string properties(const Finding& finding) {
+  std::string text;
+  const auto add = [&](std::string_view name, std::string_view value) {
+    text +=
+        fmt::format("        <property name=\"{}\" value=\"{}\"/>\n", escape(name), escape(value));
+  };
+  add("cause", judge::name_of(finding.cause));
+  if (finding.against != judge::Against::nothing) {
+    add("against", judge::name_of(finding.against));
+  }
+  if (finding.advice.advice != judge::Advice::none) {
+    add("advice", judge::name_of(finding.advice.advice));
+  }
+  if (finding.reason.cause != record::Cause::none) {
+    add("outcome", record::name_of(finding.outcome));
+    add("outcome_cause", record::name_of(finding.reason.cause));
+    for (const auto& [name, value] : finding.reason.numbers) add(name, fmt::to_string(value));
+  }
+  for (const auto& [name, value] : finding.numbers) add(name, fmt::to_string(value));
+  for (const judge::Change& each : finding.changes) {
+    if (each.before) add(each.name + ".before", fmt::to_string(*each.before));
+    if (each.now) add(each.name + ".now", fmt::to_string(*each.now));
+  }
+  return "      <properties>\n" + text + "      </properties>\n";
+}
+
+std::string test_case(const Finding& finding, const judge::GateResult& result) {
+  const std::string name = finding.configuration.empty() ? "plan" : finding.configuration;
+  std::string text = fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n",
+                                 escape(finding.test), escape(name));
+  text += properties(finding);
+  const std::string message = escape(words::text_of(finding));
+  if (is_open(finding)) {
+    const std::string command = escape(command_of(finding, result));
+    text +=
+        fmt::format("      <{0} type=\"{1}\" message=\"{2}\">{2}{3}{4}</{0}>\n",
+                    finding.verdict == Verdict::regression ? "failure" : "error",
+                    judge::name_of(finding.check), message, command.empty() ? "" : "\n", command);
+  } else if (is_skip(finding)) {
+    text += fmt::format("      <skipped message=\"{}\"/>\n", message);
+  }
+  return text + "    </testcase>\n";
+}
+
+std::string test_suites(const judge::GateResult& result) {
+  std::map<std::string, std::vector<const Finding*>> suites;
+  for (const Finding& finding : result.findings) {
+    suites[std::string(judge::name_of(finding.check))].push_back(&finding);
+  }
+  std::string text;
+  for (const auto& [check, findings] : suites) {
+    const auto count = [&](auto&& matches) { return std::ranges::count_if(findings, matches); };
+    text += fmt::format(
+        "  <testsuite name=\"{}.{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n",
+        escape(result.plan), check, findings.size(),
+        count([](const Finding* f) { return f->verdict == Verdict::regression; }),
+        count([](const Finding* f) { return f->verdict == Verdict::cannot_judge; }),
+        count([](const Finding* f) { return is_skip(*f); }));
+    for (const Finding* finding : findings) text += test_case(*finding, result);
+    text += "  </testsuite>\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string junit(std::span<const judge::GateResult> results) {
+  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
+  for (const judge::GateResult& result : results) text += test_suites(result);
+  return text + "</testsuites>\n";
+}
+
+std::string junit(const judge::GateResult& result) {
+  return junit(std::span(&result, 1));
+}
+
+}  // namespace triptych::report

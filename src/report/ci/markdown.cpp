@@ -1,0 +1,124 @@
+#include "report/ci/markdown.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/quoting.hpp"
+#include "report/overview.hpp"
+#include "report/words/cause.hpp"
+
+namespace triptych::report {
+namespace {
+
+constexpr std::size_t shown_openly = 10;
+constexpr std::size_t most_characters = 60000;
+constexpr std::size_t longest_listed_command = 4000;
+constexpr std::size_t most_of_bounds = 8000;
+
+std::string rows(const Overview& all) {
+  std::string text = "| check | verdict | |\n|---|---|---|\n";
+  for (const KindRow& row : all.rows) {
+    text += fmt::format("| {} | {} | {} |\n", row.kind,
+                        row.worst == judge::Verdict::regression ? "**FAIL**" : row.verdict,
+                        markdown_escaped(row.sentence));
+  }
+  return text;
+}
+
+std::string item(const Cause& cause) {
+  const judge::Finding& first = *cause.group.first;
+  std::string text = fmt::format("- **{}** {}: {}  \n  {}\n", judge::name_of(first.verdict),
+                                 judge::name_of(first.check), markdown_escaped(words::place(cause)),
+                                 markdown_escaped(words::text_of(cause)));
+  const std::string command = command_of(first, *cause.result);
+  if (!command.empty() && command.size() < longest_listed_command) text += fenced(command, "  ");
+  return text;
+}
+
+std::string bounds(const Overview& all) {
+  if (all.bounds.empty()) return {};
+  std::string text =
+      "\n<details><summary>How near pictures come to their bounds</summary>\n\n"
+      "| plan | device | pictures | largest error over bound | where |\n|---|---|--:|--:|---|\n";
+  for (const NearestBound& bound : all.bounds) {
+    text += fmt::format("| {} | {} | {} | {:.3g} | {} |\n", markdown_escaped(bound.plan),
+                        markdown_escaped(bound.device), bound.pictures, bound.share,
+                        markdown_escaped(bound.configuration));
+    if (text.size() > most_of_bounds) break;
+  }
+  return text + "\n</details>\n";
+}
+
+}  // namespace
+
+std::string fenced(std::string_view command, std::string_view indent) {
+  std::string fence = "```";
+  while (command.find(fence) != std::string_view::npos) fence += '`';
+  return fmt::format("\n{2}{0}sh\n{2}{1}\n{2}{0}\n", fence, command, indent);
+}
+
+std::string markdown_escaped(std::string_view text, std::size_t limit) {
+  std::string result;
+  for (const char c : core::printable(text, limit)) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '@':  // otherwise a pattern could notify somebody
+        result += "@\u200B";
+        break;
+      default:
+        if (std::string_view("\\`*_{}[]()#!|~").find(c) != std::string_view::npos) result += '\\';
+        result += c;
+    }
+  }
+  return result;
+}
+
+std::string markdown(std::span<const judge::GateResult> results) {
+  const Overview all = overview(results);
+  std::string text =
+      fmt::format("## {} ({})", words::word_of(all.code), static_cast<int>(all.code));
+  for (const judge::GateResult& result : results) {
+    text +=
+        fmt::format("{} {}", &result == results.data() ? ":" : ",", markdown_escaped(result.plan));
+  }
+  text += fmt::format("{}\n\n{}\n", all.part ? " (a part)" : "", rows(all));
+  for (const std::string& each : all.circumstances)
+    text += "- **" + markdown_escaped(each) + "**\n";
+  if (!all.circumstances.empty()) text += '\n';
+  std::vector<const Cause*> rest;
+  for (std::size_t i = 0; i < all.open.size(); ++i) {
+    if (i < shown_openly) {
+      text += item(all.open[i]);
+    } else {
+      rest.push_back(&all.open[i]);
+    }
+  }
+  for (const Cause& cause : all.aside) rest.push_back(&cause);
+  text += bounds(all);
+  if (rest.empty()) return text;
+  text += fmt::format("\n<details><summary>{} more</summary>\n\n", rest.size());
+  for (const Cause* cause : rest) {
+    const std::string next = item(*cause);
+    if (text.size() + next.size() > most_characters) {
+      text += "- …\n";
+      break;
+    }
+    text += next;
+  }
+  return text + "\n</details>\n";
+}
+
+std::string markdown(const judge::GateResult& result) {
+  return markdown(std::span(&result, 1));
+}
+
+}  // namespace triptych::report

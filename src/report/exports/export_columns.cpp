@@ -1,0 +1,227 @@
+#include "report/exports/export_columns.hpp"
+
+#include "core/json_text.hpp"
+#include "report/words/outcome.hpp"
+
+namespace triptych::report {
+namespace {
+
+using core::Json;
+using record::Outcome;
+using record::Record;
+
+Cell text(const std::string& value) {
+  return value.empty() ? Cell() : Cell(value);
+}
+
+Cell integer(auto value) {
+  return static_cast<std::uint64_t>(value);
+}
+
+// For values that only measured records have; they are never written as zero.
+Cell positive(auto value) {
+  if (!(value > 0)) return {};
+  if constexpr (std::is_floating_point_v<decltype(value)>)
+    return value;
+  else
+    return integer(value);
+}
+
+Cell median(const std::vector<double>& samples) {
+  const auto summary = record::summarise(samples);
+  return summary ? Cell(summary->median) : Cell();
+}
+
+template <typename Map>
+Cell value_in(const Map& map, const std::string& name) {
+  const auto found = map.find(name);
+  return found == map.end() ? Cell() : Cell(found->second);
+}
+
+template <typename Map>
+std::string as_json(const Map& map) {
+  return core::json_text(Json(map));
+}
+
+Columns<RecordSource> what_it_was() {
+  const auto of = [](std::string Record::*member) {
+    return [member](const RecordSource& s) { return text(s.record.*member); };
+  };
+  return {
+      {{"record", "integer", "", "number of the record in this export, which other tables name"},
+       [](const RecordSource& s) { return s.number; }},
+      {{"run", "text", "", "the run, see runs"}, of(&Record::run)},
+      {{"suite", "text", "", "volume or particles"}, of(&Record::suite)},
+      {{"plan", "text", "", "the plan that was run"}, of(&Record::plan)},
+      {{"configuration", "text", "", "what the plan named, factor=value,…"},
+       of(&Record::configuration)},
+      {{"scene", "text", "", "the factors that decide the picture"}, of(&Record::scene)},
+      {{"technique", "text", "", "the technique"}, of(&Record::technique)},
+      {{"device", "text", "", "the device's id, see devices"}, of(&Record::device)},
+      {{"outcome", "text", "", "measured, skipped, failed, crashed, hung or lost"},
+       [](const RecordSource& s) { return std::string(name_of(s.record.outcome)); }},
+      {{"cause", "text", "", "why it was not measured, see docs/store.md"},
+       [](const RecordSource& s) { return std::string(name_of(s.record.reason.cause)); }},
+      {{"reason", "text", "", "the cause as a sentence"},
+       [](const RecordSource& s) {
+         return s.record.reason == record::Reason{} ? "" : words::text_of(s.record.reason);
+       }},
+      {{"same_as", "text", "", "the equivalent configuration whose frames these are"},
+       of(&Record::same_as)},
+      {{"injected", "text", "", "the injected fault"}, of(&Record::injected)},
+      {{"image", "text", "", "hash of the picture in the store"}, of(&Record::image)},
+      {{"data_hash", "text", "", "hash of the data"}, of(&Record::data_hash)},
+      {{"kernel_hash", "text", "", "hash of the device code"}, of(&Record::kernel_hash)},
+      {{"counted_by", "text", "", "what counted instructions; no times then"},
+       of(&Record::counted_by)},
+  };
+}
+
+// Only a record that was timed has these values.
+Cell when_timed(const RecordSource& s, Cell cell) {
+  return s.record.time_ns().empty() ? Cell() : std::move(cell);
+}
+
+Columns<RecordSource> what_it_took() {
+  return {
+      {{"clock", "text", "", "the clock that counts: device where it is trusted, else wall"},
+       [](const RecordSource& s) { return when_timed(s, std::string(s.record.clock())); }},
+      {{"frames", "integer", "frames", "timed on that clock"},
+       [](const RecordSource& s) { return when_timed(s, s.record.time_ns().size()); }},
+      {{"median_ns", "number", "ns", "median time of a frame on that clock"},
+       [](const RecordSource& s) { return median(s.record.time_ns()); }},
+      {{"median_wall_ns", "number", "ns", "median time of a frame on the wall clock"},
+       [](const RecordSource& s) { return median(s.record.wall_ns); }},
+      {{"median_device_ns", "number", "ns", "median time of a frame on the device's clock"},
+       [](const RecordSource& s) { return median(s.record.device_ns); }},
+      {{"device_clock_trusted", "integer", "", "1: calibrated against the wall clock, 0: not"},
+       [](const RecordSource& s) {
+         return when_timed(s, std::uint64_t{s.record.device_clock_trusted});
+       }},
+      {{"warm_up_frames", "integer", "frames", "drawn before those that were timed"},
+       [](const RecordSource& s) { return when_timed(s, integer(s.record.warm_up_frames)); }},
+      {{"frames_per_100ms", "integer", "frames", "as the warm-up found"},
+       [](const RecordSource& s) { return positive(s.record.frames_per_100ms); }},
+      {{"loop_wall_ns", "number", "ns", "the closing loop, whole"},
+       [](const RecordSource& s) { return positive(s.record.loop_wall_ns); }},
+      {{"loop_frames", "integer", "frames", "of the closing loop"},
+       [](const RecordSource& s) { return positive(s.record.loop_frames); }},
+      {{"prepare_ns", "number", "ns", "data, pipelines and upload"},
+       [](const RecordSource& s) { return positive(s.record.prepare_ns); }},
+      {{"overhead_ns", "number", "ns", "of the configuration outside device work and warm-up"},
+       [](const RecordSource& s) { return positive(s.record.overhead_ns); }},
+      {{"peak_memory_bytes", "integer", "bytes", "of the worker's process so far"},
+       [](const RecordSource& s) { return positive(s.record.peak_memory_bytes); }},
+  };
+}
+
+void append(Columns<RecordSource>& columns, const std::set<std::string>& names,
+            const std::string& prefix, const ColumnText& about, auto Record::*map) {
+  for (const std::string& name : names) {
+    ColumnText of = about;
+    of.name = prefix + name;
+    of.description += name;
+    if (prefix == "cost_") of.unit = cost_unit(name);
+    columns.push_back(
+        {of, [map, name](const RecordSource& s) { return value_in(s.record.*map, name); }});
+  }
+}
+
+}  // namespace
+
+Json to_json(const ColumnText& column) {
+  return {{"name", column.name},
+          {"type", column.type},
+          {"unit", column.unit},
+          {"description", column.description}};
+}
+
+std::string cost_unit(const std::string& part) {
+  if (part == "allocations") return "calls";
+  return part == "misses" ? "cache lines" : "instructions";
+}
+
+Columns<RunSource> run_columns() {
+  return {
+      {{"run", "text", "", "id of the run"}, [](const RunSource& s) { return text(s.run.id); }},
+      {{"store", "text", "", "the file that held it"},
+       [](const RunSource& s) { return text(s.store); }},
+      {{"plan", "text", "", "the plan that was run"},
+       [](const RunSource& s) { return text(s.run.plan); }},
+      {{"started_at", "text", "", "ISO 8601, UTC"},
+       [](const RunSource& s) { return text(s.run.started_at); }},
+      {{"plan_hash", "text", "", "hash of the plan's text"},
+       [](const RunSource& s) { return text(s.run.plan_hash); }},
+      {{"configurations", "integer", "", "to be measured on each device"},
+       [](const RunSource& s) { return positive(s.run.configurations); }},
+      {{"processor", "text", "", "of the machine"},
+       [](const RunSource& s) { return value_in(s.run.system, "processor"); }},
+      {{"system", "text", "", "JSON: cores, memory, operating system, …"},
+       [](const RunSource& s) { return as_json(s.run.system); }},
+  };
+}
+
+Columns<DeviceSource> device_columns() {
+  const auto of = [](std::string record::Device::*member) {
+    return [member](const DeviceSource& s) { return text(s.device.*member); };
+  };
+  using record::Device;
+  return {
+      {{"run", "text", "", "the run, see runs"}, [](const DeviceSource& s) { return text(s.run); }},
+      {{"device", "text", "", "<api>:<driver>"}, of(&Device::id)},
+      {{"api", "text", "", "opencl, vulkan, gl or null"}, of(&Device::api)},
+      {{"name", "text", "", "as the driver gives it"}, of(&Device::name)},
+      {{"vendor", "text", "", "as the driver gives it"}, of(&Device::vendor)},
+      {{"driver", "text", "", "name of the driver"}, of(&Device::driver)},
+      {{"driver_version", "text", "", "as the driver gives it"}, of(&Device::driver_version)},
+      {{"api_version", "text", "", "as the driver gives it"}, of(&Device::api_version)},
+      {{"cpu_features", "text", "", "that code is generated for"}, of(&Device::cpu_features)},
+      {{"device_key", "text", "", "all that times and bits depend on"},
+       [](const DeviceSource& s) { return text(s.device.key()); }},
+      {{"environment", "text", "", "JSON: variables that change code generation"},
+       [](const DeviceSource& s) { return as_json(s.device.environment); }},
+      {{"limits", "text", "", "JSON: limits in the API's own names"},
+       [](const DeviceSource& s) { return as_json(s.device.limits); }},
+      {{"statistics_calibration", "text", "", "JSON: what each pipeline statistic is worth"},
+       [](const DeviceSource& s) { return as_json(s.device.statistics_calibration); }},
+  };
+}
+
+Columns<ClockSource> clock_columns() {
+  const auto ratio = [](double record::ClockTrust::*member) {
+    return
+        [member](const ClockSource& s) { return s.clock.offered ? Cell(s.clock.*member) : Cell(); };
+  };
+  using record::ClockTrust;
+  return {
+      {{"run", "text", "", "the run, see runs"}, [](const ClockSource& s) { return text(s.run); }},
+      {{"device", "text", "", "the device's id"},
+       [](const ClockSource& s) { return text(s.device); }},
+      {{"work", "text", "", "compute or draw"},
+       [](const ClockSource& s) { return text(s.clock.work); }},
+      {{"offered", "integer", "", "1: the device tells a time"},
+       [](const ClockSource& s) { return std::uint64_t{s.clock.offered}; }},
+      {{"trusted", "integer", "", "1: it follows the wall clock"},
+       [](const ClockSource& s) { return std::uint64_t{s.clock.trusted}; }},
+      {{"ratio", "number", "", "device over wall clock, median"}, ratio(&ClockTrust::ratio)},
+      {{"ratio_low", "number", "", "the least seen"}, ratio(&ClockTrust::ratio_low)},
+      {{"ratio_high", "number", "", "the largest seen"}, ratio(&ClockTrust::ratio_high)},
+      {{"verdict", "text", "", "in words"},
+       [](const ClockSource& s) { return text(s.clock.verdict); }},
+  };
+}
+
+Columns<RecordSource> record_columns(const RecordNames& names) {
+  Columns<RecordSource> columns = what_it_was();
+  for (Column<RecordSource>& each : what_it_took()) columns.push_back(std::move(each));
+  append(columns, names.factors, "factor_", {"", "text", "", "level of the factor "},
+         &Record::factors);
+  append(columns, names.cost, "cost_", {"", "integer", "", "of one frame, "}, &Record::cost);
+  append(columns, names.memory, "memory_bytes_",
+         {"", "integer", "bytes", "on the device for this configuration, "}, &Record::memory);
+  append(columns, names.energy, "energy_uj_",
+         {"", "integer", "microjoules", "of a frame, by meter "}, &Record::energy);
+  return columns;
+}
+
+}  // namespace triptych::report

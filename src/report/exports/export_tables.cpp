@@ -1,0 +1,257 @@
+#include "report/exports/export_tables.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/json_text.hpp"
+#include "report/exports/csv.hpp"
+#include "report/exports/export_columns.hpp"
+
+namespace triptych::report {
+namespace {
+
+using core::Json;
+using record::Record;
+using record::Run;
+using record::Store;
+
+// A table that is being written, and its description in the dictionary.
+template <typename Source>
+class Table {
+ public:
+  Table(const std::filesystem::path& folder, std::string name, std::string description,
+        Columns<Source> columns)
+      : name_(std::move(name)),
+        description_(std::move(description)),
+        columns_(std::move(columns)),
+        row_(columns_.size()),
+        file_(folder / (name_ + ".csv"), names()) {}
+
+  void add(const Source& source) {
+    for (std::size_t i = 0; i < columns_.size(); ++i) row_[i] = columns_[i].cell(source);
+    file_.add(row_);
+  }
+  // Closes the file and adds it to the dictionary.
+  void end(Json& dictionary, ExportedRows& rows) {
+    file_.close();
+    Json columns = Json::array();
+    for (const auto& each : columns_) columns.push_back(to_json(each));
+    dictionary["tables"][name_] = {
+        {"description", description_}, {"rows", file_.rows()}, {"columns", std::move(columns)}};
+    rows[name_] = file_.rows();
+  }
+
+ private:
+  [[nodiscard]] std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& each : columns_) names.push_back(each.name);
+    return names;
+  }
+
+  std::string name_, description_;
+  Columns<Source> columns_;
+  std::vector<Cell> row_;
+  CsvFile file_;
+};
+
+struct SampleSource {
+  std::uint64_t record;
+  std::string_view clock;
+  std::uint64_t frame;
+  double ns;
+};
+struct ValueSource {
+  std::uint64_t record;
+  std::string_view of;  // for a cost: "frame" or "prepare"
+  const std::string& name;
+  std::uint64_t value;
+};
+
+constexpr const char* numbers = "number of the record, see records";
+
+Columns<SampleSource> sample_columns() {
+  return {
+      {{"record", "integer", "", numbers}, [](const SampleSource& s) { return s.record; }},
+      {{"clock", "text", "", "wall or device"},
+       [](const SampleSource& s) { return std::string(s.clock); }},
+      {{"frame", "integer", "", "from 0"}, [](const SampleSource& s) { return s.frame; }},
+      {{"time_ns", "number", "ns", "of the frame"}, [](const SampleSource& s) { return s.ns; }},
+  };
+}
+
+Columns<ValueSource> value_columns(const std::string& description) {
+  return {
+      {{"record", "integer", "", numbers}, [](const ValueSource& s) { return s.record; }},
+      {{"name", "text", "", "what is counted"}, [](const ValueSource& s) { return s.name; }},
+      {{"count", "integer", "events", description}, [](const ValueSource& s) { return s.value; }},
+  };
+}
+
+Columns<ValueSource> cost_columns() {
+  return {
+      {{"record", "integer", "", numbers}, [](const ValueSource& s) { return s.record; }},
+      {{"of", "text", "", "frame, or prepare: data, pipelines and upload"},
+       [](const ValueSource& s) { return std::string(s.of); }},
+      {{"part", "text", "", "whose code: device_code, driver, libc, program; allocations, misses"},
+       [](const ValueSource& s) { return s.name; }},
+      {{"unit", "text", "", "of the count"},
+       [](const ValueSource& s) { return cost_unit(s.name); }},
+      {{"count", "integer", "see unit", "the count"}, [](const ValueSource& s) { return s.value; }},
+  };
+}
+
+struct CodeSource {
+  std::uint64_t record;
+  const std::string& executable;
+  const std::string& name;
+  double value;
+};
+
+Columns<CodeSource> code_columns() {
+  return {
+      {{"record", "integer", "", numbers}, [](const CodeSource& s) { return s.record; }},
+      {{"executable", "text", "", "shader stage or kernel"},
+       [](const CodeSource& s) { return s.executable; }},
+      {{"name", "text", "", "statistic, by the driver's name"},
+       [](const CodeSource& s) { return s.name; }},
+      {{"value", "number", "", "as the compiler reports it"},
+       [](const CodeSource& s) { return s.value; }},
+  };
+}
+
+class Tables {
+ public:
+  Tables(const std::filesystem::path& folder, const RecordNames& names)
+      : runs_(folder, "runs", "one `triptych run` a row", run_columns()),
+        devices_(folder, "devices", "a device of a run a row", device_columns()),
+        clocks_(folder, "clocks", "a device's clock for one kind of work a row", clock_columns()),
+        records_(folder, "records", "a configuration on a device in a run a row",
+                 record_columns(names)),
+        samples_(folder, "samples", "a timed frame on a clock a row", sample_columns()),
+        counters_(folder, "counters", "a counter of ours a row",
+                  value_columns("of one frame, counted by our device code")),
+        statistics_(folder, "statistics", "a pipeline statistic a row",
+                    value_columns("of one frame, by the driver")),
+        cost_(folder, "cost", "a part of a cost a row", cost_columns()),
+        code_(folder, "code", "one statistic of one executable per row", code_columns()) {}
+
+  void add(const Store& store, const Run& run) {
+    runs_.add({store.file().string(), run});
+    for (const auto& [device, clocks] : store.devices(run.id)) {
+      devices_.add({run.id, device});
+      for (const auto& clock : clocks) clocks_.add({run.id, device.id, clock});
+    }
+    store.visit_records(run.id, [&](const Record& record) { add(record); });
+  }
+
+  void end(Json& dictionary, ExportedRows& rows) {
+    runs_.end(dictionary, rows);
+    devices_.end(dictionary, rows);
+    clocks_.end(dictionary, rows);
+    records_.end(dictionary, rows);
+    samples_.end(dictionary, rows);
+    counters_.end(dictionary, rows);
+    statistics_.end(dictionary, rows);
+    cost_.end(dictionary, rows);
+    code_.end(dictionary, rows);
+  }
+
+ private:
+  void add(const Record& record) {
+    const std::uint64_t number = ++last_;
+    records_.add({number, record});
+    for (const std::string_view clock : {"wall", "device"}) {
+      const std::vector<double>& times = record.time_ns_by(clock);
+      for (std::size_t i = 0; i < times.size(); ++i) samples_.add({number, clock, i, times[i]});
+    }
+    const auto add_all = [&](Table<ValueSource>& table, const record::Counts& counts,
+                             std::string_view of) {
+      for (const auto& [name, value] : counts) table.add({number, of, name, value});
+    };
+    add_all(counters_, record.counters, "frame");
+    add_all(statistics_, record.statistics, "frame");
+    add_all(cost_, record.cost, "frame");
+    add_all(cost_, record.prepare_cost, "prepare");
+    for (const auto& [executable, what] : record.code) {
+      for (const auto& [name, value] : what.statistics) {
+        code_.add({number, executable, name, value});
+      }
+    }
+  }
+
+  std::uint64_t last_ = 0;
+  Table<RunSource> runs_;
+  Table<DeviceSource> devices_;
+  Table<ClockSource> clocks_;
+  Table<RecordSource> records_;
+  Table<SampleSource> samples_;
+  Table<ValueSource> counters_, statistics_, cost_;
+  Table<CodeSource> code_;
+};
+
+struct RunInStore {
+  const Store* store;
+  Run run;
+};
+
+std::vector<RunInStore> runs_of(const std::vector<const Store*>& stores, const std::string& plan) {
+  std::vector<RunInStore> runs;
+  std::map<std::string, std::string> stores_of;
+  std::set<std::string> plans;
+  for (const Store* store : stores) {
+    for (Run& run : store->runs()) {
+      plans.insert(run.plan);
+      if (!plan.empty() && run.plan != plan) continue;
+      const auto [at, fresh] = stores_of.emplace(run.id, store->file().string());
+      if (!fresh) {
+        throw core::InputError(
+            fmt::format("run {} is in {} and in {}: its records would count twice; leave out one",
+                        run.id, at->second, store->file().string()));
+      }
+      runs.push_back({store, std::move(run)});
+    }
+  }
+  if (runs.empty()) {
+    throw core::NotSupported(fmt::format(
+        "no run{} to export; plans in the stores: {}", plan.empty() ? std::string() : " of " + plan,
+        plans.empty() ? "none" : fmt::to_string(fmt::join(plans, ", "))));
+  }
+  return runs;
+}
+
+RecordNames names_of(const std::vector<RunInStore>& runs) {
+  RecordNames names;
+  for (const auto& [store, run] : runs) {
+    names.factors.merge(store->names(run.id, "factor"));
+    names.cost.merge(store->names(run.id, "cost"));
+    names.memory.merge(store->names(run.id, "memory"));
+    names.energy.merge(store->names(run.id, "energy"));
+  }
+  return names;
+}
+
+}  // namespace
+
+ExportedRows export_tables(const std::vector<const Store*>& stores, const ExportRequest& request) {
+  const std::vector<RunInStore> runs = runs_of(stores, request.plan);
+  const std::filesystem::path dictionary_file = request.folder / "dictionary.json";
+  std::filesystem::remove(dictionary_file);
+  Tables tables(request.folder, names_of(runs));
+  for (const auto& [store, run] : runs) {
+    if (request.begins) request.begins(run);
+    tables.add(*store, run);
+  }
+  ExportedRows rows;
+  Json dictionary{{"schema", 1},
+                  {"made_by", request.made_by},
+                  {"missing", "an empty field is a value that is not known, never zero"}};
+  tables.end(dictionary, rows);
+  core::write_file(core::json_text(dictionary, 1) + '\n', dictionary_file);
+  return rows;
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,190 @@
+#include "report/figures/accuracy_chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "report/figures/figure.hpp"
+
+namespace triptych::report {
+namespace {
+
+struct CostAxis {
+  std::string title;
+  std::string unit;  // written after a value
+};
+CostAxis axis_of(Cost cost) {
+  switch (cost) {
+    case Cost::time:
+      return {"time of a frame, ms", "ms"};
+    case Cost::samples:
+      return {"samples taken", "samples"};
+    case Cost::instructions:
+      return {"instructions, millions", "million"};
+    case Cost::fetched:
+      return {"fetched past a cache, MiB", "MiB"};
+    case Cost::memory:
+      return {"held on the device, MiB", "MiB"};
+    case Cost::energy:
+      return {"energy of a frame, J", "J"};
+  }
+  return {};
+}
+
+std::optional<double> cost_of(const accuracy::AccuracyCase& each, Cost cost) {
+  const auto in = [](const auto& value, double unit) {
+    return value ? std::optional(static_cast<double>(*value) / unit) : std::nullopt;
+  };
+  switch (cost) {
+    case Cost::time:
+      return in(each.time_ns, 1e6);
+    case Cost::samples:
+      return in(each.samples, 1);
+    case Cost::instructions:
+      return in(each.instructions, 1e6);
+    case Cost::fetched:
+      return in(each.fetched, 1 << 20);
+    case Cost::memory:
+      return in(each.memory, 1 << 20);
+    case Cost::energy:
+      return in(each.joules, 1);
+  }
+  return std::nullopt;
+}
+
+// What the colours stand for. For configurations without a family it is the technique, because
+// otherwise there would be as many colours as points.
+std::string colour_name(const accuracy::AccuracyFamily& family,
+                        const accuracy::AccuracyCase& each) {
+  const auto technique = each.factors.find("technique");
+  const bool alone = family.members.size() == 1 && technique != each.factors.end();
+  return alone ? technique->second : family.name;
+}
+
+std::vector<std::string> factors_of(const accuracy::AccuracyScene& scene) {
+  std::vector<std::string> factors;
+  std::istringstream text(scene.scene);
+  for (std::string factor; std::getline(text, factor, ',');) factors.push_back(factor);
+  return factors;
+}
+
+// One scene on one device: a line for each family, the front in the colour of ink, and the goals as
+// dashed lines.
+class Diagram {
+ public:
+  Diagram(const accuracy::AccuracyScene& scene, const std::string& title, Cost cost)
+      : scene_(scene),
+        cost_(cost),
+        figure_(title + " on " + scene.device,
+                {.title = "RMSE against the limit", .logarithmic = true},
+                {.title = axis_of(cost).title, .logarithmic = true}, 230, 150) {}
+
+  [[nodiscard]] Html svg() {
+    find_front();
+    name_front();
+    for (const accuracy::AccuracyFamily& family : scene_.families) add_family(family);
+    if (figure_.empty()) return {};
+    add_front();
+    add_goals();
+    return figure_.svg();
+  }
+
+ private:
+  // Finds the front for the cost that is shown, because the fastest configuration need not have the
+  // least memory.
+  void find_front() {
+    front_ = accuracy::pareto_front(scene_.cases, [this](const accuracy::AccuracyCase& each) {
+      const auto place = place_of(each);
+      return place ? std::optional(place->y) : std::nullopt;
+    });
+  }
+  void name_front() {
+    for (const accuracy::AccuracyFamily& family : scene_.families) {
+      const bool in_front = std::ranges::any_of(family.members, [&](std::size_t i) {
+        return std::ranges::find(front_, i) != front_.end();
+      });
+      if (!in_front || named_.size() == colour_count) continue;
+      named_.insert(colour_name(family, scene_.cases[family.members.front()]));
+    }
+  }
+  // A case without error or without cost cannot be shown on logarithmic axes.
+  [[nodiscard]] std::optional<Figure::Place> place_of(const accuracy::AccuracyCase& each) const {
+    const auto paid = cost_of(each, cost_);
+    if (!paid || !(*paid > 0) || !(each.rmse > 0)) return std::nullopt;
+    return Figure::Place{each.rmse, *paid};
+  }
+  // If there are more families than colours, those that reach the front get one.
+  std::string_view colour(const std::string& name) {
+    const bool has_one = named_.contains(name) || colours_.contains(name);
+    if (!has_one && (scene_.families.size() > colour_count || name.empty())) return "soft";
+    const auto [found, added] = colours_.try_emplace(name, colour_of(colours_.size()));
+    if (added && !name.empty()) figure_.legend(name, {.colour = found->second});
+    return found->second;
+  }
+  void add_family(const accuracy::AccuracyFamily& family) {
+    std::vector<Figure::Place> places;
+    for (const std::size_t i : family.members) {
+      const accuracy::AccuracyCase& each = scene_.cases[i];
+      const auto place = place_of(each);
+      if (!place) continue;
+      places.push_back(*place);
+      figure_.point(*place, {.colour = colour(colour_name(family, each)), .opacity = 0.8},
+                    fmt::format("{}: RMSE {:.3g}, {:.3g} {}", each.configuration, place->x,
+                                place->y, axis_of(cost_).unit));
+    }
+    if (places.size() > 1) {
+      const std::string name = colour_name(family, scene_.cases[family.members.front()]);
+      figure_.line(places, {.colour = colour(name)}, family.name);
+    }
+  }
+  void add_front() {
+    std::vector<Figure::Place> places;
+    for (const std::size_t i : front_) places.push_back(*place_of(scene_.cases[i]));
+    std::ranges::reverse(places);
+    figure_.line(places, {.colour = "ink", .width = 1.6}, "the front");
+    for (const auto& place : places) figure_.point(place, {.colour = "ink", .hollow = true});
+    figure_.legend("the front", {.colour = "ink"}, true);
+  }
+  void add_goals() {
+    for (const double goal : accuracy::accuracy_goals) figure_.upright(goal);
+  }
+
+  const accuracy::AccuracyScene& scene_;
+  Cost cost_;
+  Figure figure_;
+  std::vector<std::size_t> front_;  // sorted by cost
+  std::set<std::string> named_;
+  std::map<std::string, std::string_view> colours_;
+};
+
+}  // namespace
+
+std::string accuracy_title(std::span<const accuracy::AccuracyScene> scenes,
+                           const accuracy::AccuracyScene& scene) {
+  std::string title = scene.data;
+  for (const std::string& factor : factors_of(scene)) {
+    const auto lacks = [&](const accuracy::AccuracyScene& other) {
+      const std::vector<std::string> theirs = factors_of(other);
+      return other.data == scene.data && std::ranges::find(theirs, factor) == theirs.end();
+    };
+    if (std::ranges::any_of(scenes, lacks)) title += ", " + factor;
+  }
+  return title;
+}
+
+Html accuracy_chart(std::span<const accuracy::AccuracyScene> scenes, Cost cost) {
+  std::vector<Titled> all;
+  for (const accuracy::AccuracyScene& scene : scenes) {
+    const std::string title = accuracy_title(scenes, scene);
+    Html svg = Diagram(scene, title, cost).svg();
+    if (!svg.empty()) all.push_back({title + " on " + scene.device, std::move(svg)});
+  }
+  return all.empty() ? Html() : figures(all);
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,385 @@
+#include "report/figures/figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "report/figures/figure_elements.hpp"
+#include "report/html.hpp"
+
+namespace triptych::report {
+namespace {
+
+constexpr double line_height = 16;
+constexpr double gap = 8;
+
+// One axis with its ends. It maps data to a share of the frame.
+class Measure {
+ public:
+  Measure(const Axis& axis, double low, double high) : axis_(axis), low_(low), high_(high) {
+    if (!axis.names.empty()) {
+      low_ = -0.5;
+      high_ = static_cast<double>(axis.names.size()) - 0.5;
+      return;
+    }
+    if (!(low_ <= high_)) low_ = axis.logarithmic ? 1 : 0, high_ = low_ + 1;
+    const double margin =
+        axis.logarithmic ? std::max(0.03 * std::log(high_ / low_), 0.02) : 0.03 * (high_ - low_);
+    if (axis.logarithmic) {
+      low_ *= std::exp(-margin);
+      high_ *= std::exp(margin);
+    } else if (high_ == low_) {
+      const double half = low_ == 0 ? 1 : 0.1 * std::abs(low_);
+      low_ -= half;
+      high_ += half;
+    } else {
+      // Bars stand on 0, so nothing is added below it if there are no values below.
+      if (low_ != 0) low_ -= margin;
+      high_ += margin;
+    }
+    low_ = axis.low.value_or(low_);
+    high_ = axis.high.value_or(high_);
+  }
+
+  [[nodiscard]] double share(double value) const {
+    const bool logarithmic = axis_.logarithmic && axis_.names.empty();
+    return logarithmic ? std::log(value / low_) / std::log(high_ / low_)
+                       : (value - low_) / (high_ - low_);
+  }
+  struct Tick {
+    double at;
+    std::string text;
+    std::string whole = {};  // the whole text if it is shortened
+  };
+  [[nodiscard]] std::vector<Tick> ticks(int wanted) const {
+    std::vector<Tick> all;
+    for (std::size_t i = 0; i < axis_.names.size(); ++i) {
+      all.push_back({static_cast<double>(i), shortened(axis_.names[i]), axis_.names[i]});
+    }
+    if (!all.empty()) return all;
+    for (const double value : report::ticks(low_, high_, axis_.logarithmic, wanted)) {
+      all.push_back(
+          {value, axis_.percent ? fmt::format("{:+.3g} %", 100 * value) : short_number(value)});
+    }
+    return all;
+  }
+
+ private:
+  const Axis& axis_;
+  double low_;
+  double high_;
+};
+
+double longest(const std::vector<Measure::Tick>& ticks) {
+  double width = 0;
+  for (const auto& tick : ticks) width = std::max(width, width_of(tick.text));
+  return width;
+}
+
+}  // namespace
+
+// The data that svg() needs while it draws.
+class Figure::Drawing {
+ public:
+  explicit Drawing(const Figure& figure)
+      : figure_(figure),
+        across_(measure(figure.across_, &Place::x)),
+        up_(measure(figure.up_, &Place::y)),
+        across_ticks_(across_.ticks(static_cast<int>(figure.width_ / 70))),
+        up_ticks_(up_.ticks(static_cast<int>(figure.height_ / 40))) {
+    lay_out();
+  }
+
+  Html svg() {
+    for (const Shape& shape : figure_.shapes_) marks_ += element(shape);
+    const std::string clip =
+        fmt::format("{:.0f} {:.0f} {:.0f} {:.0f}", left_, top_, figure_.width_, figure_.height_);
+    return markup(
+               "<svg class=\"figure\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
+               "height=\"{1:.0f}\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\">",
+               total_width_, total_height_) +
+           title_element(figure_.description_) + legend() + axes() +
+           markup(
+               "<svg class=\"marks\" x=\"{0:.0f}\" y=\"{1:.0f}\" width=\"{2:.0f}\" "
+               "height=\"{3:.0f}\" viewBox=\"{4}\">",
+               left_, top_, figure_.width_, figure_.height_, clip) +
+           marks_ + markup("</svg>") + labels_ + markup("</svg>");
+  }
+
+ private:
+  // The measure for everything that is drawn.
+  [[nodiscard]] Measure measure(const Axis& axis, double Place::*coordinate) const {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const Shape& shape : figure_.shapes_) {
+      if (shape.kind == Kind::upright) continue;
+      for (const Place& place : shape.places) {
+        low = std::min(low, place.*coordinate);
+        high = std::max(high, place.*coordinate);
+      }
+    }
+    return {axis, low, high};
+  }
+
+  void lay_out() {
+    left_ = longest(up_ticks_) + gap + (figure_.up_.title.empty() ? 4 : line_height + 4);
+    // Names that do not fit next to each other are rotated.
+    const double band =
+        figure_.width_ / static_cast<double>(std::max<std::size_t>(across_ticks_.size(), 1));
+    const double widest = longest(across_ticks_);
+    turned_ = !figure_.across_.names.empty() && widest + 4 > band;
+    const double below = turned_ ? widest + gap : line_height + 2;
+    const double last = across_ticks_.empty() ? 0 : width_of(across_ticks_.back().text) / 2;
+    total_width_ = left_ + figure_.width_ + std::max(turned_ ? 0.0 : last, gap);
+    place_legend();
+    top_ = gap + legend_height_;
+    total_height_ =
+        top_ + figure_.height_ + below + (figure_.across_.title.empty() ? 4 : line_height + 4);
+  }
+
+  void place_legend() {
+    double x = left_;
+    double row = 0;
+    for (const Entry& entry : figure_.entries_) {
+      const std::string text = shortened(entry.text, longest_entry);
+      const double width = width_of(text) + 30;
+      if (x > left_ && x + width > total_width_) {
+        x = left_;
+        ++row;
+      }
+      total_width_ = std::max(total_width_, x + width);
+      spots_.push_back({x, gap + row * line_height + 8});
+      x += width;
+    }
+    legend_height_ = spots_.empty() ? 0 : (row + 1) * line_height + 4;
+  }
+
+  [[nodiscard]] Html legend() const {
+    Html text;
+    for (std::size_t i = 0; i < spots_.size(); ++i) {
+      const auto& [x, y] = spots_[i];
+      const Entry& entry = figure_.entries_[i];
+      text += entry.line
+                  ? markup("<path {} d=\"M{:.1f} {:.1f}h14\"/>", line_attributes(entry.style), x, y)
+                  : mark_element(x + 8, y, entry.style, {});
+      text += markup("<g>{}{}</g>", title_element(entry.text),
+                     text_element(x + 18, y + 4, "start", shortened(entry.text, longest_entry)));
+    }
+    return text;
+  }
+
+  [[nodiscard]] double x_of(double value) const {
+    return left_ + figure_.width_ * across_.share(value);
+  }
+  // Names run from top to bottom, numbers from bottom to top.
+  [[nodiscard]] double y_of(double value) const {
+    const double share = up_.share(value);
+    return top_ + figure_.height_ * (figure_.up_.names.empty() ? 1 - share : share);
+  }
+
+  [[nodiscard]] Html axes() const {
+    const double bottom = top_ + figure_.height_;
+    std::string grid;
+    Html text;
+    double free_from = -std::numeric_limits<double>::infinity();
+    for (const auto& tick : across_ticks_) {
+      const double x = x_of(tick.at);
+      if (figure_.across_.names.empty())
+        grid += fmt::format("M{:.1f} {:.1f}v{:.0f}", x, top_, figure_.height_);
+      const double half = width_of(tick.text) / 2;
+      if (!turned_ && x - half < free_from) continue;  // no space
+      free_from = x + half + 4;
+      const Html more =
+          turned_ ? markup(" transform=\"rotate(-90 {:.1f} {:.1f})\"", x + 4, bottom + 8) : Html();
+      text += named(tick, turned_ ? text_element(x + 4, bottom + 8, "end", tick.text, more)
+                                  : text_element(x, bottom + line_height, "middle", tick.text));
+    }
+    for (const auto& tick : up_ticks_) {
+      const double y = y_of(tick.at);
+      if (figure_.up_.names.empty())
+        grid += fmt::format("M{:.1f} {:.1f}h{:.0f}", left_, y, figure_.width_);
+      text += named(tick, text_element(left_ - gap, y + 4, "end", tick.text));
+    }
+    return markup(
+               "<path class=\"grid\" d=\"{}\"/><rect class=\"frame\" x=\"{:.1f}\" y=\"{:.1f}\" "
+               "width=\"{:.0f}\" height=\"{:.0f}\"/>",
+               grid.empty() ? "M0 0" : grid, left_, top_, figure_.width_, figure_.height_) +
+           text + titles();
+  }
+
+  static Html named(const Measure::Tick& tick, const Html& element) {
+    if (tick.whole.empty() || tick.whole == tick.text) return element;
+    return markup("<g>{}{}</g>", title_element(tick.whole), element);
+  }
+
+  [[nodiscard]] Html titles() const {
+    Html text;
+    if (!figure_.across_.title.empty()) {
+      text += text_element(left_ + figure_.width_ / 2, total_height_ - 5, "middle",
+                           shortened(figure_.across_.title), markup(" class=\"axis\""));
+    }
+    if (!figure_.up_.title.empty()) {
+      const double y = top_ + figure_.height_ / 2;
+      text += text_element(12, y, "middle", shortened(figure_.up_.title),
+                           markup(" class=\"axis\" transform=\"rotate(-90 12 {:.1f})\"", y));
+    }
+    return text;
+  }
+
+  Html element(const Shape& shape) {
+    const Place& first = shape.places.front();
+    switch (shape.kind) {
+      case Kind::point:
+        return mark_element(x_of(first.x), y_of(first.y), shape.style, shape.text);
+      case Kind::line:
+        return line_element(shape);
+      case Kind::box:
+        return box_element(shape);
+      case Kind::strokes:
+        return strokes_element(shape);
+      case Kind::upright:
+        if (const double at = across_.share(first.x); at < 0 || at > 1)
+          return {};  // outside of the frame
+        return markup("<path {} d=\"M{:.1f} {:.1f}v{:.0f}\"/>", line_attributes(shape.style),
+                      x_of(first.x), top_, figure_.height_);
+      case Kind::label:
+        place_label(shape);
+        break;
+    }
+    return {};
+  }
+
+  [[nodiscard]] Html line_element(const Shape& shape) const {
+    std::string path;
+    for (const Place& place : shape.places) {
+      path +=
+          fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x_of(place.x), y_of(place.y));
+    }
+    return markup("<path {} d=\"{}\">{}</path>", line_attributes(shape.style), path,
+                  title_element(shape.text));
+  }
+
+  [[nodiscard]] Html box_element(const Shape& shape) const {
+    const auto [x0, x1] = std::minmax({x_of(shape.places[0].x), x_of(shape.places[1].x)});
+    const auto [y0, y1] = std::minmax({y_of(shape.places[0].y), y_of(shape.places[1].y)});
+    return markup(
+        "<rect class=\"fill {}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
+        "opacity=\"{:.2f}\">{}</rect>",
+        shape.style.colour, x0, y0, x1 - x0, y1 - y0, shape.style.opacity,
+        title_element(shape.text));
+  }
+
+  [[nodiscard]] Html strokes_element(const Shape& shape) const {
+    const double half = shape.half * std::abs(y_of(1) - y_of(0));
+    std::string path;
+    double last = -1;
+    for (const Place& place : shape.places) {
+      // Two strokes at the same position become one.
+      const double x = std::round(2 * x_of(place.x)) / 2;
+      if (x == last) continue;
+      last = x;
+      path += fmt::format("M{:.1f} {:.1f}v{:.1f}", x, y_of(place.y) - half, 2 * half);
+    }
+    return markup("<path {} d=\"{}\"/>", line_attributes(shape.style), path);
+  }
+
+  void place_label(const Shape& shape) {
+    const double width = width_of(shape.text);
+    double x = x_of(shape.places[0].x) + 7;
+    const double right = left_ + figure_.width_;
+    if (x + width > right) x -= width + 14;
+    const double y = std::clamp(y_of(shape.places[0].y), top_ + 8, top_ + figure_.height_ - 8) + 4;
+    const bool taken = std::ranges::any_of(labelled_, [&](const auto& other) {
+      return std::abs(other.y - y) < 12 && x < other.x + other.width && other.x < x + width;
+    });
+    if (taken || x < left_) return;
+    labelled_.push_back({x, y, width});
+    labels_ += text_element(x, y, "start", shape.text);
+  }
+
+  struct Label {
+    double x, y, width;
+  };
+
+  const Figure& figure_;
+  Measure across_;
+  Measure up_;
+  std::vector<Measure::Tick> across_ticks_;
+  std::vector<Measure::Tick> up_ticks_;
+  double left_ = 0;
+  double top_ = 0;
+  double total_width_ = 0;
+  double total_height_ = 0;
+  double legend_height_ = 0;
+  bool turned_ = false;
+  std::vector<Place> spots_;
+  std::vector<Label> labelled_;
+  Html marks_;
+  Html labels_;
+};
+
+Figure::Figure(std::string description, Axis across, Axis up, double width, double height)
+    : description_(std::move(description)),
+      across_(std::move(across)),
+      up_(std::move(up)),
+      width_(width),
+      height_(height) {}
+
+void Figure::add(Shape shape) {
+  const auto has_place = [](const Axis& axis, double value) {
+    return std::isfinite(value) && (!axis.logarithmic || !axis.names.empty() || value > 0);
+  };
+  std::erase_if(shape.places, [&](const Place& place) {
+    return !has_place(across_, place.x) || !has_place(up_, place.y);
+  });
+  const std::size_t needed = shape.kind == Kind::box ? 2 : 1;
+  if (shape.places.size() >= needed) shapes_.push_back(std::move(shape));
+}
+
+void Figure::point(Place at, const Style& style, std::string_view tooltip) {
+  add({Kind::point, {at}, style, std::string(tooltip)});
+}
+
+void Figure::line(std::span<const Place> places, const Style& style, std::string_view tooltip) {
+  add({Kind::line, {places.begin(), places.end()}, style, std::string(tooltip)});
+}
+
+void Figure::box(Place from, Place to, const Style& style, std::string_view tooltip) {
+  add({Kind::box, {from, to}, style, std::string(tooltip)});
+}
+
+void Figure::strokes(std::span<const double> across, double row, double half, const Style& style) {
+  Shape shape{Kind::strokes, {}, style, {}, half};
+  for (const double each : across) shape.places.push_back({each, row});
+  std::ranges::sort(shape.places, {}, &Place::x);
+  add(std::move(shape));
+}
+
+void Figure::upright(double across) {
+  add({Kind::upright, {{across, 1}}, {.colour = "soft", .dashed = true, .width = 1}, {}});
+}
+
+void Figure::label(Place at, std::string_view text) {
+  add({Kind::label, {at}, {}, shortened(text)});
+}
+
+void Figure::legend(std::string_view text, const Style& style, bool line) {
+  entries_.push_back({std::string(text), style, line});
+}
+
+Html Figure::svg() const {
+  return Drawing(*this).svg();
+}
+
+Html figures(std::span<const Titled> all) {
+  Html text = markup("<div class=\"figures\">");
+  for (const Titled& each : all) {
+    const Html title = each.title.empty() ? Html() : markup("<h5>{}</h5>", each.title);
+    text += markup("<div class=\"plot\">{}{}</div>\n", title, each.svg);
+  }
+  return text + markup("</div>\n");
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,117 @@
+#include "report/page/history_page.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "core/json.hpp"
+#include "report/figures/figure.hpp"
+#include "report/html.hpp"
+#include "report/page/page_frame.hpp"
+
+namespace triptych::report {
+namespace {
+
+using core::Json;
+
+std::string name_of_store(const Json& point) {
+  return point.at("name").get<std::string>();
+}
+
+// The driver, and injected faults, which are not the driver's.
+std::string driver_of(const Json& point) {
+  std::string text = point.at("driver_version").get<std::string>();
+  if (const auto found = point.find("injected"); found != point.end()) {
+    text += fmt::format(" [injected: {}]", fmt::join(found->get<std::vector<std::string>>(), ", "));
+  }
+  return text;
+}
+
+// A frame's cost may change by this share before the figure shows it as a slope.
+constexpr double least_span = 0.01;
+
+// An axis around the values, which extends at least `least_span` in both directions.
+Axis axis_of(const Json& points) {
+  Axis axis{.title = "of the first store’s"};
+  std::vector<double> values;
+  for (const Json& point : points) {
+    for (const char* key : {"cost", "time"}) {
+      if (point.contains(key)) values.push_back(point.at(key).get<double>());
+    }
+  }
+  if (values.empty()) return axis;
+  const auto [low, high] = std::ranges::minmax(values);
+  const double middle = (low + high) / 2;
+  if (high - low >= 2 * least_span * middle) return axis;
+  axis.low = (1 - least_span) * middle;
+  axis.high = (1 + least_span) * middle;
+  return axis;
+}
+
+std::string number_text(const Json& point, const char* key) {
+  return point.contains(key) ? fmt::format("{:.4f}", point.at(key).get<double>()) : "–";
+}
+
+// Each store is a band. A missing point leaves a gap.
+Html figure_of(const Json& device) {
+  const Json& points = device.at("points");
+  std::vector<std::string> names;
+  for (const Json& point : points) names.push_back(name_of_store(point));
+  Figure figure("Cost and time over the stores, the first being 1",
+                {.title = "store", .names = std::move(names)}, axis_of(points), 320, 180);
+  struct Series {
+    const char* key;
+    Style style;
+  };
+  for (const Series& series :
+       {Series{"cost", {.colour = "c0"}},
+        Series{"time", {.colour = "c1", .mark = Mark::triangle, .dashed = true}}}) {
+    std::vector<Figure::Place> places;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!points[i].contains(series.key)) continue;
+      places.push_back({static_cast<double>(i), points[i].at(series.key).get<double>()});
+      figure.point(places.back(), series.style, number_text(points[i], series.key));
+    }
+    if (places.empty()) continue;
+    figure.line(places, series.style);
+    figure.legend(series.key, series.style, true);
+  }
+  return figure.empty() ? markup("<p>Neither cost nor time was measured.</p>\n") : figure.svg();
+}
+
+Html table_of(const Json& device) {
+  Rows rows{{"store", "begun", "driver", "cost", "time", "changes"}};
+  for (const Json& point : device.at("points")) {
+    const std::string changes = point.at("changes").get<std::string>();
+    const Html summary = point.at("worse").get<bool>() ? markup("<b class=\"regression\">worse</b>")
+                                                       : markup("changed");
+    rows.push_back({name_of_store(point), point.at("started_at").get<std::string>(),
+                    driver_of(point), number_text(point, "cost"), number_text(point, "time"),
+                    changes.empty() ? Html() : folded(summary, markup("<pre>{}</pre>", changes))});
+  }
+  return table(rows);
+}
+
+}  // namespace
+
+std::string history_page(const Json& history) {
+  Html page = page_begin("History");
+  page += markup(
+      "<main><h1>History</h1>\n<p>Cost: instructions of a frame, of generated code and driver. "
+      "Both by "
+      "the "
+      "geometric mean over what neighbours share. Times are shown, not judged.</p>\n");
+  for (const Json& device : history) {
+    page += markup("<h2>{}</h2>\n", device.at("device").get<std::string>());
+    if (device.contains("first_worse")) {
+      page += markup("<p><b class=\"regression\">First worse</b>: {}</p>\n",
+                     device.at("first_worse").get<std::string>());
+    }
+    page += figure_of(device) + table_of(device);
+  }
+  return (page + markup("</main>") + page_end()).text();
+}
+
+}  // namespace triptych::report

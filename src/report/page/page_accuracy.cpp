@@ -1,0 +1,249 @@
+// Run time against error: the diagrams, the orders, the cost of an accuracy, and the parts of an
+// error.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "report/figures/accuracy_chart.hpp"
+#include "report/html.hpp"
+#include "report/page/page_frame.hpp"
+#include "report/page/page_sections.hpp"
+
+namespace triptych::report {
+namespace {
+
+using accuracy::AccuracyScene;
+using accuracy::Order;
+
+std::string error_text(double error) {
+  return fmt::format("{:.2e}", error);
+}
+
+std::string order_text(const std::optional<Order>& order) {
+  if (!order) return "";
+  return fmt::format("{:.2f} ± {:.2f} ({} steps)", order->order, order->half_width, order->points);
+}
+
+std::string time_text(const accuracy::AccuracyCase& each) {
+  return each.time_ns ? duration(*each.time_ns) : "";
+}
+
+const accuracy::AccuracyFamily& family_of(const AccuracyScene& scene, std::size_t index) {
+  return *std::ranges::find_if(scene.families, [index](const accuracy::AccuracyFamily& family) {
+    return std::ranges::find(family.members, index) != family.members.end();
+  });
+}
+
+// The front with the largest area for the same image on any device.
+const accuracy::FrontArea& widest(const std::vector<AccuracyScene>& scenes,
+                                  const AccuracyScene& scene) {
+  const accuracy::FrontArea* best = &*scene.area;
+  for (const AccuracyScene& other : scenes) {
+    const bool comparable = other.limit == scene.limit && other.area.has_value();
+    if (comparable && other.area->area > best->area) best = &*other.area;
+  }
+  return *best;
+}
+
+void append_area(TableRow& row, const std::vector<AccuracyScene>& scenes,
+                 const AccuracyScene& scene) {
+  if (scene.area) {
+    row.push_back(fmt::format("{:.1f}", scene.area->area));
+    row.push_back(
+        fmt::format("{:.2f}", accuracy::equal_slowdown(widest(scenes, scene), *scene.area)));
+  } else {
+    row.insert(row.end(), 2, "");
+  }
+}
+
+std::optional<double> instructions_of(const accuracy::AccuracyCase& each) {
+  return each.instructions;
+}
+
+// In time if it was measured, otherwise in instructions.
+std::string to_error(const AccuracyScene& scene, double goal) {
+  if (!scene.front.empty()) {
+    const auto time = accuracy::time_to_error(scene.cases, scene.families, goal);
+    return time ? duration(*time) : "not reached";
+  }
+  if (std::ranges::none_of(scene.cases,
+                           [](const auto& each) { return each.instructions.has_value(); }))
+    return "";
+  const auto cost = accuracy::cost_to_error(scene.cases, scene.families, instructions_of, goal);
+  return cost ? fmt::format("{:.1f} M instructions", *cost / 1e6) : "not reached";
+}
+
+// The number of configurations on the front, and of those that are beaten, in time or otherwise in
+// instructions; nothing if neither was measured.
+void append_standing(TableRow& row, const AccuracyScene& scene) {
+  const auto add = [&](std::size_t front, std::size_t beaten) {
+    row.push_back(fmt::to_string(front));
+    row.push_back(fmt::format("{} of {}", beaten, scene.cases.size()));
+  };
+  if (!scene.front.empty()) return add(scene.front.size(), scene.dominated.size());
+  const auto front = accuracy::pareto_front(scene.cases, instructions_of);
+  if (!front.empty()) {
+    return add(front.size(), accuracy::dominated(scene.cases, front, instructions_of).size());
+  }
+  row.insert(row.end(), 2, "");
+}
+
+Html summary_table(const std::vector<AccuracyScene>& scenes) {
+  Rows rows{{"scene", "device", "order in the step", "least error", "to 1/255", "to 1/1024",
+             "to 1e-4", "hypervolume", "times as long as the best", "on the front", "dominated"}};
+  for (const AccuracyScene& scene : scenes) {
+    const std::size_t best = accuracy::most_accurate(scene.cases);
+    TableRow row{accuracy_title(scenes, scene), scene.device,
+                 order_text(family_of(scene, best).order), error_text(scene.cases[best].rmse)};
+    for (const double goal : accuracy::accuracy_goals) {
+      row.push_back(to_error(scene, goal));
+    }
+    append_area(row, scenes, scene);
+    append_standing(row, scene);
+    rows.push_back(std::move(row));
+  }
+  return table(rows);
+}
+
+Html order_table(const std::vector<AccuracyScene>& scenes) {
+  Rows rows{{"scene", "device", "family", "order ± 95 %", "coarsest", "finest"}};
+  for (const AccuracyScene& scene : scenes) {
+    for (const accuracy::AccuracyFamily& family : scene.families) {
+      rows.push_back({accuracy_title(scenes, scene), scene.device, family.name,
+                      order_text(family.order),
+                      error_text(scene.cases[family.members.front()].rmse),
+                      error_text(scene.cases[family.members.back()].rmse)});
+    }
+  }
+  return table(rows);
+}
+
+std::string level(const accuracy::AccuracyCase& each, const std::string& factor) {
+  return each.factors.at(factor);
+}
+
+// The rows about the parts of an error, for one scene on one device.
+class Parts {
+ public:
+  Parts(const std::vector<AccuracyScene>& scenes, const AccuracyScene& scene, Rows& rows)
+      : scenes_(scenes), scene_(scene), title_(accuracy_title(scenes, scene)), rows_(rows) {}
+
+  void append() {
+    const accuracy::AccuracyCase& least = scene_.cases[accuracy::most_accurate(scene_.cases)];
+    add("the most accurate: " + least.configuration, "", least.rmse, error_text(least.largest),
+        time_text(least));
+    if (least.factors.contains("step")) add("its step alone", "", least.lattice);
+    add("its rounding, storage and early termination", "", least.arithmetic);
+    for (const accuracy::Switched& each : accuracy::switched_alone(scene_.cases)) {
+      add(each, scene_.cases[each.to], "");
+    }
+    for (const AccuracyScene& other : scenes_) {
+      if (other.device != scene_.device || other.limit == scene_.limit) continue;
+      const auto each = accuracy::switched_picture(scene_.cases, other.cases, "viewport");
+      if (each) add(*each, other.cases[each->to], ", another picture");
+    }
+    add("output with 8 bits a channel", "", scene_.eight_bits);
+    if (scene_.representation) add("voxel size and table", "", *scene_.representation);
+    add("the limit’s own uncertainty, at most", "", scene_.uncertainty);
+  }
+
+ private:
+  void add(const std::string& what, std::string before, double error, std::string largest = {},
+           std::string time = {}) {
+    rows_.push_back({title_, scene_.device, what, std::move(before), error_text(error),
+                     std::move(largest), std::move(time)});
+  }
+  void add(const accuracy::Switched& each, const accuracy::AccuracyCase& to, const char* remark) {
+    const accuracy::AccuracyCase& from = scene_.cases[each.from];
+    add(fmt::format("{} {} → {}{}", each.factor, level(from, each.factor), level(to, each.factor),
+                    remark),
+        error_text(from.rmse), to.rmse, error_text(to.largest), time_text(to));
+  }
+
+  const std::vector<AccuracyScene>& scenes_;
+  const AccuracyScene& scene_;
+  std::string title_;
+  Rows& rows_;
+};
+
+Html parts_table(const std::vector<AccuracyScene>& scenes) {
+  Rows rows{{"scene", "device", "what is changed", "RMSE before", "RMSE", "largest", "time"}};
+  for (const AccuracyScene& scene : scenes) Parts(scenes, scene, rows).append();
+  return table(rows);
+}
+
+Html dominated_table(const std::vector<AccuracyScene>& scenes) {
+  Rows rows{{"device", "configuration", "RMSE", "time", "beaten by", "RMSE", "time"}};
+  for (const AccuracyScene& scene : scenes) {
+    for (const accuracy::Dominated& each : scene.dominated) {
+      const accuracy::AccuracyCase& worse = scene.cases[each.index];
+      const accuracy::AccuracyCase& better = scene.cases[each.by];
+      rows.push_back({scene.device, worse.configuration, error_text(worse.rmse), time_text(worse),
+                      better.configuration, error_text(better.rmse), time_text(better)});
+    }
+  }
+  return table(rows);
+}
+
+// Another cost besides the time, which is drawn if it was recorded. It is folded if it has a title.
+struct Beside {
+  Cost cost;
+  std::string_view title;
+  std::string_view text;
+};
+constexpr Beside beside_time[]{
+    {Cost::samples, "", "Against the samples taken, which no clock disturbs."},
+    {Cost::instructions, "",
+     "Against the instructions of a frame, the device’s code and the driver’s."},
+    {Cost::fetched, "Bytes fetched against error",
+     "Against what the device’s code fetched past a simulated cache of 32 KiB."},
+    {Cost::memory, "Memory against error",
+     "Against the bytes that a configuration holds on the device: data, tables, bricks "
+     "and pictures. Cells packed for fetching take four or eight times the voxels’."},
+    {Cost::energy, "Energy against error",
+     "Against the joules that the machine’s meters told of a frame, its idle share and "
+     "other programs’ included."}};
+
+Html charts_beside(const std::vector<AccuracyScene>& scenes) {
+  Html text;
+  for (const auto& [cost, title, sentence] : beside_time) {
+    const Html chart = accuracy_chart(scenes, cost);
+    if (chart.empty()) continue;
+    const Html body = markup("<p>{}</p>{}", sentence, chart);
+    text += title.empty() ? body : folded(title, body);
+  }
+  return text;
+}
+
+}  // namespace
+
+Html accuracy_section(const PlanData& plan) {
+  const std::vector<AccuracyScene>& scenes = plan.verdict->accuracies;
+  if (scenes.empty()) return {};
+  Html text =
+      markup(
+          "<h3>Run time against error</h3><p>The error is the root mean square over all channels, "
+          "in "
+          "linear float, against the picture that the scene tends to as its sampling is refined. A "
+          "line joins configurations that differ by their step alone; the thick line is the front, "
+          "which nothing beats on both axes; dashed: 1/255, 1/1024 and 1e-4. What an error takes "
+          "is "
+          "read off between two neighbours of a line. The hypervolume is the area between the "
+          "front "
+          "and one second by the error of an empty picture, in natural logarithms; beside it how "
+          "many "
+          "times as long the device with the largest may take on every frame before its area is no "
+          "larger. It rests on times of one run and decides nothing.</p>") +
+      summary_table(scenes);
+  text += accuracy_chart(scenes, Cost::time) + charts_beside(scenes);
+  text += folded("Orders of all families", order_table(scenes)) +
+          folded("What an error is made of: each factor switched alone", parts_table(scenes));
+  const bool timed =
+      std::ranges::any_of(scenes, [](const AccuracyScene& scene) { return !scene.front.empty(); });
+  if (timed) text += folded("Dominated configurations", dominated_table(scenes));
+  return text;
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,120 @@
+// Cost and times compared with the stored ones, as bars.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "report/html.hpp"
+#include "report/page/page_sections.hpp"
+
+namespace triptych::report {
+namespace {
+
+using judge::Check;
+using judge::Finding;
+
+struct Change {
+  const Finding* finding;
+  const record::Record* record;
+  double share;  // 0.01: one per cent more than stored
+};
+
+std::vector<Change> changes_in(const PlanData& plan, Check check) {
+  using Place = std::pair<std::string_view, std::string_view>;  // device, configuration
+  std::map<Place, const record::Record*> records;
+  for (const record::Record& each : plan.records) {
+    records.emplace(Place(each.device, each.configuration), &each);
+  }
+  std::vector<Change> all;
+  for (const Finding& finding : plan.verdict->findings) {
+    const auto ratio = finding.numbers.find("ratio");
+    const auto record = records.find({finding.device, finding.configuration});
+    if (finding.check != check || record == records.end()) continue;
+    if (ratio != finding.numbers.end()) {
+      all.push_back({&finding, record->second, ratio->second - 1});
+    }
+  }
+  return all;
+}
+
+std::string percent(double share) {
+  return fmt::format("{:+.2f} %", 100 * share);
+}
+
+// The length is the change relative to the largest one. An increase and a decrease have different
+// colours.
+Html bar(double share, double largest) {
+  return markup("<span class=\"bar {}\" style=\"width:{:.1f}%\"></span>",
+                share > 0 ? "more" : "less", largest > 0 ? 100 * std::abs(share) / largest : 0);
+}
+
+// "1 000 → 1 010"; empty if it was not counted.
+std::string counts_of(const Finding& finding, const std::string& part) {
+  const auto now = finding.numbers.find(part);
+  const auto stored = finding.numbers.find("stored_" + part);
+  if (now == finding.numbers.end() || stored == finding.numbers.end()) return {};
+  return fmt::format("{} → {}", grouped(static_cast<std::uint64_t>(stored->second)),
+                     grouped(static_cast<std::uint64_t>(now->second)));
+}
+
+// Configurations whose cost differs from the stored one, the largest change first.
+Html cost_bars(const PlanData& plan) {
+  const std::vector<Change> all = changes_in(plan, Check::cost);
+  if (all.empty()) return {};
+  std::vector<Change> changed;
+  std::ranges::copy_if(all, std::back_inserter(changed), [](const Change& each) {
+    return each.finding->verdict != judge::Verdict::pass;
+  });
+  if (changed.empty()) {
+    return markup("<p>{} frames take as many instructions as stored.</p>\n", all.size());
+  }
+  std::ranges::stable_sort(changed, std::greater{},
+                           [](const Change& each) { return std::abs(each.share); });
+  constexpr std::size_t shown = 12;
+  const Html told = markup(
+      "<p>{} of {} frames take other instructions than stored{}.</p>\n", changed.size(), all.size(),
+      changed.size() > shown ? fmt::format("; these {} differ most", shown) : "");
+  changed.resize(std::min(shown, changed.size()));
+  Rows rows{{"device", "technique", "scene", "device code", "driver", "in all", ""}};
+  for (const Change& each : changed) {
+    rows.push_back({each.finding->device, each.record->technique,
+                    breakable(scene_title(plan, *each.record)),
+                    counts_of(*each.finding, "device_code"), counts_of(*each.finding, "driver"),
+                    percent(each.share), bar(each.share, std::abs(changed.front().share))});
+  }
+  return told + table(rows, "bars");
+}
+
+// For each technique on a device, the median change of its configurations and the range of the
+// middle half.
+Html time_bars(const PlanData& plan) {
+  std::map<std::pair<std::string, std::string>, std::vector<double>> by_row;
+  for (const Change& each : changes_in(plan, Check::timing)) {
+    by_row[{each.finding->device, each.record->technique}].push_back(each.share);
+  }
+  double largest = 0;
+  for (const auto& [row, shares] : by_row) {
+    largest = std::max(largest, std::abs(record::percentile(shares, 0.5)));
+  }
+  Rows rows{{"device", "technique", "median", "", "from", "to", "configurations"}};
+  for (const auto& [row, shares] : by_row) {
+    const record::Summary of = *record::summarise(shares);
+    rows.push_back({row.first, row.second, percent(of.median), bar(of.median, largest),
+                    percent(of.lower_quartile), percent(of.upper_quartile),
+                    fmt::to_string(shares.size())});
+  }
+  if (by_row.empty()) return {};
+  return markup("<p>Times beside stored: median and middle half of the configurations.</p>\n") +
+         table(rows, "bars");
+}
+
+}  // namespace
+
+Html changes_section(const PlanData& plan) {
+  const Html all = cost_bars(plan) + time_bars(plan);
+  return all.empty() ? all : markup("<h3>Beside what is stored</h3>\n") + all;
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,91 @@
+// How closely the costs of two devices are related: a scatter plot with a line for each pair, and
+// what is off the line.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/figures/scatter_figure.hpp"
+#include "report/html.hpp"
+#include "report/page/page_frame.hpp"
+#include "report/page/page_sections.hpp"
+#include "report/words/finding.hpp"
+
+namespace triptych::report {
+namespace {
+
+using judge::CorrelationPair;
+
+// The technique in the key of a configuration: "…,technique=raycast,…" → "raycast".
+std::string technique_in(const std::string& configuration) {
+  constexpr std::string_view name = "technique=";
+  const std::size_t at = configuration.find(name);
+  if (at == std::string::npos) return {};
+  return configuration.substr(at + name.size(), configuration.find(',', at) - at - name.size());
+}
+
+Html fit_text(const CorrelationPair& pair) {
+  const judge::CorrelationLine& line = pair.line;
+  if (!std::isfinite(line.slope)) return markup("<p>{}.</p>\n", words::refusal(line));
+  return markup(
+      "<p>{} configurations; ln y = {:.3f} + {:.3f} ln x, scatter {:.2g} %; Pearson’s r {:.4f}, of "
+      "the logarithms {:.4f}. {}</p>\n",
+      line.configurations, line.intercept, line.slope, 100 * std::expm1(line.scale), line.pearson,
+      line.rho,
+      line.admitted() ? Html()
+                      : markup("<b class=\"cannot_judge\">Refused</b>: {}", words::refusal(line)));
+}
+
+// Only this function knows how a pair is stored.
+ScatterFigure scatter_of(const CorrelationPair& pair) {
+  const bool cost = pair.signal == "cost";
+  const double unit = std::log(1e-6);  // instructions in millions, nanoseconds in milliseconds
+  const std::string_view unit_name = cost ? "M instructions" : "ms";
+  ScatterFigure scatter{.across = fmt::format("{}, {}", pair.device_a, unit_name),
+                        .up = fmt::format("{}, {}", pair.device_b, unit_name),
+                        .points = {}};
+  for (const judge::CorrelationPoint& point : pair.points) {
+    scatter.points.push_back(
+        {.name = point.configuration,
+         .technique = technique_in(point.configuration),
+         .across = std::exp(point.x + unit),
+         .up = std::exp(point.y + unit),
+         .deviation = std::isfinite(point.residual) ? std::expm1(point.residual) : 0,
+         .flag = !point.outlier       ? ""
+                 : point.residual < 0 ? "less"
+                                      : "more"});
+  }
+  if (std::isfinite(pair.line.slope)) {
+    scatter.line = {pair.line.intercept + unit - pair.line.slope * unit, pair.line.slope};
+  }
+  return scatter;
+}
+
+Html pair_part(const CorrelationPair& pair) {
+  return markup("<h4>{} against {}, by {}{}</h4>", pair.device_b, pair.device_a, pair.signal,
+                pair.new_device ? ", never accepted" : "") +
+         scatter_chart(scatter_of(pair)) + fit_text(pair);
+}
+
+}  // namespace
+
+Html correlation_section(const PlanData& plan) {
+  Html judged;
+  Html shown;
+  for (const CorrelationPair& pair : plan.verdict->correlations) {
+    if (pair.points.empty()) continue;
+    const bool marked = std::ranges::any_of(pair.points, &judge::CorrelationPoint::outlier);
+    (pair.signal == "cost" && (marked || judged.empty()) ? judged : shown) += pair_part(pair);
+  }
+  if (judged.empty() && shown.empty()) return {};
+  Html text = markup(
+                  "<h3>Devices against each other</h3><p>Each point is a configuration: what it "
+                  "takes on one "
+                  "device across, on the other upwards. Beside it what is left of each beyond the "
+                  "line.</p>") +
+              judged;
+  return text + folded("The other pairs", shown);
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,40 @@
+#include "report/page/page_frame.hpp"
+
+#include "triptych_report_embedded.hpp"
+
+namespace triptych::report {
+
+namespace {
+
+// Allows only what the page itself contains. The widths of bars are style attributes, for which no
+// hash can be given.
+Html policy() {
+  return markup(
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
+      "style-src 'unsafe-inline'; script-src 'sha256-{}'; base-uri 'none'; form-action 'none'\">",
+      embedded_sha256("page.js"));
+}
+
+}  // namespace
+
+Html page_begin(std::string_view title) {
+  return markup(
+             "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+             "{}<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
+             "<title>{}</title><link rel=\"icon\" href=\"data:,\"><style>",
+             policy(), title) +
+         embedded_markup("style.css") + markup("</style></head><body>\n");
+}
+
+Html page_end(bool with_script) {
+  const Html script =
+      with_script ? markup("<script>{}</script>", embedded_markup("page.js")) : Html();
+  return script + markup("</body></html>\n");
+}
+
+Html folded(const Content& summary, const Html& body) {
+  if (body.empty()) return {};
+  return markup("<details><summary>{}</summary>{}</details>\n", summary.html(), body);
+}
+
+}  // namespace triptych::report

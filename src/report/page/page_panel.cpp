@@ -1,0 +1,181 @@
+#include "report/page/page_panel.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <map>
+#include <set>
+#include <variant>
+
+#include "accuracy/image_metrics.hpp"
+#include "core/error.hpp"
+#include "core/image_io.hpp"
+#include "report/html.hpp"
+#include "report/page/share_of_bound.hpp"
+#include "report/words/outcome.hpp"
+
+namespace triptych::report {
+namespace {
+
+using core::Image;
+
+std::string technique_names(const SameBits& group) {
+  std::vector<std::string> names;
+  for (const record::Record* record : group) {
+    if (names.empty() || names.back() != record->technique) names.push_back(record->technique);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// How an image was made, as far as that differs from others of its scene: each factor of which the
+// group does not have every level that the scene has. The technique has its own line.
+std::vector<std::string> made_by(const SameBits& group, const PictureScene& scene) {
+  std::map<std::string, std::set<std::string>> seen;
+  std::map<std::string, std::set<std::string>> here;
+  for (const record::Record* record : scene.records) {
+    for (const auto& [factor, level] : record->factors) seen[factor].insert(level);
+  }
+  for (const record::Record* record : group) {
+    for (const auto& [factor, level] : record->factors) here[factor].insert(level);
+  }
+  std::vector<std::string> differences;
+  for (const auto& [factor, levels] : here) {
+    if (factor == "technique" || levels.size() == seen[factor].size()) continue;
+    differences.push_back(fmt::format("{}: {}", factor, fmt::join(levels, ", ")));
+  }
+  return differences;
+}
+
+// What distinguishes it from the other images of the scene.
+std::string name_of(const PictureScene& scene, const SameBits& group) {
+  std::string name = group.front()->device + ", " + technique_names(group);
+  for (const std::string& difference : made_by(group, scene)) name += ", " + difference;
+  return name;
+}
+
+// The reference image, or why there is none, for example because the data file is missing and the
+// store does not contain the image.
+std::variant<judge::TruthPair, std::string> truth_or_reason(const PictureSources& sources,
+                                                            const record::Record& record) {
+  try {
+    return sources.truth(record);
+  } catch (const core::Error& error) {
+    return fmt::format("no truth: {}", error.what());
+  }
+}
+
+Html picture(const Image& image, std::string_view alt) {
+  return markup("<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\">",
+                data_uri(core::encode_png(image)), image.width, image.height, alt);
+}
+
+Html figure(const Html& content, std::string_view caption) {
+  return markup("<figure>{}<figcaption>{}</figcaption></figure>", content, caption);
+}
+
+// What filters and the comparison need to know, and the targets of links.
+Html opening(const PictureScene& scene, const SameBits& group, const ShareOfBound* shares) {
+  Html ids;
+  std::set<std::string_view> checks;
+  for (const record::Record* record : group) {
+    const std::string id = picture_id(scene.plan, record->device, record->configuration);
+    ids += markup("<span id=\"{}\"></span>", id);
+    if (const auto found = scene.sources.judged.find(id); found != scene.sources.judged.end()) {
+      checks.insert(found->second.checks.begin(), found->second.checks.end());
+    }
+  }
+  Html text = markup(
+      "<section data-kind=\"picture\" data-device=\"{}\" data-suite=\"{}\" data-check=\"{}\" "
+      "data-scene=\"{}\" data-title=\"{}\"",
+      group.front()->device, group.front()->suite, fmt::format("{}", fmt::join(checks, " ")),
+      scene.number, scene.title + ": " + name_of(scene, group));
+  if (shares != nullptr && shares->x >= 0) {
+    text += markup(" data-x=\"{}\" data-y=\"{}\"", shares->x, shares->y);
+  }
+  return text + markup(">") + ids;
+}
+
+Html finding_link(const PictureScene& scene, const SameBits& group) {
+  for (const record::Record* record : group) {
+    const auto found =
+        scene.sources.judged.find(picture_id(scene.plan, record->device, record->configuration));
+    if (found == scene.sources.judged.end() || found->second.cause.empty()) continue;
+    return markup(" <a href=\"#{}\">its finding</a>", found->second.cause);
+  }
+  return {};
+}
+
+// `about` is what has to be said about the image, before how it was made.
+Html titled(const PictureScene& scene, const SameBits& group, const Html& figures,
+            const Html& about, const ShareOfBound* shares = nullptr) {
+  std::string made = "technique: " + technique_names(group);
+  if (group.size() > 1 && made.find(", ") != std::string::npos) made += ": the same bits";
+  for (const std::string& difference : made_by(group, scene)) made += "; " + difference;
+  return opening(scene, group, shares) +
+         markup(
+             "<h4>{}</h4><div class=\"triple\">{}</div><p class=\"system\">{}{}<br>{}</p>"
+             "</section>\n",
+             breakable(group.front()->device), figures, about, finding_link(scene, group), made);
+}
+
+Html verdict_text(const accuracy::ImageComparison& result, const ShareOfBound& shares) {
+  const bool right = result.within_bound();
+  std::string text = fmt::format("within the bound, {:.0f} % of it used", 100 * result.worst.ratio);
+  if (!right)
+    text = fmt::format("{} pixels beyond the bound", result.over_bound + result.non_finite);
+  if (const std::size_t other = result.wrong_ids + result.wrong_depths; other > 0) {
+    text += fmt::format(", {} of another particle or at another depth", other);
+  }
+  const std::string worst = right ? "" : fmt::format(", worst pixel ({}, {})", shares.x, shares.y);
+  return markup("<b class=\"{}\">{}</b>{}<br>largest error {:.2e}, RMSE {:.2e}",
+                right ? "pass" : "regression", text, worst, result.largest.error, result.rmse);
+}
+
+// Shown where the image would be: what ended the program.
+Html tile(const record::Record& record) {
+  const std::string_view what = record::name_of(record.outcome);
+  return figure(markup("<div class=\"tile\" role=\"img\" aria-label=\"{}: {}, no picture\">{}"
+                       "</div>",
+                       record.device, what, what),
+                record.device);
+}
+
+}  // namespace
+
+Panel panel_of(const PictureScene& scene, const SameBits& group) {
+  const record::Record& record = *group.front();
+  const auto found = truth_or_reason(scene.sources, record);
+  const auto* pair = std::get_if<judge::TruthPair>(&found);
+  const Html reference = pair ? figure(picture(pair->truth, "the truth"), "the truth") : Html();
+  if (record.image.empty()) {
+    return {.html = titled(scene, group, reference + tile(record),
+                           markup("<b class=\"regression\">{}</b>", words::text_of(record.reason))),
+            .wrong = true,
+            .drawn = false};
+  }
+  const std::string name = name_of(scene, group);
+  const Image image = scene.sources.store.picture(record.image);
+  const Html drawn = figure(picture(image, name), record.device);
+  if (pair == nullptr) {
+    return {.html = titled(scene, group, drawn, markup("{}", std::get<std::string>(found)))};
+  }
+  const accuracy::ImageComparison result = accuracy::compare(image, pair->truth, pair->bound);
+  if (result.size_mismatch) {
+    return {.html = titled(scene, group, reference + drawn,
+                           markup("<b class=\"regression\">wrong size</b>")),
+            .wrong = true};
+  }
+  ShareOfBound shares = share_of_bound(image, pair->truth, pair->bound);
+  if (result.over_bound > 0) {  // the pixel that the finding names
+    shares.x = result.worst.x;
+    shares.y = result.worst.y;
+  }
+  const Html difference =
+      figure(picture(shares.image, "the difference of " + name), "the difference");
+  return {.html = titled(scene, group, reference + drawn + difference, verdict_text(result, shares),
+                         &shares),
+          .wrong = !result.within_bound(),
+          .ratio = result.worst.ratio};
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,133 @@
+// The reference image, a device's image and their difference next to each other, with wrong images
+// first.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "report/html.hpp"
+#include "report/page/page_frame.hpp"
+#include "report/page/page_panel.hpp"
+#include "report/page/page_sections.hpp"
+
+namespace triptych::report {
+namespace {
+
+std::vector<SameBits> grouped_by_bits(const std::vector<const record::Record*>& records) {
+  std::vector<SameBits> groups;
+  for (const record::Record* record : records) {
+    const auto same = std::ranges::find_if(groups, [&](const SameBits& group) {
+      return group.front()->device == record->device && group.front()->image == record->image &&
+             group.front()->outcome == record->outcome &&
+             record::is_same_kind(group.front()->reason, record->reason);
+    });
+    if (same != groups.end()) {
+      same->push_back(record);
+    } else {
+      groups.push_back({record});
+    }
+  }
+  std::ranges::stable_sort(groups, {}, [](const SameBits& group) { return group.front()->device; });
+  return groups;
+}
+
+struct Scene {
+  std::string title;
+  std::vector<Panel> panels;  // sorted by the distance from the right image, the farthest first
+  [[nodiscard]] bool wrong() const { return panels.front().wrong; }
+  // Wrong images come before configurations that drew nothing.
+  [[nodiscard]] std::pair<bool, bool> rank() const { return {wrong(), panels.front().drawn}; }
+};
+
+void append_scenes(std::vector<Scene>& scenes, const PictureSources& sources, const PlanData& plan,
+                   bool name_plan) {
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<const record::Record*>> by_scene;
+  for (const record::Record& record : plan.records) {
+    if (!has_tile(record)) continue;
+    auto& records = by_scene[record.scene];
+    if (records.empty()) order.push_back(record.scene);
+    records.push_back(&record);
+  }
+  for (const std::string& key : order) {
+    auto records = by_scene[key];
+    std::ranges::stable_sort(records, {}, [](const record::Record* r) { return r->technique; });
+    Scene scene{(name_plan ? plan.name + ": " : "") + picture_title(plan, *records.front()), {}};
+    const PictureScene of{sources, plan, records, scene.title, scenes.size()};
+    for (const SameBits& group : grouped_by_bits(records)) {
+      scene.panels.push_back(panel_of(of, group));
+    }
+    std::ranges::stable_sort(scene.panels, std::greater{}, [](const Panel& panel) {
+      return std::tuple(panel.wrong, panel.drawn, panel.ratio);
+    });
+    scenes.push_back(std::move(scene));
+  }
+}
+
+Html part(const Scene& scene, std::size_t from, std::size_t to) {
+  Html text;
+  for (std::size_t i = from; i < to; ++i) text += scene.panels[i].html;
+  return text;
+}
+
+constexpr std::size_t open_scenes = 6;
+constexpr std::size_t open_panels = 4;  // for a scene in which something is wrong
+
+Html scene_part(const Scene& scene, std::size_t from, std::size_t to) {
+  if (from >= to) return {};
+  return markup("<div class=\"scene\"><h3>{}</h3><div class=\"panels{}\">{}</div></div>\n",
+                breakable(scene.title), scene.panels[from].wrong ? " wrong" : "",
+                part(scene, from, to));
+}
+
+// If nothing is wrong, one image of each scene: the one closest to its bound.
+Html one_of_each(std::span<const Scene> scenes) {
+  Html text = markup("<div class=\"panels\">");
+  for (const Scene& scene : scenes) {
+    text += markup("<div class=\"scene\"><h3>{}</h3>{}</div>", breakable(scene.title),
+                   part(scene, 0, 1));
+  }
+  return text + markup("</div>\n");
+}
+
+}  // namespace
+
+bool has_tile(const record::Record& record) {
+  return !record.image.empty() || (record.outcome != record::Outcome::measured &&
+                                   record.outcome != record::Outcome::skipped);
+}
+
+Pictures pictures_section(const PictureSources& sources, std::span<const PlanData> plans) {
+  std::vector<Scene> scenes;
+  for (const PlanData& plan : plans) append_scenes(scenes, sources, plan, plans.size() > 1);
+  if (scenes.empty()) return {};
+  std::ranges::stable_sort(scenes, std::greater{}, &Scene::rank);
+  Html text = markup(
+      "<h2 id=\"pictures\">Pictures</h2><p class=\"system\">The difference is the error as a share "
+      "of the bound derived for that pixel: 0 <span class=\"ramp\"></span> the bound itself, <span "
+      "class=\"beyond\"></span> beyond it.</p>");
+  const std::size_t shown = std::min(open_scenes, scenes.size());
+  const bool any_wrong = scenes.front().wrong();
+  Html rest;
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const Scene& scene = scenes[i];
+    std::size_t open = i < shown && !any_wrong ? 1 : 0;
+    if (i < shown && scene.wrong()) {
+      open = static_cast<std::size_t>(std::ranges::count(scene.panels, true, &Panel::wrong));
+      open = std::min(open, open_panels);
+      text += scene_part(scene, 0, open);
+    }
+    rest += scene_part(scene, open, scene.panels.size());
+    left += scene.panels.size() - open;
+  }
+  if (!any_wrong) text += one_of_each(std::span(scenes).first(shown));
+  return {text + folded(fmt::format("{} more pictures", left), rest), any_wrong};
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,178 @@
+// The sections made of tables.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "report/html.hpp"
+#include "report/page/charts.hpp"
+#include "report/page/page_frame.hpp"
+#include "report/page/page_sections.hpp"
+#include "report/words/outcome.hpp"
+
+namespace triptych::report {
+namespace {
+
+// Only the number of exact statistics is shown; the others are listed.
+Html calibration_text(const record::Device& device) {
+  Html text;
+  int exact = 0;
+  for (const auto& [statistic, verdict] : device.statistics_calibration) {
+    if (verdict.is_exact()) {
+      ++exact;
+    } else {
+      text += markup("<div>{}: {}</div>", statistic, words::text_of(verdict));
+    }
+  }
+  if (device.statistics_calibration.empty()) return markup("none told");
+  return markup("<div>{} counted exactly</div>", exact) + text;
+}
+
+Html clock_text(const std::vector<record::ClockTrust>& clocks) {
+  Html text;
+  for (const record::ClockTrust& clock : clocks) {
+    text += markup("<div>{}: {}</div>", clock.work, clock.verdict);
+  }
+  return text;
+}
+
+// Records that have their own frames.
+std::vector<const record::Record*> measured(const PlanData& plan) {
+  std::vector<const record::Record*> records;
+  for (const record::Record& record : plan.records) {
+    if (record.outcome == record::Outcome::measured && record.same_as.empty() &&
+        !record.time_ns().empty()) {
+      records.push_back(&record);
+    }
+  }
+  return records;
+}
+
+// Times by different clocks are never compared.
+std::string_view clock_of_both(const record::Record& a, const record::Record& b) {
+  return a.clock() == b.clock() ? a.clock() : "wall";
+}
+
+// Records that took over the frames of another configuration, and why they could.
+Html taken_over(const PlanData& plan) {
+  Rows rows{{"configuration", "device", "measured as", "why"}};
+  for (const record::Record& record : plan.records) {
+    if (record.same_as.empty()) continue;
+    rows.push_back(
+        {record.configuration, record.device, record.same_as, words::text_of(record.reason)});
+  }
+  if (rows.size() == 1) return {};
+  return folded(fmt::format("{} configurations measured as another, which their scene cannot tell "
+                            "from them",
+                            rows.size() - 1),
+                table(rows));
+}
+
+}  // namespace
+
+Html devices_section(const PlanData& plan) {
+  Rows rows{{"device", "name", "driver", "API"}};
+  Rows witnesses{{"device", "clock", "driver's statistics", "processor features, environment"}};
+  for (const auto& [device, clocks] : plan.devices) {
+    Html environment = markup("{}", device.cpu_features);
+    for (const auto& [name, value] : device.environment) {
+      environment += markup("<div>{}={}</div>", name, value);
+    }
+    rows.push_back({device.id, device.name + " (" + device.vendor + ")", device.driver_version,
+                    device.api_version});
+    witnesses.push_back({device.id, clock_text(clocks), calibration_text(device), environment});
+  }
+  return folded("Devices: drivers, what their clocks and statistics are worth, what they ran on",
+                table(rows) + table(witnesses));
+}
+
+Html times_section(const PlanData& plan) {
+  const auto records = measured(plan);
+  if (records.empty()) return {};
+  Rows rows{{"scene", "technique", "device", "clock", "minimum", "25 %", "median", "75 %", "90 %",
+             "maximum", "in a loop", "prepared in"}};
+  for (const record::Record* record : records) {
+    const auto& samples = record->time_ns();
+    const record::Summary summary = *record::summarise(samples);
+    rows.push_back(
+        {scene_title(plan, *record), record->technique, record->device,
+         std::string(record->clock()), duration(summary.minimum), duration(summary.lower_quartile),
+         duration(summary.median), duration(summary.upper_quartile),
+         duration(record::percentile(samples, 0.9)), duration(summary.maximum),
+         record->loop_frames > 0 ? duration(record->loop_wall_ns / record->loop_frames) : "",
+         duration(record->prepare_ns)});
+  }
+  return folded(
+      plan.verdict->times_decided ? "Times: judged" : "Times: shown, not judged",
+      markup("<p>Every timed frame is a stroke, its quartiles a box. “In a loop” is the wall clock "
+             "of frames drawn back to back.</p>") +
+          time_chart(plan) + folded("The numbers", table(rows, "times")) + taken_over(plan));
+}
+
+Html speed_of_light_section(const PlanData& plan) {
+  // The bare fetches (speed_of_light), by device and scene.
+  std::map<std::pair<std::string, std::string>, const record::Record*> bounds;
+  for (const record::Record* record : measured(plan)) {
+    if (record->technique == "speed_of_light") {
+      bounds[{record->device, scene_title(plan, *record)}] = record;
+    }
+  }
+  Rows rows{{"scene", "device", "technique", "clock", "time", "speed of light", "times as long"}};
+  for (const record::Record* record : measured(plan)) {
+    const auto found = bounds.find({record->device, scene_title(plan, *record)});
+    if (record->technique == "speed_of_light" || found == bounds.end()) continue;
+    const std::string_view clock = clock_of_both(*record, *found->second);
+    const double time = record::percentile(record->time_ns_by(clock), 0.5);
+    const double bound = record::percentile(found->second->time_ns_by(clock), 0.5);
+    rows.push_back({scene_title(plan, *record), record->device, record->technique,
+                    std::string(clock), duration(time), duration(bound),
+                    fmt::format("{:.2f}", time / bound)});
+  }
+  if (rows.size() == 1) return {};
+  return folded("Speed of light: times over those of the bare fetches",
+                markup("<p>The same fetches and transfer-function look-ups alone, with "
+                       "the same skipping but without early termination: a picture can be faster "
+                       "than that where "
+                       "rays end early, and is hardly faster where they do not.</p>") +
+                    table(rows));
+}
+
+Html counts_section(const PlanData& plan) {
+  Html text;
+  const auto section = [&](std::string_view title, auto&& counts_of) {
+    std::set<std::string> names;
+    for (const record::Record& record : plan.records) {
+      for (const auto& [name, value] : counts_of(record)) names.insert(name);
+    }
+    if (names.empty()) return;
+    Rows rows{{"scene", "technique", "device"}};
+    rows[0].insert(rows[0].end(), names.begin(), names.end());
+    for (const record::Record& record : plan.records) {
+      const record::Counts& counts = counts_of(record);
+      if (counts.empty()) continue;
+      rows.push_back({scene_title(plan, record), record.technique, record.device});
+      for (const std::string& name : names) {
+        const auto found = counts.find(name);
+        rows.back().push_back(found == counts.end() ? "" : grouped(found->second));
+      }
+    }
+    text += folded(title, table(rows, "counts"));
+  };
+  section(
+      "Cost: instructions of one frame, by whose code they are; misses: lines of 64 bytes that "
+      "device code moves into a cache of 32 KiB",
+      [](const record::Record& r) -> const record::Counts& { return r.cost; });
+  section("Memory allocated on the device, bytes",
+          [](const record::Record& r) -> const record::Counts& { return r.memory; });
+  section("Energy of a frame, microjoules by meter, the machine’s other work included",
+          [](const record::Record& r) -> const record::Counts& { return r.energy; });
+  section("Counters of our own, from a build that is never timed",
+          [](const record::Record& r) -> const record::Counts& { return r.counters; });
+  section("Pipeline statistics, as the drivers tell them; an empty cell: it tells nothing",
+          [](const record::Record& r) -> const record::Counts& { return r.statistics; });
+  return text;
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,234 @@
+// The beginning of the page: the verdict.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <ranges>
+
+#include "core/hash.hpp"
+#include "report/html.hpp"
+#include "report/overview.hpp"
+#include "report/page/page_frame.hpp"
+#include "report/page/page_sections.hpp"
+#include "report/words/cause.hpp"
+
+namespace triptych::report {
+namespace {
+
+using judge::Finding;
+
+constexpr std::size_t openly_listed = 20;
+
+std::string_view css_class(core::ExitCode code) {
+  switch (code) {
+    case core::ExitCode::pass:
+      return "pass";
+    case core::ExitCode::regression:
+      return "regression";
+    default:
+      return "cannot_judge";
+  }
+}
+
+Html circumstances_of(const Overview& all) {
+  Html text;
+  for (const std::string& each : all.circumstances) {
+    text += markup("<p class=\"cannot_judge\">{}</p>", each);
+  }
+  return text;
+}
+
+std::string lead(const Overview& all) {
+  if (all.open.size() == 1) return "One cause:";
+  if (!all.open.empty()) return fmt::format("{} causes, the worst first:", all.open.size());
+  return all.code == core::ExitCode::pass ? "All that was asked for is right."
+                                          : "Nothing was decided.";
+}
+
+std::string cause_id(std::size_t number) {
+  return fmt::format("cause{}", number);
+}
+
+// A link to each visible cause, and one to the place where the others are folded.
+Html contents(const Overview& all) {
+  if (all.open.empty()) return {};
+  Html text = markup("<ol class=\"causes\">");
+  const std::size_t shown = std::min(openly_listed, all.open.size());
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Cause& cause = all.open[i];
+    text += markup("<li><a href=\"#{}\">{}: {}</a></li>", cause_id(i),
+                   judge::name_of(cause.group.first->check), breakable(words::place(cause)));
+  }
+  if (shown < all.open.size()) {
+    text +=
+        markup("<li><a href=\"#{}\">{} more</a></li>", cause_id(shown), all.open.size() - shown);
+  }
+  return text + markup("</ol>");
+}
+
+Html card(const Overview& all, std::span<const PlanData> plans) {
+  Html names;
+  for (const PlanData& plan : plans) {
+    names += markup(" · <a href=\"#{}\">{}</a>", plan.prefix, plan.name);
+  }
+  return markup(
+      "<header id=\"verdict\" class=\"{}\"><h1>{} ({})</h1><p class=\"lead\">{}</p>{}"
+      "{}<p>Triptych · {} {}{}{}</p></header>\n",
+      css_class(all.code), words::word_of(all.code), static_cast<int>(all.code), lead(all),
+      contents(all), circumstances_of(all), all.devices, all.devices == 1 ? "device" : "devices",
+      all.part ? " · a part of the plans" : "", names);
+}
+
+// With a link to the first cause of this kind.
+Html word_of(const KindRow& row, const Overview& all) {
+  const bool work = row.check == judge::Check::counters || row.check == judge::Check::statistics;
+  const auto first = std::ranges::find_if(all.open, [&](const Cause& cause) {
+    const bool told_with_picture = work && cause.group.changed_with_it > 0;
+    return cause.group.first->check == row.check || told_with_picture;
+  });
+  const bool open =
+      row.worst == judge::Verdict::regression || row.worst == judge::Verdict::cannot_judge;
+  if (!open || first == all.open.end()) return markup("{}", row.verdict);
+  const auto number = static_cast<std::size_t>(first - all.open.begin());
+  return markup("<a href=\"#{}\">{}</a>", cause_id(number), row.verdict);
+}
+
+Html kinds(const Overview& all) {
+  Html text = markup("<table class=\"kinds\">\n");
+  for (const KindRow& row : all.rows) {
+    text +=
+        markup("<tr><th scope=\"row\">{}</th><td class=\"verdict {}\">{}</td><td>{}</td></tr>\n",
+               row.kind, judge::name_of(row.worst), word_of(row, all), row.sentence);
+  }
+  return text + markup("</table>\n");
+}
+
+Html bounds(const Overview& all) {
+  if (all.bounds.empty()) return {};
+  Rows rows{{"plan", "device", "pictures", "largest error over bound", "where"}};
+  for (const NearestBound& bound : all.bounds) {
+    rows.push_back({bound.plan, bound.device, fmt::to_string(bound.pictures),
+                    fmt::format("{:.3g}", bound.share), breakable(bound.configuration)});
+  }
+  return folded("How near pictures come to their bounds", table(rows));
+}
+
+const PlanData& plan_of(const Cause& cause, std::span<const PlanData> plans) {
+  return *std::ranges::find(plans, cause.result, &PlanData::verdict);
+}
+
+Html picture_link(const PlanData& plan, const Finding& finding) {
+  const auto drawn = [&](const record::Record& record) {
+    return record.device == finding.device && record.configuration == finding.configuration &&
+           has_tile(record);
+  };
+  if (!std::ranges::any_of(plan.records, drawn)) return {};
+  return markup(" <a href=\"#{}\">picture</a>",
+                picture_id(plan, finding.device, finding.configuration));
+}
+
+Html links(const Cause& cause, const PlanData& plan) {
+  const Finding& first = *cause.group.first;
+  if (!is_open(first)) return {};
+  return picture_link(plan, first) + markup(" <a href=\"#verdict\">verdict</a>");
+}
+
+// An option and its value stay on one line if there is space.
+Html command_block(std::string_view command) {
+  if (command.empty()) return {};
+  Html text = markup("<pre><span>");
+  std::size_t from = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    if (command[i] == '\'') quoted = !quoted;
+    if (quoted || !command.substr(i).starts_with(" --")) continue;
+    text += markup("{}</span> <span>", command.substr(from, i - from));
+    from = i + 1;
+  }
+  return text + markup("{}</span></pre>", command.substr(from));
+}
+
+Html article(const Cause& cause, const PlanData& plan, const Html& id) {
+  const Finding& first = *cause.group.first;
+  const std::string command = command_of(first, *cause.result);
+  const bool several = cause.group.configurations > 1;
+  return markup(
+      "<article class=\"{0}\"{1} data-kind=\"{2}\" data-device=\"{3}\" data-suite=\"{4}\" "
+      "data-check=\"{5}\"><h3><span class=\"verdict {0}\">{5}</span> {6}</h3><p>{7}{8}</p>{9}{10}"
+      "</article>\n",
+      judge::name_of(first.verdict), id, is_open(first) ? "finding" : "remark", first.device,
+      suite_of(plan), judge::name_of(first.check), breakable(words::place(cause)),
+      words::text_of(cause), links(cause, plan),
+      first.configuration.empty()
+          ? Html()
+          : markup("<p class=\"system\">{}{}</p>", several ? "the smallest: " : "",
+                   breakable(first.configuration)),
+      command_block(command));
+}
+
+// Open causes have element ids, which contain their numbers.
+Html listed(std::span<const Cause> causes, std::span<const PlanData> plans,
+            std::optional<std::size_t> first_number) {
+  Html text;
+  for (std::size_t i = 0; i < causes.size(); ++i) {
+    const Html id = first_number ? markup(" id=\"{}\"", cause_id(*first_number + i)) : Html();
+    text += article(causes[i], plan_of(causes[i], plans), id);
+  }
+  return text;
+}
+
+Html findings(const Overview& all, std::span<const PlanData> plans) {
+  const std::span<const Cause> open(all.open);
+  const std::size_t shown = std::min(openly_listed, open.size());
+  Html text;
+  if (shown > 0) {
+    text += markup("<h2 id=\"findings\">Findings</h2>\n") + listed(open.first(shown), plans, 0);
+  }
+  text += folded(fmt::format("{} more causes", open.size() - shown),
+                 listed(open.subspan(shown), plans, shown));
+  return text + folded(fmt::format("{} remarks that decide nothing: advice, what devices cannot "
+                                   "do, known deviations",
+                                   all.aside.size()),
+                       listed(all.aside, plans, std::nullopt));
+}
+
+}  // namespace
+
+Html verdict_card(const Overview& all, std::span<const PlanData> plans) {
+  return card(all, plans);
+}
+
+Html findings_section(const Overview& all, std::span<const PlanData> plans) {
+  return kinds(all) + bounds(all) + findings(all, plans);
+}
+
+JudgedPictures judged_pictures(const Overview& all, std::span<const PlanData> plans) {
+  std::map<const Finding*, std::size_t> causes;
+  for (std::size_t i = 0; i < all.open.size(); ++i) {
+    for (const Finding* member : all.open[i].group.members) causes.emplace(member, i);
+  }
+  JudgedPictures judged;
+  for (const PlanData& plan : plans) {
+    for (const Finding& finding : plan.verdict->findings) {
+      if (finding.configuration.empty()) continue;
+      Judged& of = judged[picture_id(plan, finding.device, finding.configuration)];
+      of.checks.insert(judge::name_of(finding.check));
+      const auto cause = causes.find(&finding);
+      if (cause != causes.end() && of.cause.empty()) of.cause = cause_id(cause->second);
+    }
+  }
+  return judged;
+}
+
+std::string suite_of(const PlanData& plan) {
+  return plan.records.empty() ? "" : plan.records.front().suite;
+}
+
+std::string picture_id(const PlanData& plan, const std::string& device,
+                       const std::string& configuration) {
+  return fmt::format("{}-{}", plan.prefix, core::content_hash(device + '\n' + configuration));
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,53 @@
+#include "report/page/share_of_bound.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace triptych::report {
+namespace {
+
+using core::Image;
+
+// For the pixel whose first value is at index `i`.
+double share_at(const Image& image, const Image& truth, const Image& bound, std::size_t i) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const bool certain = !truth.ids.empty() && bound.ids[i / 4] == 0;
+  if (certain && image.ids[i / 4] != truth.ids[i / 4]) return infinite;
+  double share = 0;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const double error = std::abs(static_cast<double>(image.rgba[i + c]) - truth.rgba[i + c]);
+    if (!std::isfinite(error)) return infinite;
+    share = error == 0 ? share : std::max(share, error / static_cast<double>(bound.rgba[i + c]));
+  }
+  return share;
+}
+
+void paint(Image& shares, std::size_t i, double share) {
+  const auto ramp = [&](double from, double to) {
+    return static_cast<float>(std::clamp((share - from) / (to - from), 0.0, 1.0));
+  };
+  shares.rgba[i] = share > 1 ? std::numeric_limits<float>::quiet_NaN() : ramp(0.2, 0.7);
+  shares.rgba[i + 1] = ramp(0.3, 1.0);
+  shares.rgba[i + 2] = std::max(0.4F * ramp(0.0, 0.2), ramp(0.8, 1.0));
+  shares.rgba[i + 3] = 1;
+}
+
+}  // namespace
+
+ShareOfBound share_of_bound(const Image& image, const Image& truth, const Image& bound) {
+  ShareOfBound result{.image = Image(image.width, image.height)};
+  double largest = 0;
+  for (std::size_t i = 0; i < result.image.rgba.size(); i += 4) {
+    const double share = share_at(image, truth, bound, i);
+    paint(result.image, i, share);
+    if (share <= largest) continue;
+    largest = share;
+    const int pixel = static_cast<int>(i / 4);
+    result.x = pixel % image.width;
+    result.y = pixel / image.width;
+  }
+  return result;
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,240 @@
+#include "report/screen/last_screen.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/quoting.hpp"
+#include "core/text.hpp"
+#include "report/overview.hpp"
+#include "report/words/cause.hpp"
+#include "report/words/finding.hpp"
+
+namespace triptych::report {
+namespace {
+
+using judge::Verdict;
+
+constexpr std::size_t most_lines = 40;
+constexpr std::size_t least_width = 40;
+constexpr std::size_t longest_command = 600;
+constexpr std::size_t longest_message = 3;  // lines
+constexpr std::size_t most_waived = 3;
+constexpr std::size_t most_circumstances = 5;
+
+std::size_t width_of(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80; }));
+}
+
+std::string_view colour_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::regression:
+      return "\x1b[1;31m";
+    case Verdict::cannot_judge:
+    case Verdict::waived:
+      return "\x1b[33m";
+    case Verdict::pass:
+    case Verdict::improved:
+      return "\x1b[32m";
+    default:
+      return "\x1b[2m";
+  }
+}
+
+Verdict verdict_of(core::ExitCode code) {
+  if (code == core::ExitCode::pass) return Verdict::pass;
+  return code == core::ExitCode::regression ? Verdict::regression : Verdict::cannot_judge;
+}
+
+std::string time_text(double seconds) {
+  if (seconds < 120) return fmt::format("{:.0f} s", seconds);
+  return fmt::format("{:.0f} min", seconds / 60);
+}
+
+class Screen {
+ public:
+  explicit Screen(const ScreenOptions& options)
+      : options_(options), width_(std::max(options.width, least_width)) {}
+
+  std::string text(const Overview& all, double seconds, std::span<const std::string> files) {
+    head(all, seconds);
+    for (const KindRow& row : all.rows) {
+      const std::string pad(11 - std::min<std::size_t>(11, width_of(row.verdict)), ' ');
+      add(fmt::format("  {:<12}{}{}{}", row.kind, coloured(row.verdict, row.worst), pad,
+                      core::printable(row.sentence, width_ - 25)));
+    }
+    add("");
+    circumstances(all);
+    waived(all);
+    causes(all, files);
+    list(files);
+    add(fmt::format("  exit {}", words::meaning_of(all.code)));
+    return text_;
+  }
+
+ private:
+  void add(std::string_view line) {
+    text_ += line;
+    text_ += '\n';
+    ++lines_;
+  }
+  [[nodiscard]] std::string coloured(std::string_view text, Verdict verdict) const {
+    if (!options_.colours) return std::string(text);
+    return std::string(colour_of(verdict)) + std::string(text) + "\x1b[0m";
+  }
+
+  void head(const Overview& all, double seconds) {
+    const std::string left =
+        fmt::format("Triptych   {} {} · {}{}", all.devices, all.devices == 1 ? "device" : "devices",
+                    time_text(seconds), all.part ? " · a part of the plans" : "");
+    const std::string right =
+        fmt::format("{} ({})", words::word_of(all.code), static_cast<int>(all.code));
+    const std::size_t used = width_of(left) + width_of(right);
+    add(left + std::string(used + 3 < width_ ? width_ - used : 3, ' ') +
+        coloured(right, verdict_of(all.code)));
+    if (!all.open.empty()) add(worst_of(all.open.front()));
+    add("");
+  }
+
+  // "✗ image on gl:x: crashed: …": the cause and the place in one line.
+  [[nodiscard]] std::string worst_of(const Cause& cause) const {
+    const judge::Finding& first = *cause.group.first;
+    return fmt::format(
+        "  {} {}", sign_of(first),
+        core::printable(fmt::format("{} {} {}: {}", judge::name_of(first.check),
+                                    first.device.empty() ? "of" : "on",
+                                    first.device.empty() ? cause.result->plan : first.device,
+                                    words::text_of(first)),
+                        width_ - 4));
+  }
+
+  [[nodiscard]] std::string sign_of(const judge::Finding& finding) const {
+    return coloured(finding.verdict == Verdict::regression ? "✗" : "?", finding.verdict);
+  }
+
+  // Lines that are also true of a pass.
+  void circumstances(const Overview& all) {
+    const std::size_t shown = std::min(most_circumstances, all.circumstances.size());
+    for (std::size_t i = 0; i < shown; ++i) {
+      add("  ! " + core::printable(all.circumstances[i], width_ - 4));
+    }
+    if (shown < all.circumstances.size()) {
+      add(fmt::format("  ! {} more of these are in the page", all.circumstances.size() - shown));
+    }
+    if (shown > 0) add("");
+  }
+
+  // One line for each, because a reader of a pass has to know what it excuses.
+  void waived(const Overview& all) {
+    std::size_t shown = 0;
+    for (const Cause& cause : all.aside) {
+      if (cause.group.first->verdict != Verdict::waived || ++shown > most_waived) continue;
+      add(core::printable(fmt::format("  – {}: {}", words::place(cause), words::found(cause)),
+                          width_));
+    }
+    if (shown > most_waived) add(fmt::format("  – {} more are waived", shown - most_waived));
+    if (shown > 0) add("");
+  }
+
+  // As many as there is space for above the last lines.
+  void causes(const Overview& all, std::span<const std::string> files) {
+    const std::size_t below = files.empty() ? 2 : 4;
+    std::size_t shown = 0;
+    for (const Cause& cause : all.open) {
+      const std::vector<std::string> lines = lines_of(cause);
+      if (lines_ + lines.size() + 2 + below > most_lines) break;
+      for (const std::string& line : lines) add(line);
+      add("");
+      ++shown;
+    }
+    if (shown < all.open.size()) {
+      const std::size_t more = all.open.size() - shown;
+      add(fmt::format(
+          "  {} more {}: {}", more, more == 1 ? "cause" : "causes",
+          files.empty() ? "--out FOLDER writes them" : "in the page and the files below"));
+    }
+  }
+
+  [[nodiscard]] std::vector<std::string> lines_of(const Cause& cause) const {
+    const judge::Finding& first = *cause.group.first;
+    std::vector<std::string> lines{fmt::format(
+        "  {} {}", sign_of(first),
+        core::printable(fmt::format("{}: {}", judge::name_of(first.check), words::place(cause)),
+                        width_ - 4))};
+    append_wrapped(lines, message_of(cause), "");
+    const std::string command = command_of(first, *cause.result);
+    // If it were cut, it would be another command.
+    if (width_of(command) > longest_command) {
+      lines.emplace_back("    (its command is in the page: it is too long for a terminal)");
+    } else if (!command.empty()) {
+      append_wrapped(lines, command, " \\");
+    }
+    return lines;
+  }
+
+  // Shortens a long description of the finding, but neither the party at fault nor the advice.
+  [[nodiscard]] std::string message_of(const Cause& cause) const {
+    std::string rest;
+    for (const std::string& each : {words::advice(*cause.group.first), words::blame(cause.group)}) {
+      if (!each.empty()) rest += "; " + core::printable(each);
+    }
+    const std::size_t room = longest_message * (width_ - 6);
+    const std::size_t left = room > 2 * width_of(rest) ? room - width_of(rest) : room / 2;
+    return core::printable(words::found(cause), left) + rest;
+  }
+
+  // Breaks lines at spaces outside of quotation marks, and in a command never between an option and
+  // its value. `end` is added to every line except the last.
+  void append_wrapped(std::vector<std::string>& lines, std::string_view text,
+                      std::string_view end) const {
+    std::string line;
+    bool quoted = false;
+    std::string word;
+    const auto put = [&] {
+      if (!line.empty() && width_of(line) + 1 + width_of(word) + 4 + end.size() > width_) {
+        lines.push_back("    " + line + std::string(end));
+        line = end.empty() ? "" : "  ";
+      }
+      line += (line.empty() || line == "  " ? "" : " ") + word;
+      word.clear();
+    };
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      const char c = text[i];
+      if (c == '\'' && !end.empty()) quoted = !quoted;
+      const bool value_follows = !end.empty() && word.starts_with("--") &&
+                                 word.find(' ') == std::string::npos && i + 1 < text.size() &&
+                                 text[i + 1] != '-';
+      if (c == ' ' && !quoted && !value_follows) {
+        put();
+      } else {
+        word += c;
+      }
+    }
+    put();
+    lines.push_back("    " + line);
+  }
+
+  void list(std::span<const std::string> files) {
+    if (files.empty()) return;
+    std::string line;
+    for (const std::string& file : files)
+      line += (line.empty() ? "" : "   ") + core::printable(file);
+    add("  " + core::printable(line, 3 * width_));
+    add("");
+  }
+
+  const ScreenOptions& options_;
+  std::size_t width_;
+  std::string text_;
+  std::size_t lines_ = 0;
+};
+
+}  // namespace
+
+std::string last_screen(std::span<const judge::GateResult> results, double seconds,
+                        std::span<const std::string> files, const ScreenOptions& options) {
+  return Screen(options).text(overview(results), seconds, files);
+}
+
+}  // namespace triptych::report
