@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "backends/gl/api.hpp"
 #include "measure/system/compile_only.hpp"
 #include "measure/system/cpu_features.hpp"
 

@@ -2,10 +2,11 @@
 #include <string>
 #include <string_view>
 
-#include "backends/gl/api.hpp"
 #include "record/record.hpp"
 
 namespace triptych::gl_backend {
+
+struct Api;
 
 // What the current context says about itself. The id is "gl:<driver><suffix>", without a number.
 // `suffix` names the window system ("-egl"); only softpipe through EGL is called plain

@@ -159,7 +159,7 @@ class Worker {
       require_execution();
       Configuration configuration = hold.configuration;
       held_ = device_->prepare(supported_work(configuration, hold.faults));
-      proof_.emplace(*held_, false);
+      proof_.emplace(*held_);
     });
   }
 
