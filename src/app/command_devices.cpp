@@ -18,8 +18,15 @@ std::string why(const measure::Broken& broken) {
   return broken.ended ? text_of(*broken.ended) : broken.reason;
 }
 
-void print_text(const std::vector<Greeting>& greeted, const std::vector<measure::Broken>& broken) {
-  for (const Greeting& each : greeted) {
+// `compilers`: the devices that only compile and were not opened.
+struct Devices {
+  std::vector<Greeting> greeted;
+  std::vector<measure::Broken> broken;
+  std::vector<std::string> compilers;
+};
+
+void print_text(const Devices& found) {
+  for (const Greeting& each : found.greeted) {
     put("{}\n  {} ({}), driver {}, {}\n", each.device.id, each.device.name, each.device.vendor,
         each.device.driver_version, each.device.api_version);
     if (each.refused) put("  cannot be used: {}\n", text_of(*each.refused));
@@ -41,46 +48,65 @@ void print_text(const std::vector<Greeting>& greeted, const std::vector<measure:
       put("  environment: {}={}\n", name, value);
     }
   }
-  for (const measure::Broken& each : broken) put("not usable: {}: {}\n", each.what, why(each));
+  for (const measure::Broken& each : found.broken) {
+    put("not usable: {}: {}\n", each.what, why(each));
+  }
+  if (found.compilers.empty()) return;
+  put("compilers for GPUs that this machine does not have (nothing is executed on them; "
+      "--compilers "
+      "opens them):\n");
+  for (const std::string& each : found.compilers) put("  {}\n", each);
 }
 
-void print_json(const std::vector<Greeting>& greeted, const std::vector<measure::Broken>& broken) {
-  core::Json json{{"devices", core::Json::array()}, {"broken", core::Json::array()}};
-  for (const Greeting& each : greeted) {
+void print_json(const Devices& found) {
+  core::Json json{{"devices", core::Json::array()},
+                  {"broken", core::Json::array()},
+                  {"compilers", found.compilers}};
+  for (const Greeting& each : found.greeted) {
     core::Json entry = each.device;
     entry["key"] = each.device.key();
     entry["clocks"] = each.clocks;
     if (each.refused) entry["refused"] = *each.refused;
     json["devices"].push_back(std::move(entry));
   }
-  for (const measure::Broken& each : broken) {
+  for (const measure::Broken& each : found.broken) {
     json["broken"].push_back({{"what", each.what}, {"reason", why(each)}});
   }
   print(json);
 }
 
-core::ExitCode devices(const bool& json) {
+struct DevicesArguments {
+  bool json = false;
+  bool compilers = false;
+};
+
+core::ExitCode devices(const DevicesArguments& arguments) {
   const Registry registry = make_registry();
-  const measure::Listing listing = registry.devices_and_compilers({});
+  measure::Listing listing =
+      arguments.compilers ? registry.devices_and_compilers({}) : registry.devices();
   const std::string suite(registry.suites.front()->name());
-  std::vector<Greeting> greeted;
-  for (const record::Device& device : listing.devices)
-    greeted.push_back(measure::greet(device, suite));
-  if (json) {
-    print_json(greeted, listing.broken);
-  } else {
-    print_text(greeted, listing.broken);
+  Devices found{.greeted = {}, .broken = std::move(listing.broken), .compilers = {}};
+  for (const record::Device& device : listing.devices) {
+    found.greeted.push_back(measure::greet(device, suite));
   }
-  return greeted.empty() ? core::ExitCode::cannot_judge : core::ExitCode::pass;
+  if (!arguments.compilers) found.compilers = measure::installed_compilers();
+  if (arguments.json) {
+    print_json(found);
+  } else {
+    print_text(found);
+  }
+  return found.greeted.empty() ? core::ExitCode::cannot_judge : core::ExitCode::pass;
 }
 
 }  // namespace
 
 void add_devices_command(Commands& commands) {
-  auto [command, json] = commands.add(
+  auto [command, arguments] = commands.add(
       "devices", "List the devices, what they can do, and which of their timers are trustworthy",
       devices);
-  command.add_flag("--json", json, "Print machine-readable JSON");
+  command.add_flag("--compilers", arguments.compilers,
+                   "Also open the compilers for GPUs that this machine does not have");
+  command.add_flag("--json", arguments.json, "Print machine-readable JSON");
   add_example(command, "triptych devices --json");
 }
 

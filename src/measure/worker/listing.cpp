@@ -84,9 +84,9 @@ void list_compiler(const std::string& id, Listing& listing) {
     listing.broken.push_back({.what = id, .reason = std::move(reason)});
   };
   try {
-    const WorkerLink::Reply reply = ask_once({own_program(), "list-api", api}, id,
-                                             {.json = core::Json::object(), .binary = {}},
-                                             listing_limit);
+    const WorkerLink::Reply reply =
+        ask_once({own_program(), "list-api", api}, id, {.json = core::Json::object(), .binary = {}},
+                 listing_limit);
     const auto* answer = std::get_if<Message>(&reply);
     if (answer == nullptr) {
       listing.broken.push_back({.what = id, .reason = {}, .ended = reason_of(reply)});
@@ -134,6 +134,19 @@ Listing list_devices(const std::vector<std::string>& apis) {
 bool name_a_compiler(const std::vector<std::string>& globs) {
   return std::ranges::any_of(
       globs, [](const std::string& glob) { return compile_only(glob).has_value(); });
+}
+
+std::vector<std::string> installed_compilers() {
+  std::vector<std::string> ids = usual_compile_only_devices();
+  std::erase_if(ids, [](const std::string& id) {
+    try {
+      static_cast<void>(compile_only_environment(id));
+      return false;
+    } catch (const core::NotSupported&) {
+      return true;
+    }
+  });
+  return ids;
 }
 
 Listing list_compilers(const std::vector<std::string>& globs) {

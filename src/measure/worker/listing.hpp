@@ -13,6 +13,10 @@ namespace triptych::measure {
 
 [[nodiscard]] Listing list_devices(const std::vector<std::string>& apis);
 
+// The ids of the usual devices that only compile and whose driver is installed. No driver is
+// started: list_compilers() tells whether the driver knows the family.
+[[nodiscard]] std::vector<std::string> installed_compilers();
+
 // Lists the devices that only compile (measure/system/compile_only.hpp): the usual ones that match
 // any of the globs (all if there are no globs), and every family that a glob names in full. If
 // something is missing for one, `broken` has an entry with its id.

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 constexpr std::array<std::string_view, 8> techniques{
     "quad_screen",  "quad_ray",         "quad_instanced", "quad_tess",
     "polygon_tess", "polygon_adaptive", "point",          "tiles"};
-constexpr std::array both{SpriteRasterizer::of_the_api, SpriteRasterizer::in_tiles};
+constexpr std::array both_rasterizers{SpriteRasterizer::of_the_api, SpriteRasterizer::in_tiles};
 
 std::string reason(std::string_view technique, const ParticleOptions& options,
                    SpriteRasterizer rasterizer = SpriteRasterizer::of_the_api) {
@@ -21,7 +21,7 @@ std::string reason(std::string_view technique, const ParticleOptions& options,
 
 TEST(OptionReason, WithoutFaultsOnlyRaysAndCornersAreRefused) {
   for (const std::string_view technique : techniques) {
-    for (const SpriteRasterizer rasterizer : both) {
+    for (const SpriteRasterizer rasterizer : both_rasterizers) {
       for (const Culling culling : {Culling::none, Culling::frustum, Culling::occlusion}) {
         for (const bool conservative : {false, true}) {
           EXPECT_EQ(reason(technique, {.conservative_depth = conservative, .culling = culling},
@@ -36,7 +36,7 @@ TEST(OptionReason, WithoutFaultsOnlyRaysAndCornersAreRefused) {
 
 TEST(OptionReason, RaysAreMadeAtVerticesWhereThereAreSome) {
   for (const std::string_view technique : techniques) {
-    for (const SpriteRasterizer rasterizer : both) {
+    for (const SpriteRasterizer rasterizer : both_rasterizers) {
       const bool refused = technique == "point" || technique == "tiles";
       EXPECT_EQ(reason(technique, {.ray = ComputedAt::vertex}, rasterizer).empty(), !refused)
           << technique;
@@ -55,7 +55,7 @@ TEST(OptionReason, APolygonHasFourCornersAtLeast) {
 
 TEST(OptionReason, AFaultNeedsWhatItBreaks) {
   for (const std::string_view technique : techniques) {
-    for (const SpriteRasterizer rasterizer : both) {
+    for (const SpriteRasterizer rasterizer : both_rasterizers) {
       const auto refused = [&](const ParticleOptions& options) {
         return !reason(technique, options, rasterizer).empty();
       };
