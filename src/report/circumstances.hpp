@@ -9,9 +9,9 @@
 
 namespace triptych::report {
 
-// One line for each, without repetitions: faults that were injected into the runs, loaders and
-// drivers that could not be used while devices were listed, and the program that measured if it is
-// not the one that judges.
+// A line about the faults that were injected into the runs, one for each program that measured and
+// is not the one that judges, and one for each reason why loaders and drivers could not be used
+// while devices were listed.
 [[nodiscard]] std::vector<std::string> circumstances(
     std::span<const judge::GateResult* const> results);
 

@@ -88,7 +88,7 @@ class Publish(unittest.TestCase):
 
     def test_nothing_measured_is_no_result(self):
         done = self.publish("--device", "nobody:*")
-        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("no device matches nobody:*", done.stderr)
 
 

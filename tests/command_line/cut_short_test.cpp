@@ -104,7 +104,7 @@ TEST_F(CutShort, APlanThatLostAcceptedChecksIsNamed) {
 TEST_F(CutShort, AnInjectedFaultIsOnTheLastScreen) {
   accept();
   ASSERT_EQ(run(two_devices, "--inject slowdown:20").code, 0);
-  EXPECT_THAT(gate().output, HasSubstr("injected fault slowdown:20"));
+  EXPECT_THAT(gate().output, HasSubstr("injected faults (slowdown:20)"));
   ASSERT_EQ(run(two_devices).code, 0);
   EXPECT_THAT(gate().output, Not(HasSubstr("injected")));
 }
