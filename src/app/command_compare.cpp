@@ -12,6 +12,9 @@
 #include "core/quoting.hpp"
 #include "measure/system/environment.hpp"
 #include "measure/worker/own_program.hpp"
+#include "report/exports/comparison_json.hpp"
+#include "report/screen/comparison_screen.hpp"
+#include "report/screen/device_table.hpp"
 
 namespace triptych::app {
 namespace {
@@ -61,9 +64,8 @@ core::ExitCode show_apis(const CompareArguments& arguments) {
     if (!asked.empty() && !asked.contains(run.id)) continue;
     const auto table = comparison::side_by_side(store.records(run.id));
     if (!table) continue;
-    json[run.plan] = comparison::to_json(*table);
-    if (!arguments.json)
-      put_lines(fmt::format("{}\n\n{}\n", run.plan, comparison::to_text(*table)));
+    json[run.plan] = report::to_json(*table);
+    if (!arguments.json) put_lines(fmt::format("{}\n\n{}\n", run.plan, report::screen_of(*table)));
   }
   if (json.empty()) {
     throw core::NotSupported(comparing.store + ": no two devices measured the same configuration");
@@ -110,9 +112,9 @@ core::ExitCode diff(const DiffArguments& arguments) {
                                          arguments.devices.empty() ? "" : " of such a device"));
   }
   if (arguments.json) {
-    print(comparison::to_json(found));
+    print(report::to_json(found));
   } else {
-    put_lines(comparison::to_text(found));
+    put_lines(report::screen_of(found));
   }
   return found.exit_code();
 }
@@ -132,7 +134,8 @@ void add_diff_command(Commands& commands) {
 void add_compare_commands(Commands& commands) {
   add_diff_command(commands);
   auto [command, arguments] = commands.add(
-      "compare", "Compare two devices, drivers or builds: first what repeats exactly, then times",
+      "compare",
+      "Compare two devices, drivers or builds: first deterministic measurements, then times",
       compare);
   add_example(command, "triptych compare volume/quick --a gl:llvmpipe-egl --b vulkan:lavapipe");
   Comparing& comparing = arguments.comparing;
@@ -149,7 +152,7 @@ void add_compare_commands(Commands& commands) {
   command.add_option("--b-program", arguments.b_program,
                      "Another build of triptych that measures side b");
   command.add_flag("--no-times", arguments.no_times,
-                   "Compare only what repeats exactly; measure no times");
+                   "Compare only deterministic measurements; measure no times");
   command.add_flag("--apis", arguments.apis,
                    "Measure nothing; print a table of the devices in --store by technique");
   command

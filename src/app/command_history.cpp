@@ -10,7 +10,9 @@
 #include "app/verdicts.hpp"
 #include "comparison/history.hpp"
 #include "core/output_files.hpp"
+#include "report/exports/comparison_json.hpp"
 #include "report/page/history_page.hpp"
+#include "report/screen/comparison_screen.hpp"
 
 namespace triptych::app {
 namespace {
@@ -45,12 +47,12 @@ core::ExitCode history(const HistoryArguments& arguments) {
   if (builder.devices().empty()) {
     throw core::NotSupported("the stores hold no run of such a device: see `triptych devices`");
   }
-  const core::Json json = comparison::to_json(builder.devices());
+  const core::Json json = report::to_json(builder.devices());
   if (!arguments.out.empty()) core::write_text(arguments.out, report::history_page(json));
   if (arguments.json) {
     print(json);
   } else {
-    put_lines(comparison::to_text(builder.devices()));
+    put_lines(report::screen_of(builder.devices()));
     if (!arguments.out.empty()) put("{}\n", arguments.out);
   }
   return core::ExitCode::pass;

@@ -18,6 +18,7 @@
 #include "report/ci/bug_report.hpp"
 #include "report/command.hpp"
 #include "report/exports/frame_folder.hpp"
+#include "report/words/comparison.hpp"
 #include "report/words/finding.hpp"
 
 namespace triptych::app {
@@ -118,17 +119,20 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
         reduction::limit_by_first_frame(frame.suite, frame.device, start, options, store);
   }
   reduction::Trial trial(frame.suite, frame.device, other, options, truths, store);
-  const std::optional<reduction::Failure> first = trial.first(start);
-  if (!first) {
+  const reduction::FirstFrames first = trial.first(start);
+  if (!first.first) {
     put("the frame does not fail on {}: there is nothing to make smaller\n", frame.device);
     return core::ExitCode::pass;
   }
-  say("{}: {}\n", frame.device, report::words::text_of(*first));
+  if (!first.repeats()) {
+    throw core::NotSupported(report::words::fails_differently(*first.first, first.again));
+  }
+  say("{}: {}\n", frame.device, report::words::text_of(*first.again));
   const auto on_step = [](const reduction::Step& step) {
     say("{:>4} frames: {} {} → {}\n", step.frame, step.factor, step.from, step.to);
   };
-  const reduction::Reduction reduction =
-      reduction::reduce(frame.suite, start, *first, arguments.frames, std::ref(trial), on_step);
+  const reduction::Reduction reduction = reduction::reduce(
+      frame.suite, start, *first.again, arguments.frames, std::ref(trial), on_step);
   static_cast<void>(trial(reduction.smallest));
   report::BugReport report = report_of(frame, reduction);
   report.device = trial.device();

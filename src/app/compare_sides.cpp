@@ -10,7 +10,6 @@
 #include "app/registry.hpp"
 #include "app/terminal.hpp"
 #include "comparison/comparison.hpp"
-#include "comparison/text.hpp"
 #include "core/exit_code.hpp"
 #include "core/output_files.hpp"
 #include "core/quoting.hpp"
@@ -19,6 +18,9 @@
 #include "measure/system/environment.hpp"
 #include "measure/system/process.hpp"
 #include "measure/worker/own_program.hpp"
+#include "report/exports/comparison_json.hpp"
+#include "report/screen/comparison_screen.hpp"
+#include "report/words/comparison.hpp"
 
 namespace triptych::app {
 namespace {
@@ -28,15 +30,14 @@ namespace fs = std::filesystem;
 void print_comparison_progress(const comparison::ComparisonProgress& progress) {
   if (progress.loading) return show_loading(*progress.loading);
   const auto seconds = progress.left.count();
-  const std::string left = seconds > 0 ? fmt::format(", left at most {} s", seconds) : "";
-  show("{}/{} {}: {}{}", progress.done, progress.total, progress.stage, progress.configuration,
-       left);
+  const std::string left = seconds > 0 ? fmt::format(", at most {} s left", seconds) : "";
+  show("{}/{} {}: {}{}", progress.done, progress.total, report::words::stage_of(progress),
+       progress.configuration, left);
 }
 
-comparison::ComparisonCommand command_of(const Comparing& comparing, const std::string& typed,
-                                         const measure::Plan& plan) {
-  comparison::ComparisonCommand command{
-      .plan = typed, .sides = comparing.sides, .varied = plan.varied};
+report::ComparisonCommand command_of(const Comparing& comparing, const std::string& typed,
+                                     const measure::Plan& plan) {
+  report::ComparisonCommand command{.plan = typed, .sides = comparing.sides, .varied = plan.varied};
   for (const std::string& each : comparing.faults)
     command.sides += " --inject " + core::shell_quoted(each);
   // A factor that the command line sets to one value no longer varies, but printed commands must
@@ -51,7 +52,7 @@ comparison::ComparisonCommand command_of(const Comparing& comparing, const std::
 
 struct Told {
   comparison::ComparisonResult result;
-  comparison::ComparisonCommand command;
+  report::ComparisonCommand command;
 };
 
 class Comparer {
@@ -96,14 +97,14 @@ bool is_program(const std::string& file) {
 void tell(const std::vector<Told>& all, bool json) {
   if (json) {
     core::Json found = core::Json::array();
-    for (const Told& each : all) found.push_back(to_json(each.result, each.command));
+    for (const Told& each : all) found.push_back(report::to_json(each.result, each.command));
     return print(found.size() == 1 ? found.front() : found);
   }
-  for (const Told& each : all) put_lines(to_text(each.result, each.command) + "\n");
+  for (const Told& each : all) put_lines(report::screen_of(each.result, each.command) + "\n");
   if (all.size() == 1) return;
   for (const Told& each : all) {
     put("{:<16} {:<16} {}\n", each.result.b.id, each.command.plan,
-        comparison::headline(each.result));
+        report::words::headline(each.result));
   }
 }
 

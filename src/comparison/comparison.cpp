@@ -1,14 +1,11 @@
 #include "comparison/comparison.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <map>
 #include <utility>
 
 #include "comparison/times.hpp"
 #include "measure/system/stopwatch.hpp"
-#include "report/words/outcome.hpp"
 
 namespace triptych::comparison {
 namespace {
@@ -26,7 +23,7 @@ measure::RunOptions options_for(const measure::SideOptions& side,
 void require_opened(const record::Store& store, const record::Record* record) {
   if (record == nullptr || record->outcome == record::Outcome::measured) return;
   if (store.devices(record->run).empty()) {
-    throw core::NotSupported(report::words::text_of(record->reason));
+    throw record::NotMeasured(record::Outcome::skipped, record->reason);
   }
 }
 
@@ -35,7 +32,7 @@ RunSide side_of(const record::Store& store, const measure::RunResult& result) {
 }
 
 ComparisonProgress as_ours(const measure::Progress& progress) {
-  return {.stage = "what repeats",
+  return {.stage = ComparisonStage::deterministic,
           .configuration = progress.configuration,
           .done = progress.done,
           .total = progress.total,
@@ -48,10 +45,9 @@ void choose_clock(const ConfigurationDiff& diff, Compared& compared) {
   if (a && b) {
     compared.clock = measure::SideClock::device;
   } else if (!a && !b) {
-    compared.why_wall = "the device clocks of both sides cannot be believed here";
+    compared.why_wall = WallClockCause::neither_calibrated;
   } else {
-    compared.why_wall =
-        fmt::format("the device clock of side {} cannot be believed here", a ? "b" : "a");
+    compared.why_wall = a ? WallClockCause::b_not_calibrated : WallClockCause::a_not_calibrated;
   }
 }
 
@@ -59,9 +55,8 @@ Compared compared_by(const ConfigurationDiff& diff, const measure::Configuration
   Compared compared{.key = diff.key,
                     .configuration = configuration,
                     .ended = diff.ended,
-                    .reason = diff.void_time,
+                    .reason = diff.no_time,
                     .shift = {},
-                    .why_wall = {},
                     .work = diff.work,
                     .differences = diff.differences};
   choose_clock(diff, compared);

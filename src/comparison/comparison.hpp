@@ -3,6 +3,7 @@
 // memory), then times, interleaved.
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -38,21 +39,23 @@ struct Compared {
   // The outcome of the side that did not finish, with the reason; skipped: it cannot draw this.
   std::optional<record::Outcome> ended;
   PairVerdict verdict = PairVerdict::undecided;
-  std::string reason;    // why there is no verdict, or why the confirmation withdrew it
+  TimeReason reason;     // why there is no verdict, or why the confirmation withdrew it
   Shift shift;           // of ln t, b relative to a; meaningless if a side did not finish
   int blocks = 0;        // of the first process run
   int process_runs = 0;  // new process runs that confirmed the result or did not
   int frames_per_batch = 1;
   measure::SideClock clock = measure::SideClock::wall;
-  std::string why_wall;  // why the wall clock was used instead of the device clocks
-  double seconds = 0;    // time spent on it
+  WallClockCause why_wall = WallClockCause::none;
+  double seconds = 0;  // time spent on it
   std::optional<judge::WorkChange> work;
   std::vector<Difference> differences;
 
   [[nodiscard]] bool is_regression() const;
   [[nodiscard]] bool is_doubtful(bool timed) const;
-  // The verdict on its time: "slower", …, "skipped", "cannot tell".
+  // The verdict on its time: "slower", …, "skipped", "undecided".
   [[nodiscard]] std::string_view verdict_name() const;
+  // Whether its shift is the result of a measurement.
+  [[nodiscard]] bool has_time() const { return blocks > 0 && !ended; }
 };
 
 struct ComparisonResult {
@@ -64,10 +67,20 @@ struct ComparisonResult {
   double seconds = 0;
 
   [[nodiscard]] core::ExitCode exit_code() const;
+  [[nodiscard]] std::vector<DifferenceGroup> groups() const;  // of all differences except times
+};
+
+enum class ComparisonStage : std::uint8_t {
+  deterministic,  // images, counters, statistics, cost, memory
+  first_look,
+  more_blocks,
+  fresh_process_runs
 };
 
 struct ComparisonProgress {
-  std::string stage;  // "what repeats", "first look", "more blocks", "fresh process run 2 of 5"
+  ComparisonStage stage = ComparisonStage::deterministic;
+  std::size_t process_run = 0;   // of fresh_process_runs: the current one
+  std::size_t process_runs = 0;  // of how many
   std::string configuration;
   int done = 0;
   int total = 0;
@@ -78,7 +91,7 @@ struct ComparisonProgress {
 using Tell = std::function<void(const ComparisonProgress&)>;
 
 // Both sides' runs are written to the store. Throws what measure::run_sides and
-// measure::Interleaved throw.
+// measure::Interleaved throw, and record::NotMeasured if a side cannot be opened.
 [[nodiscard]] ComparisonResult compare(const ComparisonOptions& options,
                                        const measure::Suite& suite, record::Store& store,
                                        measure::Truths& truths, const Tell& tell);

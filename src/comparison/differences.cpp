@@ -1,25 +1,22 @@
 #include "comparison/differences.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "accuracy/image_metrics.hpp"
 #include "judge/agreement.hpp"
 #include "judge/baselines/frame_change.hpp"
-#include "judge/code/code_change.hpp"
 #include "judge/gate/open_counts.hpp"
 #include "judge/image_observation.hpp"
-#include "report/words/finding.hpp"
-#include "report/words/outcome.hpp"
 
 namespace triptych::comparison {
 namespace {
 
 using Kind = DifferenceKind;
+using Cause = DifferenceCause;
+using measure::Side;
 
 // The additional share of instructions that is allowed for a frame of another driver, or of the
 // same driver with other settings. It is the same share by which a time must grow to be called
@@ -41,22 +38,8 @@ std::optional<std::uint64_t> value_in(const record::Counts& counts, const std::s
   return found == counts.end() ? std::nullopt : std::optional(found->second);
 }
 
-// Formats a change as "1000 → 1001 (+0.1 %)".
-std::string change(std::uint64_t a, std::uint64_t b) {
-  const double before = static_cast<double>(a);
-  std::string text = fmt::format("{} → {}", a, b);
-  if (a > 0) text += fmt::format(" ({:+.4g} %)", 100 * (static_cast<double>(b) - before) / before);
-  return text;
-}
-
-std::optional<double> ratio_of(std::uint64_t a, std::uint64_t b) {
-  if (a == 0 || b == 0) return std::nullopt;
-  return static_cast<double>(b) / static_cast<double>(a);
-}
-
-// The number of pixels with any channel, depth or id that differs, and the place where the colours
-// differ most.
-std::string describe_change(const core::Image& a, const core::Image& b) {
+// Where and how much two images differ: in how many pixels, and at which one most.
+std::map<std::string, double> image_change(const core::Image& a, const core::Image& b) {
   core::Image no_bound(a.width, a.height);
   core::Image colours_a = a;
   core::Image colours_b = b;
@@ -65,15 +48,27 @@ std::string describe_change(const core::Image& a, const core::Image& b) {
     image->ids.clear();
   }
   const accuracy::ImageComparison colours = accuracy::compare(colours_b, colours_a, no_bound);
-  std::string text = fmt::format("{} of {} pixels differ, most at ({}, {}) by {:.3g}, RMS {:.3g}",
-                                 colours.over_bound, colours.pixels, colours.largest.x,
-                                 colours.largest.y, colours.largest.error, colours.rmse);
+  std::map<std::string, double> numbers{{"pixels", static_cast<double>(colours.over_bound)},
+                                        {"total", static_cast<double>(colours.pixels)},
+                                        {"x", colours.largest.x},
+                                        {"y", colours.largest.y},
+                                        {"error", colours.largest.error},
+                                        {"rmse", colours.rmse}};
   if (!a.ids.empty() && a.ids.size() == b.ids.size()) {
     std::size_t ids = 0;
     for (std::size_t i = 0; i < a.ids.size(); ++i) ids += a.ids[i] != b.ids[i] ? 1U : 0U;
-    text += fmt::format("; {} show another particle", ids);
+    numbers["particles"] = static_cast<double>(ids);
   }
-  return text;
+  return numbers;
+}
+
+// The value of a counter or statistic on both sides; missing is not zero.
+judge::Change change_of(const std::string& name, std::optional<std::uint64_t> a,
+                        std::optional<std::uint64_t> b) {
+  judge::Change change{.name = name};
+  if (a) change.before = static_cast<double>(*a);
+  if (b) change.now = static_cast<double>(*b);
+  return change;
 }
 
 class Finder {
@@ -103,13 +98,16 @@ class Finder {
   }
 
  private:
-  void add(Kind kind, std::string about, std::string text, std::optional<double> ratio = {}) {
-    result_.differences.push_back({kind, std::move(about), std::move(text), ratio});
+  Difference& add(Kind kind, Subject subject, Cause cause) {
+    result_.differences.push_back({.kind = kind, .subject = subject, .cause = cause});
+    return result_.differences.back();
   }
 
-  // The text for a side that did not measure the configuration.
-  static std::string end_of(std::string_view name, const record::Record& record) {
-    return fmt::format("{} {}", name, report::words::text_of(record.outcome, record.reason));
+  // How a side ended; empty if it measured the configuration.
+  static std::optional<judge::Observation> end_of(const record::Record& record) {
+    if (record.outcome == record::Outcome::measured) return std::nullopt;
+    return judge::Observation{
+        .cause = judge::Cause::ended, .outcome = record.outcome, .reason = record.reason};
   }
 
   bool both_measured() {
@@ -117,20 +115,28 @@ class Finder {
     const Outcome a = a_.record.outcome;
     const Outcome b = b_.record.outcome;
     if (a == Outcome::measured && b == Outcome::measured) return true;
-    result_.void_time = b == Outcome::measured ? end_of("a", a_.record) : end_of("b", b_.record);
-    if (a == b && a == Outcome::skipped)
-      return false;  // neither can draw it, which is not a difference
-    if (b == Outcome::measured) {
-      add(a == Outcome::skipped && !same_id_ ? Kind::changed : Kind::fixed, "outcome",
-          end_of("a", a_.record));
-    } else if (b != Outcome::skipped) {
-      const bool new_fault = a == Outcome::measured || a == Outcome::skipped;
-      add(new_fault ? Kind::regression : Kind::unjudged, "outcome",
-          end_of("b", b_.record) + (new_fault ? "" : "; " + end_of("a", a_.record)));
-    } else {
-      add(same_id_ ? Kind::unjudged : Kind::changed, "outcome", end_of("b", b_.record));
-    }
+    const bool blames_b = b != Outcome::measured;
+    const record::Record& ended = blames_b ? b_.record : a_.record;
+    result_.no_time = {.cause = TimeCause::side_ended,
+                       .side = blames_b ? Side::b : Side::a,
+                       .outcome = ended.outcome,
+                       .reason = ended.reason};
+    // If neither can draw it, that is not a difference.
+    if (a == b && a == Outcome::skipped) return false;
+    Difference& found = add(kind_of_end(a, b), Subject::outcome, Cause::ended);
+    if (!blames_b || found.kind == Kind::unjudged) found.sides[0] = end_of(a_.record);
+    found.sides[1] = end_of(b_.record);
     return false;
+  }
+
+  [[nodiscard]] Kind kind_of_end(record::Outcome a, record::Outcome b) const {
+    using record::Outcome;
+    if (b == Outcome::measured) {
+      return a == Outcome::skipped && !same_id_ ? Kind::changed : Kind::fixed;
+    }
+    if (b == Outcome::skipped) return same_id_ ? Kind::unjudged : Kind::changed;
+    const bool new_fault = a == Outcome::measured || a == Outcome::skipped;
+    return new_fault ? Kind::regression : Kind::unjudged;
   }
 
   // nullopt if the image is right, or if there is no reference image to compare it with.
@@ -143,41 +149,37 @@ class Finder {
     return what;
   }
 
+  static std::optional<judge::Observation> no_reference(const ComparedSide& side) {
+    if (side.truth != nullptr) return std::nullopt;
+    return judge::Observation{.cause = judge::Cause::no_reference, .detail = side.no_truth};
+  }
+
   void image() {
     if (a_.record.image.empty() && b_.record.image.empty()) return;
     if (a_.truth == nullptr || b_.truth == nullptr) {
-      const ComparedSide& without = a_.truth == nullptr ? a_ : b_;
-      add(Kind::unjudged, "image", "no truth to judge by: " + without.no_truth);
+      add(Kind::unjudged, Subject::image, Cause::no_reference).sides = {no_reference(a_),
+                                                                        no_reference(b_)};
     }
-    const auto wrong_a = fault_of(a_);
-    const auto wrong_b = fault_of(b_);
-    using report::words::text_of;
-    if (wrong_b && wrong_a) {
-      add(Kind::unjudged, "image",
-          fmt::format("both are wrong, b: {}; a: {}", text_of(*wrong_b), text_of(*wrong_a)));
-    } else if (wrong_b) {
-      add(Kind::regression, "image", "b: " + text_of(*wrong_b));
-    } else if (wrong_a) {
-      add(b_.truth == nullptr ? Kind::unjudged : Kind::fixed, "image", "a: " + text_of(*wrong_a));
+    BySide<judge::Observation> wrong{fault_of(a_), fault_of(b_)};
+    const bool wrong_a = wrong[0].has_value();
+    const bool wrong_b = wrong[1].has_value();
+    if (!wrong_a && !wrong_b) {
+      if (a_.record.image != b_.record.image) other_bits();
+      return;
     }
-    if (wrong_a || wrong_b) {
-      result_.void_time =
-          fmt::format("the image of {} is wrong, so its time means nothing", wrong_b ? "b" : "a");
-    } else if (a_.record.image != b_.record.image) {
-      other_bits();
-    }
+    const bool cannot_judge = wrong_a && (wrong_b || b_.truth == nullptr);
+    const Kind of_one = wrong_b ? Kind::regression : Kind::fixed;
+    add(cannot_judge ? Kind::unjudged : of_one, Subject::image, Cause::wrong_image).sides =
+        std::move(wrong);
+    result_.no_time = {.cause = TimeCause::wrong_image, .side = wrong_b ? Side::b : Side::a};
   }
 
   void other_bits() {
-    const std::string what = describe_change(a_.image, b_.image);
     const bool same_code = a_.record.kernel_hash == b_.record.kernel_hash &&
                            a_.device.key() == b_.device.key() && same_setup_;
-    if (same_code) {
-      add(Kind::regression, "image",
-          "other bits from the same device and the same device code: " + what);
-    } else {
-      add(Kind::changed, "image", "other bits: " + what);
-    }
+    add(same_code ? Kind::regression : Kind::changed, Subject::image,
+        same_code ? Cause::other_bits_of_one_code : Cause::other_bits)
+        .numbers = image_change(a_.image, b_.image);
   }
 
   // On one device, with either program, every instruction counts; otherwise the frame as a whole.
@@ -186,83 +188,101 @@ class Finder {
     const record::Counts& now = b_.record.cost;
     if (before.empty() || now.empty()) return;
     if (a_.record.counted_by != b_.record.counted_by) {
-      return add(
-          Kind::unjudged, "cost",
-          fmt::format("a was counted by {}, b by {}", a_.record.counted_by, b_.record.counted_by));
+      add(Kind::unjudged, Subject::cost, Cause::two_counters).facts = {{"a", a_.record.counted_by},
+                                                                       {"b", b_.record.counted_by}};
+      return;
     }
-    const judge::FrameChange change = judge::frame_change(b_.record, before);
+    judge::FrameChange change = judge::frame_change(b_.record, before);
     const double frame = judge::frame_of(before);
     const double ratio = frame > 0 ? judge::frame_of(now) / frame : 1;
     const bool more = same_device_ ? change.more : same_id_ && ratio > 1 + frame_across_setups;
-    std::string text;
-    for (const judge::Change& each : change.changes) {
-      text += (text.empty() ? "" : "; ") + report::words::text_of(each);
+    if (!change.changes.empty()) {
+      Difference& found =
+          add(more ? Kind::regression : Kind::changed, Subject::cost, Cause::values_changed);
+      found.changes = std::move(change.changes);
+      found.ratio = ratio;
     }
-    if (!text.empty()) add(more ? Kind::regression : Kind::changed, "cost", text, ratio);
     preparing();
   }
 
   void preparing() {
     const double before = judge::frame_of(a_.record.prepare_cost);
     const double now = judge::frame_of(b_.record.prepare_cost);
-    if (before > 0 && std::abs(now / before - 1) > of_preparing) {
-      add(Kind::changed, "cost of preparing",
-          fmt::format("instructions {:.0f} → {:.0f}", before, now), now / before);
-    }
+    if (before <= 0 || std::abs(now / before - 1) <= of_preparing) return;
+    Difference& found = add(Kind::changed, Subject::preparing, Cause::values_changed);
+    found.changes = {
+        {.name = "driver", .unit = judge::Unit::instructions, .before = before, .now = now}};
+    found.ratio = now / before;
   }
 
   // Worse code for the same family is a regression, also across driver versions. Two families may
   // differ.
   void code() {
     if (a_.record.code.empty() || b_.record.code.empty()) return;
-    const judge::CodeComparison comparison = judge::compare_code(a_.record.code, b_.record.code);
-    const std::string text = judge::code_change_text(comparison);
-    if (text.empty()) return;
+    judge::CodeComparison comparison = judge::compare_code(a_.record.code, b_.record.code);
+    if (comparison.changes.empty() && comparison.gone.empty() && comparison.added.empty()) return;
     const bool worse = comparison.direction() == judge::CodeDirection::worse;
-    add(worse && same_id_ ? Kind::regression : Kind::changed, "code", text);
+    add(worse && same_id_ ? Kind::regression : Kind::changed, Subject::code, Cause::code_changed)
+        .code = std::move(comparison);
   }
 
   void memory() {
     double all_a = 0;
     double all_b = 0;
     bool more = false;
-    std::vector<std::string> changes;
+    std::vector<judge::Change> changes;
     for (const std::string& kind : names_in(a_.record.memory, b_.record.memory)) {
       const double before = judge::count_of(a_.record.memory, kind).value_or(0);
       const double now = judge::count_of(b_.record.memory, kind).value_or(0);
       all_a += before;
       all_b += now;
       more = more || now > before;
-      if (now != before) changes.push_back(fmt::format("{} {} → {} bytes", kind, before, now));
+      if (now == before) continue;
+      changes.push_back({.name = kind, .unit = judge::Unit::bytes, .before = before, .now = now});
     }
     if (changes.empty() || all_a == 0 || all_b == 0) return;
-    add(more && same_id_ ? Kind::regression : Kind::changed, "memory",
-        fmt::format("{}", fmt::join(changes, "; ")), all_b / all_a);
+    Difference& found = add(more && same_id_ ? Kind::regression : Kind::changed, Subject::memory,
+                            Cause::values_changed);
+    found.changes = std::move(changes);
+    found.ratio = all_b / all_a;
+  }
+
+  // Adds a counter or a statistic that only one side reports.
+  void add_of_one_side(Subject subject, const judge::Change& change) {
+    const bool lost = !change.now && same_driver_;
+    Difference& found =
+        add(lost ? Kind::regression : Kind::changed, subject, Cause::reported_by_one_side);
+    found.name = change.name;
+    found.side = change.now ? Side::b : Side::a;
+    found.changes = {change};
+  }
+
+  Difference& add_change(Kind kind, Subject subject, Cause cause, const judge::Change& change) {
+    Difference& found = add(kind, subject, cause);
+    found.name = change.name;
+    found.changes = {change};
+    if (*change.before > 0 && *change.now > 0) found.ratio = *change.now / *change.before;
+    return found;
   }
 
   void counter(const std::string& name) {
     const auto a = value_in(a_.record.counters, name);
     const auto b = value_in(b_.record.counters, name);
     if (a == b) return;
-    const std::string about = "counter " + name;
-    if (!a || !b) {
-      add(!b && same_driver_ ? Kind::regression : Kind::changed, about,
-          fmt::format("only {} tells it: {}", a ? "a" : "b", a ? *a : *b));
-      return;
-    }
-    const auto ratio = ratio_of(*a, *b);
-    const double reference = std::max(1.0, static_cast<double>(std::max(*a, *b)));
-    const double difference = std::abs(static_cast<double>(*b) - static_cast<double>(*a));
+    const judge::Change change = change_of(name, a, b);
+    if (!a || !b) return add_of_one_side(Subject::counter, change);
+    const double reference = std::max({1.0, *change.before, *change.now});
+    const double difference = std::abs(*change.now - *change.before);
     const bool open = difference <= judge::counters_across_devices * reference ||
                       difference <= open_a_.of(name) || difference <= open_b_.of(name);
     if (same_driver_) {
-      add(Kind::regression, about, change(*a, *b) + ", on the same driver", ratio);
+      add_change(Kind::regression, Subject::counter, Cause::same_driver, change);
     } else if (a_.device.api != b_.device.api && judge::is_of_the_api(name)) {
-      add(Kind::changed, about, change(*a, *b) + ", which each API does in its own way", ratio);
+      add_change(Kind::changed, Subject::counter, Cause::api_specific, change);
     } else if (!open) {
-      add(Kind::regression, about, change(*a, *b) + ", beyond what rounding decides", ratio);
+      add_change(Kind::regression, Subject::counter, Cause::beyond_rounding, change);
     } else {
-      add(Kind::changed, about, change(*a, *b) + ", where rounding decides", ratio);
+      add_change(Kind::changed, Subject::counter, Cause::within_rounding, change);
     }
   }
 
@@ -270,28 +290,22 @@ class Finder {
     const auto a = value_in(a_.record.statistics, name);
     const auto b = value_in(b_.record.statistics, name);
     if (a == b) return;
-    const std::string about = "statistic " + name;
-    if (!a || !b) {
-      add(!b && same_driver_ ? Kind::regression : Kind::changed, about,
-          fmt::format("only {} tells it: {}", a ? "a" : "b", a ? *a : *b));
-      return;
-    }
-    const auto ratio = ratio_of(*a, *b);
+    const judge::Change change = change_of(name, a, b);
+    if (!a || !b) return add_of_one_side(Subject::statistic, change);
     const auto on_a = judge::worth_of(a_.device.statistics_calibration, name);
     const auto on_b = judge::worth_of(b_.device.statistics_calibration, name);
     const bool unsteady = on_a.is_unsteady() || on_b.is_unsteady();
+    const bool agreed =
+        std::ranges::find(judge::portable_statistics, name) != judge::portable_statistics.end();
     if (same_driver_ && !unsteady) {
-      add(Kind::regression, about, change(*a, *b) + ", on the same driver", ratio);
+      add_change(Kind::regression, Subject::statistic, Cause::same_driver, change);
     } else if (!on_a.is_exact() || !on_b.is_exact()) {
-      add(Kind::calibration, about,
-          fmt::format("{}; a: {}; b: {}", change(*a, *b), report::words::text_of(on_a),
-                      report::words::text_of(on_b)),
-          ratio);
-    } else if (std::ranges::find(judge::portable_statistics, name) !=
-               judge::portable_statistics.end()) {
-      add(Kind::regression, about, change(*a, *b) + ", which drivers must agree on", ratio);
+      add_change(Kind::calibration, Subject::statistic, Cause::counted_differently, change)
+          .worths = {on_a, on_b};
+    } else if (agreed) {
+      add_change(Kind::regression, Subject::statistic, Cause::drivers_must_agree, change);
     } else {
-      add(Kind::changed, about, change(*a, *b) + ", which the API leaves to the driver", ratio);
+      add_change(Kind::changed, Subject::statistic, Cause::drivers_may_differ, change);
     }
   }
 
@@ -308,57 +322,38 @@ class Finder {
 
 }  // namespace
 
-std::string_view name_of(DifferenceKind kind) {
-  switch (kind) {
-    case Kind::regression:
-      return "regression";
-    case Kind::unjudged:
-      return "cannot judge";
-    case Kind::fixed:
-      return "fixed";
-    case Kind::calibration:
-      return "calibration";
-    case Kind::changed:
-      break;
-  }
-  return "changed";
-}
-
-namespace {
-
-std::string text_of(const std::string& limit) {
-  return limit;
-}
-std::string text_of(const record::StatisticWorth& worth) {
-  return report::words::text_of(worth);
-}
-
-}  // namespace
-
 std::vector<Difference> find_differences(const record::Device& a, const record::Device& b) {
   std::vector<Difference> differences;
   if (a.id != b.id) return differences;
-  const auto look = [&](Kind kind, const char* what, const auto& of_a, const auto& of_b) {
+  const auto changed = [](const auto& of_a, const auto& of_b, const auto& add) {
     for (const std::string& name : names_in(of_a, of_b)) {
       const auto before = of_a.find(name);
       const auto now = of_b.find(name);
-      const std::string about = fmt::format("{} {}", what, name);
-      const bool both = before != of_a.end() && now != of_b.end();
-      // A run calibrates only what its techniques need, so a calibration that one run lacks was not
-      // examined.
-      if (kind == Kind::calibration && !both) continue;
-      if (before == of_a.end()) {
-        differences.push_back({kind, about, "new: " + text_of(now->second)});
-      } else if (now == of_b.end()) {
-        differences.push_back({kind, about, "gone, was " + text_of(before->second)});
-      } else if (before->second != now->second) {
-        differences.push_back(
-            {kind, about, fmt::format("{} → {}", text_of(before->second), text_of(now->second))});
+      const auto* const value_a = before == of_a.end() ? nullptr : &before->second;
+      const auto* const value_b = now == of_b.end() ? nullptr : &now->second;
+      if (value_a == nullptr || value_b == nullptr || *value_a != *value_b) {
+        add(name, value_a, value_b);
       }
     }
   };
-  look(Kind::changed, "limit", a.limits, b.limits);
-  look(Kind::calibration, "statistic", a.statistics_calibration, b.statistics_calibration);
+  changed(a.limits, b.limits,
+          [&](const std::string& name, const std::string* before, const std::string* now) {
+            Difference& found = differences.emplace_back(
+                Difference{.subject = Subject::limit, .cause = Cause::limit_changed, .name = name});
+            if (before != nullptr) found.facts["a"] = *before;
+            if (now != nullptr) found.facts["b"] = *now;
+          });
+  changed(a.statistics_calibration, b.statistics_calibration,
+          [&](const std::string& name, const auto* before, const auto* now) {
+            // A run calibrates only what its techniques need, so a calibration that one run lacks
+            // was not examined.
+            if (before == nullptr || now == nullptr) return;
+            differences.push_back({.kind = Kind::calibration,
+                                   .subject = Subject::statistic,
+                                   .cause = Cause::calibration_changed,
+                                   .name = name,
+                                   .worths = {*before, *now}});
+          });
   return differences;
 }
 

@@ -1,35 +1,16 @@
 #pragma once
-// The differences between two records of one configuration, except in time, and their kinds.
+// Finds the differences between two records of one configuration, except in time.
 
-#include <cstdint>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "comparison/difference.hpp"
+#include "comparison/time_reason.hpp"
 #include "core/image.hpp"
 #include "judge/gate/gate.hpp"
 #include "record/record.hpp"
 
 namespace triptych::comparison {
-
-enum class DifferenceKind : std::uint8_t {
-  regression,   // b is wrong, does more, or changed something that must not change
-  unjudged,     // no reference image, or b can no longer draw what a can
-  fixed,        // a is wrong or cannot draw it, and b is right
-  calibration,  // a statistic that at least one of the drivers counts in its own way
-  changed       // an allowed difference between two devices, or b does less
-};
-[[nodiscard]] std::string_view name_of(DifferenceKind kind);
-
-struct Difference {
-  DifferenceKind kind = DifferenceKind::changed;
-  std::string about;  // "image", "counter samples", "cost", "memory", "statistic …", "limit …"
-  std::string text;   // one line with both values and the reason for its kind
-  // b divided by a, if both report the number and it is not zero.
-  std::optional<double> ratio = {};
-  std::string injected = {};  // faults that `run --inject` put into a side; the text names them
-};
 
 // One side of a comparison: what was measured, and on which device.
 struct ComparedSide {
@@ -43,9 +24,8 @@ struct ComparedSide {
 
 struct Comparison {
   std::vector<Difference> differences;  // worst first
-  // The reason why times of this configuration are meaningless: one side did not measure it, or an
-  // image is wrong. Empty if times are valid.
-  std::string void_time;
+  // Why times of this configuration are meaningless; empty if they are valid.
+  TimeReason no_time;
 };
 
 // `same_setup`: both sides run the same program in the same environment, so that the same device

@@ -1,8 +1,5 @@
 #include "comparison/history.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -12,7 +9,6 @@
 #include <utility>
 
 #include "core/glob.hpp"
-#include "core/json.hpp"
 
 namespace triptych::comparison {
 namespace {
@@ -33,16 +29,6 @@ std::map<std::string, MeasuredByConfiguration> by_device(const record::Store& st
   return devices;
 }
 
-std::string text_of(const std::optional<double>& value) {
-  return value ? fmt::format("{:.4f}", *value) : "–";
-}
-
-// The mark of a point with injected faults, so that nobody blames a driver.
-std::string injected_text(const HistoryPoint& point) {
-  if (point.injected.empty()) return {};
-  return fmt::format(" [injected: {}]", fmt::join(point.injected, ", "));
-}
-
 // The end of its path that distinguishes it from the others: the file name, with folders if others
 // have the same file name.
 std::string name_among(const std::string& store, const std::set<std::string>& stores) {
@@ -58,17 +44,6 @@ std::string name_among(const std::string& store, const std::set<std::string>& st
     if (!shared) break;
   }
   return name.string();
-}
-
-// The names of all stores, by file.
-std::map<std::string, std::string> names_of(const std::vector<DeviceHistory>& history) {
-  std::set<std::string> stores;
-  for (const DeviceHistory& device : history) {
-    for (const HistoryPoint& point : device.points) stores.insert(point.store);
-  }
-  std::map<std::string, std::string> names;
-  for (const std::string& store : stores) names[store] = name_among(store, stores);
-  return names;
 }
 
 }  // namespace
@@ -149,8 +124,7 @@ void HistoryBuilder::add_changes(const record::Store& store,
     }
   }
   for (const auto& [id, change] : changes) {
-    const DifferenceGroups groups = groups_of(change);
-    points[id].changes = groups.empty() ? std::string() : groups.text();
+    points[id].changes = groups_of(change);
     points[id].worse = change.has(DifferenceKind::regression);
   }
 }
@@ -194,48 +168,14 @@ void HistoryBuilder::add(const record::Store& store, measure::Truths& truths) {
   }
 }
 
-std::string to_text(const std::vector<DeviceHistory>& history) {
-  const auto names = names_of(history);
-  std::string text;
+std::map<std::string, std::string> names_of(const std::vector<DeviceHistory>& history) {
+  std::set<std::string> stores;
   for (const DeviceHistory& device : history) {
-    text += fmt::format("{}\n  {:<28} {:<20} {:>9} {:>9}  driver\n", device.device, "store",
-                        "begun", "cost", "time");
-    for (const HistoryPoint& point : device.points) {
-      text += fmt::format("  {:<28} {:<20} {:>9} {:>9}  {}\n", names.at(point.store),
-                          point.started_at, text_of(point.cost), text_of(point.time),
-                          point.driver_version + injected_text(point));
-      if (!point.changes.empty()) text += point.changes;
-    }
-    if (const HistoryPoint* worse = device.first_worse()) {
-      text += fmt::format("  first worse: {}\n", worse->store);
-    }
+    for (const HistoryPoint& point : device.points) stores.insert(point.store);
   }
-  return text;
-}
-
-core::Json to_json(const std::vector<DeviceHistory>& history) {
-  const auto names = names_of(history);
-  core::Json json = core::Json::array();
-  for (const DeviceHistory& device : history) {
-    core::Json points = core::Json::array();
-    for (const HistoryPoint& point : device.points) {
-      core::Json each{{"store", point.store},
-                      {"name", names.at(point.store)},
-                      {"started_at", point.started_at},
-                      {"driver_version", point.driver_version},
-                      {"triptych", point.triptych},
-                      {"changes", point.changes},
-                      {"worse", point.worse}};
-      if (point.cost) each["cost"] = *point.cost;
-      if (point.time) each["time"] = *point.time;
-      if (!point.injected.empty()) each["injected"] = point.injected;
-      points.push_back(std::move(each));
-    }
-    core::Json entry{{"device", device.device}, {"points", std::move(points)}};
-    if (const HistoryPoint* worse = device.first_worse()) entry["first_worse"] = worse->store;
-    json.push_back(std::move(entry));
-  }
-  return json;
+  std::map<std::string, std::string> names;
+  for (const std::string& store : stores) names[store] = name_among(store, stores);
+  return names;
 }
 
 }  // namespace triptych::comparison

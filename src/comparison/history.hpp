@@ -3,10 +3,10 @@
 // and time developed since the first one.
 
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "comparison/store_diff.hpp"
@@ -25,9 +25,8 @@ struct HistoryPoint {
   // were none.
   std::optional<double> cost;  // instructions of generated code and driver
   std::optional<double> time;  // median of the frames by the wall clock, which all stores have
-  // The changes of each configuration relative to the last store that has it, as `diff` prints
-  // them; empty if there are none.
-  std::string changes;
+  // The changes of each configuration relative to the last store that has it.
+  std::vector<DifferenceGroup> changes;
   bool worse = false;  // whether a regression is among them
 };
 
@@ -92,10 +91,8 @@ class HistoryBuilder {
   std::map<std::string, Known> known_;  // by device
 };
 
-// Each device with one line per store, then the first store that was worse.
-[[nodiscard]] std::string to_text(const std::vector<DeviceHistory>& history);
-// [{"device", "first_worse", "points": [{"store", "name", "started_at", "driver_version",
-// "triptych", "injected", "cost", "time", "changes", "worse"}]}]. Unknown values are absent.
-[[nodiscard]] nlohmann::json to_json(const std::vector<DeviceHistory>& history);
+// The shortest end of each store's path that distinguishes it from the others, by path.
+[[nodiscard]] std::map<std::string, std::string> names_of(
+    const std::vector<DeviceHistory>& history);
 
 }  // namespace triptych::comparison

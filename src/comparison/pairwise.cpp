@@ -153,7 +153,7 @@ std::string_view name_of(PairVerdict verdict) {
     case PairVerdict::undecided:
       break;
   }
-  return "cannot tell";
+  return "undecided";
 }
 
 SequentialDesign SequentialDesign::standard() {

@@ -24,7 +24,8 @@ bool Compared::is_doubtful(bool timed) const {
 }
 
 std::string_view Compared::verdict_name() const {
-  if (ended) return *ended == record::Outcome::skipped ? "skipped" : "cannot tell";
+  if (ended)
+    return *ended == record::Outcome::skipped ? "skipped" : name_of(PairVerdict::undecided);
   return name_of(verdict);
 }
 
@@ -36,6 +37,15 @@ core::ExitCode ComparisonResult::exit_code() const {
   const bool looked = any([](const Compared& each) { return !each.ended; });
   const bool doubtful = any([this](const Compared& each) { return each.is_doubtful(timed); });
   return looked && !doubtful ? core::ExitCode::pass : core::ExitCode::cannot_judge;
+}
+
+std::vector<DifferenceGroup> ComparisonResult::groups() const {
+  std::vector<Located> all;
+  for (const Difference& each : device) all.emplace_back("", each);
+  for (const Compared& compared : configurations) {
+    for (const Difference& each : compared.differences) all.emplace_back(compared.key, each);
+  }
+  return grouped(all);
 }
 
 }  // namespace triptych::comparison

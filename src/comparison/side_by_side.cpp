@@ -1,7 +1,5 @@
 #include "comparison/side_by_side.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +7,6 @@
 #include <utility>
 
 #include "judge/baselines/frame_change.hpp"
-#include "technique/catalogue.hpp"
 
 namespace triptych::comparison {
 namespace {
@@ -108,55 +105,6 @@ SideBySide table_of(std::span<const record::Record> records, std::string unit, V
   return table;
 }
 
-// "1.32", or "1.32 (samples ×1.10)" if the work differs by one per cent or more.
-std::string text_of(const SideBySide::Cell& cell) {
-  std::string text = fmt::format("{:.2f}", cell.ratio);
-  for (const auto& [name, work] : cell.work) {
-    if (std::abs(work - 1) >= 0.01) text += fmt::format(" ({} ×{:.2f})", name, work);
-  }
-  return text;
-}
-
-// A bound on speed is not a technique that a user can choose.
-bool is_a_choice(const std::string& technique) {
-  return std::ranges::none_of(technique::catalogue(), [&](const technique::Technique& each) {
-    return each.id == technique && !each.picture;
-  });
-}
-
-// "tiles 2.5 ms": a device's best technique among the rows with the largest number of
-// configurations; empty if it has none of these.
-std::string least_text(const SideBySide& table, const std::string& device) {
-  std::size_t most = 0;
-  for (const SideBySide::Row& row : table.rows) most = std::max(most, row.configurations);
-  const SideBySide::Row* best = nullptr;
-  for (const SideBySide::Row& row : table.rows) {
-    if (row.configurations < most || !row.cells.contains(device)) continue;
-    if (!is_a_choice(row.technique)) continue;
-    const double value = row.cells.at(device).value;
-    if (best == nullptr || value < best->cells.at(device).value) best = &row;
-  }
-  if (best == nullptr) return {};
-  return fmt::format("{} {:.3g} {}", best->technique, 1e-6 * best->cells.at(device).value,
-                     table.unit == "ns" ? "ms" : "M");
-}
-
-// Left-aligned columns.
-std::string aligned(const std::vector<std::vector<std::string>>& lines) {
-  std::vector<std::size_t> widths(lines.front().size());
-  for (const auto& line : lines) {
-    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
-  }
-  std::string text;
-  for (const auto& line : lines) {
-    for (std::size_t i = 0; i + 1 < widths.size(); ++i) {
-      text += fmt::format("{:<{}}", line[i], widths[i] + 2);
-    }
-    text += line.back() + "\n";
-  }
-  return text;
-}
-
 }  // namespace
 
 std::optional<SideBySide> side_by_side(std::span<const record::Record> records) {
@@ -168,70 +116,6 @@ std::optional<SideBySide> side_by_side(std::span<const record::Record> records) 
   }
   if (table.rows.empty()) return std::nullopt;
   return table;
-}
-
-std::string SideBySide::sentence() const {
-  std::map<std::string, std::size_t> wins;
-  for (const Row& row : rows) ++wins[row.best];
-  const auto most =
-      std::ranges::max_element(wins, {}, [](const auto& each) { return each.second; });
-  const auto its =
-      std::ranges::count_if(rows, [&](const Row& row) { return row.cells.contains(most->first); });
-  std::string text =
-      fmt::format("{} is best in {} of its {} techniques", most->first, most->second, its);
-  for (const std::string& device : devices) {
-    std::vector<double> ratios;
-    for (const Row& row : rows) {
-      if (device == most->first || !row.cells.contains(device)) continue;
-      if (!row.cells.contains(most->first)) continue;
-      ratios.push_back(row.cells.at(device).value / row.cells.at(most->first).value);
-    }
-    if (ratios.empty()) continue;
-    text += fmt::format("; {} takes {:.2f} to {:.2f} times as much in the techniques of both",
-                        device, std::ranges::min(ratios), std::ranges::max(ratios));
-  }
-  return text;
-}
-
-std::string to_text(const SideBySide& table) {
-  std::vector<std::string> head{""};
-  std::vector<std::string> least{"best"};
-  for (const std::string& device : table.devices) {
-    head.push_back(device);
-    least.push_back(least_text(table, device));
-  }
-  head.emplace_back("configurations");
-  least.emplace_back();
-  std::vector<std::vector<std::string>> lines{std::move(head)};
-  for (const SideBySide::Row& row : table.rows) {
-    std::vector<std::string>& line = lines.emplace_back(1, row.technique);
-    for (const std::string& device : table.devices) {
-      const auto cell = row.cells.find(device);
-      line.push_back(cell == row.cells.end() ? "–" : text_of(cell->second));
-    }
-    line.push_back(fmt::to_string(row.configurations));
-  }
-  lines.push_back(std::move(least));
-  return aligned(lines) +
-         fmt::format("\n{} of a frame, relative to the best device. {}.\n",
-                     table.clock.empty() ? "Instructions" : "Time by the " + table.clock + " clock",
-                     table.sentence());
-}
-
-nlohmann::json to_json(const SideBySide& table) {
-  nlohmann::json json{{"unit", table.unit}, {"sentence", table.sentence()}};
-  if (!table.clock.empty()) json["clock"] = table.clock;
-  for (const auto& row : table.rows) {
-    nlohmann::json cells = nlohmann::json::object();
-    for (const auto& [device, cell] : row.cells) {
-      cells[device] = {{"value", cell.value}, {"ratio", cell.ratio}, {"work", cell.work}};
-    }
-    json["rows"].push_back({{"technique", row.technique},
-                            {"configurations", row.configurations},
-                            {"best", row.best},
-                            {"devices", cells}});
-  }
-  return json;
 }
 
 }  // namespace triptych::comparison

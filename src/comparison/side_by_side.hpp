@@ -2,7 +2,6 @@
 // A table of devices: the cost of each technique on each device, relative to the best device.
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,18 +31,11 @@ struct SideBySide {
   std::string clock;  // for times "device" or "wall"
   std::vector<std::string> devices;
   std::vector<Row> rows;
-
-  // "gl:x is best in 5 of its 8 techniques; vulkan:y takes 0.98 to 1.3 times as much in the
-  // techniques of both"; for two or more devices.
-  [[nodiscard]] std::string sentence() const;
 };
 
 // The table of one run. It contains instructions if at least two devices counted them, otherwise
 // times: by the device clock if all of them trust it, otherwise by the wall clock. nullopt if no
 // configuration was measured by two devices.
 [[nodiscard]] std::optional<SideBySide> side_by_side(std::span<const record::Record> records);
-
-[[nodiscard]] std::string to_text(const SideBySide& table);
-[[nodiscard]] nlohmann::json to_json(const SideBySide& table);
 
 }  // namespace triptych::comparison

@@ -6,9 +6,7 @@
 #include <map>
 #include <set>
 
-#include "comparison/text.hpp"
 #include "core/glob.hpp"
-#include "core/json.hpp"
 
 namespace triptych::comparison {
 namespace {
@@ -29,23 +27,28 @@ std::map<std::string, record::Device> devices_of(const record::Store& store, con
   return devices;
 }
 
-// The keys that exist in only one of two maps, each with `what` before it and its side after it.
-template <typename Map>
-void add_only_one(const Map& a, const Map& b, std::string_view what, std::set<std::string>& out) {
+// Adds the keys that exist in only one of two maps. `made_of` makes the entry of a key.
+template <typename Map, typename MadeOf>
+void add_only_one(const Map& a, const Map& b, const MadeOf& made_of, std::set<OnlyOne>& out) {
   for (const auto& [name, value] : a) {
-    if (!b.contains(name)) out.insert(fmt::format("{} {}: only a has it", what, name));
+    if (!b.contains(name)) out.insert(made_of(name, measure::Side::a));
   }
   for (const auto& [name, value] : b) {
-    if (!a.contains(name)) out.insert(fmt::format("{} {}: only b has it", what, name));
+    if (!a.contains(name)) out.insert(made_of(name, measure::Side::b));
   }
 }
 
-// Each of its runs describes the device.
+// Whether two differences between the same two devices are the same one.
+bool is_same(const Difference& a, const Difference& b) {
+  return a.subject == b.subject && a.name == b.name && a.facts == b.facts && a.worths == b.worths &&
+         a.total == b.total;
+}
+
+// Each run describes the device, so the same difference may be found in several.
 void add_new(const std::vector<Difference>& more, std::vector<Difference>& differences) {
   for (const Difference& each : more) {
-    const bool known = std::ranges::any_of(differences, [&](const Difference& other) {
-      return other.about == each.about && other.text == each.text;
-    });
+    const bool known = std::ranges::any_of(
+        differences, [&](const Difference& other) { return is_same(other, each); });
     if (!known) differences.push_back(each);
   }
 }
@@ -59,7 +62,12 @@ class Diffing {
   void add_plan(const std::string& plan, const std::string& run_a, const std::string& run_b) {
     const auto of_a = devices_of(a_, run_a, globs_);
     const auto of_b = devices_of(b_, run_b, globs_);
-    add_only_one(of_a, of_b, plan + " on", only_one_);
+    add_only_one(
+        of_a, of_b,
+        [&](const std::string& device, measure::Side side) {
+          return OnlyOne{plan, device, side};
+        },
+        only_one_);
     for (const auto& [id, device] : of_a) {
       const auto found = of_b.find(id);
       if (found == of_b.end()) continue;
@@ -72,7 +80,12 @@ class Diffing {
   void add_plans() {
     const auto of_a = latest_by_plan(a_);
     const auto of_b = latest_by_plan(b_);
-    add_only_one(of_a, of_b, "plan", only_one_);
+    add_only_one(
+        of_a, of_b,
+        [](const std::string& plan, measure::Side side) {
+          return OnlyOne{plan, {}, side};
+        },
+        only_one_);
     for (const auto& [plan, run] : of_a) {
       if (const auto found = of_b.find(plan); found != of_b.end()) {
         add_plan(plan, run, found->second);
@@ -106,40 +119,25 @@ class Diffing {
   const std::vector<std::string>& globs_;
   measure::Truths& truths_;
   std::map<std::string, DeviceChange> changes_;  // by device
-  std::set<std::string> only_one_;
+  std::set<OnlyOne> only_one_;
 };
+
+}  // namespace
+
+std::vector<DifferenceGroup> groups_of(const DeviceChange& change) {
+  std::vector<Located> all;
+  for (const Difference& each : change.device) all.emplace_back("", each);
+  for (const ConfigurationDiff& configuration : change.configurations) {
+    for (const Difference& each : configuration.differences) {
+      all.emplace_back(configuration.key, each);
+    }
+  }
+  return grouped(all);
+}
 
 bool was_measured(const DeviceChange& change) {
   return std::ranges::any_of(change.configurations,
                              [](const ConfigurationDiff& each) { return !each.ended; });
-}
-
-// The text for a device without differences: there are none, or neither side measured anything.
-std::string no_difference(const DeviceChange& change) {
-  if (was_measured(change)) return "nothing differs\n";
-  return nothing_compared(change.configurations.empty() ? std::string()
-                                                        : change.configurations.front().void_time);
-}
-
-std::string text_of(const DeviceChange& change) {
-  const DifferenceGroups groups = groups_of(change);
-  const auto version = [](const record::Device& device) {
-    return fmt::format("{}, API {}", device.driver_version, device.api_version);
-  };
-  return fmt::format("{}, {} configurations\na: {}\nb: {}\n{}\n", change.a.id,
-                     change.configurations.size(), version(change.a), version(change.b),
-                     groups.empty() ? no_difference(change) : groups.text());
-}
-
-}  // namespace
-
-DifferenceGroups groups_of(const DeviceChange& change) {
-  DifferenceGroups groups;
-  groups.add(change.device, "");
-  for (const ConfigurationDiff& each : change.configurations) {
-    groups.add(each.differences, each.key);
-  }
-  return groups;
 }
 
 bool DeviceChange::has(DifferenceKind kind) const {
@@ -165,34 +163,6 @@ StoreDiff diff_stores(const record::Store& a, const record::Store& b,
   Diffing diffing(a, b, devices, truths);
   diffing.add_plans();
   return std::move(diffing).diff();
-}
-
-std::string to_text(const StoreDiff& diff) {
-  std::string text;
-  for (const DeviceChange& change : diff.devices) text += text_of(change);
-  for (const std::string& each : diff.only_one) {
-    text += fmt::format("{:<12}  {}\n", name_of(DifferenceKind::unjudged), each);
-  }
-  return text;
-}
-
-core::Json to_json(const StoreDiff& diff) {
-  core::Json json{{"exit_code", static_cast<int>(diff.exit_code())},
-                  {"only_one", diff.only_one},
-                  {"devices", core::Json::array()}};
-  for (const DeviceChange& change : diff.devices) {
-    core::Json configurations = core::Json::array();
-    for (const ConfigurationDiff& each : change.configurations) {
-      if (each.differences.empty()) continue;
-      configurations.push_back(
-          {{"configuration", each.key}, {"differences", to_json(each.differences)}});
-    }
-    json["devices"].push_back({{"a", change.a},
-                               {"b", change.b},
-                               {"differences", to_json(change.device)},
-                               {"configurations", std::move(configurations)}});
-  }
-  return json;
 }
 
 }  // namespace triptych::comparison

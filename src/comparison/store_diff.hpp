@@ -2,7 +2,7 @@
 // The differences between two stores, for example before and after a driver upgrade, except in
 // time. Neither driver needs to be installed.
 
-#include <nlohmann/json_fwd.hpp>
+#include <compare>
 #include <string>
 #include <vector>
 
@@ -22,11 +22,21 @@ struct DeviceChange {
 };
 
 // Differences that several of its configurations share, once each.
-[[nodiscard]] DifferenceGroups groups_of(const DeviceChange& change);
+[[nodiscard]] std::vector<DifferenceGroup> groups_of(const DeviceChange& change);
+// Whether any configuration was measured on both sides.
+[[nodiscard]] bool was_measured(const DeviceChange& change);
+
+// A plan, or a device of a plan, that only one store has.
+struct OnlyOne {
+  std::string plan;
+  std::string device;  // empty: the whole plan
+  measure::Side side = measure::Side::a;
+  auto operator<=>(const OnlyOne&) const = default;
+};
 
 struct StoreDiff {
   std::vector<DeviceChange> devices;
-  std::vector<std::string> only_one;  // plans and devices that only one store has
+  std::vector<OnlyOne> only_one;
 
   // cannot_judge if no device is in both stores, if one store lacks something, or if neither side
   // measured anything.
@@ -39,13 +49,5 @@ struct StoreDiff {
 [[nodiscard]] StoreDiff diff_stores(const record::Store& a, const record::Store& b,
                                     const std::vector<std::string>& devices,
                                     measure::Truths& truths);
-
-// Each device with both versions, then its differences by kind with the worst first, then the
-// verdict.
-[[nodiscard]] std::string to_text(const StoreDiff& diff);
-
-// {"exit_code", "only_one", "devices": [{"a", "b" (devices), "differences" (of the device),
-// "configurations": [{"configuration", "differences": [{"kind", "about", "text", "ratio"}]}]}]}
-[[nodiscard]] nlohmann::json to_json(const StoreDiff& diff);
 
 }  // namespace triptych::comparison

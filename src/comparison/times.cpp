@@ -2,26 +2,18 @@
 
 #include "comparison/times.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "measure/protocol/injected_fault.hpp"
 #include "measure/system/stopwatch.hpp"
-#include "report/words/outcome.hpp"
 
 namespace triptych::comparison {
 namespace {
 
 using measure::Side;
 using measure::SideClock;
-
-std::string text_of(const measure::SideEnded& ended) {
-  return fmt::format("{} {}", name_of(ended.side()),
-                     report::words::text_of(ended.outcome(), ended.reason()));
-}
 
 // A configuration with the state that is needed to continue measuring it.
 struct Entry {
@@ -67,12 +59,20 @@ class Timer {
     } catch (const measure::SideEnded& ended) {
       held_ = nullptr;
       entry.compared.ended = ended.outcome();
-      entry.compared.reason = text_of(ended);
+      entry.compared.reason = {.cause = TimeCause::side_ended,
+                               .side = ended.side(),
+                               .outcome = ended.outcome(),
+                               .reason = ended.reason()};
       const bool fault_of_b =
           ended.side() == Side::b && ended.outcome() != record::Outcome::skipped;
       if (fault_of_b) {
         entry.compared.differences.push_back(
-            {.kind = DifferenceKind::regression, .about = "outcome", .text = text_of(ended)});
+            {.kind = DifferenceKind::regression,
+             .subject = Subject::outcome,
+             .cause = DifferenceCause::ended,
+             .sides = {std::nullopt, judge::Observation{.cause = judge::Cause::ended,
+                                                        .outcome = ended.outcome(),
+                                                        .reason = ended.reason()}}});
       }
     }
     entry.compared.seconds += stopwatch.seconds();
@@ -84,7 +84,7 @@ class Timer {
     const int first = options_.design.looks.front();
     for (Entry& entry : entries_) {
       const double each_s = done > 0 ? since_start_.seconds() / done : 0;
-      say("first look", entry, done, total, each_s * (total - done));
+      show({.stage = ComparisonStage::first_look}, entry, done, total, each_s * (total - done));
       about(entry, [&] {
         draw_until(entry, first);
         judge_blocks(entry);
@@ -95,7 +95,7 @@ class Timer {
 
   measure::OnLoading loading_of(const Entry& entry) {
     return [this, &entry](const measure::Loading& loading) {
-      if (tell_) tell_({.stage = {}, .configuration = entry.compared.key, .loading = loading});
+      if (tell_) tell_({.configuration = entry.compared.key, .loading = loading});
     };
   }
 
@@ -120,7 +120,7 @@ class Timer {
     Compared& compared = entry.compared;
     if (compared.clock == SideClock::device && !measure::device_clock_holds(entry.blocks)) {
       compared.clock = SideClock::wall;
-      compared.why_wall = "the device times of these batches cannot be true";
+      compared.why_wall = WallClockCause::implausible;
     }
     const Look look = look_at(measure::differences(entry.blocks, compared.clock), options_.design);
     compared.verdict = look.verdict;
@@ -166,7 +166,7 @@ class Timer {
       }
       if (widest == nullptr) return;
       const int total = static_cast<int>(entries_.size());
-      say("more blocks", *widest, total - open, total, most_left_s());
+      show({.stage = ComparisonStage::more_blocks}, *widest, total - open, total, most_left_s());
       about(*widest, [&] {
         // When the budget is over, the look is one of the planned ones.
         draw_until(*widest, options_.design.next_look(widest->compared.blocks));
@@ -204,8 +204,10 @@ class Timer {
       const int total = done + left;
       for (const std::size_t i : open) {
         const double each_s = done > 0 ? stopwatch.seconds() / done : 0;
-        say(fmt::format("fresh process run {} of {}", number, until), *suspected[i], done, total,
-            each_s * (total - done));
+        show({.stage = ComparisonStage::fresh_process_runs,
+              .process_run = number,
+              .process_runs = until},
+             *suspected[i], done, total, each_s * (total - done));
         run_again(*suspected[i], fresh[i]);
         ++done;
       }
@@ -218,7 +220,7 @@ class Timer {
     }
   }
 
-  // A suspect that cannot be confirmed for lack of process runs says so.
+  // Returns whether fresh process runs can be measured.
   bool restarted() {
     held_ = nullptr;
     try {
@@ -247,15 +249,15 @@ class Timer {
   static void take(const Confirmation& confirmed, const Suspect& suspect, Compared& compared) {
     const auto suspected = std::exchange(compared.verdict, confirmed.verdict);
     if (suspect.process_runs.size() < least_process_runs) {
-      compared.reason = fmt::format("{} at first, but fresh process runs could not be measured",
-                                    name_of(suspected));
+      compared.reason = {.cause = TimeCause::no_fresh_process_runs, .suspected = suspected};
       return;
     }
     compared.process_runs = static_cast<int>(suspect.process_runs.size());
     if (confirmed.verdict != suspected) {
-      compared.reason = fmt::format("{} in one process run by {:+.2f} %, not so in {} fresh ones",
-                                    name_of(suspected), 100 * std::expm1(compared.shift.estimate),
-                                    compared.process_runs);
+      compared.reason = {.cause = TimeCause::not_confirmed,
+                         .suspected = suspected,
+                         .numbers = {{"ratio", std::exp(compared.shift.estimate)},
+                                     {"process_runs", static_cast<double>(compared.process_runs)}}};
     }
     compared.shift = confirmed.shift;
   }
@@ -266,20 +268,20 @@ class Timer {
     const bool unexplained = !compared.ended && compared.reason.empty();
     if (unexplained && compared.verdict == PairVerdict::undecided) {
       const bool all = options_.design.next_look(compared.blocks) == 0;
-      compared.reason = fmt::format("{} after {} blocks, the interval is ±{:.2f} % wide",
-                                    all ? "undecided" : "the budget ended", compared.blocks,
-                                    100 * std::expm1(compared.shift.interval.half_width()));
+      compared.reason = {.cause = all ? TimeCause::undecided : TimeCause::budget_ended,
+                         .numbers = {{"blocks", static_cast<double>(compared.blocks)}}};
+      const double half_width = compared.shift.interval.half_width();
+      if (std::isfinite(half_width)) compared.reason.numbers["half_width"] = half_width;
     }
   }
 
-  void say(std::string stage, const Entry& entry, int done, int total, double left_s) {
+  void show(ComparisonProgress progress, const Entry& entry, int done, int total, double left_s) {
     if (!tell_) return;
-    tell_({.stage = std::move(stage),
-           .configuration = entry.compared.key,
-           .done = done,
-           .total = total,
-           .left = std::chrono::seconds(static_cast<long>(std::ceil(std::max(0.0, left_s)))),
-           .loading = {}});
+    progress.configuration = entry.compared.key;
+    progress.done = done;
+    progress.total = total;
+    progress.left = std::chrono::seconds(static_cast<long>(std::ceil(std::max(0.0, left_s))));
+    tell_(progress);
   }
 
   const ComparisonOptions& options_;

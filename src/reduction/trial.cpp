@@ -1,12 +1,8 @@
 #include "reduction/trial.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "core/error.hpp"
 #include "measure/system/stopwatch.hpp"
-#include "report/words/finding.hpp"
 
 namespace triptych::reduction {
 
@@ -38,15 +34,11 @@ Evidence Trial::evidence(const measure::Configuration& configuration) {
   return evidence;
 }
 
-std::optional<Failure> Trial::first(const measure::Configuration& start) {
-  std::optional<Failure> first = (*this)(start);
+FirstFrames Trial::first(const measure::Configuration& start) {
+  FirstFrames frames{.first = (*this)(start), .again = {}};
   if (last_.outcome == record::Outcome::skipped) record::require_measured(last_);
-  if (!first) return first;
-  std::optional<Failure> again = (*this)(start);
-  if (again && is_same_kind(*again, *first)) return again;
-  throw core::NotSupported(fmt::format(
-      "it fails differently when it is drawn again, so it cannot be made smaller: {}; then {}",
-      report::words::text_of(*first), again ? report::words::text_of(*again) : "it is right"));
+  if (frames.first) frames.again = (*this)(start);
+  return frames;
 }
 
 std::chrono::seconds limit_by_first_frame(const measure::Suite& suite, const std::string& device,

@@ -13,6 +13,14 @@
 
 namespace triptych::reduction {
 
+// How a frame fails when it is drawn twice. A failure that does not repeat cannot be made smaller.
+struct FirstFrames {
+  std::optional<Failure> first;  // nullopt: it is right, and was drawn only once
+  std::optional<Failure> again;
+
+  [[nodiscard]] bool repeats() const { return first && again && is_same_kind(*again, *first); }
+};
+
 // All arguments must outlive this object.
 class Trial {
  public:
@@ -23,9 +31,8 @@ class Trial {
   // Throws what measure::SingleFrames::draw throws.
   std::optional<Failure> operator()(const measure::Configuration& configuration);
 
-  // Draws the first frame twice. A failure that occurs only once cannot be made smaller, and
-  // NotSupported is thrown. Throws record::NotMeasured if the frame was skipped.
-  [[nodiscard]] std::optional<Failure> first(const measure::Configuration& start);
+  // Draws the first frame, and again if it fails. Throws record::NotMeasured if it was skipped.
+  [[nodiscard]] FirstFrames first(const measure::Configuration& start);
 
   [[nodiscard]] const record::Record& last() const noexcept { return last_; }
   [[nodiscard]] record::Device device() const { return frames_.device(); }

@@ -62,9 +62,9 @@ TEST_F(Compare, AnInjectedSlowdownIsInSideBAlone) {
 TEST_F(Compare, TooMuchNoiseCannotBeToldAndSaysWhatWouldSettleIt) {
   const char* much = R"(, "noise": 0.3)";
   const Result result = compare(b_as(1, much), "", much);
-  expect_verdict(result, 2, "cannot tell");
+  expect_verdict(result, 2, "undecided");
   EXPECT_NE(result.output.find("384 blocks"), std::string::npos) << result.output;
-  EXPECT_NE(result.output.find("settle it: triptych compare volume/quick --a null:scripted"),
+  EXPECT_NE(result.output.find("to decide it: triptych compare volume/quick --a null:scripted"),
             std::string::npos)
       << result.output;
 }
@@ -87,10 +87,10 @@ TEST_F(Compare, ACrashOfBIsARegressionOfAMerelyADoubt) {
 }
 
 TEST_F(Compare, WithoutTimesOnlyWhatRepeatsIsTold) {
-  expect_verdict(compare(b_as(1.05), "--no-times"), 0, "PASS: 0 regressions in what repeats");
+  expect_verdict(compare(b_as(1.05), "--no-times"), 0, "PASS: 0 deterministic regressions");
   const std::string wrong = R"(, "failures": [{"kind": "wrong_image", "at": "image"}])";
   const Result result = compare(b_as(1, wrong), "--no-times");
-  expect_verdict(result, 1, "FAIL: 1 regressions in what repeats");
+  expect_verdict(result, 1, "FAIL: 1 deterministic regression");
   EXPECT_EQ(result.output.find("slower"), std::string::npos) << result.output;
 }
 

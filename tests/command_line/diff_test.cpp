@@ -36,7 +36,7 @@ TEST_F(Diff, TheSameDriverDiffersInNothing) {
   const Result result = diff();
   EXPECT_EQ(result.code, 0) << result.output;
   EXPECT_THAT(result.output, HasSubstr("null:scripted, 2 configurations"));
-  EXPECT_THAT(result.output, HasSubstr("nothing differs"));
+  EXPECT_THAT(result.output, HasSubstr("no differences"));
 }
 
 TEST_F(Diff, WhatIsNewAndWhatIsFixedIsToldEitherWay) {

@@ -1,13 +1,8 @@
 #include "judge/code/code_change.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <map>
-#include <set>
 #include <tuple>
 
 namespace triptych::judge {
@@ -111,40 +106,6 @@ void compare_executable(const std::string& name, const record::Executable& befor
   }
 }
 
-std::string text_of(const CodeChange& change) {
-  const std::string_view name =
-      change.statistic.name.empty() ? std::string_view(change.driver_name) : change.statistic.name;
-  std::string text = fmt::format("{} {:g} → {:g}", name, change.before, change.now);
-  if (change.before > 0 && change.statistic.decides && change.statistic.rank >= 4) {
-    text += fmt::format(" ({:+.3g} %)", 100 * (change.now - change.before) / change.before);
-  }
-  return text;
-}
-
-// Register counts explain the occupancy, so they follow it in parentheses.
-std::string text_of_executable(const std::vector<CodeChange>& changes) {
-  std::vector<std::string> deciding;
-  std::vector<std::string> others;
-  std::vector<std::string> used;
-  for (const CodeChange& each : changes) {
-    const bool is_registers = each.statistic.rank == 10 || each.statistic.rank == 11;
-    (each.statistic.decides ? deciding : is_registers ? used : others).push_back(text_of(each));
-  }
-  if (!deciding.empty() && changes.front().statistic.rank == 0 && !used.empty()) {
-    deciding.front() += fmt::format(" ({})", fmt::join(used, ", "));
-    used.clear();
-  }
-  deciding.insert(deciding.end(), used.begin(), used.end());
-  constexpr std::size_t most_others = 4;
-  if (others.size() > most_others) {
-    const std::size_t more = others.size() - most_others;
-    others.resize(most_others);
-    others.push_back(fmt::format("{} more", more));
-  }
-  if (deciding.empty()) return fmt::format("{}", fmt::join(others, ", "));
-  return fmt::format("{}", fmt::join(deciding, ", "));
-}
-
 }  // namespace
 
 CodeStatistic code_statistic(std::string_view driver_name) {
@@ -193,24 +154,6 @@ CodeComparison compare_code(const record::Code& before, const record::Code& now)
                       std::string_view(each.driver_name));
   });
   return comparison;
-}
-
-std::string code_change_text(const CodeComparison& comparison) {
-  std::map<std::string, std::vector<CodeChange>> executables;
-  for (const CodeChange& each : comparison.changes) executables[each.executable].push_back(each);
-  std::vector<std::string> parts;
-  for (const auto& [name, changes] : executables) {
-    parts.push_back(executables.size() == 1 && comparison.gone.empty()
-                        ? text_of_executable(changes)
-                        : fmt::format("{}: {}", name, text_of_executable(changes)));
-  }
-  if (!comparison.gone.empty()) {
-    parts.push_back(fmt::format("no longer compiled: {}", fmt::join(comparison.gone, ", ")));
-  }
-  if (!comparison.added.empty()) {
-    parts.push_back(fmt::format("compiled in addition: {}", fmt::join(comparison.added, ", ")));
-  }
-  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 }  // namespace triptych::judge

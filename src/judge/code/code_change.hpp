@@ -13,11 +13,17 @@ namespace triptych::judge {
 // The meaning of a driver's statistic. Drivers use different names for the same quantity. Unknown
 // names are kept as they are; their changes are shown and decide nothing.
 struct CodeStatistic {
-  std::string_view name;       // "occupancy"; empty for an unknown statistic
-  std::string_view mesa = {};  // its name in the totals of Mesa's developers: "MaxWaves"; may be empty
-  bool decides = false;        // a change for the worse is a regression
-  bool more_is_worse = true;   // means nothing where it does not decide
-  int rank = 100;              // in the order in which people want to read them
+  std::string_view name;  // "occupancy"; empty for an unknown statistic
+  std::string_view mesa =
+      {};                // its name in the totals of Mesa's developers: "MaxWaves"; may be empty
+  bool decides = false;  // a change for the worse is a regression
+  bool more_is_worse = true;  // means nothing where it does not decide
+  int rank = 100;             // in the order in which people want to read them
+
+  [[nodiscard]] bool is_occupancy() const { return rank == 0; }
+  // Spills and scratch memory should be 0, so their relative change means nothing.
+  [[nodiscard]] bool has_relative_change() const { return decides && rank >= 4; }
+  [[nodiscard]] bool counts_registers() const { return rank == 10 || rank == 11; }
 };
 [[nodiscard]] CodeStatistic code_statistic(std::string_view driver_name);
 
@@ -49,9 +55,5 @@ struct CodeComparison {
 };
 
 [[nodiscard]] CodeComparison compare_code(const record::Code& before, const record::Code& now);
-
-// "occupancy 16 → 12 (VGPRs 84 → 100), inverse throughput 332 → 368 (+11 %)"; of several
-// executables each with its name.
-[[nodiscard]] std::string code_change_text(const CodeComparison& comparison);
 
 }  // namespace triptych::judge

@@ -1,11 +1,9 @@
 #pragma once
-// Totals over many configurations, as Mesa's developers quote them in merge requests:
-// "Instrs: 35678819 -> 35361617 (-0.89%); split: -0.91%, +0.02%".
+// Totals over many configurations, with the names that Mesa's developers use in merge requests.
 
 #include <cstddef>
 #include <map>
 #include <string>
-#include <vector>
 
 #include "record/code.hpp"
 
@@ -18,9 +16,12 @@ struct CodeTotal {
   double more = 0;  // sum of what went up
   std::size_t helped = 0;
   std::size_t hurt = 0;
-  // The configuration that got worse by the largest factor, and that factor.
+  // The configuration that got worse by the largest factor, its values, and that factor.
   std::string worst = {};
+  double worst_before = 0;
+  double worst_now = 0;
   double worst_change = 0;
+  bool operator==(const CodeTotal&) const = default;
 };
 
 class CodeTotals {
@@ -32,12 +33,6 @@ class CodeTotals {
   [[nodiscard]] const std::map<std::string, CodeTotal>& totals() const { return totals_; }
   [[nodiscard]] std::size_t configurations() const { return configurations_; }
   [[nodiscard]] std::size_t changed() const { return changed_; }
-
-  // One line per statistic that changed, each with how many configurations it helped and hurt and
-  // the one that it hurt most; one line that says so where none changed.
-  [[nodiscard]] std::vector<std::string> lines() const;
-  // The same without the configurations, in one line.
-  [[nodiscard]] std::string line() const;
 
  private:
   std::map<std::string, CodeTotal> totals_;

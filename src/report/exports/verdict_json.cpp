@@ -15,9 +15,11 @@ Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-Json changes_of(const judge::Observation& what) {
+}  // namespace
+
+Json changes_json(const std::vector<judge::Change>& all) {
   Json changes = Json::array();
-  for (const judge::Change& each : what.changes) {
+  for (const judge::Change& each : all) {
     Json change{{"name", each.name}, {"unit", judge::name_of(each.unit)}};
     if (each.before) change["before"] = number(*each.before);
     if (each.now) change["now"] = number(*each.now);
@@ -28,11 +30,10 @@ Json changes_of(const judge::Observation& what) {
   return changes;
 }
 
-// Leaves out empty members, except for the cause and the numbers.
-Json observed(const judge::Observation& what) {
+Json observation_json(const judge::Observation& what) {
   Json json{{"cause", judge::name_of(what.cause)}, {"numbers", what.numbers}};
   if (what.against != judge::Against::nothing) json["against"] = judge::name_of(what.against);
-  if (!what.changes.empty()) json["changes"] = changes_of(what);
+  if (!what.changes.empty()) json["changes"] = changes_json(what.changes);
   if (!what.names.empty()) json["names"] = what.names;
   if (!what.facts.empty()) json["facts"] = what.facts;
   if (!what.detail.empty()) json["detail"] = what.detail;
@@ -40,11 +41,10 @@ Json observed(const judge::Observation& what) {
     json["outcome"] = record::name_of(what.outcome);
     json["reason"] = what.reason;
   }
-  for (const judge::Observation& each : what.because) json["because"].push_back(observed(each));
+  for (const judge::Observation& each : what.because)
+    json["because"].push_back(observation_json(each));
   return json;
 }
-
-}  // namespace
 
 Json to_json(const judge::CorrelationPair& pair) {
   Json points = Json::array();
@@ -73,7 +73,7 @@ Json to_json(const judge::CorrelationPair& pair) {
 }
 
 Json to_json(const judge::Finding& finding) {
-  Json json = observed(finding);
+  Json json = observation_json(finding);
   json["check"] = judge::name_of(finding.check);
   json["verdict"] = judge::name_of(finding.verdict);
   json["test"] = finding.test;
@@ -96,7 +96,7 @@ Json to_json(const judge::Finding& finding) {
   if (finding.drawn_again != judge::Again::not_drawn) {
     json["drawn_again"] = judge::name_of(finding.drawn_again);
   }
-  for (const judge::Observation& each : finding.again) json["again"] = observed(each);
+  for (const judge::Observation& each : finding.again) json["again"] = observation_json(each);
   return json;
 }
 

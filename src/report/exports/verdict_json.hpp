@@ -1,6 +1,8 @@
 #pragma once
 // A verdict in machine-readable form.
 
+#include <vector>
+
 #include "core/json.hpp"
 #include "judge/gate/gate.hpp"
 
@@ -15,6 +17,11 @@ namespace triptych::report {
 // "outcome", "reason", "because", "subject", "injected", "excuse", "drawn_again", "again",
 // "measured_before"}.
 [[nodiscard]] core::Json to_json(const judge::Finding& finding);
+// [{"name", "unit", "before", "now", "accepted", "allowed"}]
+[[nodiscard]] core::Json changes_json(const std::vector<judge::Change>& changes);
+// The members of a finding that describe what was observed. Empty ones are left out, except for
+// "cause" and "numbers".
+[[nodiscard]] core::Json observation_json(const judge::Observation& what);
 // {"device_a", "device_b", "signal", "new_device", "line": {"configurations", "intercept", "slope",
 // "scale", "rho", "pearson", "admitted", "refusal"}, "points": [{"configuration", "x", "y",
 // "residual", "outlier"}]}. NaN and infinities are null.

@@ -6,7 +6,7 @@
 
 namespace triptych::report {
 
-// Made from what comparison::to_json says about a history.
+// `history` is what exports/comparison_json.hpp makes of a history.
 [[nodiscard]] std::string history_page(const nlohmann::json& history);
 
 }  // namespace triptych::report

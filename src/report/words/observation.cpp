@@ -18,6 +18,13 @@ using judge::Against;
 using judge::Cause;
 using judge::Observation;
 
+// "A; B; C; …"
+std::string first_of(const std::vector<std::string>& names) {
+  const auto named = std::min<std::ptrdiff_t>(std::ssize(names), 3);
+  const std::vector<std::string> first(names.begin(), names.begin() + named);
+  return fmt::format("{}{}", fmt::join(first, "; "), std::ssize(names) > named ? "; …" : "");
+}
+
 std::string nothing_measured(const Observation& what) {
   return fmt::format(
       "nothing was measured: run {} has {} of {}, none of them measured on the requested devices",
@@ -26,7 +33,7 @@ std::string nothing_measured(const Observation& what) {
 
 std::string missing(const Observation& what) {
   return fmt::format("{} of {:.0f} {} configurations have no record: {}", what.names.size(),
-                     what.number("wanted"), what.fact("kind"), examples(what.names));
+                     what.number("wanted"), what.fact("kind"), first_of(what.names));
 }
 
 std::string other_plan(const Observation& what) {
@@ -299,12 +306,10 @@ std::string counted(double n, std::string_view one, std::string_view many) {
 }
 
 std::string examples(const std::vector<std::string>& configurations) {
-  const auto named = std::min<std::ptrdiff_t>(std::ssize(configurations), 3);
-  const std::vector<std::string> first(configurations.begin(), configurations.begin() + named);
   return fmt::format(
-      "{} ({}{})",
+      "{} ({})",
       counted(static_cast<double>(configurations.size()), "configuration", "configurations"),
-      fmt::join(first, "; "), std::ssize(configurations) > named ? "; …" : "");
+      first_of(configurations));
 }
 
 std::string percent(double ratio) {

@@ -4,6 +4,10 @@
 
 #include <cmath>
 
+#include "report/exports/comparison_json.hpp"
+#include "report/screen/device_table.hpp"
+#include "report/words/comparison.hpp"
+
 namespace triptych::comparison {
 namespace {
 
@@ -37,10 +41,10 @@ TEST(SideBySide, IsTheGeometricMeanOverWhatAllMeasured) {
   EXPECT_NEAR(table->rows[0].cells.at("vulkan:y").ratio, std::sqrt(1.6), 1e-12);
   EXPECT_NEAR(table->rows[1].cells.at("gl:x").ratio, 3, 1e-12);
   EXPECT_EQ(table->rows[1].best, "vulkan:y");
-  EXPECT_THAT(to_text(*table), HasSubstr("1.26 (samples ×1.22)"));
-  EXPECT_THAT(to_text(*table), HasSubstr("best  a 0.0001 M  a 0.000126 M"))
+  EXPECT_THAT(report::screen_of(*table), HasSubstr("1.26 (samples ×1.22)"));
+  EXPECT_THAT(report::screen_of(*table), HasSubstr("best  a 0.0001 M  a 0.000126 M"))
       << "b has fewer configurations";
-  EXPECT_EQ(to_json(*table)["rows"][1]["best"], "vulkan:y");
+  EXPECT_EQ(report::to_json(*table)["rows"][1]["best"], "vulkan:y");
 }
 
 TEST(SideBySide, TakesTimesWhereNothingWasCountedAndSaysWhatIsMissing) {
@@ -51,10 +55,10 @@ TEST(SideBySide, TakesTimesWhereNothingWasCountedAndSaysWhatIsMissing) {
   const auto table = side_by_side(records);
   ASSERT_TRUE(table);
   EXPECT_EQ(table->unit, "ns");
-  EXPECT_THAT(to_text(*table), HasSubstr("–"));
-  EXPECT_THAT(table->sentence(),
+  EXPECT_THAT(report::screen_of(*table), HasSubstr("–"));
+  EXPECT_THAT(report::words::sentence(*table),
               HasSubstr("gl:x is best in 2 of its 2 techniques; gl:y takes 2.00"));
-  EXPECT_THAT(to_text(*table), HasSubstr("\nbest  a 10 ms  a 20 ms  b 20 ms  \n"));
+  EXPECT_THAT(report::screen_of(*table), HasSubstr("\nbest  a 10 ms  a 20 ms  b 20 ms  \n"));
 }
 
 // The device's clock shows less time for a frame than the wall clock, so devices with different
@@ -68,11 +72,12 @@ TEST(SideBySide, ComparesTimesOnOneClock) {
   }
   records[1].device_clock_trusted = true;
   EXPECT_EQ(side_by_side(records)->rows.at(0).best, "gl:x");
-  EXPECT_THAT(to_text(*side_by_side(records)), HasSubstr("Time by the wall clock of a frame"));
+  EXPECT_THAT(report::screen_of(*side_by_side(records)),
+              HasSubstr("Time by the wall clock of a frame"));
   records[0].device_clock_trusted = true;
   records[0].device_ns = {5e6};
   EXPECT_EQ(side_by_side(records)->rows.at(0).best, "gl:y");
-  EXPECT_EQ(to_json(*side_by_side(records))["clock"], "device");
+  EXPECT_EQ(report::to_json(*side_by_side(records))["clock"], "device");
 }
 
 TEST(SideBySide, OneDeviceIsNoTable) {

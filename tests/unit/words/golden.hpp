@@ -19,4 +19,11 @@ inline void expect_golden(const std::string& name, const std::string& text) {
   EXPECT_EQ(text, core::read_text(file)) << "TRIPTYCH_WRITE_GOLDEN=1 writes " << file;
 }
 
+// Calls `act` with every value of an enum that has a name.
+template <typename Enum, typename Act>
+void for_each_value(const Act& act) {
+  const auto has_name = [](int i) { return name_of(static_cast<Enum>(i)) != "unknown"; };
+  for (int i = 0; has_name(i) || has_name(i + 1); ++i) act(static_cast<Enum>(i));
+}
+
 }  // namespace triptych::report

@@ -107,13 +107,6 @@ judge::Observation everything(judge::Cause cause) {
   return what;
 }
 
-// Calls `act` with every value of an enum that has a name.
-template <typename Enum, typename Act>
-void for_each_value(const Act& act) {
-  const auto has_name = [](int i) { return name_of(static_cast<Enum>(i)) != "unknown"; };
-  for (int i = 0; has_name(i) || has_name(i + 1); ++i) act(static_cast<Enum>(i));
-}
-
 TEST(Sentences, OfEveryCause) {
   std::string text;
   for_each_value<judge::Cause>([&](judge::Cause cause) {

@@ -2,13 +2,16 @@
 // and once with random words in every place where a driver, a library or a person may put one, get
 // the same verdicts, groups, retries, reductions and exit codes.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "comparison/differences.hpp"
+#include "comparison/comparison.hpp"
+#include "comparison/store_diff.hpp"
 #include "core/random.hpp"
 #include "gate_fixture.hpp"
 #include "judge/gate/flakes.hpp"
 #include "reduction/failure.hpp"
+#include "report/exports/comparison_json.hpp"
 #include "report/overview.hpp"
 
 namespace triptych::judge {
@@ -97,7 +100,8 @@ class RandomWords : public GateTest {
     return text;
   }
 
-  // A run of failures, judged, drawn again without them, and expected the next time.
+  // A run of failures as gate and validate judge it: drawn again without them, and expected the
+  // next time. Then as reduce, compare and diff judge it.
   std::string everything(const std::string& name, Words* words) {
     add_failing_run(name, words);
     add_run(name + "-again", steady);
@@ -116,7 +120,7 @@ class RandomWords : public GateTest {
     }
     text += decided(gate(name, request));
     text += failures(name);
-    text += differences(name);
+    text += differences(name, words);
     return text;
   }
 
@@ -136,21 +140,45 @@ class RandomWords : public GateTest {
     return text + "\n";
   }
 
-  // The differences that compare and diff find between this run and a right one.
-  std::string differences(const std::string& run) {
-    std::string text;
-    const std::vector<record::Record> right = store_.records(run + "-again");
-    const std::vector<record::Record> wrong = store_.records(run);
-    for (std::size_t i = 0; i < right.size(); ++i) {
-      const record::Device device{.id = right[i].device};
-      const core::Image empty;
-      const comparison::ComparedSide a{.record = right[i], .device = device, .image = empty};
-      const comparison::ComparedSide b{.record = wrong[i], .device = device, .image = empty};
-      for (const auto& each : comparison::find_differences(a, b, true).differences) {
-        text += fmt::format("{} {}\n", comparison::name_of(each.kind), each.about);
-      }
+  // Everything that another program reads of a comparison, except for the members that are texts.
+  static core::Json without_texts(core::Json json) {
+    if (json.is_object()) {
+      for (const char* text : {"text", "headline", "detail", "last_words"}) json.erase(text);
     }
-    return text;
+    if (json.is_structured()) {
+      for (core::Json& each : json) each = without_texts(each);
+    }
+    return json;
+  }
+
+  // What compare and diff decide about this run and a right one. There is no suite, so the
+  // reference images are missing for a reason that is a text.
+  std::string differences(const std::string& run, Words* words) {
+    const std::string unknown = words ? (*words)() : "no such suite";
+    measure::Truths truths(
+        [&](std::string_view) -> measure::SuiteWithTruth& { throw core::InputError(unknown); },
+        store_);
+    comparison::StoreDiff diff;
+    std::string text;
+    for (const record::Store::DeviceEntry& each : store_.devices(run)) {
+      const comparison::RunSide a{store_, run + "-again", each.device};
+      const comparison::RunSide b{store_, run, each.device};
+      comparison::RunDiff found = comparison::diff_runs(a, b, truths, true);
+      comparison::ComparisonResult compared{.a = each.device, .b = each.device};
+      for (const comparison::ConfigurationDiff& one : found.configurations) {
+        compared.configurations.push_back({.key = one.key,
+                                           .ended = one.ended,
+                                           .reason = one.no_time,
+                                           .differences = one.differences});
+      }
+      text += without_texts(report::to_json(compared, {})).dump(1) + "\n";
+      for (const auto& group : compared.groups()) {
+        text +=
+            fmt::format("{} in {}, first {}\n", group.difference.about(), group.count, group.where);
+      }
+      diff.devices.push_back({each.device, each.device, found.device, found.configurations});
+    }
+    return text + without_texts(report::to_json(diff)).dump(1) + "\n";
   }
 };
 

@@ -1,14 +1,19 @@
-#include "comparison/text.hpp"
+#include "report/screen/comparison_screen.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "comparison/store_diff.hpp"
-#include "core/json.hpp"
+#include "report/exports/comparison_json.hpp"
 
-namespace triptych::comparison {
+namespace triptych::report {
 namespace {
+
+using comparison::Compared;
+using comparison::ComparisonResult;
+using comparison::ConfigurationDiff;
+using comparison::StoreDiff;
+using comparison::TimeCause;
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -22,14 +27,21 @@ record::Device device(std::string id, std::map<std::string, std::string> environ
           .environment = std::move(environment)};
 }
 
+comparison::TimeReason no_compute_shaders() {
+  return {.cause = TimeCause::side_ended,
+          .side = measure::Side::b,
+          .outcome = record::Outcome::skipped,
+          .reason = {.cause = record::Cause::not_supported, .detail = "no compute shaders"}};
+}
+
 std::string sides_of(const record::Device& a, const record::Device& b) {
   ComparisonResult result;
   result.a = a;
   result.b = b;
-  return to_text(result, {.plan = "volume/quick", .sides = "", .varied = {}});
+  return screen_of(result, {.plan = "volume/quick", .sides = "", .varied = {}});
 }
 
-TEST(ComparisonText, TellsOnceWhatBothSidesHave) {
+TEST(ComparisonScreen, PrintsOnceWhatBothSidesHave) {
   const record::Device plain = device("vulkan:x");
   EXPECT_THAT(sides_of(plain, plain),
               HasSubstr("a: vulkan:x; driver Mesa 1; API 1.3\nb: the same\n"));
@@ -40,7 +52,7 @@ TEST(ComparisonText, TellsOnceWhatBothSidesHave) {
               HasSubstr("API 1.3; CPU avx avx2\nb: the same, but CPU avx\n"));
 }
 
-TEST(ComparisonText, NamesTheVariablesOfASide) {
+TEST(ComparisonScreen, NamesTheVariablesOfASide) {
   const record::Device plain = device("vulkan:x");
   const record::Device one = device("vulkan:x", {{"WIDTH", "128"}});
   EXPECT_THAT(sides_of(plain, one), HasSubstr("b: the same, but WIDTH=128\n"));
@@ -51,56 +63,56 @@ TEST(ComparisonText, NamesTheVariablesOfASide) {
 }
 
 // One configuration, which neither side supports.
-TEST(ComparisonText, SaysWhyNothingWasCompared) {
+TEST(ComparisonScreen, ExplainsWhyNothingWasCompared) {
   ComparisonResult result;
   Compared skipped;
   skipped.ended = record::Outcome::skipped;
-  skipped.reason = "b skipped: no compute shaders";
+  skipped.reason = no_compute_shaders();
   result.configurations = {skipped};
   EXPECT_EQ(result.exit_code(), core::ExitCode::cannot_judge);
-  EXPECT_THAT(to_text(result, {.plan = "volume/quick", .sides = "", .varied = {}}),
+  EXPECT_THAT(screen_of(result, {.plan = "volume/quick", .sides = "", .varied = {}}),
               AllOf(HasSubstr("nothing was compared: no configuration was measured on both sides; "
                               "b skipped: no compute shaders\n"),
-                    Not(HasSubstr("nothing differs"))));
+                    Not(HasSubstr("no differences"))));
 }
 
 // Its shift is 0 because nobody measured it, so it must not be divided by the work.
-TEST(ComparisonText, TellsNoTimePerWorkWhereNoTimeWasTaken) {
+TEST(ComparisonScreen, HasNoTimePerWorkWithoutAMeasuredTime) {
   ComparisonResult result;
   result.timed = true;
   Compared wrong;
-  wrong.reason = "the picture of b is wrong, so its time means nothing";
+  wrong.reason = {.cause = TimeCause::wrong_image, .side = measure::Side::b};
   wrong.work = judge::WorkChange{.log_ratio = std::log(1.167), .unit = "samples"};
   result.configurations = {wrong};
   const ComparisonCommand command{.plan = "volume/quick", .sides = "", .varied = {}};
-  EXPECT_THAT(to_text(result, command),
+  EXPECT_THAT(screen_of(result, command),
               AllOf(HasSubstr("+16.70 % samples\n"), Not(HasSubstr("time for each"))));
   const auto work_in = [&] { return to_json(result, command)["configurations"][0]["work"]; };
   EXPECT_FALSE(work_in().contains("ln_time_per_work"));
   result.configurations[0].blocks = 12;
   result.configurations[0].shift.estimate = std::log(1.2);
-  EXPECT_THAT(to_text(result, command), HasSubstr("+16.70 % samples, +2.83 % time for each\n"));
+  EXPECT_THAT(screen_of(result, command), HasSubstr("+16.70 % samples, +2.83 % time for each\n"));
   EXPECT_NEAR(work_in().at("ln_time_per_work"), std::log(1.2 / 1.167), 1e-12);
   result.configurations[0].ended = record::Outcome::crashed;
-  EXPECT_THAT(to_text(result, command), Not(HasSubstr("time for each")));
+  EXPECT_THAT(screen_of(result, command), Not(HasSubstr("time for each")));
   EXPECT_FALSE(work_in().contains("ln_time_per_work"));
 }
 
-TEST(StoreDiff, OfWhatNeitherStoreMeasuredIsNoPass) {
+TEST(ComparisonScreen, StoresThatMeasuredNothingDoNotPass) {
   ConfigurationDiff skipped;
   skipped.ended = record::Outcome::skipped;
-  skipped.void_time = "b skipped: no compute shaders";
+  skipped.no_time = no_compute_shaders();
   StoreDiff diff;
   diff.devices.push_back(
       {.a = device("gl:x"), .b = device("gl:x"), .device = {}, .configurations = {skipped}});
   EXPECT_EQ(diff.exit_code(), core::ExitCode::cannot_judge);
-  EXPECT_THAT(to_text(diff),
+  EXPECT_THAT(screen_of(diff),
               HasSubstr("nothing was compared: no configuration was measured on both "
                         "sides; b skipped: no compute shaders\n"));
   diff.devices.front().configurations.push_back({});
   EXPECT_EQ(diff.exit_code(), core::ExitCode::pass);
-  EXPECT_THAT(to_text(diff), HasSubstr("nothing differs"));
+  EXPECT_THAT(screen_of(diff), HasSubstr("no differences"));
 }
 
 }  // namespace
-}  // namespace triptych::comparison
+}  // namespace triptych::report

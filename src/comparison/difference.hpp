@@ -1,0 +1,109 @@
+#pragma once
+// One difference between two records or devices, as data. report/words/comparison.hpp makes the
+// sentences, and docs/compare.md lists the causes for other programs.
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "judge/code/code_change.hpp"
+#include "judge/code/code_totals.hpp"
+#include "judge/finding.hpp"
+#include "measure/run/interleaved.hpp"
+#include "record/statistic_worth.hpp"
+
+namespace triptych::comparison {
+
+enum class DifferenceKind : std::uint8_t {
+  regression,   // b is wrong, does more, or changed something that must not change
+  unjudged,     // no reference image, or b can no longer draw what a can
+  fixed,        // a is wrong or cannot draw it, and b is right
+  calibration,  // a statistic that at least one of the drivers counts in its own way
+  changed       // an allowed difference between two devices, or b does less
+};
+[[nodiscard]] std::string_view name_of(DifferenceKind kind);
+
+// The measurement that differs.
+enum class Subject : std::uint8_t {
+  outcome,
+  image,
+  cost,
+  preparing,
+  code,
+  code_total,
+  memory,
+  counter,
+  statistic,
+  limit
+};
+[[nodiscard]] std::string_view name_of(Subject subject);
+
+// There is one cause for each sentence. The comments list what comes with it: numbers in quotes,
+// facts in <angles>.
+enum class DifferenceCause : std::uint8_t {
+  ended,                   // sides: how each side ended that did not measure the configuration
+  only_one_side,           // side: the other one does not have the configuration
+  no_reference,            // sides: why there is no reference image
+  wrong_image,             // sides: what is wrong with each wrong image
+  other_bits,              // "pixels" of "total", "x" "y" "error" "rmse" "particles"
+  other_bits_of_one_code,  // the same, but device, settings and device code are equal
+  two_counters,            // <a> <b>: what counted the instructions
+  values_changed,          // changes
+  code_changed,            // code
+  code_total,              // total
+  reported_by_one_side,    // side; changes: its value
+  same_driver,             // changes: on one driver the value must not change
+  api_specific,            // changes: each API does this in its own way
+  beyond_rounding,         // changes: by more than rounding explains
+  within_rounding,         // changes: by what rounding explains
+  drivers_must_agree,      // changes: the APIs define this number
+  drivers_may_differ,      // changes: the APIs leave this number to the driver
+  counted_differently,     // changes; worths: how exactly each driver counts
+  calibration_changed,     // worths, before and after
+  limit_changed            // <a> <b>; one is missing if the other device lacks the limit
+};
+[[nodiscard]] std::string_view name_of(DifferenceCause cause);
+
+// What belongs to side a, and what belongs to side b.
+template <typename T>
+using BySide = std::array<std::optional<T>, 2>;
+
+struct Difference {
+  DifferenceKind kind = DifferenceKind::changed;
+  Subject subject = Subject::outcome;
+  DifferenceCause cause = DifferenceCause::values_changed;
+  std::string name = {};                   // of the counter, statistic, limit or total
+  std::optional<double> ratio = {};        // b divided by a, if both report it and it is not zero
+  std::optional<measure::Side> side = {};  // the only side that has it
+  std::map<std::string, double> numbers = {};
+  std::map<std::string, std::string> facts = {};
+  std::vector<judge::Change> changes = {};  // from a to b
+  BySide<judge::Observation> sides = {};
+  BySide<record::StatisticWorth> worths = {};
+  std::optional<judge::CodeComparison> code = {};
+  std::optional<judge::CodeTotal> total = {};
+  std::string injected = {};  // faults that `run --inject` put into a side
+
+  [[nodiscard]] std::string about() const;  // "image", "counter samples"
+};
+
+// Differences of one kind about one measurement, which are reported once.
+struct DifferenceGroup {
+  Difference difference;  // the one that changed most, otherwise the first
+  std::string where;      // its configuration; empty: the device
+  int count = 0;
+  std::optional<std::pair<double, double>> ratios;  // smallest and largest
+};
+
+// A difference with its configuration; empty: the device.
+using Located = std::pair<std::string, Difference>;
+// Sorted by kind with the worst first, then by measurement. Injected faults form groups of their
+// own, so that nobody takes them for a driver's.
+[[nodiscard]] std::vector<DifferenceGroup> grouped(const std::vector<Located>& differences);
+
+}  // namespace triptych::comparison

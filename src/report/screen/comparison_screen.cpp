@@ -1,0 +1,158 @@
+#include "report/screen/comparison_screen.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "report/words/comparison.hpp"
+
+namespace triptych::report {
+namespace {
+
+using comparison::Compared;
+using comparison::ComparisonResult;
+using comparison::DeviceChange;
+using comparison::DifferenceKind;
+using comparison::HistoryPoint;
+
+std::string_view name_of(measure::SideClock clock) {
+  return clock == measure::SideClock::device ? "device" : "wall";
+}
+
+// Formats a shift as "1.052 [1.047, 1.058]".
+std::string ratio_of(const comparison::Shift& shift) {
+  return fmt::format("{:.4f} [{:.4f}, {:.4f}]", std::exp(shift.estimate),
+                     std::exp(shift.interval.low), std::exp(shift.interval.high));
+}
+
+// "+1.20 % samples, +0.31 % time for each", with the second part if it has a time; empty if the
+// work is the same.
+std::string work_of(const Compared& compared) {
+  const auto& work = compared.work;
+  if (!work || work->log_ratio == 0) return {};
+  const auto percent = [](double ln) { return fmt::format("{:+.2f} %", 100 * std::expm1(ln)); };
+  std::string text = fmt::format("{} {}", percent(work->log_ratio), work->unit);
+  if (compared.has_time()) {
+    text += fmt::format(", {} time for each", percent(compared.shift.estimate - work->log_ratio));
+  }
+  return text;
+}
+
+std::string line_of(const Compared& compared, const ComparisonCommand& command) {
+  std::string line = fmt::format("{:<12}", compared.verdict_name());
+  if (compared.has_time()) {
+    line += fmt::format("{}  {} blocks", ratio_of(compared.shift), compared.blocks);
+    if (compared.process_runs > 0) {
+      line += fmt::format(" and {} fresh process runs", compared.process_runs);
+    }
+    line += fmt::format(", {} clock", name_of(compared.clock));
+  }
+  line += fmt::format("  {:.1f} s  {}", compared.seconds, compared.key);
+  constexpr const char* indented = "\n              ";
+  if (!compared.reason.empty()) line += indented + words::text_of(compared.reason);
+  if (compared.has_time() && compared.verdict == comparison::PairVerdict::undecided) {
+    line += "; to decide it: " + command_for(compared, command);
+  }
+  if (const std::string work = work_of(compared); !work.empty()) line += indented + work;
+  return line + "\n";
+}
+
+std::string differences_of(const ComparisonResult& result) {
+  const auto groups = result.groups();
+  if (!groups.empty()) return words::lines_of(groups);
+  const auto& all = result.configurations;
+  if (std::ranges::all_of(all, [](const Compared& each) { return each.ended.has_value(); })) {
+    return words::nothing_compared(all.empty() ? comparison::TimeReason{} : all.front().reason) +
+           "\n";
+  }
+  const bool timed = std::ranges::any_of(all, [](const Compared& each) { return each.blocks > 0; });
+  return timed ? "no differences except in time\n" : "no differences\n";
+}
+
+std::string clocks_of(const ComparisonResult& result) {
+  std::map<comparison::WallClockCause, int> causes;
+  for (const Compared& compared : result.configurations) ++causes[compared.why_wall];
+  causes.erase(comparison::WallClockCause::none);
+  std::string text;
+  for (const auto& [cause, count] : causes) {
+    text += fmt::format("wall clock in {} configurations: {}\n", count, words::text_of(cause));
+  }
+  return text;
+}
+
+// The text for a device without differences: there are none, or neither side measured anything.
+std::string no_difference(const DeviceChange& change) {
+  if (comparison::was_measured(change)) return "no differences\n";
+  return words::nothing_compared(change.configurations.empty()
+                                     ? comparison::TimeReason{}
+                                     : change.configurations.front().no_time) +
+         "\n";
+}
+
+std::string lines_of(const DeviceChange& change) {
+  const auto groups = groups_of(change);
+  const auto version = [](const record::Device& device) {
+    return fmt::format("{}, API {}", device.driver_version, device.api_version);
+  };
+  return fmt::format("{}, {} configurations\na: {}\nb: {}\n{}\n", change.a.id,
+                     change.configurations.size(), version(change.a), version(change.b),
+                     groups.empty() ? no_difference(change) : words::lines_of(groups));
+}
+
+std::string number(const std::optional<double>& value) {
+  return value ? fmt::format("{:.4f}", *value) : "–";
+}
+
+// The mark of a point with injected faults, so that nobody blames a driver.
+std::string injected_text(const HistoryPoint& point) {
+  if (point.injected.empty()) return {};
+  return fmt::format(" [injected: {}]", fmt::join(point.injected, ", "));
+}
+
+}  // namespace
+
+std::string screen_of(const ComparisonResult& result, const ComparisonCommand& command) {
+  std::string text =
+      command.plan + "\n" + words::sides(result.a, result.b) + differences_of(result);
+  if (result.timed) {
+    text += "time of b divided by time of a:\n";
+    for (const Compared& compared : result.configurations) text += line_of(compared, command);
+    text += clocks_of(result);
+  }
+  return text + words::headline(result) + "\n";
+}
+
+std::string screen_of(const comparison::StoreDiff& diff) {
+  std::string text;
+  for (const DeviceChange& change : diff.devices) text += lines_of(change);
+  for (const comparison::OnlyOne& each : diff.only_one) {
+    text += fmt::format("{:<12}  {}\n", comparison::name_of(DifferenceKind::unjudged),
+                        words::text_of(each));
+  }
+  return text;
+}
+
+std::string screen_of(const std::vector<comparison::DeviceHistory>& history) {
+  const auto names = names_of(history);
+  std::string text;
+  for (const comparison::DeviceHistory& device : history) {
+    text += fmt::format("{}\n  {:<28} {:<20} {:>9} {:>9}  driver\n", device.device, "store",
+                        "started", "cost", "time");
+    for (const HistoryPoint& point : device.points) {
+      text += fmt::format("  {:<28} {:<20} {:>9} {:>9}  {}\n", names.at(point.store),
+                          point.started_at, number(point.cost), number(point.time),
+                          point.driver_version + injected_text(point));
+      text += words::lines_of(point.changes);
+    }
+    if (const HistoryPoint* worse = device.first_worse()) {
+      text += fmt::format("  first worse: {}\n", worse->store);
+    }
+  }
+  return text;
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,94 @@
+#include "report/screen/device_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "report/words/comparison.hpp"
+#include "technique/catalogue.hpp"
+
+namespace triptych::report {
+namespace {
+
+using comparison::SideBySide;
+
+// "1.32", or "1.32 (samples ×1.10)" if the work differs by one per cent or more.
+std::string text_of(const SideBySide::Cell& cell) {
+  std::string text = fmt::format("{:.2f}", cell.ratio);
+  for (const auto& [name, work] : cell.work) {
+    if (std::abs(work - 1) >= 0.01) text += fmt::format(" ({} ×{:.2f})", name, work);
+  }
+  return text;
+}
+
+// A bound on speed is not a technique that a user can choose.
+bool is_a_choice(const std::string& technique) {
+  return std::ranges::none_of(technique::catalogue(), [&](const technique::Technique& each) {
+    return each.id == technique && !each.picture;
+  });
+}
+
+// "tiles 2.5 ms": a device's best technique among the rows with the largest number of
+// configurations; empty if it has none of these.
+std::string least_text(const SideBySide& table, const std::string& device) {
+  std::size_t most = 0;
+  for (const SideBySide::Row& row : table.rows) most = std::max(most, row.configurations);
+  const SideBySide::Row* best = nullptr;
+  for (const SideBySide::Row& row : table.rows) {
+    if (row.configurations < most || !row.cells.contains(device)) continue;
+    if (!is_a_choice(row.technique)) continue;
+    const double value = row.cells.at(device).value;
+    if (best == nullptr || value < best->cells.at(device).value) best = &row;
+  }
+  if (best == nullptr) return {};
+  return fmt::format("{} {:.3g} {}", best->technique, 1e-6 * best->cells.at(device).value,
+                     table.unit == "ns" ? "ms" : "M");
+}
+
+// Left-aligned columns.
+std::string aligned(const std::vector<std::vector<std::string>>& lines) {
+  std::vector<std::size_t> widths(lines.front().size());
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  }
+  std::string text;
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i + 1 < widths.size(); ++i) {
+      text += fmt::format("{:<{}}", line[i], widths[i] + 2);
+    }
+    text += line.back() + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string screen_of(const SideBySide& table) {
+  std::vector<std::string> head{""};
+  std::vector<std::string> least{"best"};
+  for (const std::string& device : table.devices) {
+    head.push_back(device);
+    least.push_back(least_text(table, device));
+  }
+  head.emplace_back("configurations");
+  least.emplace_back();
+  std::vector<std::vector<std::string>> lines{std::move(head)};
+  for (const SideBySide::Row& row : table.rows) {
+    std::vector<std::string>& line = lines.emplace_back(1, row.technique);
+    for (const std::string& device : table.devices) {
+      const auto cell = row.cells.find(device);
+      line.push_back(cell == row.cells.end() ? "–" : text_of(cell->second));
+    }
+    line.push_back(fmt::to_string(row.configurations));
+  }
+  lines.push_back(std::move(least));
+  return aligned(lines) +
+         fmt::format("\n{} of a frame, relative to the best device. {}.\n",
+                     table.clock.empty() ? "Instructions" : "Time by the " + table.clock + " clock",
+                     words::sentence(table));
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,372 @@
+#include "report/words/comparison.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include "report/words/cause.hpp"
+#include "report/words/causes.hpp"
+#include "report/words/code.hpp"
+#include "report/words/finding.hpp"
+#include "report/words/outcome.hpp"
+
+namespace triptych::report::words {
+namespace {
+
+using comparison::BySide;
+using comparison::Difference;
+using comparison::DifferenceCause;
+using comparison::DifferenceKind;
+using comparison::PairVerdict;
+using comparison::TimeCause;
+using comparison::TimeReason;
+using comparison::WallClockCause;
+using measure::Side;
+
+// "b crashed: …; a failed: …", with b first, because b is what is examined.
+template <typename T>
+std::string by_side(const BySide<T>& sides, std::string_view between) {
+  std::string text;
+  for (const Side side : {Side::b, Side::a}) {
+    const auto& what = sides.at(side == Side::a ? 0 : 1);
+    if (!what) continue;
+    text += fmt::format("{}{}{}{}", text.empty() ? "" : "; ", measure::name_of(side), between,
+                        text_of(*what));
+  }
+  return text;
+}
+
+std::string other_bits(const Difference& difference) {
+  const auto number = [&](const char* name) { return difference.numbers.at(name); };
+  std::string text = fmt::format(
+      "{:.0f} of {:.0f} pixels differ, by at most {:.3g} at ({:.0f}, {:.0f}), RMS {:.3g}",
+      number("pixels"), number("total"), number("error"), number("x"), number("y"), number("rmse"));
+  if (difference.numbers.contains("particles")) {
+    text += fmt::format("; {} another particle",
+                        counted(number("particles"), "pixel shows", "pixels show"));
+  }
+  return text;
+}
+
+std::string all_changes(const Difference& difference) {
+  std::string text;
+  for (const judge::Change& each : difference.changes) {
+    text += (text.empty() ? "" : "; ") + text_of(each);
+  }
+  return text;
+}
+
+// The values of a counter or statistic, whose name stands before them already.
+std::string values(const Difference& difference) {
+  const judge::Change& change = difference.changes.at(0);
+  if (!change.before || !change.now) {
+    return fmt::format("{:.0f}", change.before ? *change.before : change.now.value_or(0));
+  }
+  std::string text = fmt::format("{:.0f} → {:.0f}", *change.before, *change.now);
+  if (*change.before > 0) text += fmt::format(" ({})", percent(*change.now / *change.before));
+  return text;
+}
+
+std::string limit_changed(const Difference& difference) {
+  const auto before = difference.facts.find("a");
+  const auto now = difference.facts.find("b");
+  if (before == difference.facts.end()) return fmt::format("new, {}", now->second);
+  if (now == difference.facts.end())
+    return fmt::format("no longer reported, was {}", before->second);
+  return fmt::format("{} → {}", before->second, now->second);
+}
+
+std::string sentence_of(const Difference& difference) {
+  switch (difference.cause) {
+    case DifferenceCause::ended:
+      return by_side(difference.sides, " ");
+    case DifferenceCause::only_one_side:
+      return fmt::format("only {} has it", measure::name_of(*difference.side));
+    case DifferenceCause::no_reference:
+    case DifferenceCause::wrong_image:
+      return by_side(difference.sides, ": ");
+    case DifferenceCause::other_bits:
+      return other_bits(difference);
+    case DifferenceCause::other_bits_of_one_code:
+      return "the same device code gave another image on the same device: " +
+             other_bits(difference);
+    case DifferenceCause::two_counters:
+      return fmt::format("not comparable: {} counted a, and {} counted b", difference.facts.at("a"),
+                         difference.facts.at("b"));
+    case DifferenceCause::values_changed:
+      return all_changes(difference);
+    case DifferenceCause::code_changed:
+      return text_of(*difference.code);
+    case DifferenceCause::code_total:
+      return text_of(*difference.total);
+    case DifferenceCause::reported_by_one_side:
+      return fmt::format("only {} reports it: {}", measure::name_of(*difference.side),
+                         values(difference));
+    case DifferenceCause::same_driver:
+      return values(difference) + ", although the driver is the same";
+    case DifferenceCause::api_specific:
+      return values(difference) + "; each API does this in its own way";
+    case DifferenceCause::beyond_rounding:
+      return values(difference) + ", more than rounding explains";
+    case DifferenceCause::within_rounding:
+      return values(difference) + ", which rounding explains";
+    case DifferenceCause::drivers_must_agree:
+      return values(difference) + ", although the APIs define this number";
+    case DifferenceCause::drivers_may_differ:
+      return values(difference) + "; the APIs leave this number to the driver";
+    case DifferenceCause::counted_differently:
+      return fmt::format("{}; {}", values(difference), by_side(difference.worths, ": "));
+    case DifferenceCause::calibration_changed:
+      return fmt::format("{} → {}", text_of(*difference.worths[0]), text_of(*difference.worths[1]));
+    case DifferenceCause::limit_changed:
+      return limit_changed(difference);
+  }
+  return {};
+}
+
+std::string range_of(const std::pair<double, double>& ratios) {
+  const std::string least = percent(ratios.first);
+  const std::string largest = percent(ratios.second);
+  return least == largest ? least : least + " to " + largest;
+}
+
+// The parts of a device's key in the order of the key.
+struct KeyPart {
+  std::string text;
+  std::string variable = {};  // if it is an environment variable
+  bool processor = false;     // the features of a processor
+  bool operator==(const KeyPart&) const = default;
+};
+
+std::string one_line(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  return text;
+}
+
+std::vector<KeyPart> parts_of(const record::Device& device) {
+  std::vector<KeyPart> parts{{device.id},
+                             {"driver " + one_line(device.driver_version)},
+                             {"API " + one_line(device.api_version)}};
+  if (!device.cpu_features.empty()) {
+    parts.push_back({.text = "CPU " + device.cpu_features, .processor = true});
+  } else if (!device.name.empty()) {
+    parts.push_back({"GPU " + one_line(device.name)});
+  }
+  for (const auto& [variable, value] : device.environment) {
+    parts.push_back(
+        {.text = fmt::format("{}={}", variable, one_line(value)), .variable = variable});
+  }
+  return parts;
+}
+
+bool has(const std::vector<KeyPart>& parts, const KeyPart& part) {
+  return std::ranges::find(parts, part) != parts.end();
+}
+
+// The parts that `b` has and `a` does not. A variable that only `a` sets is named, too.
+std::vector<std::string> differing(const std::vector<KeyPart>& a, const std::vector<KeyPart>& b) {
+  std::vector<std::string> parts;
+  for (const KeyPart& part : b) {
+    if (!has(a, part)) parts.push_back(part.text);
+  }
+  for (const KeyPart& part : a) {
+    if (part.variable.empty()) continue;
+    if (std::ranges::find(b, part.variable, &KeyPart::variable) == b.end()) {
+      parts.push_back("without " + part.text);
+    }
+  }
+  return parts;
+}
+
+std::string joined(const std::vector<KeyPart>& parts) {
+  std::vector<std::string> texts;
+  for (const KeyPart& part : parts) texts.push_back(part.text);
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+// "18 slower, 3 same".
+std::string verdicts(const comparison::ComparisonResult& result) {
+  std::map<std::string_view, int> numbers;
+  for (const auto& compared : result.configurations) ++numbers[compared.verdict_name()];
+  std::string text;
+  for (const std::string_view verdict :
+       {name_of(PairVerdict::slower), name_of(PairVerdict::faster), name_of(PairVerdict::same),
+        name_of(PairVerdict::undecided), record::name_of(record::Outcome::skipped)}) {
+    if (!numbers.contains(verdict)) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", numbers.at(verdict), verdict);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string text_of(const Difference& difference) {
+  std::string text = sentence_of(difference);
+  if (!difference.injected.empty()) text += fmt::format(" [injected: {}]", difference.injected);
+  return text;
+}
+
+std::string text_of(const comparison::DifferenceGroup& group) {
+  std::string text = text_of(group.difference);
+  if (!group.where.empty()) text = fmt::format("{}: {}", group.where, text);
+  if (group.count <= 1) return text;
+  return group.ratios ? fmt::format("{} in {} configurations, most in {}", range_of(*group.ratios),
+                                    group.count, text)
+                      : fmt::format("in {} configurations, first in {}", group.count, text);
+}
+
+std::string lines_of(const std::vector<comparison::DifferenceGroup>& groups) {
+  std::string text;
+  for (const comparison::DifferenceGroup& group : groups) {
+    text += fmt::format("{:<12}  {}: {}\n", comparison::name_of(group.difference.kind),
+                        group.difference.about(), text_of(group));
+  }
+  return text;
+}
+
+std::string text_of(const TimeReason& reason) {
+  const std::string_view side = measure::name_of(reason.side);
+  const std::string_view suspected = name_of(reason.suspected);
+  const auto number = [&](const char* name) {
+    const auto found = reason.numbers.find(name);
+    return found == reason.numbers.end() ? 0 : found->second;
+  };
+  const auto interval = [&] {
+    if (!reason.numbers.contains("half_width")) return std::string();
+    return fmt::format("; the interval is ± {:.2f} %", 100 * std::expm1(number("half_width")));
+  };
+  switch (reason.cause) {
+    case TimeCause::none:
+      return {};
+    case TimeCause::side_ended:
+      return fmt::format("{} {}", side, text_of(reason.outcome, reason.reason));
+    case TimeCause::only_one_side:
+      return fmt::format("only {} has it", side);
+    case TimeCause::wrong_image:
+      return fmt::format("the image of {} is wrong, so its time means nothing", side);
+    case TimeCause::no_fresh_process_runs:
+      return fmt::format("{} at first, but it could not be measured in fresh process runs",
+                         suspected);
+    case TimeCause::not_confirmed:
+      return fmt::format("{} by {} in one process run, which {:.0f} fresh ones did not confirm",
+                         suspected, percent(number("ratio")), number("process_runs"));
+    case TimeCause::undecided:
+      return fmt::format("undecided after {:.0f} blocks{}", number("blocks"), interval());
+    case TimeCause::budget_ended:
+      return fmt::format("the time budget ended after {:.0f} blocks{}", number("blocks"),
+                         interval());
+  }
+  return {};
+}
+
+std::string text_of(WallClockCause cause) {
+  switch (cause) {
+    case WallClockCause::none:
+      return {};
+    case WallClockCause::a_not_calibrated:
+      return "the device clock of a did not pass its calibration";
+    case WallClockCause::b_not_calibrated:
+      return "the device clock of b did not pass its calibration";
+    case WallClockCause::neither_calibrated:
+      return "neither device clock passed its calibration";
+    case WallClockCause::implausible:
+      return "the device clock reported implausible times";
+  }
+  return {};
+}
+
+std::string text_of(const comparison::OnlyOne& only) {
+  const std::string_view side = measure::name_of(only.side);
+  if (only.device.empty()) return fmt::format("plan {}: only {} has it", only.plan, side);
+  return fmt::format("{} on {}: only {} has it", only.plan, only.device, side);
+}
+
+std::string stage_of(const comparison::ComparisonProgress& progress) {
+  switch (progress.stage) {
+    case comparison::ComparisonStage::deterministic:
+      return "deterministic measurements";
+    case comparison::ComparisonStage::first_look:
+      return "first look at the time";
+    case comparison::ComparisonStage::more_blocks:
+      return "more blocks";
+    case comparison::ComparisonStage::fresh_process_runs:
+      return fmt::format("fresh process run {} of {}", progress.process_run, progress.process_runs);
+  }
+  return {};
+}
+
+std::string nothing_compared(const TimeReason& first) {
+  const std::string why = text_of(first);
+  return fmt::format("nothing was compared: no configuration was measured on both sides{}{}",
+                     why.empty() ? "" : "; ", why);
+}
+
+std::string sides(const record::Device& a, const record::Device& b) {
+  std::vector<KeyPart> parts_a = parts_of(a);
+  std::vector<KeyPart> parts_b = parts_of(b);
+  // The features of one processor are long, and say nothing about a difference.
+  const auto is_shared_processor = [](const std::vector<KeyPart>& other) {
+    return [&other](const KeyPart& part) { return part.processor && has(other, part); };
+  };
+  const std::vector<KeyPart> all_b = parts_b;
+  std::erase_if(parts_b, is_shared_processor(parts_a));
+  std::erase_if(parts_a, is_shared_processor(all_b));
+  std::string text_b = joined(parts_b);
+  if (a.id == b.id) {
+    const auto parts = differing(parts_a, parts_b);
+    text_b = parts.empty() ? "the same" : fmt::format("the same, but {}", fmt::join(parts, "; "));
+  }
+  return fmt::format("a: {}\nb: {}\n", joined(parts_a), text_b);
+}
+
+std::string headline(const comparison::ComparisonResult& result) {
+  std::map<DifferenceKind, int> kinds;
+  for (const auto& compared : result.configurations) {
+    for (const Difference& difference : compared.differences) ++kinds[difference.kind];
+  }
+  const std::string times = result.timed ? verdicts(result) : "";
+  return fmt::format("{}: {}{}{}, {} fixed, {} changed; {:.0f} s", word_of(result.exit_code()),
+                     times, times.empty() ? "" : "; ",
+                     counted(kinds[DifferenceKind::regression], "deterministic regression",
+                             "deterministic regressions"),
+                     kinds[DifferenceKind::fixed], kinds[DifferenceKind::changed], result.seconds);
+}
+
+std::string sentence(const comparison::SideBySide& table) {
+  std::map<std::string, std::size_t> wins;
+  for (const comparison::SideBySide::Row& row : table.rows) ++wins[row.best];
+  const auto most =
+      std::ranges::max_element(wins, {}, [](const auto& each) { return each.second; });
+  const auto its = std::ranges::count_if(table.rows, [&](const comparison::SideBySide::Row& row) {
+    return row.cells.contains(most->first);
+  });
+  std::string text =
+      fmt::format("{} is best in {} of its {} techniques", most->first, most->second, its);
+  for (const std::string& device : table.devices) {
+    std::vector<double> ratios;
+    for (const comparison::SideBySide::Row& row : table.rows) {
+      if (device == most->first || !row.cells.contains(device)) continue;
+      if (!row.cells.contains(most->first)) continue;
+      ratios.push_back(row.cells.at(device).value / row.cells.at(most->first).value);
+    }
+    if (ratios.empty()) continue;
+    text += fmt::format("; {} takes {:.2f} to {:.2f} times as much in the techniques of both",
+                        device, std::ranges::min(ratios), std::ranges::max(ratios));
+  }
+  return text;
+}
+
+std::string fails_differently(const judge::Observation& first,
+                              const std::optional<judge::Observation>& again) {
+  return fmt::format(
+      "the frame fails differently when it is drawn again, so it cannot be made smaller. First: "
+      "{}. Then: {}",
+      text_of(first), again ? text_of(*again) : "it is right");
+}
+
+}  // namespace triptych::report::words

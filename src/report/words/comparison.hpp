@@ -1,0 +1,50 @@
+#pragma once
+// All sentences about comparisons of two devices, drivers, builds or stores. Texts quote drivers
+// and name data, so they are of unknown origin: escape them for the format into which they are
+// written.
+//
+// To add a cause, add a value to comparison::DifferenceCause or TimeCause, a row to its table of
+// names (comparison/difference.cpp), and a case to the switch in words/comparison.cpp.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "comparison/comparison.hpp"
+#include "comparison/side_by_side.hpp"
+#include "comparison/store_diff.hpp"
+
+namespace triptych::report::words {
+
+// "1000 → 1001 (+0.1 %), although the driver is the same".
+[[nodiscard]] std::string text_of(const comparison::Difference& difference);
+// "in 27 configurations, +1.2 % to +40 %, most in CONFIGURATION: …".
+[[nodiscard]] std::string text_of(const comparison::DifferenceGroup& group);
+// One line for each group: "regression    cost: +1.2 % to +40 % in 27 configurations, …".
+[[nodiscard]] std::string lines_of(const std::vector<comparison::DifferenceGroup>& groups);
+// Why there is no verdict on a time; empty if there is one.
+[[nodiscard]] std::string text_of(const comparison::TimeReason& reason);
+[[nodiscard]] std::string text_of(comparison::WallClockCause cause);
+// "plan volume/quick: only a has it".
+[[nodiscard]] std::string text_of(const comparison::OnlyOne& only);
+// What is measured at the moment: "fresh process run 2 of 5".
+[[nodiscard]] std::string stage_of(const comparison::ComparisonProgress& progress);
+
+// For a comparison without differences because nothing was measured. `first` is the reason of the
+// first configuration.
+[[nodiscard]] std::string nothing_compared(const comparison::TimeReason& first);
+// The two sides in two lines, with what both have in common only once.
+[[nodiscard]] std::string sides(const record::Device& a, const record::Device& b);
+// "FAIL: 18 slower, 3 same; 2 deterministic regressions, 0 fixed, 1 changed; 64 s"
+[[nodiscard]] std::string headline(const comparison::ComparisonResult& result);
+
+// "gl:x is best in 5 of its 8 techniques; vulkan:y takes 0.98 to 1.3 times as much in the
+// techniques of both"; for two or more devices.
+[[nodiscard]] std::string sentence(const comparison::SideBySide& table);
+
+// For a failure that cannot be made smaller, because it fails in another way the second time;
+// `again` is empty if it did not fail then.
+[[nodiscard]] std::string fails_differently(const judge::Observation& first,
+                                            const std::optional<judge::Observation>& again);
+
+}  // namespace triptych::report::words
