@@ -3,156 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/file.hpp"
 #include "core/image_io.hpp"
 #include "core/json_file.hpp"
-#include "estimation/statistics.hpp"
+#include "judge/baselines/baseline_files.hpp"
 #include "judge/baselines/layout.hpp"
 
 namespace triptych::judge {
 namespace fs = std::filesystem;
 using record::Check;
 namespace {
-
-struct StoredImage {
-  ReferenceHash reference;
-  std::map<std::string, std::string> data;  // content hashes, by Layout::data_key
-};
-
-template <typename Value>
-using ByName = std::map<std::string, Value>;
-
-// Reads {name: value, …}; empty if the file is missing.
-template <typename Value, typename Read>
-ByName<Value> read_members(const core::JsonNode& node, const Read& read) {
-  ByName<Value> result;
-  for (const auto& [name, value] : node.members()) result.emplace(name, read(value));
-  return result;
-}
-
-template <typename Value, typename Read>
-ByName<Value> read_table(const fs::path& path, const Read& read) {
-  const auto file = core::JsonFile::read(path);
-  return file ? read_members<Value>(file->root(), read) : ByName<Value>{};
-}
-
-// Reads {"device": …, "configurations": {name: value, …}}. The file must be about the expected
-// device.
-template <typename Value, typename Read>
-ByName<Value> read_device_table(const fs::path& path, std::string_view device, const Read& read) {
-  const auto file = core::JsonFile::read(path);
-  if (!file) return {};
-  const core::JsonNode named = file->root().at("device");
-  if (named.text() != device) named.fail(fmt::format("expected the device '{}'", device));
-  return read_members<Value>(file->root().at("configurations"), read);
-}
-
-std::string read_text(const core::JsonNode& node) {
-  return node.text();
-}
-
-record::StatisticWorth read_worth(const core::JsonNode& node) {
-  try {
-    return node.value().get<record::StatisticWorth>();
-  } catch (const core::InputError& error) {
-    node.fail(error.what());
-  }
-}
-
-record::Counts read_counts(const core::JsonNode& node) {
-  return read_members<std::uint64_t>(node,
-                                     [](const core::JsonNode& n) { return n.whole_number(); });
-}
-
-Manifest read_manifest(const core::JsonNode& node) {
-  Manifest manifest{.plan_hash = node.at("plan_hash").text(),
-                    .configurations = node.at("configurations").whole_number(),
-                    .files = read_members<std::string>(node.at("files"), read_text)};
-  for (const auto& [device, drivers] : node.at("devices").members()) {
-    for (const core::JsonNode& driver : drivers.elements()) {
-      manifest.devices[device].insert(driver.text());
-    }
-  }
-  manifest.checks = record::checks_of(node.at("checks").text());
-  if (!node.has("machines")) return manifest;
-  for (const core::JsonNode& machine : node.at("machines").elements()) {
-    std::set<std::string>& drivers = manifest.machines.emplace_back();
-    for (const core::JsonNode& driver : machine.elements()) drivers.insert(driver.text());
-  }
-  return manifest;
-}
-
-StoredImage read_stored_image(const core::JsonNode& node) {
-  const core::JsonNode both = node.at("reference");
-  const auto hashes = both.elements();
-  if (hashes.size() != 2) both.fail("expected two hashes");
-  StoredImage image{{hashes[0].text(), hashes[1].text()}, {}};
-  for (const auto& [name, value] : node.members()) {
-    if (name.starts_with("data")) image.data.emplace(name, value.text());
-  }
-  return image;
-}
-
-StoredCounters read_counters(const core::JsonNode& node) {
-  return read_members<record::Counts>(node, [](const core::JsonNode& by_device) {
-    record::Counts counts = read_counts(by_device);
-    if (counts.empty()) by_device.fail("expected the value of a device at least");
-    return counts;
-  });
-}
-
-ByName<record::Counts> read_memory(const core::JsonNode& node) {
-  return read_members<record::Counts>(node, read_counts);
-}
-
-ByName<StoredError> read_errors(const core::JsonNode& node) {
-  return read_members<StoredError>(node, [](const core::JsonNode& error) {
-    return StoredError{error.at("rmse").number_from_zero(),
-                       error.at("arithmetic").number_from_zero()};
-  });
-}
-
-DriverCost read_cost(const core::JsonNode& node) {
-  return {.device = node.at("device").text(),
-          .driver_version = node.at("driver_version").text(),
-          .counted_by = node.at("counted_by").text(),
-          .configurations =
-              read_members<StoredCost>(node.at("configurations"), [](const core::JsonNode& cost) {
-                return StoredCost{read_counts(cost.at("frame")), read_counts(cost.at("prepare"))};
-              })};
-}
-
-record::Executable read_executable(const core::JsonNode& node) {
-  record::Executable executable;
-  for (const auto& [name, value] : node.members()) {
-    if (name == "assembly") {
-      executable.assembly = value.text();
-    } else {
-      executable.statistics.emplace(name, value.number_from_zero());
-    }
-  }
-  return executable;
-}
-
-DriverCode read_code(const core::JsonNode& node) {
-  const auto read_one = [](const core::JsonNode& code) {
-    return read_members<record::Executable>(code, read_executable);
-  };
-  return {.device = node.at("device").text(),
-          .driver_version = node.at("driver_version").text(),
-          .configurations = read_members<record::Code>(node.at("configurations"), read_one)};
-}
-
-StoredTiming read_timing(const core::JsonNode& node) {
-  return {node.at("clock").text(), node.at("median_ns").positive_number(),
-          node.at("spread").positive_number(), node.at("kernel_hash").text()};
-}
 
 template <typename Table>
 auto find_optional(const Table& table, const std::string& name) {
@@ -161,57 +24,7 @@ auto find_optional(const Table& table, const std::string& name) {
                               : std::optional(found->second);
 }
 
-// The JSON files of a subfolder, by their names without ending.
-std::map<std::string, fs::path> files_in(const fs::path& folder) {
-  std::map<std::string, fs::path> files;
-  if (!fs::is_directory(folder)) return files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".json") files.emplace(entry.path().stem(), entry.path());
-  }
-  return files;
-}
-
-bool is_outside(const fs::path& name) {
-  return name.is_absolute() || std::find(name.begin(), name.end(), fs::path("..")) != name.end();
-}
-
-// The first file that differs from the manifest, and how; empty if there is none.
-std::string first_change(const fs::path& folder, const Manifest& manifest) {
-  for (const auto& [name, hash] : manifest.files) {
-    const fs::path file = folder / name;
-    if (is_outside(name)) return name + " is outside the folder";
-    if (!fs::is_regular_file(file)) return name + " is gone";
-    if (core::content_hash(core::read_file(file)) != hash) return name + " was changed";
-  }
-  std::set<std::string> others;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string name = entry.path().lexically_relative(folder).generic_string();
-    if (!entry.is_directory() && name != Layout::manifest && !manifest.files.contains(name)) {
-      others.insert(name);
-    }
-  }
-  return others.empty() ? std::string() : *others.begin() + " is none of its files";
-}
-
 }  // namespace
-
-double log_spread(std::vector<double> times_ns) {
-  constexpr double between_processes = 0.005;
-  constexpr double normal = 1.4826;
-  std::ranges::sort(times_ns);
-  std::vector<double> logarithms;
-  double step = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < times_ns.size(); ++i) {
-    logarithms.push_back(std::log(times_ns[i]));
-    if (i > 0 && times_ns[i] > times_ns[i - 1]) {
-      step = std::min(step, logarithms[i] - logarithms[i - 1]);
-    }
-  }
-  if (!std::isfinite(step)) step = 0;
-  const double centre = estimation::median(logarithms);
-  for (double& value : logarithms) value = std::abs(value - centre);
-  return std::max({normal * estimation::median(logarithms), step, between_processes});
-}
 
 // What was read so far, by file.
 struct Baselines::Cache {
@@ -324,8 +137,8 @@ std::string Baselines::contradiction() const {
       if (!drivers.contains(driver)) return lacks("a driver of a machine, " + driver);
     }
   }
-  for (const auto& [check, file] : {std::pair{Check::accuracy, Layout::errors},
-                                    std::pair{Check::stress, Layout::scores}}) {
+  for (const auto& [check, file] :
+       {std::pair{Check::accuracy, Layout::errors}, std::pair{Check::stress, Layout::scores}}) {
     if (fs::exists(folder_ / file) && !manifest.checks.contains(check)) {
       return lacks(fmt::format("the check {}, which {} is of", record::name_of(check), file));
     }

@@ -65,7 +65,7 @@ std::vector<Waiver> read_waivers(const std::filesystem::path& file) {
 
 std::vector<Waiver> read_expected(const std::filesystem::path& file) {
   const auto json = core::JsonFile::read(file);
-  if (!json) throw core::InputError(file.string() + ": there is no such file");
+  if (!json) throw core::InputError(file.string() + ": the file does not exist");
   std::vector<Waiver> result;
   for (const core::JsonNode& entry : json->root().elements()) {
     result.push_back(read_entry(entry));

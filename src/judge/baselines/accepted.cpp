@@ -1,0 +1,127 @@
+#include "judge/baselines/accepted.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/glob.hpp"
+#include "core/quoting.hpp"
+
+namespace triptych::judge {
+namespace {
+
+void refuse_unfit(const std::vector<record::Record>& records, const std::string& run,
+                  const AcceptRequest& request) {
+  if (request.reason.find_first_not_of(" \t\r\n") == std::string::npos) {
+    throw core::InputError("accepting needs a reason (--reason TEXT)");
+  }
+  for (const record::Record& record : records) {
+    if (record.plan != request.plan) {
+      throw core::InputError(
+          fmt::format("run {} is of plan {}, not of {}", run, record.plan, request.plan));
+    }
+    if (!record.injected.empty()) {
+      throw core::InputError(
+          fmt::format("run {} holds the injected fault '{}' ({} on {}); it is never a baseline",
+                      run, record.injected, record.configuration, record.device));
+    }
+  }
+}
+
+std::string plan_in_a_command(const AcceptRequest& request) {
+  return core::shell_quoted(request.argument.empty() ? record::plan_argument(request.plan)
+                                                     : request.argument);
+}
+
+}  // namespace
+
+Accepted select_accepted(const record::Store& store, const std::string& run,
+                         const AcceptRequest& request) {
+  const std::vector<record::Record> records = store.records(run);
+  refuse_unfit(records, run, request);
+  Accepted accepted;
+  for (record::Run& each : store.runs()) {
+    if (each.id == run) accepted.run = std::move(each);
+  }
+  accepted.checks = checked_in(accepted.run);
+  accepted.replaces_all = request.only.empty();
+  for (const record::Record& record : records) {
+    accepted.configurations.insert(record.configuration);
+    accepted.scenes.insert(record.scene);
+    const bool wanted =
+        request.only.empty() || core::glob_matches(request.only, record.configuration);
+    if (wanted && record.outcome == record::Outcome::measured) accepted.measured.push_back(record);
+    const bool drops = request.drop && !request.only.empty();
+    if (wanted && drops && record.outcome == record::Outcome::skipped) {
+      accepted.skipped.push_back(record);
+    }
+  }
+  if (accepted.measured.empty() && accepted.skipped.empty()) {
+    throw core::InputError(
+        fmt::format("run {} measured nothing{}", run,
+                    request.only.empty() ? "" : " that matches " + request.only));
+  }
+  std::set<std::string> told_of;
+  for (const record::Record& record : accepted.measured) told_of.insert(record.device);
+  for (const record::Record& record : accepted.skipped) told_of.insert(record.device);
+  for (const auto& entry : store.devices(run)) {
+    if (told_of.contains(entry.device.id)) accepted.devices.emplace(entry.device.id, entry.device);
+  }
+  return accepted;
+}
+
+void refuse_other_data(const Accepted& accepted, const AcceptRequest& request) {
+  if (!request.data_hash) return;
+  for (const record::Record& record : accepted.measured) {
+    if (record.data_hash.empty()) continue;
+    const std::string now = request.data_hash(record);
+    if (now.empty() || now == record.data_hash) continue;
+    throw core::InputError(fmt::format(
+        "the data of {} are not those that run {} measured (content hash {}, now {}): restore "
+        "them, or measure again",
+        record.configuration, record.run, record.data_hash, now));
+  }
+}
+
+void refuse_part(const Accepted& accepted, const Baselines& stored, const std::string& run,
+                 const AcceptRequest& request) {
+  if (!accepted.replaces_all || request.drop) return;
+  const std::vector<std::string> known = stored.configurations();
+  std::vector<std::string> missing;
+  std::ranges::set_difference(known, accepted.configurations, std::back_inserter(missing));
+  if (missing.empty()) return;
+  throw core::InputError(fmt::format(
+      "run {} has no record of {} of {} stored configurations ({}{}): finish it with triptych run "
+      "{} --resume{}, accept what it has with --only GLOB, or drop them with --drop where the plan "
+      "has them no longer",
+      run, missing.size(), known.size(), missing.front(), missing.size() > 1 ? "; …" : "",
+      plan_in_a_command(request), request.store_option));
+}
+
+void refuse_incomplete(const record::Store& store, const Accepted& accepted,
+                       const AcceptRequest& request) {
+  if (!accepted.replaces_all || request.drop) return;
+  const std::vector<std::string> planned = store.planned(accepted.run);
+  for (const std::string& device : record::devices_of(accepted.run.begun)) {
+    const std::set<std::string> there = store.configurations(accepted.run.id, device);
+    std::vector<std::string> missing;
+    std::ranges::set_difference(planned, there, std::back_inserter(missing));
+    if (missing.empty()) continue;
+    throw core::InputError(fmt::format(
+        "run {} was cut short: of {} configurations on {} it has no record of {} ({}{}); finish it "
+        "with triptych run {} --resume{}, accept what it has with --only GLOB, or with --drop",
+        accepted.run.id, planned.size(), device, missing.size(), missing.front(),
+        missing.size() > 1 ? "; …" : "", plan_in_a_command(request), request.store_option));
+  }
+}
+
+record::Checks checked_in(const record::Run& run) {
+  if (!run.checks.empty()) return run.checks;
+  return {record::Check::image, record::Check::counters, record::Check::statistics,
+          record::Check::cost,  record::Check::memory,   record::Check::timing};
+}
+
+}  // namespace triptych::judge

@@ -1,0 +1,212 @@
+#include "judge/baselines/accepted_values.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "accuracy/cases.hpp"
+#include "core/error.hpp"
+#include "core/glob.hpp"
+#include "estimation/statistics.hpp"
+#include "judge/baselines/drop_skipped.hpp"
+#include "judge/baselines/layout.hpp"
+#include "judge/stress/stress.hpp"
+
+namespace triptych::judge {
+
+using core::Json;
+using record::Check;
+
+void drop_all_but(Json& object, const std::set<std::string>& kept) {
+  for (auto item = object.begin(); item != object.end();) {
+    item = kept.contains(item.key()) ? std::next(item) : object.erase(item);
+  }
+}
+
+namespace {
+
+// {configuration: …}, without the configurations that are removed.
+Json& table_of(Json& table, const Accepted& accepted) {
+  if (!table.is_object()) table = Json::object();
+  if (accepted.replaces_all) drop_all_but(table, accepted.configurations);
+  return table;
+}
+
+void update_counters(const Accepted& accepted, Update& update) {
+  Json& table = table_of(update.value(), accepted);
+  for (const record::Record& record : accepted.measured) {
+    erase_from(table, record.configuration, record.device);
+    Json& counters = table[record.configuration];
+    if (!counters.is_object()) counters = Json::object();
+    for (const auto& [counter, value] : record.counters) counters[counter][record.device] = value;
+  }
+}
+
+void update_memory(const Accepted& accepted, Update& update) {
+  Json& table = table_of(update.value(), accepted);
+  for (const record::Record& record : accepted.measured) {
+    erase_from(table, record.configuration, record.device);
+    if (!record.memory.empty()) table[record.configuration][record.device] = record.memory;
+  }
+}
+
+// The error of each record against the limit of its scene, on the device that measured it.
+void update_errors(const record::Store& store, const Accepted& accepted,
+                   const AcceptRequest& request, Update& update) {
+  Json& table = table_of(update.value(), accepted);
+  for (const record::Record& record : accepted.measured) {
+    const accuracy::LimitPicture* limit = request.limit(record);
+    if (limit == nullptr) erase_from(table, record.configuration, record.device);
+    if (limit == nullptr || record.image.empty()) continue;
+    const auto error =
+        accuracy::picture_error(store.picture(record.image), request.truth(record), limit->image);
+    if (!error) continue;
+    table[record.configuration][record.device] = {{"rmse", error->rmse},
+                                                  {"arithmetic", error->arithmetic}};
+  }
+}
+
+// The score of each configuration on each device of the run. A configuration that failed also has a
+// score.
+void update_scores(const record::Store& store, const Accepted& accepted,
+                   const AcceptRequest& request, Update& update) {
+  Json& table = table_of(update.value(), accepted);
+  const std::vector<record::Record> records = store.records(accepted.run.id);
+  for (const StressScored& scored : score_stress(store, records, *request.stress)) {
+    const std::string& configuration = scored.record->configuration;
+    if (!request.only.empty() && !core::glob_matches(request.only, configuration)) continue;
+    table[configuration][scored.record->device] = scored.score.points();
+  }
+}
+
+// The counts that are stored. Counts that differ between two process runs are shown by the gate and
+// not stored.
+record::Counts kept_of(record::Counts cost) {
+  cost.erase("libc");
+  cost.erase("program");
+  return cost;
+}
+
+// Counts by another emulator are different quantities. They replace everything that is stored,
+// which those of --only must not do.
+void update_cost(const Accepted& accepted, const record::Device& device, NextFolder& next) {
+  Update update(next, Layout::cost(device));
+  bool counted = false;
+  for (const record::Record& record : accepted.measured) {
+    if (record.device != device.id || record.cost.empty()) continue;
+    Json& file = update.object();
+    if (file.value("counted_by", "") != record.counted_by) {
+      const bool loses = !accepted.replaces_all && file.contains("configurations");
+      if (counted || loses) {
+        throw core::InputError(
+            fmt::format("run {}: {} was counted by {} and by {}{}", record.run, device.id,
+                        file.value("counted_by", ""), record.counted_by,
+                        counted ? "" : ": accept the whole plan, without --only"));
+      }
+      file = {{"device", device.id},
+              {"driver_version", device.driver_version},
+              {"counted_by", record.counted_by}};
+    }
+    counted = true;
+    table_of(file["configurations"], accepted)[record.configuration] = {
+        {"frame", kept_of(record.cost)}, {"prepare", kept_of(record.prepare_cost)}};
+  }
+  update.write(3);
+}
+
+// Infinite statistics are not stored, because JSON has no such number.
+void update_code(const Accepted& accepted, const record::Device& device, NextFolder& next) {
+  Update update(next, Layout::code(device));
+  bool any = false;
+  for (const record::Record& record : accepted.measured) {
+    if (record.device != device.id || record.code.empty()) continue;
+    any = true;
+    Json& file = update.object();
+    file["device"] = device.id;
+    file["driver_version"] = device.driver_version;
+    Json code = Json::object();
+    for (const auto& [name, executable] : record.code) {
+      Json& entry = code[name] = Json::object();
+      if (!executable.assembly.empty()) entry["assembly"] = executable.assembly;
+      for (const auto& [statistic, value] : executable.statistics) {
+        if (std::isfinite(value)) entry[statistic] = value;
+      }
+    }
+    table_of(file["configurations"], accepted)[record.configuration] = std::move(code);
+  }
+  if (any) update.write(4);
+}
+
+// Of untimed records whose statistics were not read nothing is known: what is stored of them stays.
+void update_statistics(const Accepted& accepted, const record::Device& device, NextFolder& next) {
+  Update update(next, Layout::statistics(device));
+  update.object()["device"] = device.statistics_key();
+  // Statistics that the run did not calibrate keep what is known about this driver version.
+  for (const auto& [statistic, worth] : device.statistics_calibration) {
+    update.object()["calibration"][statistic] = worth;
+  }
+  Json& table = table_of(update.object()["configurations"], accepted);
+  bool tells = !table.empty();
+  for (const record::Record& record : accepted.measured) {
+    if (record.device != device.id) continue;
+    if (record.untimed() && record.statistics.empty()) continue;
+    table[record.configuration] = record.statistics;
+    tells = tells || !record.statistics.empty();
+  }
+  if (tells) update.write(3);
+}
+
+void update_timings(const Accepted& accepted, const record::Device& device, NextFolder& next) {
+  Update update(next, Layout::timings(device));
+  update.object()["device"] = device.key();
+  Json& table = table_of(update.object()["configurations"], accepted);
+  std::size_t kept = 0;
+  for (const record::Record& record : accepted.measured) {
+    if (record.device != device.id) continue;
+    if (record.untimed() && table.contains(record.configuration)) ++kept;
+    const std::vector<double>& times = record.time_ns();
+    if (times.empty()) continue;
+    table[record.configuration] = {{"clock", record.clock()},
+                                   {"median_ns", estimation::median(times)},
+                                   {"spread", log_spread(times)},
+                                   {"frames", times.size()},
+                                   {"kernel_hash", record.kernel_hash}};
+  }
+  if (!table.empty()) update.write(2);
+  if (kept > 0) {
+    next.lines.push_back(fmt::format(
+        "{}: times and statistics of {} configurations stay as stored, the run was untimed",
+        device.id, kept));
+  }
+}
+
+}  // namespace
+
+void update_values(const record::Store& store, const Accepted& accepted,
+                   const AcceptRequest& request, NextFolder& next) {
+  const auto update = [&](const char* name, const auto& act) {
+    Update file(next, name);
+    act(file);
+    if (!file.object().empty() || next.files.contains(name)) file.write(2);
+  };
+  update(Layout::counters, [&](Update& file) { update_counters(accepted, file); });
+  update(Layout::memory, [&](Update& file) { update_memory(accepted, file); });
+  if (accepted.checks.contains(Check::accuracy) && request.limit) {
+    update(Layout::errors, [&](Update& file) { update_errors(store, accepted, request, file); });
+  }
+  if (accepted.checks.contains(Check::stress) && request.stress) {
+    update(Layout::scores, [&](Update& file) { update_scores(store, accepted, request, file); });
+  }
+  const bool keeps_times = accepted.checks.contains(Check::timing);
+  if (!keeps_times) next.drop_folder("timings/");
+  for (const auto& [id, device] : accepted.devices) {
+    update_cost(accepted, device, next);
+    update_code(accepted, device, next);
+    update_statistics(accepted, device, next);
+    if (keeps_times) update_timings(accepted, device, next);
+  }
+}
+
+}  // namespace triptych::judge
