@@ -16,11 +16,10 @@
 #include "scene/denormals.hpp"
 #include "scene/file_table.hpp"
 #include "scene/generators.hpp"
-#include "scene/value_window.hpp"
-#include "scene/voxel_values.hpp"
 #include "suites/volume/analytic_data.hpp"
 #include "suites/volume/factors.hpp"
 #include "suites/volume/frame_description.hpp"
+#include "suites/volume/loaded_data.hpp"
 #include "suites/volume/own_levels.hpp"
 #include "suites/volume/plain_work.hpp"
 #include "suites/volume/storage_error.hpp"
@@ -71,34 +70,25 @@ class VolumeSuite final : public measure::SuiteWithTruth {
   std::vector<record::Expectation> expectations(const Configuration& configuration) override;
 
  private:
-  // The last data set that was loaded. Neighbouring configurations of a plan share it.
-  struct Loaded {
-    std::string data;
-    std::string window;
-    std::string mapping;
-    std::string component;
-    std::optional<StressScene> stress;  // without its voxels
-    scene::VoxelFormat native = scene::VoxelFormat::f32;
-    bool fits_halves = false;
-    std::shared_ptr<const scene::VoxelGrid> grid;
-  };
-  using ChooseFormat =
-      std::function<scene::VoxelFormat(scene::VoxelFormat native, const std::array<int, 3>& size)>;
-
   // The input of the reference: the scene, and the errors that a device's path may have in it.
   struct Judged {
     scene::VolumeScene scene;
     reference::ErrorModel model;
   };
 
-  scene::Volume read(const Configuration& configuration, std::optional<StressScene>& stress) const;
-  const Loaded& load(const Configuration& configuration, const ChooseFormat& choose);
-  const Loaded& load_as_it_is(const Configuration& configuration);
-  scene::VolumeScene scene(const Configuration& configuration, const Loaded& loaded) const;
+  const LoadedData& load(const Configuration& configuration, const ChooseFormat& choose) {
+    return data_.load(configuration, choose, [&](const std::string& note) {
+      tell({.what = configuration.at("data"), .share = 1, .note = note});
+    });
+  }
+  const LoadedData& load_as_it_is(const Configuration& configuration) {
+    return load(configuration, [](scene::VoxelFormat native, const auto&) { return native; });
+  }
+  scene::VolumeScene scene(const Configuration& configuration, const LoadedData& loaded) const;
   Judged judged(const Configuration& configuration, const std::map<std::string, double>& precision);
 
   std::vector<std::filesystem::path> folders_;
-  Loaded loaded_;
+  DataLoader data_{folders_};
 };
 
 std::vector<std::string_view> VolumeSuite::plan_names() const {
@@ -120,67 +110,13 @@ std::string VolumeSuite::missing_data(const Configuration& configuration) const 
       folders_.empty() ? "" : fmt::format(", nor in {}", folders_.front().string()));
 }
 
-// The level of `component`; its default in configurations that are older than the factor.
-std::string component_of(const Configuration& configuration) {
-  const auto found = configuration.find("component");
-  return found == configuration.end() ? "0" : found->second;
-}
-
-scene::Volume VolumeSuite::read(const Configuration& configuration,
-                                std::optional<StressScene>& stress) const {
-  const std::string& data = configuration.at("data");
-  const scene::Component component = scene::parse_component(component_of(configuration));
-  if (analytic_data(data) || stress_data(data)) scene::check_component(component, 1, data);
-  if (const auto known = stress_data(data)) {
-    stress = stress_scene(*known);
-    return std::move(stress->volume);
-  }
-  const auto analytic = analytic_data(data);
-  return analytic ? analytic_volume(*analytic) : scene::load_volume(data, folders_, component);
-}
-
-const VolumeSuite::Loaded& VolumeSuite::load(const Configuration& configuration,
-                                             const ChooseFormat& choose) {
-  const std::string& data = configuration.at("data");
-  const std::string& window = configuration.at("window");
-  const std::string& mapping = configuration.at("mapping");
-  const std::string component = component_of(configuration);
-  if (loaded_.grid && loaded_.data == data && loaded_.window == window &&
-      loaded_.mapping == mapping && loaded_.component == component &&
-      choose(loaded_.native, loaded_.grid->size) == loaded_.grid->format) {
-    return loaded_;
-  }
-  loaded_ = {};  // frees the old data before the new data is loaded
-  std::optional<StressScene> stress;
-  scene::Volume volume = read(configuration, stress);
-  for (const std::string& note : volume.facts.notes) tell({.what = data, .share = 1, .note = note});
-  scene::set_window(volume, scene::parse_window(window), scene::mapping(mapping));
-  const scene::VoxelFormat native = scene::lossless_format(volume);
-  const scene::VoxelFormat format = choose(native, volume.size);
-  const bool fits_halves = scene::fits_halves(volume);
-  loaded_ = {
-      .data = data,
-      .window = window,
-      .mapping = mapping,
-      .component = component,
-      .stress = std::move(stress),
-      .native = native,
-      .fits_halves = fits_halves,
-      .grid = std::make_shared<const scene::VoxelGrid>(scene::encode(std::move(volume), format))};
-  return loaded_;
-}
-
-const VolumeSuite::Loaded& VolumeSuite::load_as_it_is(const Configuration& configuration) {
-  return load(configuration, [](scene::VoxelFormat native, const auto&) { return native; });
-}
-
 // The levels `own` of a configuration whose data is loaded.
 OwnLevels levels_of(const Configuration& configuration, const std::optional<StressScene>& stress) {
   return {configuration, stress ? &*stress : nullptr};
 }
 
 scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
-                                      const Loaded& loaded) const {
+                                      const LoadedData& loaded) const {
   const OwnLevels levels = levels_of(configuration, loaded.stress);
   const auto [width, height] = levels.viewport();
   return {
@@ -233,7 +169,7 @@ measure::Work VolumeSuite::work(Configuration& configuration, const measure::Dev
       path.voxel = scene::voxel_format(configuration.at("voxel"));
     return path.voxel;
   };
-  const Loaded& loaded = load(configuration, choose);
+  const LoadedData& loaded = load(configuration, choose);
   choose(loaded.native, loaded.grid->size);
   path.sampler = named.value_or(path.sampler);
   configuration["voxel"] = scene::name_of(path.voxel);
@@ -271,7 +207,7 @@ measure::Work VolumeSuite::calibration(technique::Work kind) {
 
 VolumeSuite::Judged VolumeSuite::judged(const Configuration& configuration,
                                         const std::map<std::string, double>& precision) {
-  const Loaded& loaded = load_as_it_is(configuration);
+  const LoadedData& loaded = load_as_it_is(configuration);
   scene::VolumeScene pictured = scene(configuration, loaded);
   const auto probed = precision.find("filter_weight_error");
   const technique::Precision computed = technique::precision(configuration.at("precision"));
@@ -347,14 +283,14 @@ std::string VolumeSuite::data_hash(const Configuration& configuration) {
 }
 
 nlohmann::json VolumeSuite::describe(const Configuration& configuration) {
-  const Loaded& loaded = load_as_it_is(configuration);
+  const LoadedData& loaded = load_as_it_is(configuration);
   return describe_frame(scene(configuration, loaded), levels_of(configuration, loaded.stress).ert(),
                         levels_of(configuration, loaded.stress).adapt());
 }
 
 std::vector<std::string> VolumeSuite::describe_data(const Configuration& configuration) {
   std::optional<StressScene> stress;
-  scene::Volume volume = read(configuration, stress);
+  scene::Volume volume = data_.read(configuration, stress);
   volume.name = configuration.at("data");
   return scene::summary_of(volume);
 }
@@ -378,7 +314,7 @@ std::vector<record::Expectation> VolumeSuite::expectations(const Configuration& 
 // The step is not part of the key, because the limit is the image for a step that tends to zero.
 std::string VolumeSuite::limit_key(const Configuration& configuration) {
   if (stress_data(configuration.at("data"))) return {};
-  const Loaded& loaded = load_as_it_is(configuration);
+  const LoadedData& loaded = load_as_it_is(configuration);
   const scene::TransferFunction function =
       levels_of(configuration, loaded.stress).transfer_function(folders_);
   return fmt::format(

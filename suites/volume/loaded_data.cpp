@@ -1,0 +1,67 @@
+#include "suites/volume/loaded_data.hpp"
+
+#include <utility>
+
+#include "scene/value_window.hpp"
+#include "scene/voxel_values.hpp"
+#include "suites/volume/analytic_data.hpp"
+
+namespace triptych::volume_suite {
+
+using measure::Configuration;
+
+namespace {
+
+// The level of `component`; its default in configurations that are older than the factor.
+std::string component_of(const Configuration& configuration) {
+  const auto found = configuration.find("component");
+  return found == configuration.end() ? "0" : found->second;
+}
+
+}  // namespace
+
+scene::Volume DataLoader::read(const Configuration& configuration,
+                               std::optional<StressScene>& stress) const {
+  const std::string& data = configuration.at("data");
+  const scene::Component component = scene::parse_component(component_of(configuration));
+  if (analytic_data(data) || stress_data(data)) scene::check_component(component, 1, data);
+  if (const auto known = stress_data(data)) {
+    stress = stress_scene(*known);
+    return std::move(stress->volume);
+  }
+  const auto analytic = analytic_data(data);
+  return analytic ? analytic_volume(*analytic) : scene::load_volume(data, folders_, component);
+}
+
+const LoadedData& DataLoader::load(const Configuration& configuration, const ChooseFormat& choose,
+                                   const OnNote& on_note) {
+  const std::string& data = configuration.at("data");
+  const std::string& window = configuration.at("window");
+  const std::string& mapping = configuration.at("mapping");
+  const std::string component = component_of(configuration);
+  if (loaded_.grid && loaded_.data == data && loaded_.window == window &&
+      loaded_.mapping == mapping && loaded_.component == component &&
+      choose(loaded_.native, loaded_.grid->size) == loaded_.grid->format) {
+    return loaded_;
+  }
+  loaded_ = {};  // frees the old data before the new data is loaded
+  std::optional<StressScene> stress;
+  scene::Volume volume = read(configuration, stress);
+  for (const std::string& note : volume.facts.notes) on_note(note);
+  scene::set_window(volume, scene::parse_window(window), scene::mapping(mapping));
+  const scene::VoxelFormat native = scene::lossless_format(volume);
+  const scene::VoxelFormat format = choose(native, volume.size);
+  const bool fits_halves = scene::fits_halves(volume);
+  loaded_ = {
+      .data = data,
+      .window = window,
+      .mapping = mapping,
+      .component = component,
+      .stress = std::move(stress),
+      .native = native,
+      .fits_halves = fits_halves,
+      .grid = std::make_shared<const scene::VoxelGrid>(scene::encode(std::move(volume), format))};
+  return loaded_;
+}
+
+}  // namespace triptych::volume_suite
