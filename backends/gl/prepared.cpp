@@ -8,7 +8,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-class DrawingPrepared final : public measure::Prepared {
+class DrawingPrepared final : public measure::Prepared, public measure::TracesPixel {
  public:
   DrawingPrepared(Context& context, Stamps stamps, std::unique_ptr<Drawing> drawing)
       : context_(context),
@@ -64,6 +64,14 @@ class DrawingPrepared final : public measure::Prepared {
   }
 
   [[nodiscard]] std::string kernel_hash() const override { return owned_->drawing->kernel_hash(); }
+
+  [[nodiscard]] technique::RayTrace trace(int x, int y) override {
+    const Current current(context_);
+    const Api& gl = context_.gl();
+    technique::RayTrace trace = owned_->drawing->trace(gl, x, y);
+    gl.check("trace");
+    return trace;
+  }
 
  private:
   // Everything that is on the device.

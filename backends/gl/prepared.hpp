@@ -9,6 +9,7 @@
 #include "backends/gl/timing.hpp"
 #include "core/image.hpp"
 #include "measure/contract/backend.hpp"
+#include "measure/contract/pixel_history.hpp"
 
 namespace triptych::gl_backend {
 
@@ -34,6 +35,11 @@ class Drawing {
   // The picture; the device has finished it.
   [[nodiscard]] virtual core::Image read(const Api& gl) const = 0;
   [[nodiscard]] virtual std::string kernel_hash() const = 0;
+
+  // Draws a frame for measure::TracesPixel.
+  [[nodiscard]] virtual technique::RayTrace trace(const Api& /*gl*/, int /*x*/, int /*y*/) {
+    throw core::NotSupported(measure::not_traced);
+  }
 };
 
 // The context must be current here and outlive the result.

@@ -50,12 +50,13 @@ std::string constant_lines(const Constants& constants) {
       "#define TRI_SPEED_OF_LIGHT {:d}\n#define TRI_FAULT {}\n#define TRI_OPACITY_FORM {}\n"
       "#define TRI_PREINTEGRATED {}\n#define TRI_LEAPS {:d}\n#define TRI_ADAPT {:d}\n"
       "#define TRI_PRECISION {}\n#define TRI_LONG_RAYS {:d}\n"
-      "#define TRI_PACKED {:d}\n#define TRI_VOXEL_BITS {}\n{}",
+      "#define TRI_PACKED {:d}\n#define TRI_VOXEL_BITS {}\n{}{}",
       int{constants.manual_sampler}, int{constants.shading}, int{constants.count},
       int{constants.speed_of_light}, constants.fault, constants.opacity_form,
       constants.preintegrated, int{constants.leaps}, int{constants.adapt}, constants.precision,
       int{constants.long_rays}, int{constants.packed}, constants.voxel_bits,
-      constants.parts ? "#define TRI_PARTS 1\n" : "");
+      constants.parts ? "#define TRI_PARTS 1\n" : "",
+      constants.trace ? "#define TRI_TRACE 1\n" : "");
 }
 
 // The name of the stage in messages.

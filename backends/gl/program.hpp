@@ -14,6 +14,7 @@ struct Constants {
   int voxel_bits = 32;
   bool shading = false;
   bool count = false;
+  bool trace = false;  // with `count`: the history of one pixel (technique/volume/ray_trace.hpp)
   bool speed_of_light = false;
   int fault = 0;
   int opacity_form = 0;   // technique::opacity_form for the step

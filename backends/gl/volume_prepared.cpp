@@ -58,6 +58,7 @@ class VolumeDrawing final : public Drawing {
   VolumeDrawing(const Api& gl, const measure::VolumeWork& work, const Constants& constants,
                 std::unique_ptr<Pass> pass)
       : constants_(constants),
+        width_(work.scene.width),
         pixels_(pixel_count(work)),
         pass_(std::move(pass)),
         data_(
@@ -106,6 +107,28 @@ class VolumeDrawing final : public Drawing {
   [[nodiscard]] core::Image read(const Api& gl) const override { return pass_->read(gl); }
   [[nodiscard]] std::string kernel_hash() const override { return kernel_hash_; }
 
+  [[nodiscard]] technique::RayTrace trace(const Api& gl, int x, int y) override {
+    if (constants_.cells) throw core::NotSupported(measure::not_traced);
+    const std::vector<std::uint32_t> words = technique::ray_trace_words_for(x, y, width_, pixels_);
+    const auto size = static_cast<GLsizeiptr>(words.size() * sizeof(GLuint));
+    Constants constants = constants_;
+    constants.count = constants.trace = true;
+    counting_.emplace(Counting{link(gl, pass_->stages(gl, constants)),
+                               device_buffer(gl, words.size() * sizeof(GLuint))});
+    gl.BindBuffer(GL_COPY_WRITE_BUFFER, counting_->counters.get());
+    gl.BufferSubData(GL_COPY_WRITE_BUFFER, 0, size, words.data());
+    bind(gl, measure::Purpose::counters);
+    submit(gl, measure::Purpose::counters);
+    gl.Finish();
+    gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    std::vector<std::uint32_t> records(technique::ray_trace_words);
+    gl.BindBuffer(GL_COPY_READ_BUFFER, counting_->counters.get());
+    gl.GetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(counters_size(pixels_)),
+                        static_cast<GLsizeiptr>(records.size() * sizeof(GLuint)), records.data());
+    counting_.reset();  // its buffer is not one for counters
+    return technique::read_ray_trace(records);
+  }
+
  private:
   [[nodiscard]] Counting make_counting(const Api& gl) const {
     Constants constants = constants_;
@@ -114,6 +137,7 @@ class VolumeDrawing final : public Drawing {
   }
 
   Constants constants_;
+  int width_;
   std::size_t pixels_;
   std::unique_ptr<Pass> pass_;
   VolumeData data_;

@@ -35,11 +35,11 @@ std::string Constants::options() const {
   return fmt::format(
       "-cl-std=CL1.2 -DTRI_MANUAL_SAMPLER={:d} -DTRI_VOXEL={} -DTRI_SHADING={:d} -DTRI_COUNT={:d} "
       "-DTRI_SPEED_OF_LIGHT={:d} -DTRI_FAULT={} -DTRI_BATCH={} "
-      "-DTRI_PREINTEGRATED={} -DTRI_LEAPS={:d} -DTRI_ADAPT={:d} -DTRI_PRECISION={}{}{}",
+      "-DTRI_PREINTEGRATED={} -DTRI_LEAPS={:d} -DTRI_ADAPT={:d} -DTRI_PRECISION={}{}{}{}",
       sampler == technique::Sampler::manual, voxel_type(voxel), shading, count, speed_of_light,
       static_cast<int>(fault), batch, preintegrated, leaps, adapt,
       precision == technique::Precision::fp64 ? 64 : 32, parts ? " -DTRI_PARTS=1" : "",
-      voxel == scene::VoxelFormat::f16 ? " -DTRI_HALVES=1" : "");
+      voxel == scene::VoxelFormat::f16 ? " -DTRI_HALVES=1" : "", trace ? " -DTRI_TRACE=1" : "");
 }
 
 std::string program_source(const std::vector<std::string_view>& files) {

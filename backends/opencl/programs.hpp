@@ -19,6 +19,7 @@ struct Constants {
   scene::VoxelFormat voxel = scene::VoxelFormat::f32;
   bool shading = false;
   bool count = false;
+  bool trace = false;  // with `count`: the history of one pixel (technique/volume/ray_trace.hpp)
   bool speed_of_light = false;
   int preintegrated = 0;  // technique::preintegration_form
   bool cells = false;     // has a source of its own

@@ -13,6 +13,9 @@ typedef struct {
   real3 g;     // one step, in voxels
   real3 d;     // unit direction in world space
   real steps;  // length inside the box, in steps
+#if TRI_TRACE
+  __global uint* trace;  // where the records of the traced pixel are written; null for other pixels
+#endif
 } Ray;
 
 TRI_FN Ray make_ray(__constant Parameters* u, int2 pixel) {

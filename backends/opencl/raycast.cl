@@ -32,11 +32,22 @@ TRI_FN void classify(__constant float4* table, const real* value, int n, real4* 
 
 // Composites the first n samples, beginning with the i-th; returns 1 if the ray ends among them.
 TRI_FN int composite(__constant Parameters* u, TRI_VOLUME volume, const Ray* ray, int i, int n,
+#if TRI_TRACE
+                     const real* value,
+#endif
                      const real4* colour, const real* alpha, Gathered* gathered,
                      Counts* counts) {
   int lanes = TRI_WHOLE_VECTORS(n);
   real most = 0.0f;
   for (int k = 0; k < lanes; ++k) most = alpha[k] > most ? alpha[k] : most;
+#if TRI_TRACE
+  if (!(most > 0.0f)) {
+    for (int k = 0; k < n; ++k) {
+      trace(ray, TRI_TRACED_SAMPLE, ray->p0 + ((real)(i + k) + 0.5f) * ray->g, (real2)(value[k]), colour[k],
+            u->ray_centre.w * tri_step_share(ray->steps, i + k), 0.0f, gathered);
+    }
+  }
+#endif
   if (!(most > 0.0f)) {
     counts->samples += (uint)n;
     return 0;
@@ -60,6 +71,10 @@ TRI_FN int composite(__constant Parameters* u, TRI_VOLUME volume, const Ray* ray
     real weight = gathered->transmittance * opacity[k];
     gathered->sum += weight * c;
     gathered->transmittance -= weight;
+#if TRI_TRACE
+    trace(ray, TRI_TRACED_SAMPLE, ray->p0 + ((real)(i + k) + 0.5f) * ray->g, (real2)(value[k]),
+          (real4)(c.xyz, alpha[k]), step_voxels * tri_step_share(ray->steps, i + k), opacity[k], gathered);
+#endif
     if (gathered->transmittance < u->ray_right.w) {
       counts->terminated = 1u;
       return 1;
@@ -89,7 +104,11 @@ TRI_FN int take_batch(__constant Parameters* u, TRI_VOLUME volume, __constant fl
   counts->samples += (uint)n;
   return 0;
 #else
-  return composite(u, volume, ray, i, n, colour, alpha, gathered, counts);
+  return composite(u, volume, ray, i, n,
+#if TRI_TRACE
+                   value,
+#endif
+                   colour, alpha, gathered, counts);
 #endif
 }
 
@@ -122,6 +141,10 @@ TRI_FN int take_merged(__constant Parameters* u, TRI_VOLUME volume, __constant f
     real weight = gathered->transmittance * tri_opacity(alpha[0], step_voxels * (end - begin));
     gathered->sum += weight * colour[0];
     gathered->transmittance -= weight;
+#if TRI_TRACE
+    trace(ray, TRI_TRACED_SAMPLE, middle, (real2)(value[0]), (real4)(colour[0].xyz, alpha[0]),
+          step_voxels * (end - begin), tri_opacity(alpha[0], step_voxels * (end - begin)), gathered);
+#endif
   }
   counts->terminated = gathered->transmittance < u->ray_right.w;
   return (int)counts->terminated;
@@ -167,6 +190,13 @@ TRI_FN int take_steps(__constant Parameters* u, TRI_VOLUME volume, __constant fl
       gathered->sum += gathered->transmittance * step[k];
       gathered->transmittance -= gathered->transmittance * step[k].w;
     }
+#if TRI_TRACE
+    real until = (real)(i + k) + 1.0f < ray->steps ? (real)(i + k) + 1.0f : ray->steps;
+    real4 light = step[k].w > 0.0f ? (real4)(step[k].xyz / step[k].w, step[k].w) : (real4)(0.0f);
+    trace(ray, TRI_TRACED_STEP, ray->p0 + (0.5f * ((real)(i + k) + until)) * ray->g,
+          (real2)(value[k], value[k + 1]), light, step_voxels * tri_step_share(ray->steps, i + k), step[k].w,
+          gathered);
+#endif
     if (gathered->transmittance < u->ray_right.w) {
       counts->terminated = 1u;
       return 1;
@@ -224,6 +254,10 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
 #endif
   Gathered gathered = {(real4)(0.0f), 1.0f};
   Counts counts = {0u, 0u, 0u, 0u, 0u};
+#if TRI_TRACE
+  ray.trace = traced_records(counters, tri_output_place(x, y, u->viewport.x, u->viewport.y, u->viewport.w,
+                                                        (int)get_global_size(0)));
+#endif
   int skipping = skips(u, brick_map);
   Walk walk;
   if (skipping) walk = start_walk(u, &ray);

@@ -22,8 +22,12 @@ std::vector<std::string_view> source_files(const Constants& constants) {
     return {
         "volume_preintegration.h", "parameters.cl", "volume.cl", "ray.cl", "shade.cl", "cells.cl"};
   }
-  return {"volume_preintegration.h", "parameters.cl", "volume.cl", "ray.cl", "shade.cl",
-          "preintegrated.cl",        "raycast.cl"};
+  std::vector<std::string_view> files{
+      "volume_preintegration.h", "parameters.cl", "volume.cl", "ray.cl", "shade.cl",
+      "preintegrated.cl"};
+  if (constants.trace) files.emplace_back("trace.cl");
+  files.emplace_back("raycast.cl");
+  return files;
 }
 
 // The pixels of a work group: wide enough for a GPU's waves; it makes no difference on a processor.
@@ -48,13 +52,15 @@ Constants constants_of(const Session& session, const measure::VolumeWork& work) 
 VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCache& volumes,
                            const measure::VolumeWork& work, Constants constants)
     : session_(session),
+      programs_(programs),
+      constants_(constants),
       width_(work.scene.width),
       height_(work.scene.height),
       counts_(technique::raycast_counter_stride * static_cast<std::size_t>(width_) *
               static_cast<std::size_t>(height_)) {
   const technique::Cut cut =
       cut_of(session, constants.speed_of_light ? "speed_of_light" : "raycast", work);
-  constants.parts = !cut.parts.empty();
+  constants_.parts = constants.parts = !cut.parts.empty();
   const std::string source = program_source(source_files(constants));
   hash_ = Programs::hash(source, constants.options());
   const cl::Program timed = programs.get(source, constants.options());
@@ -125,6 +131,33 @@ measure::Frame VolumeFrames::frame(measure::Purpose purpose) {
                : run_.draw(session_, launches, purpose);
     if (counts) frame.counts = read_counters();
     return frame;  // OpenCL has no pipeline statistics: they stay absent
+  });
+}
+
+technique::RayTrace VolumeFrames::trace(int x, int y) {
+  if (constants_.cells) throw core::NotSupported(measure::not_traced);
+  return checked([&] {
+    const std::size_t counters = counts_.size();
+    std::vector<std::uint32_t> words =
+        technique::ray_trace_words_for(x, y, width_, counters / technique::raycast_counter_stride);
+    const std::size_t bytes = words.size() * sizeof(std::uint32_t);
+    const cl::Buffer records = make_buffer(session_, CL_MEM_READ_WRITE, bytes);
+    write_buffer(session_, records, 0, bytes, words.data());
+    Constants constants = constants_;
+    constants.count = constants.trace = true;
+    std::vector<Launch> launches{launch(
+        programs_.get(program_source(source_files(constants)), constants.options()), width_)};
+    launches.front().kernel.setArg(5, records);
+    if (parts_) {
+      launches.front().kernel.setArg(7, pauses_);
+      static_cast<void>(run_.draw(measure::Purpose::counters,
+                                  [&](auto& events) { parts_->run(launches.front(), events); }));
+      run_.check();
+    } else {
+      run_checked(session_, launches);
+    }
+    read_buffer(session_, records, bytes, words.data());
+    return technique::read_ray_trace(std::span(words).subspan(counters));
   });
 }
 

@@ -13,13 +13,14 @@
 #include "backends/opencl/volume_data.hpp"
 #include "backends/opencl/volume_parts.hpp"
 #include "measure/contract/backend.hpp"
+#include "measure/contract/pixel_history.hpp"
 
 namespace triptych::opencl_backend {
 
 // The constants of the timed build for this work.
 [[nodiscard]] Constants constants_of(const Session& session, const measure::VolumeWork& work);
 
-class VolumeFrames final : public measure::Prepared {
+class VolumeFrames final : public measure::Prepared, public measure::TracesPixel {
  public:
   // Compiles the timed and the counting build and uploads everything.
   VolumeFrames(const Session& session, Programs& programs, VolumeCache& volumes,
@@ -29,6 +30,7 @@ class VolumeFrames final : public measure::Prepared {
   [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
   [[nodiscard]] core::Image image() override;
   [[nodiscard]] std::string kernel_hash() const override { return hash_; }
+  [[nodiscard]] technique::RayTrace trace(int x, int y) override;
 
  private:
   void upload_surroundings(const measure::VolumeWork& work, const Constants& constants,
@@ -37,6 +39,8 @@ class VolumeFrames final : public measure::Prepared {
   [[nodiscard]] record::Counts read_counters();
 
   Session session_;
+  Programs& programs_;
+  Constants constants_;  // of the timed build
   int width_;
   int height_;
   std::string hash_;

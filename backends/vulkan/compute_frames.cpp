@@ -41,6 +41,7 @@ ComputeFrames::ComputeFrames(const Gpu& gpu, const Instance& instance,
       resources_(gpu, work, &output_),
       timed_code_(raycast_spirv(shader, work, Pass::timed, resources_.parts() > 0)),
       counting_code_(raycast_spirv(shader, work, Pass::counting, resources_.parts() > 0)),
+      tracing_code_(raycast_spirv(shader, work, Pass::tracing, resources_.parts() > 0)),
       pipeline_(compute_pipeline(gpu, resources_.layout(), timed_code_, constants)),
       frames_(gpu, vk::QueryPipelineStatisticFlagBits::eComputeShaderInvocations,
               [this](const vk::raii::CommandBuffer& commands) { record_timed(commands); }) {
@@ -66,10 +67,27 @@ void ComputeFrames::dispatch(const vk::raii::CommandBuffer& commands, Pass pass,
 
 void ComputeFrames::prepare_counters() {
   resources_.bind_counters();
-  counting_pipeline_ = compute_pipeline(gpu_, resources_.layout(), counting_code_, constants_);
+  record_counters(counting_code_);
+}
+
+void ComputeFrames::record_counters(std::string_view code) {
+  counting_pipeline_ = compute_pipeline(gpu_, resources_.layout(), code, constants_);
   frames_.record_counters([this](const vk::raii::CommandBuffer& commands) {
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, counting_pipeline_);
     dispatch(commands, Pass::counting, width_);
+  });
+}
+
+technique::RayTrace ComputeFrames::trace(int x, int y) {
+  return translated([&] {
+    if (tracing_code_.empty()) throw core::NotSupported(measure::not_traced);
+    resources_.bind_trace(x, y, width_);
+    record_counters(tracing_code_);
+    static_cast<void>(resources_.parts() > 0 ? submit_parts(measure::Purpose::counters)
+                                             : frames_.submit(measure::Purpose::counters));
+    technique::RayTrace trace = resources_.read_trace();
+    instance_.check_validation();
+    return trace;
   });
 }
 

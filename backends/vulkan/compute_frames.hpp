@@ -4,11 +4,12 @@
 #include "backends/vulkan/frames.hpp"
 #include "backends/vulkan/instance.hpp"
 #include "backends/vulkan/volume_resources.hpp"
+#include "measure/contract/pixel_history.hpp"
 
 namespace triptych::vulkan_backend {
 
 // A volume technique in a compute kernel, with one invocation for each pixel.
-class ComputeFrames final : public measure::Prepared {
+class ComputeFrames final : public measure::Prepared, public measure::TracesPixel {
  public:
   ComputeFrames(const Gpu& gpu, const Instance& instance, const measure::VolumeWork& work,
                 const Constants& constants);
@@ -17,11 +18,13 @@ class ComputeFrames final : public measure::Prepared {
   [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
   [[nodiscard]] core::Image image() override;
   [[nodiscard]] std::string kernel_hash() const override;
+  [[nodiscard]] technique::RayTrace trace(int x, int y) override;
 
  private:
   void record_timed(const vk::raii::CommandBuffer& commands) const;
   void dispatch(const vk::raii::CommandBuffer& commands, Pass pass, int columns) const;
   void prepare_counters();
+  void record_counters(std::string_view code);
   [[nodiscard]] measure::Frame submit_parts(measure::Purpose purpose);
 
   const Gpu& gpu_;
@@ -34,6 +37,7 @@ class ComputeFrames final : public measure::Prepared {
   VolumeResources resources_;
   std::string_view timed_code_;
   std::string_view counting_code_;
+  std::string_view tracing_code_;  // empty if there is none for this work
   vk::Pipeline pipeline_;
   vk::Pipeline counting_pipeline_;  // null until a counting frame is requested
   Frames frames_;

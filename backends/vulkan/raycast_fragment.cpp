@@ -9,6 +9,7 @@
 #include "backends/vulkan/frames.hpp"
 #include "backends/vulkan/techniques.hpp"
 #include "backends/vulkan/volume_resources.hpp"
+#include "measure/contract/pixel_history.hpp"
 #include "technique/volume/extra_work.hpp"
 
 namespace triptych::vulkan_backend {
@@ -30,7 +31,7 @@ vk::Pipeline make_pipeline(const Gpu& gpu, const Layout& layout, const vk::raii:
                        Specialization(constants));
 }
 
-class FragmentFrames final : public measure::Prepared {
+class FragmentFrames final : public measure::Prepared, public measure::TracesPixel {
  public:
   FragmentFrames(const Gpu& gpu, const Instance& instance, const measure::VolumeWork& work);
 
@@ -40,17 +41,20 @@ class FragmentFrames final : public measure::Prepared {
   [[nodiscard]] std::string kernel_hash() const override {
     return code_hash(timed_code_, constants_);
   }
+  [[nodiscard]] technique::RayTrace trace(int x, int y) override;
 
  private:
   void draw(const vk::raii::CommandBuffer& commands, vk::Pipeline pipeline, Pass pass) const;
   void draw_again(const vk::raii::CommandBuffer& commands) const;
   void prepare_counters();
+  void record_counters(std::string_view code);
 
   const Gpu& gpu_;
   const Instance& instance_;
   Constants constants_;
   std::string_view timed_code_;
   std::string_view counting_code_;
+  std::string_view tracing_code_;  // empty if there is none for this work
   std::vector<technique::ExtraTile> extra_tiles_;
   Image target_;
   VolumeResources resources_;
@@ -68,6 +72,7 @@ FragmentFrames::FragmentFrames(const Gpu& gpu, const Instance& instance,
       constants_(constants_of(work)),
       timed_code_(raycast_spirv(fragment_shader, work, Pass::timed)),
       counting_code_(raycast_spirv(fragment_shader, work, Pass::counting)),
+      tracing_code_(raycast_spirv(fragment_shader, work, Pass::tracing)),
       extra_tiles_(technique::extra_tiles(work.scene.width, work.scene.height,
                                           work.options.extra_work_stride)),
       target_(gpu, vk::ImageType::e2D, target_format,
@@ -114,10 +119,26 @@ void FragmentFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
 
 void FragmentFrames::prepare_counters() {
   resources_.bind_counters();
-  counting_pipeline_ = make_pipeline(gpu_, resources_.layout(), render_pass_, target_.extent(),
-                                     counting_code_, constants_);
+  record_counters(counting_code_);
+}
+
+void FragmentFrames::record_counters(std::string_view code) {
+  counting_pipeline_ =
+      make_pipeline(gpu_, resources_.layout(), render_pass_, target_.extent(), code, constants_);
   frames_.record_counters([this](const vk::raii::CommandBuffer& commands) {
     draw(commands, counting_pipeline_, Pass::counting);
+  });
+}
+
+technique::RayTrace FragmentFrames::trace(int x, int y) {
+  return translated([&] {
+    if (tracing_code_.empty()) throw core::NotSupported(measure::not_traced);
+    resources_.bind_trace(x, y, static_cast<int>(target_.extent().width));
+    record_counters(tracing_code_);
+    static_cast<void>(frames_.submit(measure::Purpose::counters));
+    technique::RayTrace trace = resources_.read_trace();
+    instance_.check_validation();
+    return trace;
   });
 }
 

@@ -208,19 +208,37 @@ void VolumeResources::write_set(Pass pass) const {
 }
 
 vk::DescriptorSet VolumeResources::set(Pass pass) const {
-  return sets_.at(static_cast<std::size_t>(pass));
+  return sets_.at(pass == Pass::timed ? 0 : 1);
 }
 
 // A descriptor set that recorded commands use must not be written again, so counting has its own.
 void VolumeResources::bind_counters() {
-  counters_.emplace(gpu_, pixels_ * technique::raycast_counter_stride * sizeof(std::uint32_t),
+  make_counters(pixels_ * technique::raycast_counter_stride);
+  poison_counters();
+}
+
+void VolumeResources::make_counters(std::size_t words) {
+  counters_.emplace(gpu_, words * sizeof(std::uint32_t),
                     vk::BufferUsageFlagBits::eStorageBuffer |
                         vk::BufferUsageFlagBits::eTransferSrc |
                         vk::BufferUsageFlagBits::eTransferDst,
                     Place::device);
-  poison_counters();
   bind_buffer(gpu_, set(Pass::counting), counters_binding, vk::DescriptorType::eStorageBuffer,
               *counters_);
+}
+
+void VolumeResources::bind_trace(int x, int y, int width) {
+  const std::vector<std::uint32_t> words = technique::ray_trace_words_for(x, y, width, pixels_);
+  make_counters(words.size());
+  upload(gpu_, *counters_, std::as_bytes(std::span(words)));
+}
+
+technique::RayTrace VolumeResources::read_trace() const {
+  std::vector<std::uint32_t> words(pixels_ * technique::raycast_counter_stride +
+                                   technique::ray_trace_words);
+  download(gpu_, counters_.value(), std::as_writable_bytes(std::span(words)));
+  return technique::read_ray_trace(
+      std::span(words).subspan(pixels_ * technique::raycast_counter_stride));
 }
 
 void VolumeResources::poison_counters() const {
@@ -259,13 +277,17 @@ Constants constants_of(const measure::VolumeWork& work) {
 
 std::string_view raycast_spirv(std::string_view shader, const measure::VolumeWork& work, Pass pass,
                                bool in_parts) {
+  if (pass == Pass::tracing && work.scene.quadrature == scene::Quadrature::cells) return {};
   const std::size_t dot = shader.find('.');
   return spirv(fmt::format("{}{}{}{}{}{}{}{}.spv", shader.substr(0, dot),
                            work.scene.quadrature == scene::Quadrature::cells ? "_cells" : "",
                            is_packed(work) ? "_packed" : "",
                            work.options.precision == technique::Precision::fp64 ? "_fp64" : "",
                            technique::has_long_rays(work.scene) ? "_long" : "",
-                           in_parts ? "_parts" : "", pass == Pass::counting ? "_counting" : "",
+                           in_parts ? "_parts" : "",
+                           pass == Pass::counting  ? "_counting"
+                           : pass == Pass::tracing ? "_tracing"
+                                                   : "",
                            shader.substr(dot)));
 }
 

@@ -11,6 +11,7 @@
 #include "backends/vulkan/volume_parts.hpp"
 #include "measure/contract/backend.hpp"
 #include "technique/volume/brick_map.hpp"
+#include "technique/volume/ray_trace.hpp"
 
 namespace triptych::vulkan_backend {
 
@@ -36,8 +37,9 @@ enum Binding : std::uint32_t {
 
 // A pass over the image.
 enum class Pass : std::uint8_t {
-  timed,    // with the injected extra work if there is any
-  counting  // only the image, with the counters bound
+  timed,     // with the injected extra work if there is any
+  counting,  // only the image, with the counters bound
+  tracing    // the same by the build that records the history of one pixel
 };
 
 class VolumeResources {
@@ -56,6 +58,9 @@ class VolumeResources {
   // The number of parts of a volume that does not fit the device as a whole; otherwise 0.
   [[nodiscard]] int parts() const { return parts_ ? parts_->count() : 0; }
   void move_part(int n);
+  // Makes a larger buffer of counters, asks for the history of pixel (x, y), and binds it.
+  void bind_trace(int x, int y, int width);
+  [[nodiscard]] technique::RayTrace read_trace() const;
   // Overwrites the counters if there are any.
   void poison_counters() const;
   // Sums the counters over all pixels and adds "rays". Throws measure::NotDrawn.
@@ -90,6 +95,7 @@ class VolumeResources {
                                        std::span<const std::int32_t> map,
                                        const std::vector<technique::Part>& parts);
   void write_set(Pass pass) const;
+  void make_counters(std::size_t words);
 
   const Gpu& gpu_;
   std::size_t pixels_;
@@ -110,7 +116,7 @@ class VolumeResources {
 [[nodiscard]] Constants constants_of(const measure::VolumeWork& work);
 
 // The build of a raycaster for this work. `shader` is "raycast.comp" or "raycast_fragment.frag";
-// `in_parts`: for the parts of the technique raycast.
+// `in_parts`: for the parts of the technique raycast. Empty if no build can trace the work.
 [[nodiscard]] std::string_view raycast_spirv(std::string_view shader,
                                              const measure::VolumeWork& work, Pass pass,
                                              bool in_parts = false);

@@ -100,6 +100,22 @@ SpherePixel SphereTracer::operator()(int x, int y) {
   return pixel;
 }
 
+std::vector<std::uint32_t> SphereTracer::spheres_near(int x, int y) const {
+  const View view = this->view(x, y);
+  std::vector<Candidate> found;
+  picture_.tree.walk(
+      view.direction, [] { return unreached; },
+      [&](std::uint32_t place) {
+        const Reach reached = reach(pass(view, place), view.margin);
+        if (reached.possible) found.push_back({place, reached.nearest});
+      });
+  std::ranges::stable_sort(found, {}, &Candidate::nearest);
+  std::vector<std::uint32_t> indices;
+  indices.reserve(found.size());
+  for (const Candidate& each : found) indices.push_back(picture_.tree.sphere(each.place).index);
+  return indices;
+}
+
 SphereTracer::View SphereTracer::view(int x, int y) const {
   const scene::ParticleScene& scene = picture_.scene;
   const SphereErrorModel& model = picture_.model;

@@ -62,6 +62,9 @@ class SphereTracer {
  public:
   explicit SphereTracer(const SpherePicture& picture) : picture_(picture) {}
   [[nodiscard]] SpherePixel operator()(int x, int y);
+  // The indices in the particle set of all spheres that some ray within the margin may meet, also
+  // of hidden ones, by the smallest Z at which it may do so.
+  [[nodiscard]] std::vector<std::uint32_t> spheres_near(int x, int y) const;
 
  private:
   struct Candidate {

@@ -13,6 +13,7 @@
 #include "reference/opacity.hpp"
 #include "reference/preintegrated.hpp"
 #include "reference/ray.hpp"
+#include "reference/ray_history.hpp"
 #include "reference/shading.hpp"
 #include "reference/table.hpp"
 
@@ -44,6 +45,20 @@ class Raycaster {
     return compositor_.finish();
   }
 
+  // The samples of the pixel, in the same loops.
+  [[nodiscard]] RayHistory history(int x, int y) {
+    RayHistory history;
+    history_ = &history;
+    compositor_.start();
+    if (const std::optional<Ray> ray = rays_(x, y)) {
+      history.entry = ray->entry;
+      history.stride = ray->voxels_per_unit * scene_.step_world();
+      walk(*ray, scene_.quadrature);
+    }
+    history_ = nullptr;
+    return history;
+  }
+
  private:
   void walk(const Ray& ray, scene::Quadrature quadrature) {
     switch (quadrature) {
@@ -68,11 +83,15 @@ class Raycaster {
     for (std::int64_t i = 0; i < count; ++i) {
       const double index = static_cast<double>(i);
       const glm::dvec3 p = ray.entry + (index + 0.5) * stride;
-      const Span span = Table::span_of(field_.at(p, ray.position_error));
-      if (table_.transparent(span)) continue;
+      const Bounded value = field_.at(p, ray.position_error);
+      const Span span = Table::span_of(value);
+      if (history_ == nullptr && table_.transparent(span)) continue;
       const StepLength length{std::clamp(chord.nominal - index * step, 0.0, step),
                               std::clamp(chord.shortest - index * step, 0.0, step),
                               std::clamp(chord.longest - index * step, 0.0, step)};
+      if (history_ != nullptr) {
+        history_->samples.push_back({i, p, ray.position_error, {}, value, {}, length, {}});
+      }
       if (!add(ray, p, span, length)) return;
     }
   }
@@ -96,8 +115,12 @@ class Raycaster {
       const StepLength part{std::clamp(length - begin * step, 0.0, step),
                             std::clamp(shortest - begin * step, 0.0, step),
                             std::clamp(longest - begin * step, 0.0, step)};
+      const glm::dvec3 middle = ray.entry + 0.5 * (begin + end) * stride;
+      if (history_ != nullptr) {
+        const glm::dvec3 error = ray.position_error_within(last ? 0.5 * ray.slack() : 0.0);
+        history_->samples.push_back({i, middle, error, front, back, {}, part, {}});
+      }
       if (!segments_.transparent(front, back)) {
-        const glm::dvec3 middle = ray.entry + 0.5 * (begin + end) * stride;
         const Segment segment = segments_(front, back, part);
         if (!add(ray, middle, segment.looked, segment.opacity)) return;
       }
@@ -118,6 +141,11 @@ class Raycaster {
                              rounding),
             scene_.shading, rounding);
     }
+    if (history_ != nullptr) {
+      history_->samples.back().looked = looked;
+      history_->samples.back().opacity = opacity;
+      return true;  // to the end of the ray
+    }
     return compositor_.add(looked, opacity);
   }
 
@@ -131,9 +159,19 @@ class Raycaster {
   CellRule<Stored> cells_;
   double smallest_spacing_;
   glm::dvec3 gradient_scale_;
+  RayHistory* history_ = nullptr;  // where the samples are kept, if they are
 };
 
 }  // namespace
+
+RayHistory ray_history(const scene::VolumeScene& scene, const ErrorModel& model, int x, int y) {
+  check(scene);
+  return with_stored_type(scene.grid->format, [&]<typename Stored>(Stored) {
+    const Field<Stored> field(*scene.grid, model);
+    const Table table(scene.transfer_function, model.table_error);
+    return Raycaster<Stored>(scene, model, field, table).history(x, y);
+  });
+}
 
 Truth render_volume(const scene::VolumeScene& scene, const ErrorModel& model, int threads) {
   check(scene);

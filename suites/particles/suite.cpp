@@ -11,10 +11,13 @@
 #include "core/json.hpp"
 #include "core/json_text.hpp"
 #include "measure/contract/factor.hpp"
+#include "measure/contract/pixel_history.hpp"
+#include "reference/sphere_pixel.hpp"
 #include "reference/spheres.hpp"
 #include "scene/data_summary.hpp"
 #include "scene/file_table.hpp"
 #include "scene/particle_generators.hpp"
+#include "scene/particle_subset.hpp"
 #include "suites/particles/factors.hpp"
 #include "suites/particles/grown_sprites.hpp"
 #include "suites/particles/large_points.hpp"
@@ -41,7 +44,7 @@ reference::SphereErrorModel model_of(const scene::ParticleScene& scene,
   return error_model(scene, ray, static_cast<int>(bits->second));
 }
 
-class ParticleSuite final : public measure::SuiteWithTruth {
+class ParticleSuite final : public measure::SuiteWithTruth, public measure::ExpectsSprites {
  public:
   explicit ParticleSuite(std::vector<std::filesystem::path> folders)
       : folders_(std::move(folders)) {}
@@ -82,6 +85,13 @@ class ParticleSuite final : public measure::SuiteWithTruth {
   std::string limit_key(const Configuration& configuration) override;
   measure::Limit limit(const Configuration& configuration) override;
   std::vector<record::Expectation> expectations(const Configuration& configuration) override;
+  std::vector<std::uint32_t> particles_near(const Configuration& configuration,
+                                            const std::map<std::string, double>& precision, int x,
+                                            int y) override;
+  accuracy::ExpectedSurface expected_surface(const Configuration& configuration,
+                                             const std::map<std::string, double>& precision,
+                                             std::span<const std::uint32_t> particles, int x,
+                                             int y) override;
 
  private:
   // The last set that was loaded, with everything that belongs to it. Neighbouring configurations
@@ -298,6 +308,32 @@ measure::Limit ParticleSuite::limit(const Configuration& configuration) {
 std::vector<record::Expectation> ParticleSuite::expectations(const Configuration& configuration) {
   const auto stress = stress_data(configuration.at("data"));
   return stress ? stress_expectations(*stress) : std::vector<record::Expectation>{};
+}
+
+std::vector<std::uint32_t> ParticleSuite::particles_near(
+    const Configuration& configuration, const std::map<std::string, double>& precision, int x,
+    int y) {
+  const scene::ParticleScene pictured = scene(configuration);
+  const reference::SphereErrorModel model = model_of(pictured, configuration, precision);
+  const reference::SpherePicture picture(pictured, model);
+  return reference::SphereTracer(picture).spheres_near(x, y);
+}
+
+accuracy::ExpectedSurface ParticleSuite::expected_surface(
+    const Configuration& configuration, const std::map<std::string, double>& precision,
+    std::span<const std::uint32_t> particles, int x, int y) {
+  scene::ParticleScene pictured = scene(configuration);
+  const reference::SphereErrorModel model = model_of(pictured, configuration, precision);
+  pictured.particles = std::make_shared<const scene::ParticleSet>(
+      scene::particle_subset(*pictured.particles, particles));
+  const reference::SpherePicture picture(pictured, model);
+  const reference::SpherePixel pixel = reference::SphereTracer(picture)(x, y);
+  return {.id = pixel.id,
+          .depth = pixel.depth,
+          .depth_bound = pixel.depth_bound,
+          .colour = pixel.rgba,
+          .colour_bound = pixel.bound,
+          .certain = pixel.certain};
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "core/json.hpp"
 #include "core/json_text.hpp"
 #include "measure/contract/factor.hpp"
+#include "measure/contract/pixel_history.hpp"
 #include "reference/open_counts.hpp"
 #include "reference/volume.hpp"
 #include "scene/data_summary.hpp"
@@ -21,6 +22,7 @@
 #include "suites/volume/frame_description.hpp"
 #include "suites/volume/loaded_data.hpp"
 #include "suites/volume/own_levels.hpp"
+#include "suites/volume/pixel_history.hpp"
 #include "suites/volume/plain_work.hpp"
 #include "suites/volume/storage_error.hpp"
 #include "suites/volume/stress_cases.hpp"
@@ -33,7 +35,7 @@ namespace {
 
 using measure::Configuration;
 
-class VolumeSuite final : public measure::SuiteWithTruth {
+class VolumeSuite final : public measure::SuiteWithTruth, public measure::ExpectsRay {
  public:
   explicit VolumeSuite(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
 
@@ -68,6 +70,9 @@ class VolumeSuite final : public measure::SuiteWithTruth {
   measure::Limit limit(const Configuration& configuration) override;
   std::optional<core::Image> closed_form(const Configuration& configuration) override;
   std::vector<record::Expectation> expectations(const Configuration& configuration) override;
+  accuracy::ExpectedRay expected_ray(const Configuration& configuration,
+                                     const std::map<std::string, double>& precision, int x,
+                                     int y) override;
 
  private:
   // The input of the reference: the scene, and the errors that a device's path may have in it.
@@ -240,6 +245,13 @@ std::map<std::string, double> VolumeSuite::open_counts(
     planes = {.edge = layout.edge, .origin = layout.of_cells ? 0.5 : 0.0};
   }
   return reference::open_counts(pictured, model, planes);
+}
+
+accuracy::ExpectedRay VolumeSuite::expected_ray(const Configuration& configuration,
+                                                const std::map<std::string, double>& precision,
+                                                int x, int y) {
+  const auto [pictured, model] = judged(configuration, precision);
+  return pixel_history(pictured, model, x, y);
 }
 
 // The contents of a transfer function's file, because the factor contains only its name.

@@ -1,17 +1,38 @@
 #include "measure/run/in_process.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "core/error.hpp"
 #include "measure/protocol/protocol.hpp"
+#include "measure/run/sprite_draws.hpp"
 #include "measure/system/frame_capture.hpp"
 #include "measure/worker/worker.hpp"
 
 namespace triptych::measure {
+namespace {
+
+void require_inside(const core::Image& image, PixelPlace place) {
+  if (place.x >= image.width || place.y >= image.height) {
+    throw core::InputError(fmt::format("--pixel {},{} is outside of the image of {}x{}", place.x,
+                                       place.y, image.width, image.height));
+  }
+}
+
+TracedPixel trace_pixel(Prepared& prepared, PixelPlace place) {
+  auto* const traces = dynamic_cast<TracesPixel*>(&prepared);
+  if (traces == nullptr) throw core::NotSupported(not_traced);
+  prepared.poison();
+  technique::RayTrace trace = traces->trace(place.x, place.y);
+  return {.place = place, .trace = std::move(trace), .image = prepared.image(), .sprites = {}};
+}
+
+}  // namespace
 
 FrameInProcess draw_in_process(const Backend& backend, std::string_view device_id, Suite& suite,
                                const Plan& plan, std::span<const InjectedFault> faults,
-                               const std::string& capture) {
+                               const std::string& capture, std::optional<PixelPlace> pixel) {
   Configuration configuration = plan.configurations.front();
   const std::string key = configuration_key(suite, configuration);
   const std::string scene = scene_key(suite, configuration);
@@ -24,9 +45,21 @@ FrameInProcess draw_in_process(const Backend& backend, std::string_view device_i
     const FrameCapture captured(capture);
     static_cast<void>(prepared->frame(Purpose::timing));
   }
-  FrameInProcess drawn{.record = {}, .image = prepared->image(), .device = device->info()};
+  FrameInProcess drawn{
+      .record = {}, .image = prepared->image(), .device = device->info(), .traced = {}};
   record::Record& record = drawn.record;
   describe_work(work, *device, record);
+  if (pixel) {
+    require_inside(drawn.image, *pixel);
+    if (std::holds_alternative<VolumeWork>(work.scene)) {
+      drawn.traced = trace_pixel(*prepared, *pixel);
+    } else {
+      drawn.traced = TracedPixel{.place = *pixel, .trace = {}, .image = {}, .sprites = {}};
+      drawn.traced->sprites = sprite_history(
+          *device, work, suite, {.configuration = configuration, .precision = record.precision},
+          *pixel, shown_at(drawn.image, *pixel));
+    }
+  }
   record.suite = plan.suite;
   record.plan = plan.name;
   record.configuration = key;

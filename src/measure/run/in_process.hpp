@@ -2,12 +2,14 @@
 // Draws one frame in this process, with nothing before it, as debuggers and tools that record the
 // calls of an API need it.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "core/image.hpp"
 #include "measure/contract/backend.hpp"
+#include "measure/contract/pixel_history.hpp"
 #include "measure/contract/suite.hpp"
 #include "measure/plan/plan.hpp"
 #include "measure/protocol/injected_fault.hpp"
@@ -15,19 +17,29 @@
 
 namespace triptych::measure {
 
+struct TracedPixel {
+  PixelPlace place;
+  technique::RayTrace trace;                            // of a volume
+  core::Image image;                                    // of the build that recorded the trace
+  std::optional<accuracy::SpriteHistory> sprites = {};  // of particles, instead of both
+};
+
 struct FrameInProcess {
   record::Record record;
   core::Image image;
   record::Device device;
+  std::optional<TracedPixel> traced;  // if a pixel was named
 };
 
 // Draws the only configuration of the plan: opens the device, prepares it, draws one frame and
 // reads its image. Nothing is calibrated, counted or repeated. If RenderDoc is loaded into the
 // process, its capture contains the frame and nothing else, and the file is named after `capture`.
-// Throws what the device's functions throw.
+// If a pixel is named, further frames find its history. Throws what the device's functions
+// throw, and InputError for a pixel outside of the image.
 [[nodiscard]] FrameInProcess draw_in_process(const Backend& backend, std::string_view device_id,
                                              Suite& suite, const Plan& plan,
                                              std::span<const InjectedFault> faults,
-                                             const std::string& capture);
+                                             const std::string& capture,
+                                             std::optional<PixelPlace> pixel = std::nullopt);
 
 }  // namespace triptych::measure

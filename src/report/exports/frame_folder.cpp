@@ -34,8 +34,8 @@ core::Json frame_json(core::Json scene, const record::Record& record,
 }
 
 void remove_frame(const std::filesystem::path& folder) {
-  for (const char* file :
-       {"image.exr", "image.png", "truth.exr", "truth.png", "difference.png", "frame.json"}) {
+  for (const char* file : {"image.exr", "image.png", "truth.exr", "truth.png", "difference.png",
+                           "frame.json", "pixel.txt"}) {
     std::filesystem::remove(folder / file);
   }
 }

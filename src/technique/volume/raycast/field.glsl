@@ -172,3 +172,7 @@ struct Light {
   real3 colour;          // premultiplied
   real transmittance;
 };
+
+#if TRI_TRACE
+#include "volume/raycast/trace.glsl"
+#endif

@@ -43,6 +43,8 @@ vec4 transfer_entry(int i) { return texelFetch(transfer_texture, i, 0); }
 int brick_at(int i) { return brick_visible[i]; }
 vec4 quadrature_entry(int i) { return quadrature_table[i]; }
 #endif
-#if TRI_COUNT
+#if TRI_TRACE
+layout(std430) TRI_BINDING(5) buffer Counters { uint counters[]; };
+#elif TRI_COUNT
 layout(std430) TRI_BINDING(5) writeonly buffer Counters { uint counters[]; };
 #endif

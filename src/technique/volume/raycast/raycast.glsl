@@ -17,11 +17,23 @@ void add_classified(inout Light light, Grid grid, Ray ray, real4 c, real3 p, boo
     real weight = light.transmittance * opacity;
     light.colour += weight * c.rgb;
     light.transmittance -= weight;
+#if TRI_TRACE
+    traced_opacity = opacity;
+#endif
   }
+#if TRI_TRACE
+  trace(1u, p, c, steps, light);
+#endif
 }
 
 void add_sample(inout Light light, Grid grid, Ray ray, real3 p, bool whole, real steps) {
+#if TRI_TRACE
+  real value = field(grid, p);
+  traced_value = value;
+  add_classified(light, grid, ray, transfer(value), p, whole, steps);
+#else
   add_classified(light, grid, ray, transfer(field(grid, p)), p, whole, steps);
+#endif
 }
 
 // The progress of a ray.
@@ -43,6 +55,9 @@ void advance_segment(inout March m, inout Cut cut, Grid grid, Ray ray, real step
   real length = step_voxels * tri_step_share(ray.steps, m.i);
   bool fresh = TRI_PREINTEGRATED != 2 || cut.per_cell == 0.0;
   if (TRI_PREINTEGRATED == 2 && m.light.transmittance == 0.0) cut.left = 0.0;  // no passes for what is invisible
+#if TRI_TRACE
+  traced_front = m.front;
+#endif
   vec4 segment = preintegrated(m.front, back, length, cut);
   bool visible = segment.a > 0.0 || cut.per_cell > 0.0;
   if (TRI_COUNT == 1 && fresh) count_samples++;
@@ -55,6 +70,12 @@ void advance_segment(inout March m, inout Cut cut, Grid grid, Ray ray, real step
     m.light.colour += m.light.transmittance * segment.rgb;
     m.light.transmittance -= m.light.transmittance * segment.a;
   }
+#if TRI_TRACE
+  traced_value = m.front;  // where this step, or this part of it, ends
+  traced_opacity = segment.a;
+  real4 straight = vec4(segment.a > 0.0 ? segment.rgb / segment.a : vec3(0.0), segment.a);
+  trace(2u, ray.p0 + (0.5 * (real(m.i) + end)) * ray.g, straight, length, m.light);
+#endif
 }
 #endif
 
@@ -90,10 +111,16 @@ void advance_two(inout March m, Grid grid, Ray ray, real step_voxels, real enoug
   real y = field(grid, q);
   real4 a = transfer(x);
   real4 b = transfer(y);
+#if TRI_TRACE
+  traced_value = x;
+#endif
   add_classified(m.light, grid, ray, a, p, true, step_voxels);
   end_in_the_dark(m, enough);
   m.i += 1;
   if (m.i < m.stop) {
+#if TRI_TRACE
+    traced_value = y;
+#endif
     add_classified(m.light, grid, ray, b, q, true, step_voxels);
     end_in_the_dark(m, enough);
     m.i += 1;
@@ -127,6 +154,9 @@ void advance_merged(inout March m, Grid grid, Ray ray, real step_voxels, real en
 // Third, it allows an invocation 65,535 passes through all its loops together, however they are nested. If rays may
 // be longer (technique::has_long_rays), a pass takes sixteen samples.
 vec4 raycast(ivec2 pixel) {
+#if TRI_TRACE
+  begin_trace(pixel);
+#endif
   Ray ray = make_ray(pixel);
   Grid grid = load_grid();
   March m = March(Light(real3(0.0), 1.0), 0.0, 0, 0, tri_sample_count(ray.steps), false);

@@ -54,6 +54,9 @@ void take_next(inout March m, inout Cut cut, inout bool fresh, bool merged, int 
 
 // Premultiplied RGBA of the pixel so far. `place` is that of its pause.
 vec4 raycast_part(ivec2 pixel, int place) {
+#if TRI_TRACE
+  begin_trace(pixel);
+#endif
   Ray ray = make_ray(pixel);
   Grid grid = load_grid();
   March m = March(Light(real3(0.0), 1.0), 0.0, 0, 0, tri_sample_count(ray.steps), false);

@@ -1,0 +1,35 @@
+// The history of one pixel, in the build that is made for it (technique/volume/ray_trace.hpp).
+#define TRI_TRACED_SAMPLE 1u
+#define TRI_TRACED_STEP 2u
+
+// The place of the pixel's records; null for all other pixels.
+TRI_FN __global uint* traced_records(__global uint* counters, int pixel) {
+  uint place = counters[8 * pixel + 7];
+  return place == 0xFFFFFFFFu ? 0 : counters + place;
+}
+
+// `values`: at the beginning of a step and at its end, or twice that of a sample.
+TRI_FN void trace(const Ray* ray, uint kind, real3 place, real2 values, real4 colour,
+                  real length, real opacity, const Gathered* gathered) {
+  __global uint* records = ray->trace;
+  if (!records) return;
+  uint n = records[1]++;
+  if (n >= records[0]) return;
+  __global float* to = (__global float*)(records + 2 + 16 * n);
+  records[2 + 16 * n] = kind;
+  to[1] = (float)place.x;
+  to[2] = (float)place.y;
+  to[3] = (float)place.z;
+  to[4] = (float)values.y;
+  to[5] = (float)values.x;
+  to[6] = (float)colour.x;
+  to[7] = (float)colour.y;
+  to[8] = (float)colour.z;
+  to[9] = (float)colour.w;
+  to[10] = (float)length;
+  to[11] = (float)opacity;
+  to[12] = (float)gathered->transmittance;
+  to[13] = (float)gathered->sum.x;
+  to[14] = (float)gathered->sum.y;
+  to[15] = (float)gathered->sum.z;
+}

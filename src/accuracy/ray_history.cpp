@@ -1,0 +1,173 @@
+#include "accuracy/ray_history.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace triptych::accuracy {
+namespace {
+
+// Recorded numbers are floats. In single precision they are exact; in double precision they were
+// rounded by half of this, relative.
+constexpr double recorded = 0x1.0p-23;
+
+// Nothing behind this transmittance is compared: the reference ends its rays there.
+constexpr double invisible = 0x1.0p-60;
+
+bool is_within(double number, const Allowed& allowed) {
+  const double slack = recorded * std::max(std::abs(allowed.lo), std::abs(allowed.hi));
+  return number >= allowed.lo - slack && number <= allowed.hi + slack;
+}
+
+// The light in front of a sample, as the device recorded it.
+struct Light {
+  double transmittance = 1;
+  std::array<double, 3> gathered{};
+};
+
+// One multiplication and one addition for each channel, which read recorded numbers: four roundings
+// of the largest number that takes part.
+bool is_composited(const Light& before, const TakenSample& taken) {
+  const double weight = before.transmittance * taken.opacity;
+  const double slack = 4 * recorded * before.transmittance;
+  bool right = std::abs(taken.transmittance - (before.transmittance - weight)) <= slack;
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    const double added = taken.opacity > 0 ? weight * taken.colour[channel] : 0.0;
+    const double sum = before.gathered[channel] + added;
+    const double scale = std::abs(before.gathered[channel]) + std::abs(added);
+    right = right && std::abs(taken.gathered[channel] - sum) <= 4 * recorded * scale + 1e-30;
+  }
+  return right;
+}
+
+std::optional<Operation> first_difference(const ExpectedSample& expected, const TakenSample& taken,
+                                          const Light& before) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!is_within(taken.place[axis], expected.place[axis])) return Operation::place;
+  }
+  if (expected.front && !is_within(taken.front, *expected.front)) return Operation::front;
+  if (!is_within(taken.value, expected.value)) return Operation::value;
+  if (expected.alpha && !is_within(taken.alpha, *expected.alpha)) return Operation::alpha;
+  // What has no opacity may have any colour, and is not shaded.
+  for (std::size_t channel = 0; taken.opacity > 0 && channel < 3; ++channel) {
+    if (!is_within(taken.colour[channel], expected.colour[channel])) return Operation::colour;
+  }
+  if (!is_within(taken.length, expected.length)) return Operation::length;
+  if (!is_within(taken.opacity, expected.opacity)) return Operation::opacity;
+  if (!is_composited(before, taken)) return Operation::compositing;
+  return std::nullopt;
+}
+
+// The number of the sample, from its place along the ray. Midpoints and the middles of whole steps
+// are at i + ½; the middle of a partial step is before that.
+std::int64_t index_of(const ExpectedRay& ray, const TakenSample& taken) {
+  double along = 0;
+  double square = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    along += (taken.place[axis] - ray.entry[axis]) * ray.stride[axis];
+    square += ray.stride[axis] * ray.stride[axis];
+  }
+  const double steps = square > 0 ? along / square : 0.0;
+  if (!std::isfinite(steps) || std::abs(steps) > 1e15) return -1;
+  // The middle of a very short last step is beside a whole number.
+  return static_cast<std::int64_t>(std::floor(steps + 1e-4));
+}
+
+// Whether a sample covers more than its own step.
+bool is_merged(const ExpectedRay& ray, const TakenSample& taken, std::int64_t index) {
+  if (!ray.merges) return false;
+  const auto at = static_cast<std::size_t>(std::max<std::int64_t>(index, 0));
+  return at >= ray.samples.size() || !is_within(taken.length, ray.samples[at].length);
+}
+
+// Goes through the samples of a device, and through the expected ones beside them.
+class Comparison {
+ public:
+  explicit Comparison(const ExpectedRay& ray) : ray_(ray) {}
+
+  void take(const TakenSample& taken) {
+    const std::int64_t index = index_of(ray_, taken);
+    const bool merged = is_merged(ray_, taken, index);
+    const bool in_order = index >= next_ && index < end();
+    if (in_order) pass_by(index, merged);
+    SampleRow row{
+        .expected = {}, .taken = taken, .index = index, .compared = !merged, .differs = {}};
+    if (in_order) {
+      row.expected = ray_.samples[static_cast<std::size_t>(index)];
+      if (!merged) row.differs = first_difference(*row.expected, taken, light_);
+    } else if (!merged && light_.transmittance > invisible) {
+      row.differs = Operation::take;
+    }
+    add(std::move(row));
+    light_ = {taken.transmittance, taken.gathered};
+    if (in_order) next_ = index + 1;
+    after_merged_ = merged;
+  }
+
+  RayHistory finish() {
+    // A ray may have ended in the dark, or with a merged sample that covers the rest.
+    const bool ended = light_.transmittance < std::max(ray_.ends_below, invisible);
+    pass_by(end(), ended || after_merged_);
+    return std::move(history_);
+  }
+
+ private:
+  [[nodiscard]] std::int64_t end() const { return static_cast<std::int64_t>(ray_.samples.size()); }
+
+  // The samples before `index` that the device did not take. It may leave out those without
+  // opacity, and those that it merged into another one.
+  void pass_by(std::int64_t index, bool excused) {
+    for (; next_ < index; ++next_) {
+      const ExpectedSample& expected = ray_.samples[static_cast<std::size_t>(next_)];
+      const bool missing = !excused && !after_merged_ && expected.opacity.lo > 0;
+      SampleRow row{
+          .expected = expected, .taken = {}, .index = next_, .compared = !excused, .differs = {}};
+      if (missing) row.differs = Operation::take;
+      add(std::move(row));
+    }
+  }
+
+  void add(SampleRow row) {
+    if (row.differs && !history_.first) history_.first = history_.rows.size();
+    history_.rows.push_back(std::move(row));
+  }
+
+  const ExpectedRay& ray_;
+  std::int64_t next_ = 0;
+  Light light_;
+  bool after_merged_ = false;
+  RayHistory history_;
+};
+
+}  // namespace
+
+std::string_view name_of(Operation operation) {
+  switch (operation) {
+    case Operation::take:
+      return "samples taken";
+    case Operation::place:
+      return "position";
+    case Operation::front:
+      return "value at the beginning of the step";
+    case Operation::value:
+      return "interpolated value";
+    case Operation::alpha:
+      return "opacity from the transfer function";
+    case Operation::colour:
+      return "colour from the transfer function and shading";
+    case Operation::length:
+      return "length that the sample covers";
+    case Operation::opacity:
+      return "opacity for this length";
+    case Operation::compositing:
+      return "compositing";
+  }
+  return "";
+}
+
+RayHistory compare(const ExpectedRay& expected, const std::vector<TakenSample>& taken) {
+  Comparison comparison(expected);
+  for (const TakenSample& sample : taken) comparison.take(sample);
+  return comparison.finish();
+}
+
+}  // namespace triptych::accuracy

@@ -1,0 +1,74 @@
+#pragma once
+// The history of one pixel: what a device did to draw it, and what the reference expects.
+//
+// Prepared works and suites that can report it implement these interfaces in addition to their own.
+
+#include <cstdint>
+#include <span>
+
+#include "accuracy/ray_history.hpp"
+#include "accuracy/sprite_history.hpp"
+#include "measure/contract/suite.hpp"
+#include "technique/volume/ray_trace.hpp"
+
+namespace triptych::measure {
+
+// A pixel, counted from the left upper corner.
+struct PixelPlace {
+  int x = 0;
+  int y = 0;
+};
+
+// The reason why TracesPixel::trace() refuses a work.
+inline constexpr const char* not_traced =
+    "the history of a pixel is recorded for quadrature midpoint and preintegrated, not for cells";
+
+// A prepared work that can draw a frame with a build of its device code that records what it does
+// for one pixel. The build counts, and its control flow is that of the counting build.
+class TracesPixel {
+ public:
+  TracesPixel() = default;
+  TracesPixel(const TracesPixel&) = delete;
+  TracesPixel& operator=(const TracesPixel&) = delete;
+  virtual ~TracesPixel() = default;
+
+  // Draws the frame; afterwards Prepared::image() returns its image. Throws as Prepared::frame()
+  // does, and NotSupported if the technique records nothing.
+  [[nodiscard]] virtual technique::RayTrace trace(int x, int y) = 0;
+};
+
+// A suite whose reference renderer can report the samples of one pixel of a volume.
+class ExpectsRay {
+ public:
+  ExpectsRay() = default;
+  ExpectsRay(const ExpectsRay&) = delete;
+  ExpectsRay& operator=(const ExpectsRay&) = delete;
+  virtual ~ExpectsRay() = default;
+
+  // Parameters as in SuiteWithTruth::truth. Throws NotSupported for a quadrature whose samples
+  // cannot be compared one by one.
+  [[nodiscard]] virtual accuracy::ExpectedRay expected_ray(
+      const Configuration& configuration, const std::map<std::string, double>& precision, int x,
+      int y) = 0;
+};
+
+// A suite whose reference renderer can report what a pixel shows of some of the particles.
+class ExpectsSprites {
+ public:
+  ExpectsSprites() = default;
+  ExpectsSprites(const ExpectsSprites&) = delete;
+  ExpectsSprites& operator=(const ExpectsSprites&) = delete;
+  virtual ~ExpectsSprites() = default;
+
+  // The indices of the particles that the pixel's ray may meet, from front to back, hidden ones
+  // included. Parameters as in SuiteWithTruth::truth.
+  [[nodiscard]] virtual std::vector<std::uint32_t> particles_near(
+      const Configuration& configuration, const std::map<std::string, double>& precision, int x,
+      int y) = 0;
+  // What the pixel shows of these particles, with the bounds of the whole scene.
+  [[nodiscard]] virtual accuracy::ExpectedSurface expected_surface(
+      const Configuration& configuration, const std::map<std::string, double>& precision,
+      std::span<const std::uint32_t> particles, int x, int y) = 0;
+};
+
+}  // namespace triptych::measure

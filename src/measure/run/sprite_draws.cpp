@@ -1,0 +1,125 @@
+#include "measure/run/sprite_draws.hpp"
+
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include "scene/particle_subset.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using accuracy::Particles;
+using accuracy::SurfaceDifference;
+
+// A device takes some milliseconds to prepare and draw a few spheres.
+constexpr std::size_t most_rows = 64;
+constexpr int most_draws = 128;
+
+class SpriteDraws {
+ public:
+  SpriteDraws(Device& device, const Work& work, ExpectsSprites& expects, const Described& described,
+              PixelPlace place)
+      : device_(device),
+        work_(work),
+        expects_(expects),
+        described_(described),
+        place_(place),
+        all_(std::get<ParticleWork>(work.scene).scene.particles) {}
+
+  [[nodiscard]] Particles near() const {
+    return expects_.particles_near(described_.configuration, described_.precision, place_.x,
+                                   place_.y);
+  }
+
+  [[nodiscard]] Particles all() const {
+    Particles particles(all_->count());
+    std::iota(particles.begin(), particles.end(), 0U);
+    return particles;
+  }
+
+  [[nodiscard]] std::uint32_t id_of(std::uint32_t particle) const { return all_->ids[particle]; }
+
+  [[nodiscard]] accuracy::ExpectedSurface expected(const Particles& particles) const {
+    return expects_.expected_surface(described_.configuration, described_.precision, particles,
+                                     place_.x, place_.y);
+  }
+
+  // What the device shows of these particles.
+  [[nodiscard]] accuracy::ShownSurface shown(const Particles& particles) {
+    std::get<ParticleWork>(work_.scene).scene.particles =
+        std::make_shared<const scene::ParticleSet>(scene::particle_subset(*all_, particles));
+    const std::unique_ptr<Prepared> prepared = device_.prepare(work_);
+    prepared->poison();
+    static_cast<void>(prepared->frame(Purpose::timing));
+    return shown_at(prepared->image(), place_);
+  }
+
+  [[nodiscard]] SurfaceDifference difference(const Particles& particles) {
+    return accuracy::compare(expected(particles), shown(particles));
+  }
+
+ private:
+  Device& device_;
+  Work work_;
+  ExpectsSprites& expects_;
+  Described described_;
+  PixelPlace place_;
+  std::shared_ptr<const scene::ParticleSet> all_;
+};
+
+void add_row(accuracy::SpriteHistory& history, SpriteDraws& draws, std::uint32_t particle) {
+  accuracy::SpriteRow row{.id = draws.id_of(particle),
+                          .expected = draws.expected({particle}),
+                          .shown = draws.shown({particle}),
+                          .differs = {}};
+  row.differs = accuracy::compare(row.expected, row.shown);
+  if (row.differs != SurfaceDifference::none && !history.first) {
+    history.first = history.rows.size();
+  }
+  history.rows.push_back(row);
+}
+
+void find_fewest(accuracy::SpriteHistory& history, SpriteDraws& draws, const Particles& near) {
+  const auto is_wrong = [&](const Particles& particles) {
+    return draws.difference(particles) != SurfaceDifference::none;
+  };
+  const Particles begin = is_wrong(near) ? near : draws.all();
+  accuracy::Fewest fewest = accuracy::fewest_of(begin, is_wrong, most_draws);
+  history.fewest_differs = draws.difference(fewest.particles);
+  history.stopped_early = fewest.stopped_early;
+  for (const std::uint32_t each : fewest.particles) history.fewest.push_back(draws.id_of(each));
+}
+
+}  // namespace
+
+accuracy::ShownSurface shown_at(const core::Image& image, PixelPlace place) {
+  const std::size_t at = static_cast<std::size_t>(place.y) * static_cast<std::size_t>(image.width) +
+                         static_cast<std::size_t>(place.x);
+  accuracy::ShownSurface shown{.id = core::Image::no_particle};
+  if (!image.ids.empty()) shown.id = image.ids[at];
+  if (!image.depth.empty()) shown.depth = image.depth[at];
+  for (std::size_t k = 0; k < 4; ++k) shown.colour[k] = image.rgba[4 * at + k];
+  return shown;
+}
+
+accuracy::SpriteHistory sprite_history(Device& device, const Work& work, Suite& suite,
+                                       const Described& described, PixelPlace place,
+                                       const accuracy::ShownSurface& whole) {
+  auto* const expects = dynamic_cast<ExpectsSprites*>(&suite);
+  if (expects == nullptr) throw core::NotSupported(not_traced);
+  SpriteDraws draws(device, work, *expects, described, place);
+  const Particles near = draws.near();
+  accuracy::SpriteHistory history;
+  for (const std::uint32_t particle : near) {
+    if (history.rows.size() == most_rows) break;
+    add_row(history, draws, particle);
+  }
+  history.left_out = near.size() - history.rows.size();
+  const bool wrong =
+      accuracy::compare(draws.expected(draws.all()), whole) != SurfaceDifference::none;
+  if (wrong && !history.first) find_fewest(history, draws, near);
+  return history;
+}
+
+}  // namespace triptych::measure

@@ -1,0 +1,74 @@
+// `render --pixel`: the first operation of a device that differs from the reference.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/command.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace triptych::layer {
+namespace {
+
+struct Traced {
+  int code = 0;
+  std::string operation;  // of the first difference; empty if there is none
+  std::string output;
+};
+
+class PixelHistories : public testing::TestWithParam<const char*> {
+ protected:
+  [[nodiscard]] Traced trace(const std::string& more) const {
+    const test::Result result = test::run_command(fmt::format(
+        "cd '{}' && TRIPTYCH_DATA= '{}' render volume --device {} --pixel 7,8 --set viewport=16 "
+        "--set data=generate:marschner_lobb:8 --set step=0.5 --out frame {}",
+        folder_.path().string(), TRIPTYCH_PROGRAM, GetParam(), more));
+    Traced traced{.code = result.code, .operation = {}, .output = result.output};
+    constexpr std::string_view before = "first difference: ";
+    const std::size_t at = result.output.find(before);
+    if (at == std::string::npos) return traced;
+    const std::size_t begin = at + before.size();
+    traced.operation = result.output.substr(begin, result.output.find(" is ", begin) - begin);
+    return traced;
+  }
+
+  void SetUp() override {
+    const Traced traced = trace("");
+    if (traced.output.find("no device") != std::string::npos) GTEST_SKIP() << "needs the device";
+    ASSERT_EQ(traced.code, 0) << traced.output;
+  }
+
+ private:
+  test::TemporaryFolder folder_;
+};
+
+TEST_P(PixelHistories, DoNotDifferOnACorrectDevice) {
+  for (const char* each :
+       {"--set skip=none --set shading=headlight", "--set sampler=manual",
+        "--set quadrature=preintegrated --set step=4", "--set budget=0.001",
+        "--set ert=0 --set precision=fp64", "--set adapt=1/256 --set skip=bricks"}) {
+    const Traced traced = trace(each);
+    EXPECT_EQ(traced.code, 0) << each << "\n" << traced.output;
+  }
+}
+
+TEST_P(PixelHistories, NameTheOperationWithAFault) {
+  const std::vector<std::pair<std::string, std::string>> faults{
+      {"--inject half_voxel_shift", "interpolated value"},
+      {"--inject coarse_filter", "interpolated value"},
+      {"--inject uncorrected_opacity", "length that the sample covers"}};
+  for (const auto& [fault, operation] : faults) {
+    const Traced traced = trace(fault + " --set sampler=manual");
+    EXPECT_EQ(traced.code, 1) << fault;
+    EXPECT_EQ(traced.operation, operation) << traced.output;
+  }
+  EXPECT_EQ(trace("--inject extra_sample --set ert=0 --set skip=none").code, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Devices, PixelHistories,
+                         testing::Values("vulkan:lavapipe", "gl:llvmpipe-egl", "opencl:pocl"));
+
+}  // namespace
+}  // namespace triptych::layer

@@ -1,0 +1,65 @@
+#include "accuracy/sprite_history.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/image.hpp"
+
+namespace triptych::accuracy {
+namespace {
+
+constexpr std::uint32_t nothing = core::Image::no_particle;
+
+const ExpectedSurface expected{.id = 7,
+                               .depth = 2,
+                               .depth_bound = 0.01,
+                               .colour = {0.5, 0.5, 0.5, 1},
+                               .colour_bound = 0.001,
+                               .certain = true};
+
+ShownSurface shown(std::uint32_t id, double depth, double red) {
+  return {.id = id, .depth = depth, .colour = {red, 0.5, 0.5, 1}};
+}
+
+TEST(SpriteHistory, NamesWhatDiffers) {
+  EXPECT_EQ(compare(expected, shown(7, 2.005, 0.5005)), SurfaceDifference::none);
+  EXPECT_EQ(compare(expected, shown(nothing, 2, 0.5)), SurfaceDifference::missing);
+  EXPECT_EQ(compare(expected, shown(8, 2, 0.5)), SurfaceDifference::particle);
+  EXPECT_EQ(compare(expected, shown(7, 2.02, 0.5)), SurfaceDifference::depth);
+  EXPECT_EQ(compare(expected, shown(7, 2, 0.502)), SurfaceDifference::colour);
+  ExpectedSurface none = expected;
+  none.id = nothing;
+  EXPECT_EQ(compare(none, shown(7, 2, 0.5)), SurfaceDifference::unexpected);
+  EXPECT_EQ(compare(none, shown(nothing, 1e30, 0.5)), SurfaceDifference::none);
+}
+
+TEST(SpriteHistory, AllowsAnotherParticleWhereThePixelIsNotCertain) {
+  ExpectedSurface edge = expected;
+  edge.certain = false;
+  edge.colour_bound = 0.5;
+  EXPECT_EQ(compare(edge, shown(nothing, 2, 0.0)), SurfaceDifference::none);
+  EXPECT_EQ(compare(edge, shown(8, 5, 1.1)), SurfaceDifference::colour);
+}
+
+// Wrong only if both particles 3 and 61 of 100 are drawn.
+TEST(SpriteHistory, FindsTheFewestParticles) {
+  Particles all(100);
+  for (std::uint32_t i = 0; i < 100; ++i) all[i] = i;
+  int calls = 0;
+  const auto wrong = [&](const Particles& particles) {
+    ++calls;
+    return std::ranges::find(particles, 3U) != particles.end() &&
+           std::ranges::find(particles, 61U) != particles.end();
+  };
+  const Fewest fewest = fewest_of(all, wrong, 1000);
+  EXPECT_EQ(fewest.particles, (Particles{3, 61}));
+  EXPECT_FALSE(fewest.stopped_early);
+  EXPECT_LT(calls, 100);
+  const Fewest stopped = fewest_of(all, wrong, 3);
+  EXPECT_TRUE(stopped.stopped_early);
+  EXPECT_TRUE(wrong(stopped.particles));
+}
+
+}  // namespace
+}  // namespace triptych::accuracy
