@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 
+#include "accuracy/image_metrics.hpp"
 #include "app/arguments.hpp"
 #include "app/one_frame.hpp"
 #include "app/terminal.hpp"
@@ -81,6 +82,51 @@ std::vector<std::string> write_frame(const OneFrame& frame, const reduction::Tri
   return files;
 }
 
+// Draws the frame once more, in one process, and writes what the driver is given into the folder
+// "dump": device code, options, buffers and a program in C. For a wrong image, pixel.txt contains
+// the history of its worst pixel. Nothing is written where the driver crashes before.
+// `limit` is that of a frame that hangs: what the driver is given is written before it.
+std::vector<std::string> write_dump_of(const OneFrame& frame, const ReduceArguments& arguments,
+                                       const reduction::Trial& trial, measure::Truths& truths,
+                                       std::optional<std::chrono::seconds> limit,
+                                       const fs::path& out) {
+  const record::Record& record = trial.last();
+  const fs::path folder = out / "dump";
+  std::vector<std::string> command{measure::own_program(),
+                                   "render",
+                                   std::string(frame.suite.name()),
+                                   "--device",
+                                   frame.device,
+                                   "--dump",
+                                   folder.string(),
+                                   "--out",
+                                   folder.string()};
+  for (const auto& [factor, level] : record::parse_factor_list(record.configuration)) {
+    command.insert(command.end(), {"--set", factor + "=" + record::escaped(level)});
+  }
+  for (const std::string& fault : arguments.frame.faults) {
+    command.insert(command.end(), {"--inject", fault});
+  }
+  if (!record.image.empty()) {
+    const judge::TruthPair& pair = truths.of(record);
+    const accuracy::ImageComparison compared =
+        accuracy::compare(truths.picture_of(record), pair.truth, pair.bound);
+    const bool surface = compared.first_wrong.x >= 0;
+    const int x = surface ? compared.first_wrong.x : compared.worst.x;
+    const int y = surface ? compared.first_wrong.y : compared.worst.y;
+    if (x >= 0) command.insert(command.end(), {"--pixel", fmt::format("{},{}", x, y)});
+  }
+  if (limit) {
+    command.insert(command.begin(),
+                   {"timeout", "--signal=KILL", fmt::to_string(limit->count() + 2)});
+  }
+  static_cast<void>(measure::output_of(command));
+  std::vector<std::string> files;
+  if (fs::exists(folder / "what-was-given.txt")) files.emplace_back("dump");
+  if (fs::exists(folder / "pixel.txt")) files.emplace_back("dump/pixel.txt");
+  return files;
+}
+
 report::BugReport report_of(const OneFrame& frame, const reduction::Reduction& reduction) {
   report::BugReport report{.message = report::words::text_of(reduction.failure),
                            .device = {},
@@ -138,6 +184,10 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   report.device = trial.device();
   report.system = store.runs().front().system;
   report.files = write_frame(frame, trial, truths, out);
+  for (std::string& file :
+       write_dump_of(frame, arguments, trial, truths, reduction.failure.reason.limit(), out)) {
+    report.files.push_back(std::move(file));
+  }
   report.command = command_for(frame, arguments, reduction.failure, trial.last(), report.device);
   core::write_text(out / "README.md", report::markdown(report));
   put_lines(fmt::format("{}\n{} frames drawn; {}{}\n{}\n{}\n", report.message, report.frames,

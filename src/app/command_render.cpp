@@ -9,10 +9,12 @@
 
 #include "app/arguments.hpp"
 #include "app/one_frame.hpp"
+#include "app/one_pixel.hpp"
 #include "app/terminal.hpp"
 #include "core/json_text.hpp"
 #include "core/output_files.hpp"
 #include "core/temporary_folder.hpp"
+#include "measure/contract/dump.hpp"
 #include "measure/request/error_request.hpp"
 #include "measure/request/fastest.hpp"
 #include "measure/run/in_process.hpp"
@@ -33,7 +35,8 @@ struct RenderArguments {
   bool truth = false;
   bool describe = false;
   bool in_process = false;
-  std::string dump;  // a folder; empty: none
+  std::string dump;   // a folder; empty: none
+  std::string pixel;  // "X,Y"; empty: none
 };
 
 // Writes the reference image and the difference beside the image, and says whether the image is
@@ -165,22 +168,30 @@ core::ExitCode render_in_process(const RenderArguments& arguments) {
   }
   const fs::path out(arguments.frame.out);
   report::remove_frame(out);
+  if (!arguments.dump.empty()) measure::write_compile_script(arguments.dump);
   const auto faults = measure::parse_faults(arguments.frame.faults);
+  std::optional<measure::PixelPlace> pixel;
+  if (!arguments.pixel.empty()) pixel = parse_pixel(arguments.pixel);
   const measure::FrameInProcess drawn =
       measure::draw_in_process(registry.backend(device.substr(0, device.find(':'))), device, suite,
-                               plan, faults, (fs::absolute(out) / "capture").string());
+                               plan, faults, (fs::absolute(out) / "capture").string(), pixel);
   const core::TemporaryFolder folder;
   record::Store store(folder.path() / "render.sqlite", record::Store::Mode::append);
   measure::Truths truths(registry.find_suite(), store);
-  return keep(arguments, suite, drawn.record, drawn.device, drawn.image,
-              [&](const record::Record& record) { return truths.of(record); });
+  const core::ExitCode kept = keep(arguments, suite, drawn.record, drawn.device, drawn.image,
+                                   [&](const record::Record& record) { return truths.of(record); });
+  if (!drawn.traced) return kept;
+  const core::ExitCode shown = show_pixel(suite, drawn, truths.of(drawn.record), out);
+  return kept == core::ExitCode::pass ? shown : kept;
 }
 
 core::ExitCode render(const RenderArguments& arguments) {
   if (arguments.describe) return describe_data(make_registry(), arguments.frame);
   require_option(arguments.frame.device, "--device");
   require_option(arguments.frame.out, "--out");
-  if (arguments.in_process || !arguments.dump.empty()) return render_in_process(arguments);
+  if (arguments.in_process || !arguments.dump.empty() || !arguments.pixel.empty()) {
+    return render_in_process(arguments);
+  }
   const Registry registry = make_registry();
   const auto [suite, plan, device] = choose_frame(registry, arguments.frame);
   const fs::path out(arguments.frame.out);
@@ -219,6 +230,10 @@ void add_render_command(Commands& commands) {
   command.add_option("--dump", arguments.dump,
                      "Folder for what the driver was given: device code, options, parameters, "
                      "buffers. Implies --in-process");
+  command.add_option("--pixel", arguments.pixel,
+                     "X,Y: print what the device did for this pixel, sample by sample of a volume "
+                     "or sphere by sphere, and mark the first difference from the reference (exit "
+                     "code 1). Further frames find it. Implies --in-process");
   command.add_flag("--truth", arguments.truth,
                    "Compare with the reference image: write truth.exr, truth.png and "
                    "difference.png, and exit with code 1 if the image is wrong");

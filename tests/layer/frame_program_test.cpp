@@ -96,6 +96,19 @@ TEST_F(FramePrograms, DumpsListWhatTheDriverWasGiven) {
   EXPECT_THAT(list, HasSubstr("buffer-"));
 }
 
+// Public tools accept the device code of every API.
+TEST_F(FramePrograms, DumpsCompileWithPublicTools) {
+  std::vector<std::string> devices{"vulkan:lavapipe", "gl:llvmpipe-egl"};
+  if (in_folder("command -v clang").code == 0) devices.emplace_back("opencl:pocl");
+  for (const std::string& device : devices) {
+    std::filesystem::remove_all(folder_.path() / "dump");
+    const test::Result rendered = render(device, "");
+    if (rendered.output.find("no device") != std::string::npos) continue;
+    const test::Result compiled = in_folder("dump/compile.sh");
+    EXPECT_EQ(compiled.code, 0) << device << "\n" << compiled.output;
+  }
+}
+
 // With a replacement for RenderDoc that records its calls.
 TEST_F(FramePrograms, OneFrameIsCaptured) {
   const test::Result rendered = in_folder(fmt::format(

@@ -40,4 +40,35 @@ std::string write_dump(std::string_view name, std::string_view extension, std::s
   return file;
 }
 
+void write_compile_script(const std::filesystem::path& folder) {
+  constexpr const char* script = R"sh(#!/bin/sh
+# Compiles the device code in this folder with public tools: spirv-val (Debian: spirv-tools),
+# glslangValidator (glslang-tools) and clang. The exit code is 1 if one of them rejects a file.
+cd "$(dirname "$0")" || exit 1
+failed=0
+for file in *.spv;
+  do
+  [ -e "$file" ] || continue
+  spirv-val --target-env vulkan1.2 "$file" || failed=1
+done
+for file in shader-*;
+  do
+  [ -e "$file" ] || continue
+  glslangValidator "$file" || failed=1
+done
+for file in program-*.cl;
+  do
+  [ -e "$file" ] || continue
+  options=$(sed -n "s/^$file: built in [0-9.]* ms with //p" what-was-given.txt | head -n 1)
+#The options contain no quotes.
+#shellcheck disable = SC2086
+  clang -x cl -target spir64 -Xclang -finclude-default-header -fsyntax-only $options "$file" || failed=1
+done
+exit $failed
+)sh";
+  core::write_text(folder / "compile.sh", script);
+  std::filesystem::permissions(folder / "compile.sh", std::filesystem::perms::owner_exec,
+                               std::filesystem::perm_options::add);
+}
+
 }  // namespace triptych::measure

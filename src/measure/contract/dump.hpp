@@ -22,4 +22,7 @@ std::string write_dump(std::string_view name, std::string_view extension,
 std::string write_dump(std::string_view name, std::string_view extension, std::string_view content,
                        const std::string& about);
 
+// Writes compile.sh into the folder, which compiles the device code in it with public tools.
+void write_compile_script(const std::filesystem::path& folder);
+
 }  // namespace triptych::measure

@@ -40,6 +40,10 @@ constexpr std::array files{
     File{"image.png", "what was drawn; `image.exr`: as floats, linear and premultiplied"},
     File{"truth.png", "what is right, from a renderer in double precision; `truth.exr`: as floats"},
     File{"difference.png", "their difference; white is the largest error"},
+    File{"dump",
+         "what the driver was given: device code, options, buffers, a program in C for some "
+         "techniques; `compile.sh` compiles the device code"},
+    File{"dump/pixel.txt", "what the device did for the worst pixel, and what differs first"},
 };
 
 std::string list_of_files(const BugReport& report) {
