@@ -62,6 +62,25 @@ TEST_F(DeviceFaults, NoneIsFoundWithoutAFault) {
   EXPECT_THAT(unwrapped(judged().output), Not(HasSubstr("the device's clock")));
 }
 
+// The layer leaks 24 MB with each compute pipeline. Every configuration has two of its own.
+TEST_F(DeviceFaults, MemoryThatGrowsWithEveryConfigurationIsAFinding) {
+  for (const char* change : {"leak", ""}) {
+    const std::string store = fmt::format("memory{}.sqlite", change);
+    const test::Result drawn = layered.run(
+        change,
+        "run volume/quick --device vulkan:lavapipe --untimed --set technique=raycast --set "
+        "data=generate:marschner_lobb:8 --set viewport=16 --set sampler=manual,packed --set "
+        "voxel=u8,u16,f32 --set shading=none,headlight --store " +
+            store);
+    EXPECT_THAT(drawn.output, HasSubstr(" 0 failed"));
+    const test::Result result =
+        layered.run("", "gate volume/quick --check image --baselines none --store " + store);
+    const bool found =
+        unwrapped(result.output).find("the memory of the process grows") != std::string::npos;
+    EXPECT_EQ(found, change == std::string_view("leak")) << result.output;
+  }
+}
+
 TEST_F(DeviceFaults, ADeviceThatIsLostSaysAfterHowManySubmissions) {
   const test::Result drawn = layered.draw("lost_after=40", "volume");
   EXPECT_THAT(unwrapped(drawn.output), HasSubstr("submission 41 of this process"));

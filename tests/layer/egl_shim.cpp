@@ -77,6 +77,11 @@ void draw_instanced_once(GLenum mode, GLint first, GLsizei count, GLsizei instan
                                                                               instances);
 }
 
+// A driver that compiles on another machine, and does not report that this failed: every command
+// succeeds, and nothing is drawn.
+void dispatch_never(GLuint, GLuint, GLuint) {}
+void draw_never(GLenum, GLint, GLsizei) {}
+
 void no_shader(GLuint shader, GLenum name, GLint* value) {
   gl_function<void(GLuint, GLenum, GLint*)>("glGetShaderiv")(shader, name, value);
   constexpr GLenum gl_info_log_length = 0x8B84;
@@ -99,6 +104,10 @@ Any fault_for(std::string_view name) {
     if (name == "glDrawArrays") return reinterpret_cast<Any>(&draw_once);
     if (name == "glMultiDrawArraysIndirect") return reinterpret_cast<Any>(&draw_indirect_once);
     if (name == "glDrawArraysInstanced") return reinterpret_cast<Any>(&draw_instanced_once);
+  }
+  if (asked("never_compiled")) {
+    if (name == "glDispatchCompute") return reinterpret_cast<Any>(&dispatch_never);
+    if (name == "glDrawArrays") return reinterpret_cast<Any>(&draw_never);
   }
   if (asked("negative_log")) {
     if (name == "glGetShaderiv") return reinterpret_cast<Any>(&no_shader);

@@ -89,6 +89,13 @@ TEST_F(GlShims, CommandsThatAreExecutedOnlyOnceAreFound) {
   }
 }
 
+TEST_F(GlShims, ProgramsThatWereNeverCompiledAreNotTakenForWrongImages) {
+  const test::Result drawn = gl("never_compiled", "volume");
+  if (lacks_device(drawn)) GTEST_SKIP() << "needs llvmpipe";
+  EXPECT_THAT(drawn.output, HasSubstr(" 0 measured"));
+  EXPECT_THAT(drawn.output, HasSubstr("was not drawn: none of"));
+}
+
 TEST_F(GlShims, AnInfoLogOfANegativeLengthIsRead) {
   const test::Result drawn = gl("negative_log", "volume");
   if (lacks_device(drawn)) GTEST_SKIP() << "needs llvmpipe";
