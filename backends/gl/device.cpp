@@ -10,6 +10,7 @@
 
 #include "backends/gl/compute_pass.hpp"
 #include "backends/gl/device_info.hpp"
+#include "backends/gl/features.hpp"
 #include "backends/gl/filter_probe.hpp"
 #include "backends/gl/large_points.hpp"
 #include "backends/gl/program_code.hpp"
@@ -44,7 +45,7 @@ const Entry* find(std::string_view technique) {
   return nullptr;
 }
 
-class GlDevice final : public measure::Device {
+class GlDevice final : public measure::Device, public measure::ProbesFeatures {
  public:
   GlDevice(record::Device info, std::unique_ptr<Context> context)
       : info_(std::move(info)),
@@ -118,6 +119,10 @@ class GlDevice final : public measure::Device {
   }
 
   [[nodiscard]] record::Counts memory() const override { return context_->gl().held.counts(); }
+
+  [[nodiscard]] std::vector<measure::FeatureProbe> feature_probes() override {
+    return gl_backend::feature_probes(*context_);
+  }
 
   [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override {
     if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "backends/opencl/features.hpp"
 #include "backends/opencl/filter_probe.hpp"
 #include "backends/opencl/kernel_code.hpp"
 #include "backends/opencl/particle_limits.hpp"
@@ -43,7 +44,7 @@ Session open_session(const Found& found) {
   });
 }
 
-class Device final : public measure::Device {
+class Device final : public measure::Device, public measure::ProbesFeatures {
  public:
   explicit Device(Found found)
       : info_(std::move(found.info)),
@@ -60,6 +61,9 @@ class Device final : public measure::Device {
   [[nodiscard]] record::Counts memory() const override { return session_.held.counts(); }
   [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override;
   [[nodiscard]] measure::Compiled compile(const measure::Work& work) override;
+  [[nodiscard]] std::vector<measure::FeatureProbe> feature_probes() override {
+    return opencl_backend::feature_probes(session_, programs_);
+  }
 
  private:
   [[nodiscard]] double sampler_error(scene::VoxelFormat format) const;  // as the probe measured it

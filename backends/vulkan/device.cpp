@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "backends/vulkan/errors.hpp"
+#include "backends/vulkan/features.hpp"
 #include "backends/vulkan/filter_probe.hpp"
 #include "backends/vulkan/particle_data.hpp"
 #include "backends/vulkan/pipeline_code.hpp"
@@ -57,6 +58,10 @@ Device::Device(std::unique_ptr<const Instance> instance, Candidate candidate)
       gpu_(open_gpu(candidate.physical, instance_->labels(), info_.compiles_for.empty())),
       filter_errors_(probe_filters(gpu_)) {
   instance_->check_validation();
+}
+
+std::vector<measure::FeatureProbe> Device::feature_probes() {
+  return vulkan_backend::feature_probes(gpu_);
 }
 
 std::optional<std::string> Device::unsupported(const measure::Work& work) const {

@@ -2,16 +2,18 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "backends/vulkan/devices.hpp"
 #include "backends/vulkan/gpu.hpp"
 #include "backends/vulkan/instance.hpp"
 #include "measure/contract/backend.hpp"
+#include "measure/contract/features.hpp"
 
 namespace triptych::vulkan_backend {
 
 // A physical device that is open.
-class Device final : public measure::Device {
+class Device final : public measure::Device, public measure::ProbesFeatures {
  public:
   // Probes the texture filter of every voxel format. Throws core::NotSupported, core::ApiError.
   Device(std::unique_ptr<const Instance> instance, Candidate candidate);
@@ -24,6 +26,7 @@ class Device final : public measure::Device {
   [[nodiscard]] record::Counts memory() const override { return gpu_.held.counts(); }
   [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override;
   [[nodiscard]] measure::Compiled compile(const measure::Work& work) override;
+  [[nodiscard]] std::vector<measure::FeatureProbe> feature_probes() override;
 
  private:
   [[nodiscard]] std::optional<double> hardware_error(scene::VoxelFormat format) const;

@@ -5,15 +5,21 @@
 #include <utility>
 
 #include "app/arguments.hpp"
+#include "app/feature_table.hpp"
 #include "app/measure_plans.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/terminal.hpp"
 #include "app/verdicts.hpp"
+#include "core/json_text.hpp"
 #include "core/output_files.hpp"
 #include "judge/gate/flakes.hpp"
+#include "judge/gate/repeats.hpp"
 #include "measure/run/runner.hpp"
 #include "measure/system/stopwatch.hpp"
+#include "measure/worker/listing.hpp"
+#include "report/screen/coverage.hpp"
+#include "report/screen/repeats.hpp"
 #include "report/words/finding.hpp"
 
 namespace triptych::app {
@@ -37,6 +43,7 @@ struct ValidateArguments {
   std::string expect;
   std::string write_expect;
   bool resume = false;
+  int repeat = 1;
 };
 
 // Times, image bits and statistics differ between devices. Any device must draw the right image
@@ -70,10 +77,10 @@ bool measured_to_its_end(const Measuring& measuring) {
   }
 }
 
-// Runs of an earlier validation, which this one does not continue.
-std::set<std::string> runs_before(const ValidateArguments& arguments, const std::string& file) {
+// The runs in the store, which are earlier ones of this validation or of another one.
+std::set<std::string> runs_in(const std::string& file) {
   std::set<std::string> ids;
-  if (arguments.resume || !std::filesystem::exists(file)) return ids;
+  if (!std::filesystem::exists(file)) return ids;
   for (const record::Run& run : record::Store(file, record::Store::Mode::read).runs()) {
     ids.insert(run.id);
   }
@@ -116,6 +123,44 @@ class Validation {
     }
   }
 
+  // The results of this repetition, with the hash of each image.
+  [[nodiscard]] judge::Repetition repetition() const {
+    judge::Repetition repetition{.results = results_, .images = {}};
+    for (const judge::GateResult& result : results_) {
+      for (const record::Record& each : store_.records(result.run)) {
+        if (each.image.empty()) continue;
+        repetition.images[{result.plan, each.device, each.configuration}] = each.image;
+      }
+    }
+    return repetition;
+  }
+
+  void add_flakes(const std::vector<judge::RepeatedCase>& cases) {
+    judge::add_flakes(cases, results_);
+  }
+
+  // Prints and writes what was drawn, and which other features were probed, so that a pass states
+  // what it covers.
+  void tell_coverage(const FeatureTable& features) {
+    std::vector<record::Record> records;
+    for (const judge::GateResult& result : results_) {
+      const std::vector<record::Record> of_plan = store_.records(result.run);
+      records.insert(records.end(), of_plan.begin(), of_plan.end());
+    }
+    const auto coverage = report::coverage_of(records);
+    const std::string text = report::coverage_text(coverage) +
+                             "features that no scene needs, by themselves\n" +
+                             feature_text(features);
+    const std::filesystem::path folder(arguments_.out);
+    core::write_text(folder / "coverage.txt", text + report::bounds_text(wide_bounds(records)));
+    core::write_text(
+        folder / "coverage.json",
+        core::json_text(
+            {{"drawn", report::coverage_json(coverage)}, {"features", feature_json(features)}}, 2) +
+            "\n");
+    put_lines(text, stderr);
+  }
+
   core::ExitCode tell(double seconds) {
     if (!arguments_.write_expect.empty()) {
       const auto reason_of = [](const judge::Finding& finding) {
@@ -132,6 +177,37 @@ class Validation {
   }
 
  private:
+  // 0 if there is no reference image, for example because the data are missing now.
+  [[nodiscard]] double bound_of(const record::Record& record) {
+    try {
+      return report::largest_bound(truths_.of(record).bound);
+    } catch (const core::Error&) {
+      return 0;
+    }
+  }
+
+  // The records whose images were judged with a bound above a step of 8 bits.
+  [[nodiscard]] std::vector<report::WideBound> wide_bounds(
+      const std::vector<record::Record>& records) {
+    std::vector<report::WideBound> bounds;
+    for (const record::Record& each : records) {
+      if (each.image.empty() || !each.same_as.empty()) continue;
+      const double bound = bound_of(each);
+      if (bound <= report::one_step) continue;
+      const auto samples = each.counters.find("samples");
+      const auto rays = each.counters.find("rays_hit");
+      const bool has_rays =
+          samples != each.counters.end() && rays != each.counters.end() && rays->second > 0;
+      bounds.push_back({.device = each.device,
+                        .configuration = each.plan + " " + each.configuration,
+                        .bound = bound,
+                        .samples_per_ray = has_rays ? static_cast<double>(samples->second) /
+                                                          static_cast<double>(rays->second)
+                                                    : 0.0});
+    }
+    return bounds;
+  }
+
   judge::GateResult judge_plan(const measure::Plan& plan) {
     judge::GateRequest request = request_of(truths_, plan, registry_.suite(plan.suite));
     request.checks = checks_of(plan.checks);
@@ -162,6 +238,43 @@ class Validation {
   std::vector<judge::GateResult> results_;
 };
 
+// Measures everything again until there are as many repetitions as requested, or until the user
+// interrupts one, which is then left out.
+std::vector<judge::Repetition> repeat(const ValidateArguments& arguments, const std::string& file,
+                                      const std::optional<std::vector<judge::Waiver>>& known,
+                                      const Validation& first) {
+  std::vector<judge::Repetition> repetitions{first.repetition()};
+  ValidateArguments again = arguments;
+  again.resume = false;
+  for (int n = 2; n <= arguments.repeat; ++n) {
+    say("repetition {} of {}\n", n, arguments.repeat);
+    const std::set<std::string> before = runs_in(file);
+    if (!measured_to_its_end(measuring_of(again, file))) break;
+    Validation validation(again, file, before, known);
+    validation.judge_all();
+    repetitions.push_back(validation.repetition());
+  }
+  return repetitions;
+}
+
+// Compares the repetitions, and prints and writes one line for each case.
+void tell_repeats(const ValidateArguments& arguments,
+                  const std::vector<judge::Repetition>& repetitions, Validation& first) {
+  const std::vector<judge::RepeatedCase> cases = judge::repeated_cases(repetitions);
+  first.add_flakes(cases);
+  core::write_text(std::filesystem::path(arguments.out) / "repeats.jsonl",
+                   report::repeats_json_lines(cases));
+  put_lines(report::repeats_text(cases, repetitions.size()), stderr);
+}
+
+// Only the first of several shards probes the features.
+FeatureTable features_of(const ValidateArguments& arguments) {
+  const std::string& shard = arguments.choice.shard;
+  if (!shard.empty() && !shard.starts_with("1/")) return {};
+  const measure::Listing listing = make_registry().devices();
+  return probe_devices(measure::choose_devices(listing, arguments.devices), "", arguments.limit_s);
+}
+
 core::ExitCode validate(const ValidateArguments& arguments) {
   const measure::Stopwatch since;
   core::refuse_overwriting({{"--expect", arguments.expect}},
@@ -172,12 +285,20 @@ core::ExitCode validate(const ValidateArguments& arguments) {
   if (!arguments.expect.empty()) known = judge::read_expected(arguments.expect);
   core::require_writable(arguments.out);
   const std::string file = (std::filesystem::path(arguments.out) / "validation.sqlite").string();
-  const std::set<std::string> before = runs_before(arguments, file);
+  const std::set<std::string> before = arguments.resume ? std::set<std::string>{} : runs_in(file);
   const bool whole = measured_to_its_end(measuring_of(arguments, file));
-  Validation validation(arguments, file, before, std::move(known));
+  Validation validation(arguments, file, before, known);
   validation.judge_all();
   if (whole) validation.draw_failures_again();
-  return validation.tell(since.seconds());
+  if (whole && arguments.repeat > 1) {
+    tell_repeats(arguments, repeat(arguments, file, known, validation), validation);
+  }
+  const FeatureTable features = whole ? features_of(arguments) : FeatureTable{};
+  validation.tell_coverage(features);
+  const core::ExitCode told = validation.tell(since.seconds());
+  if (verdict_of(features) != core::ExitCode::regression) return told;
+  say("Features that no scene needs are wrong, so the exit code is 1: coverage.txt lists them\n");
+  return core::ExitCode::regression;
 }
 
 }  // namespace
@@ -204,6 +325,12 @@ void add_validate_command(Commands& commands) {
                   "Number of workers that run at once, also for one device (default: one for each "
                   "device)")
       ->check(CLI::Range(1, 64));
+  command
+      .add_option("--repeat", arguments.repeat,
+                  "Draw everything this many times. A case that fails in some repetitions only is "
+                  "a flake, which is a failure. repeats.jsonl in the folder has one line for each "
+                  "case")
+      ->check(CLI::Range(1, 1000));
   add_limit_option(command, arguments.limit_s, "a configuration");
   command.add_option("--shard", arguments.choice.shard,
                      "i/n: only the i-th of n parts of each plan");

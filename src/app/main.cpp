@@ -65,6 +65,7 @@ ExitCode run(int argc, char** argv) {
         app::add_render_command, app::add_code_command, app::add_reduce_command,
         app::add_gate_commands, app::add_compare_commands, app::add_report_command,
         app::add_merge_command, app::add_history_command, app::add_validate_command,
+        app::add_features_command,
         app::add_export_command, app::add_test_commands, app::add_document_commands}) {
     add(commands);
   }

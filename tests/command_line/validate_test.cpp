@@ -6,6 +6,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/image_io.hpp"
 #include "measure/plan/plan.hpp"
@@ -76,6 +77,23 @@ TEST_F(Validate, WhatFailsOnceIsAFlakeAndIsTold) {
   const Result gate = program.run(
       "gate volume/quick --shard 1/400 --store validation/validation.sqlite --check image", script);
   EXPECT_EQ(gate.code, 1) << gate.output;
+}
+
+TEST_F(Validate, RepeatingListsEachCaseWithItsVerdicts) {
+  const std::string script =
+      R"({"failures": [{"kind": "crash", "at": "frame", "only": "*", "once": "crashed"}]})";
+  const Result result = program.run(std::string(part) + "--repeat 3", script);
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.output, HasSubstr("3 repetitions of "));
+  std::istringstream lines(program.read("validation/repeats.jsonl"));
+  std::size_t cases = 0;
+  for (std::string line; std::getline(lines, line); ++cases) {
+    const auto json = nlohmann::json::parse(line);
+    EXPECT_EQ(json.at("verdicts").size(), 3U) << line;
+    EXPECT_LE(json.at("images"), 1) << line;
+  }
+  EXPECT_GT(cases, 0U);
+  EXPECT_EQ(program.run(std::string(part) + "--repeat 0").code, 3);
 }
 
 TEST_F(Validate, APartMissesNothingOfTheRest) {

@@ -1,0 +1,12 @@
+#pragma once
+#include <vector>
+
+#include "backends/gl/context.hpp"
+#include "measure/contract/features.hpp"
+
+namespace triptych::gl_backend {
+
+// The probes, which refer to the context.
+[[nodiscard]] std::vector<measure::FeatureProbe> feature_probes(Context& context);
+
+}  // namespace triptych::gl_backend

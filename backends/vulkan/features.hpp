@@ -1,0 +1,12 @@
+#pragma once
+#include <vector>
+
+#include "backends/vulkan/gpu.hpp"
+#include "measure/contract/features.hpp"
+
+namespace triptych::vulkan_backend {
+
+// The probes, which refer to the Gpu.
+[[nodiscard]] std::vector<measure::FeatureProbe> feature_probes(const Gpu& gpu);
+
+}  // namespace triptych::vulkan_backend

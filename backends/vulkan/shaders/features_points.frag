@@ -1,0 +1,5 @@
+#version 450
+layout(location = 0) flat in uint number;
+layout(location = 0) out uint shown;
+
+void main() { shown = number + 1u; }

@@ -1,0 +1,42 @@
+#pragma once
+// Probes of features that visualization programs use and that no scene needs. Each is one small
+// computation or draw with a known result.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace triptych::measure {
+
+enum class FeatureVerdict : std::uint8_t { right, wrong, skipped };
+
+struct ProbedFeature {
+  FeatureVerdict verdict = FeatureVerdict::right;
+  std::string size = {};    // the largest size that was used: "100000 draws"
+  std::string detail = {};  // what is wrong, or the reason for the skip
+};
+
+// The verdict on a result of which `right` of `expected` values are right.
+[[nodiscard]] ProbedFeature judged_feature(std::uint64_t right, std::uint64_t expected,
+                                           std::string size);
+
+struct FeatureProbe {
+  std::string name;
+  // Throws NotSupported with the reason if the device lacks the feature, and ApiError.
+  std::function<ProbedFeature()> run;
+};
+
+// A device that can probe features implements this in addition to measure::Device.
+class ProbesFeatures {
+ public:
+  ProbesFeatures() = default;
+  ProbesFeatures(const ProbesFeatures&) = delete;
+  ProbesFeatures& operator=(const ProbesFeatures&) = delete;
+  virtual ~ProbesFeatures() = default;
+
+  // The probes of the API, which may be called as long as the device lives.
+  [[nodiscard]] virtual std::vector<FeatureProbe> feature_probes() = 0;
+};
+
+}  // namespace triptych::measure

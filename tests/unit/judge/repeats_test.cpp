@@ -1,0 +1,66 @@
+#include "judge/gate/repeats.hpp"
+
+#include <gtest/gtest.h>
+
+namespace triptych::judge {
+namespace {
+
+const std::string device = "vulkan:some";
+
+Finding finding(const std::string& configuration, Check check, Verdict verdict) {
+  Finding made;
+  made.device = device;
+  made.configuration = configuration;
+  made.check = check;
+  made.verdict = verdict;
+  made.cause = verdict == Verdict::pass ? Cause::within_bound : Cause::pixels_over_bound;
+  return made;
+}
+
+// Configuration "a" with this verdict on its image, and "b", which always fails. The counters of
+// both are right.
+Repetition repetition(Verdict verdict, const std::string& image) {
+  GateResult result{.plan = "volume/quick", .run = "1", .findings = {}};
+  result.findings = {finding("a", Check::image, verdict),
+                     finding("a", Check::counters, Verdict::pass),
+                     finding("b", Check::image, Verdict::regression),
+                     finding("b", Check::counters, Verdict::pass)};
+  return {.results = {result}, .images = {{{"volume/quick", device, "a"}, image}}};
+}
+
+const std::vector<Repetition>& three() {
+  static const std::vector<Repetition> repetitions{repetition(Verdict::pass, "1"),
+                                                   repetition(Verdict::regression, "2"),
+                                                   repetition(Verdict::pass, "1")};
+  return repetitions;
+}
+
+TEST(Repeats, OfACaseAreTheWorstVerdictsOfEachRepetition) {
+  const std::vector<RepeatedCase> cases = repeated_cases(three());
+  ASSERT_EQ(cases.size(), 2U);
+  EXPECT_EQ(cases[0].key.configuration, "a");
+  EXPECT_EQ(cases[0].verdicts, (std::vector{Verdict::pass, Verdict::regression, Verdict::pass}));
+  EXPECT_EQ(cases[0].images, 2U);
+  EXPECT_TRUE(cases[0].flakes());
+  EXPECT_EQ(cases[1].failures(), 3U);
+  EXPECT_FALSE(cases[1].flakes()) << "it always fails";
+}
+
+TEST(Repeats, AFlakeOfALaterRepetitionIsARegressionOfTheFirst) {
+  std::vector<GateResult> first = three().front().results;
+  EXPECT_EQ(first.front().findings.front().verdict, Verdict::pass);
+  add_flakes(repeated_cases(three()), first);
+  std::size_t flakes = 0;
+  for (const Finding& each : first.front().findings) {
+    if (each.drawn_again != Again::flake) continue;
+    ++flakes;
+    EXPECT_EQ(each.configuration, "a");
+    EXPECT_EQ(each.verdict, Verdict::regression);
+    EXPECT_EQ(each.check, Check::image);
+  }
+  EXPECT_EQ(flakes, 1U);
+  EXPECT_EQ(first.front().findings.size(), 4U) << "it replaces the pass of that check";
+}
+
+}  // namespace
+}  // namespace triptych::judge
