@@ -2,7 +2,7 @@
 # Compiles files into TARGET, so that the program does not depend on the working directory. A file is found by its name (or by its path
 # as given here, if two files share a name) through `std::string_view NAMESPACE::embedded(std::string_view name)`, which is empty for an
 # unknown name. `std::span<const std::string_view> NAMESPACE::embedded_names()` lists all names. Both are declared in the generated
-# header "<TARGET>_embedded.hpp".
+# header "<TARGET>_embedded.hpp". The target's property TRIPTYCH_EMBEDDED lists the paths of all files.
 function(triptych_embed target namespace)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/embedded)
   file(MAKE_DIRECTORY ${folder})
@@ -53,4 +53,5 @@ std::span<const std::string_view> embedded_names() {
   set_source_files_properties(${folder}/${target}_embedded.S PROPERTIES OBJECT_DEPENDS "${files}")
   target_sources(${target} PRIVATE ${folder}/${target}_embedded.S ${folder}/${target}_embedded.cpp)
   target_include_directories(${target} PRIVATE ${folder})
+  set_property(TARGET ${target} APPEND PROPERTY TRIPTYCH_EMBEDDED ${files})
 endfunction()

@@ -1,8 +1,15 @@
 # The files that `cmake --install` installs and that ci/package puts into the Debian package. Plans and shaders are inside the program.
 include(GNUInstallDirs)
+# Nobody but the owner may write what is installed, however the checkout's permissions and the umask are.
+set(for_all OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+set(folder_for_all ${for_all} OWNER_EXECUTE GROUP_EXECUTE WORLD_EXECUTE)
+set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS ${folder_for_all})
 install(TARGETS triptych RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY baselines DESTINATION ${TRIPTYCH_DATA_FOLDER})
-install(DIRECTORY analysis DESTINATION ${TRIPTYCH_DATA_FOLDER} USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY baselines analysis DESTINATION ${TRIPTYCH_DATA_FOLDER} FILE_PERMISSIONS ${for_all}
+        DIRECTORY_PERMISSIONS ${folder_for_all} PATTERN __pycache__ EXCLUDE)
+foreach(script analyze notebook python)
+  install(PROGRAMS analysis/${script} DESTINATION ${TRIPTYCH_DATA_FOLDER}/analysis)
+endforeach()
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${TRIPTYCH_DOCUMENTS}/triptych.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${TRIPTYCH_DOCUMENTS}/triptych.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions

@@ -87,6 +87,9 @@ def _csv(folder, table, dictionary, columns):
                             dtype={each: "float64" if each in numbers else "category" for each in columns})
     except (OSError, ValueError) as error:
         raise InputError(f"{file}: {error}") from None
+    # Texts that a spreadsheet would run as formulas were exported with an apostrophe before them.
+    for each in set(columns) - set(numbers):
+        frame[each] = frame[each].cat.rename_categories(lambda text: text[1:] if text.startswith("'") else text)
     if len(frame) != described["rows"]:
         raise InputError(f"{file}: {len(frame)} rows; its dictionary lists {described['rows']}: export again")
     return _texts(frame)

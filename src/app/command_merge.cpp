@@ -76,17 +76,16 @@ std::vector<std::string> gaps_in(const record::Store& store,
   return told;
 }
 
-// Returns whether no store has a gap, and prints the gaps.
-bool tell_gaps(const MergeArguments& arguments) {
-  bool complete = true;
+// The gaps of all stores, one a line.
+std::string all_gaps(const MergeArguments& arguments) {
+  std::string lines;
   for (const std::string& file : arguments.stores) {
     const record::Store store(file, record::Store::Mode::read);
     for (const std::string& gap : gaps_in(store, arguments.plans)) {
-      put("{}: {}\n", file, gap);
-      complete = false;
+      lines += fmt::format("{}: {}\n", file, gap);
     }
   }
-  return complete;
+  return lines;
 }
 
 bool holds_a_run(const std::string& file) {
@@ -95,7 +94,9 @@ bool holds_a_run(const std::string& file) {
 
 core::ExitCode merge(const MergeArguments& arguments) {
   if (arguments.check) {
-    return tell_gaps(arguments) ? core::ExitCode::pass : core::ExitCode::cannot_judge;
+    const std::string gaps = all_gaps(arguments);
+    put("{}", gaps);
+    return gaps.empty() ? core::ExitCode::pass : core::ExitCode::cannot_judge;
   }
   if (arguments.out.empty())
     throw core::InputError("--out is required: it names the store to write");
@@ -104,6 +105,8 @@ core::ExitCode merge(const MergeArguments& arguments) {
         fmt::format("nothing to merge: there is no run in {}", fmt::join(arguments.stores, ", ")));
   }
   core::require_writable(std::filesystem::path(arguments.out).parent_path());
+  // Everything that can fail is done before the merged store appears.
+  const std::string gaps = all_gaps(arguments);
   // On a terminal, the count is updated from time to time.
   const auto count = [last =
                           std::chrono::steady_clock::time_point()](std::uint64_t records) mutable {
@@ -121,7 +124,8 @@ core::ExitCode merge(const MergeArguments& arguments) {
         result.older_runs);
   }
   // A configuration that no device of a shard has is no gap in the whole run.
-  if (!tell_gaps(arguments)) {
+  if (!gaps.empty()) {
+    put("{}", gaps);
     put("These records are missing in {} unless another store has them\n", arguments.out);
   }
   return core::ExitCode::pass;

@@ -2,7 +2,22 @@
 
 #include <unistd.h>
 
+#include <mutex>
+#include <set>
+#include <string>
+
 namespace triptych::app {
+namespace {
+
+// Whether the line was not printed before.
+bool is_new(const std::string& line) {
+  static std::mutex mutex;
+  static std::set<std::string> printed;
+  const std::scoped_lock lock(mutex);
+  return printed.insert(line).second;
+}
+
+}  // namespace
 
 bool watched() {
   static const bool terminal = ::isatty(STDERR_FILENO) == 1;
@@ -15,8 +30,10 @@ void clear_line() {
 
 void show_loading(const measure::Loading& loading) {
   if (!loading.note.empty()) {
+    const std::string line = loading.what + ": " + loading.note;
+    if (!is_new(line)) return;
     clear_line();
-    say("{}: {}\n", loading.what, loading.note);
+    say("{}\n", line);
     return;
   }
   if (loading.share < 1) {

@@ -70,7 +70,8 @@ void show(fmt::format_string<Args...> format, Args&&... args) {
   say(format, std::forward<Args>(args)...);
   if (!watched()) say("\n");
 }
-// The line disappears when loading has ended.
+// The line disappears when loading has ended. A note is printed once, although each process that
+// reads the data sends it.
 void show_loading(const measure::Loading& loading);
 
 }  // namespace triptych::app

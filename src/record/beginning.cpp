@@ -55,11 +55,16 @@ void to_json(Json& json, const Beginning& beginning) {
           {"found", mended(beginning.found)},
           {"devices", mended(beginning.devices)},
           {"unusable", beginning.unusable}};
+  if (!beginning.program.empty()) json["program"] = core::mended_utf8(beginning.program);
 }
 
 void from_json(const Json& json, Beginning& beginning) {
-  beginning = {json.at("host"), json.at("asked"), json.at("found"), json.at("devices"),
-               json.at("unusable")};
+  beginning = {.host = json.at("host"),
+               .program = json.value("program", ""),
+               .asked = json.at("asked"),
+               .found = json.at("found"),
+               .devices = json.at("devices"),
+               .unusable = json.at("unusable")};
 }
 
 std::vector<Beginning> joined(std::vector<Beginning> parts) {

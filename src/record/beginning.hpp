@@ -31,6 +31,7 @@ struct Unusable {
 // merged has several parts.
 struct Beginning {
   std::string host = {};
+  std::string program = {};               // the version of Triptych that measured; may be unknown
   std::vector<std::string> asked = {};    // globs over device ids; empty: all
   std::vector<std::string> found = {};    // ids of all devices that were listed
   std::vector<std::string> devices = {};  // ids of the devices to be measured

@@ -113,6 +113,9 @@ void Store::begin(const std::string& run, const Beginning& beginning,
       known.planned_hash = hash_of_planned(planned);
       insert_run(state_->database, known);
     });
+    // Whoever copies the file without its log, after a run was killed, still copies what the run
+    // set out to do. The copy would otherwise end with the run before it, which may have passed.
+    static_cast<void>(state_->database.tryExec("PRAGMA wal_checkpoint(PASSIVE)"));
   });
 }
 
@@ -284,15 +287,15 @@ core::Image Store::picture(std::string_view hash) const {
 
 std::optional<TruthImage> Store::truth(std::string_view scene, std::string_view version) const {
   return on_store(state_->file, [&]() -> std::optional<TruthImage> {
-    SQLite::Statement row = prepared(
-        state_->database,
-        "SELECT scene, version, image, bound, own_seal, seal FROM truth WHERE scene = ? AND version = ?",
-        scene, version);
+    SQLite::Statement row = prepared(state_->database,
+                                     "SELECT scene, version, image, bound, own_seal, seal FROM "
+                                     "truth WHERE scene = ? AND version = ?",
+                                     scene, version);
     if (!row.executeStep()) return std::nullopt;
     TruthImage truth;
     std::string seal;
-    Reader(row) >> truth.scene >> truth.version >> truth.image >> truth.bound >>
-        truth.own_seal >> seal;
+    Reader(row) >> truth.scene >> truth.version >> truth.image >> truth.bound >> truth.own_seal >>
+        seal;
     require_seal(seal, seal_of(truth), fmt::format("the truth of {}", scene));
     return truth;
   });

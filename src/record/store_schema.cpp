@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <string>
+#include <utility>
 
 #include "core/error.hpp"
 #include "record/store.hpp"
@@ -238,6 +240,52 @@ int pragma(const SQLite::Database& database, const std::string& name) {
   return query.getColumn(0).getInt();
 }
 
+// The objects of a database by type and name, each with the statement that makes it.
+using Objects = std::map<std::pair<std::string, std::string>, std::string>;
+
+Objects objects_of(const SQLite::Database& database) {
+  Objects objects;
+  // SQLite makes the other indexes itself, for keys.
+  SQLite::Statement rows(database,
+                         "SELECT type, name, sql FROM sqlite_schema WHERE sql IS NOT NULL");
+  while (rows.executeStep()) {
+    objects[{rows.getColumn(0).getString(), rows.getColumn(1).getString()}] =
+        rows.getColumn(2).getString();
+  }
+  return objects;
+}
+
+const Objects& our_objects() {
+  static const Objects ours = [] {
+    SQLite::Database memory(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    memory.exec(schema);
+    return objects_of(memory);
+  }();
+  return ours;
+}
+
+// A trigger could replace what is added, and a view or another form of a table what is read. Other
+// tables are left alone.
+void require_our_objects(const SQLite::Database& database, const std::filesystem::path& file) {
+  const Objects found = objects_of(database);
+  for (const auto& [object, statement] : our_objects()) {
+    const auto known = found.find(object);
+    if (known != found.end() && known->second == statement) continue;
+    throw core::InputError(
+        {.file = file.string()},
+        fmt::format("the {} {} is {}: measure again, into another file", object.first,
+                    object.second,
+                    known == found.end() ? "missing" : "not the one that Triptych makes"));
+  }
+  for (const auto& [object, statement] : found) {
+    if (object.first == "table" || our_objects().contains(object)) continue;
+    throw core::InputError({.file = file.string()},
+                           fmt::format("has the {} {}, which Triptych did not make and which may "
+                                       "change what is read or added: remove it",
+                                       object.first, object.second));
+  }
+}
+
 }  // namespace
 
 bool is_blank(const SQLite::Database& database) {
@@ -255,7 +303,7 @@ void require_our_schema(const SQLite::Database& database, const std::filesystem:
                                : "is an SQLite file, but not a Triptych store");
   }
   const int found = pragma(database, "user_version");
-  if (found == Store::schema_version) return;
+  if (found == Store::schema_version) return require_our_objects(database, file);
   throw core::InputError(
       {.file = file.string()},
       fmt::format("store of schema version {}, but this program reads version {}: {}, or give "

@@ -65,7 +65,14 @@ class Reader {
   explicit Reader(SQLite::Statement& row) : row_(row) {}
 
   Reader& operator>>(std::string& text) {
-    text = row_.getColumn(index_++).getString();
+    const SQLite::Column column = row_.getColumn(index_++);
+    // Everything that is made of a text, its seal first, takes several times its size.
+    constexpr int most = 64 << 20;
+    if (column.getBytes() > most) {
+      throw core::InputError(fmt::format("holds a text of {} bytes; the longest that is read has {}",
+                                         column.getBytes(), most));
+    }
+    text = column.getString();
     return *this;
   }
   Reader& operator>>(double& number) {

@@ -113,10 +113,17 @@ class NiftiHeader {
     const char digit = version_ == 1 ? '1' : '2';
     const bool known = magic[0] == 'n' && (magic[1] == '+' || magic[1] == 'i') && magic[2] == digit;
     if (known) return;
+    const std::string_view stated = std::string_view(bytes_).substr(4, offsets().magic);
+    if (std::ranges::count(stated, '\0') == std::ssize(stated)) {
+      reject(
+          "has an empty header: it states neither sizes nor a type, so that its voxels cannot be "
+          "read");
+    }
     const bool zeros = std::ranges::count(magic, '\0') == 4;
-    reject(fmt::format("has the size of a NIfTI-{} header, but {} where 'n+{}' or 'ni{}' names the "
-                       "format; Analyze 7.5, which states no orientation, is not read",
-                       version_, zeros ? "zero bytes" : fmt::format("'{}'", quotable(magic)), digit, digit));
+    reject(fmt::format(
+        "has the size of a NIfTI-{} header, but {} where 'n+{}' or 'ni{}' names the "
+        "format; Analyze 7.5, which states no orientation, is not read",
+        version_, zeros ? "zero bytes" : fmt::format("'{}'", quotable(magic)), digit, digit));
   }
 
   std::string file_;
@@ -146,9 +153,10 @@ constexpr std::array<Datatype, 12> datatypes{{{2, StoredType::u8, 1},
 const Datatype& datatype_of(const NiftiHeader& header) {
   const auto found = std::ranges::find(datatypes, header.datatype(), &Datatype::code);
   if (found == datatypes.end()) {
-    header.reject(fmt::format("datatype {} is not supported; expected integers of 8 to 64 bits, "
-                              "floats of 32 or 64 bits, RGB or RGBA",
-                              header.datatype()));
+    header.reject(
+        fmt::format("datatype {} is not supported; expected integers of 8 to 64 bits, "
+                    "floats of 32 or 64 bits, RGB or RGBA",
+                    header.datatype()));
   }
   return *found;
 }
@@ -222,10 +230,10 @@ void note_orientation(const NiftiHeader& header, Volume& volume) {
     for (std::size_t i = 0; i < 3; ++i) {
       const double length = length_of(axes.at(i));
       if (std::abs(length - volume.spacing.at(i)) <= allowed * volume.spacing.at(i)) continue;
-      volume.facts.notes.push_back(
-          fmt::format("axis {} has the spacing {} (pixdim), but the length {} in the matrix (sform); "
-                      "the former is drawn",
-                      i, volume.spacing.at(i), length));
+      volume.facts.notes.push_back(fmt::format(
+          "axis {} has the spacing {} (pixdim), but the length {} in the matrix (sform); "
+          "the former is drawn",
+          i, volume.spacing.at(i), length));
     }
     if (const std::string sheared = sheared_axes(axes); !sheared.empty()) {
       volume.facts.notes.push_back(fmt::format(
@@ -273,9 +281,10 @@ std::uint64_t start_of_voxels(const NiftiHeader& header) {
   if (offset == 0) return least;
   constexpr double most = 0x1.0p53;
   if (!(offset >= static_cast<double>(least) && offset <= most) || offset != std::floor(offset)) {
-    header.reject(fmt::format("voxels from byte {} on (vox_offset); expected a whole number from {} "
-                              "on",
-                              offset, least));
+    header.reject(
+        fmt::format("voxels from byte {} on (vox_offset); expected a whole number from {} "
+                    "on",
+                    offset, least));
   }
   return static_cast<std::uint64_t>(offset);
 }
@@ -297,6 +306,12 @@ Volume read_nifti(const std::filesystem::path& file, const Component& component)
   source.file = header.is_single_file() ? file : image_beside(file, header);
   source.packing = packing_of_file(source.file);
   source.start = start_of_voxels(header);
+  if (header.is_single_file() && header.vox_offset() == 0) {
+    volume.facts.notes.push_back(fmt::format(
+        "vox_offset is 0; the voxels are read from byte {} on, where they begin in a file that has no "
+        "extension",
+        source.start));
+  }
   source.layout.type = datatype.type;
   source.layout.big_endian = header.big_endian();
   source.layout.components = datatype.components * further;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "findings.hpp"
 #include "program.hpp"
 
 namespace triptych::command_line {
@@ -66,7 +67,12 @@ TEST_F(AbsentData, LeavesNoLimitToJudgeBy) {
   std::filesystem::remove(program.folder() / "field.nrrd");
   const Result judged = program.run("gate volume/accuracy --store s.sqlite --baselines b --json");
   EXPECT_EQ(judged.code, 2) << judged.output;
-  EXPECT_NE(judged.output.find("\"cause\": \"unknown_error\""), std::string::npos) << judged.output;
+  const auto unknown = findings_of(judged.output.substr(judged.output.find('{')), "unknown_error");
+  ASSERT_EQ(unknown.size(), 1U) << judged.output;
+  EXPECT_EQ(unknown[0].at("verdict"), "cannot_judge");
+  EXPECT_EQ(unknown[0].at("device"), "null:scripted");
+  const std::string detail = unknown[0].at("detail");
+  EXPECT_EQ(detail.substr(0, 23), "field.nrrd: not found (") << detail;
   EXPECT_EQ(program.run("report --store s.sqlite --baselines b --out page.html").code, 0);
 }
 

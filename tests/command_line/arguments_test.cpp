@@ -31,6 +31,16 @@ TEST_F(Arguments, APlanMayFollowAnOption) {
               HasSubstr("there are no baselines"));
 }
 
+// 10^10 pixels would take 160 GB.
+TEST_F(Arguments, AnImageOfTooManyPixelsIsRefused) {
+  for (const char* size : {"100000", "100000x1", "16385", "0", "-1", "4294967297"}) {
+    const Result result = program.run(
+        std::string("render volume --device null:scripted --out o --set viewport=") + size);
+    EXPECT_EQ(result.code, 3) << size << result.output;
+    EXPECT_THAT(result.output, HasSubstr("1 to 16384 pixels a side")) << size;
+  }
+}
+
 TEST_F(Arguments, AWordAfterAnOptionsValueIsAPlan) {
   const Result result = program.run("run p.yaml --device 'null:*' extra.yaml --store s.sqlite");
   EXPECT_EQ(result.code, 3) << result.output;

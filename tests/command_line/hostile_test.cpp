@@ -33,6 +33,31 @@ TEST(Hostile, APlanOfAFileIsListedForCTest) {
   EXPECT_THAT(tests, HasSubstr("[=[" + (program.folder() / "p.yaml").string() + "]=]"));
 }
 
+// CMake would run what comes after the end of a bracket argument.
+TEST(Hostile, NoNameEndsAnArgumentInTheListForCTest) {
+  const Program program;
+  const std::string command = "execute_process(COMMAND touch ran)";
+  int number = 0;
+  for (const std::string& name :
+       {"]=])" + command + "#", "]==])" + command + "#[==[]=]", std::string("a]=")}) {
+    const std::string folder = "f" + std::to_string(number++) + "/" + name;
+    std::filesystem::create_directories(program.folder() / folder);
+    program.write(folder + "/p.yaml", tiny_plan);
+    const Result listed = program.run("ctest '" + folder + "/p.yaml' --out tests.cmake --folder .");
+    ASSERT_EQ(listed.code, 0) << listed.output;
+    program.write("defined.cmake",
+                  "function(add_test name program)\n  list(GET ARGN 1 plan)\n"
+                  "  message(\"${plan}\")\nendfunction()\nfunction(set_tests_properties)\n"
+                  "endfunction()\ninclude(tests.cmake)\n");
+    const Result read =
+        test::run_command("cd '" + program.folder().string() + "' && cmake -P defined.cmake 2>&1");
+    EXPECT_EQ(read.code, 0) << read.output;
+    EXPECT_FALSE(std::filesystem::exists(program.folder() / "ran")) << name;
+    // The plan is an argument as it is.
+    EXPECT_THAT(read.output, HasSubstr((program.folder() / folder / "p.yaml").string()));
+  }
+}
+
 TEST(Hostile, AStoreWithADamagedIndexIsNotJudged) {
   const Program program;
   ASSERT_EQ(program.run(std::string("run volume/quick --store s.sqlite ") + tiny).code, 0);

@@ -34,7 +34,27 @@ class Installed : public testing::Test {
 TEST_F(Installed, NamesVersionAndCommit) {
   const Result version = run("triptych --version");
   EXPECT_EQ(version.code, 0);
-  EXPECT_THAT(version.output, MatchesRegex("triptych [0-9.]+(, commit [0-9a-f]+\\+?)?\n"));
+  EXPECT_THAT(version.output,
+              MatchesRegex("triptych [0-9.]+(, commit [0-9a-f]+\\+?)?, device code [0-9a-f]+\n"));
+}
+
+// The package is made from these files.
+TEST_F(Installed, NobodyElseCanWriteAndEverybodyCanRead) {
+  for (const char* umask : {"000", "077"}) {
+    const std::string to = (folder.path() / umask).string();
+    ASSERT_EQ(test::run_command(std::string("umask ") + umask + "; cmake --install '" +
+                                TRIPTYCH_BINARY_FOLDER "' --prefix '" + to + "'")
+                  .code,
+              0);
+    EXPECT_EQ(test::run_command("find '" + to + "' -mindepth 1 -perm /022").output, "") << umask;
+    EXPECT_EQ(test::run_command("find '" + to + "' -mindepth 1 ! -perm -444").output, "") << umask;
+    EXPECT_EQ(test::run_command("find '" + to + "' -mindepth 1 -type d ! -perm -111").output, "")
+        << umask;
+    EXPECT_EQ(test::run_command("find '" + to + "' -perm /6000").output, "") << umask;
+    for (const char* program : {"bin/triptych", "share/triptych/analysis/analyze"}) {
+      EXPECT_EQ(test::run_command("test -x '" + to + "/" + program + "'").code, 0) << program;
+    }
+  }
 }
 
 // Baselines are found where they were installed, also for plans that were not measured.

@@ -91,14 +91,18 @@ TEST(FullDisk, AReportThatDoesNotFitLeavesTheOldOne) {
   EXPECT_EQ(program.read("r.html"), "old");
 }
 
+// The store has its reference image already, so that the page is the first file that does not fit.
 TEST(FullDisk, AGateWhoseFilesDoNotFitIsNoPass) {
   const Program program;
-  ASSERT_EQ(program.run(small + "--set data=generate:gaussian_blob:16").code, 0);
+  const std::string gate = "gate volume/quick --store s.sqlite --baselines b";
+  ASSERT_EQ(program.run(any_size + "--set viewport=256 --set data=generate:gaussian_blob:16").code,
+            0);
   ASSERT_EQ(program.run("accept volume/quick --reason x --store s.sqlite --baselines b").code, 0);
-  const Result result = program.run("gate volume/quick --store s.sqlite --baselines b --out out",
-                                    "{}", files_up_to(8));
+  ASSERT_EQ(program.run(gate).code, 1);  // the image is black
+  const Result result = program.run(gate + " --out out", "{}", files_up_to(66));
   EXPECT_EQ(result.code, 3) << result.output;
-  EXPECT_THAT(result.output, HasSubstr("is the disk full"));
+  EXPECT_THAT(result.output, HasSubstr("triptych: out/report.html: cannot write"));
+  EXPECT_FALSE(std::filesystem::exists(program.folder() / "out/report.html"));
 }
 
 TEST(FullDisk, AnAcceptThatDoesNotFitChangesNothing) {

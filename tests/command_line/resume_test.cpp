@@ -1,14 +1,17 @@
 // A run can be continued only with the same plan, even if another plan has its name.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "findings.hpp"
 #include "program.hpp"
 
 namespace triptych::command_line {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::SizeIs;
 
 class Resume : public testing::Test {
  protected:
@@ -74,14 +77,27 @@ TEST_F(Resume, AnInterruptedValidationEndsWithTheLastScreen) {
   const Result ended = validate_one(program, "--junit j.xml --json j.json");
   EXPECT_EQ(ended.code, 1) << ended.output;  // its image is wrong
   EXPECT_THAT(ended.output, HasSubstr("Triptych   1 device"));
-  EXPECT_THAT(ended.output, HasSubstr("have no record"));
-  EXPECT_THAT(ended.output, HasSubstr("no run was started"));
   EXPECT_THAT(ended.output, HasSubstr("exit 1: "));
   EXPECT_THAT(ended.output, HasSubstr("validation/report.html"));
   EXPECT_THAT(program.read("j.xml"), HasSubstr("volume/quick.image"));
   EXPECT_THAT(program.read("j.xml"), HasSubstr("particles/accuracy.image"));
-  EXPECT_THAT(program.read("j.json"), HasSubstr("\"cause\": \"missing\""));
-  EXPECT_THAT(program.read("validation/gate.log"), HasSubstr("have no record"));
+  const std::string json = program.read("j.json");
+  const auto missing = findings_of(json, "missing");
+  ASSERT_THAT(missing, SizeIs(1));
+  const double wanted = missing[0].at("numbers").at("wanted");
+  const double lacking = missing[0].at("numbers").at("missing");
+  EXPECT_EQ(missing[0].at("verdict"), "cannot_judge");
+  EXPECT_EQ(missing[0].at("device"), "null:scripted");
+  EXPECT_EQ(missing[0].at("names").size(), lacking);
+  // At least one was measured, and the interrupt came soon after it.
+  EXPECT_GE(lacking, wanted - 6);
+  EXPECT_LT(lacking, wanted);
+  // The screen and the log have the numbers, too.
+  const std::string numbers = fmt::format("{} of {} planned", lacking, wanted);
+  EXPECT_THAT(ended.output, HasSubstr(numbers));
+  EXPECT_THAT(program.read("validation/gate.log"), HasSubstr(numbers));
+  EXPECT_THAT(findings_of(json, "no_run"), SizeIs(5));
+  EXPECT_THAT(findings_of(json, "no_run", "particles/accuracy"), SizeIs(1));
 }
 
 TEST_F(Resume, AnInterruptedValidationDoesNotJudgeTheOneBefore) {
@@ -91,7 +107,8 @@ TEST_F(Resume, AnInterruptedValidationDoesNotJudgeTheOneBefore) {
                      "--store validation/validation.sqlite")
                 .code,
             0);
-  EXPECT_THAT(validate_one(program, "--json j.json").output, HasSubstr("no run was started"));
+  static_cast<void>(validate_one(program, "--json j.json"));
+  EXPECT_THAT(findings_of(program.read("j.json"), "no_run", "particles/quick"), SizeIs(1));
   EXPECT_THAT(program.read("j.json"), ::testing::Not(HasSubstr("technique=point")));
 }
 

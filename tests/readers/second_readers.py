@@ -28,6 +28,7 @@ except ImportError:
     sys.exit(77)
 
 import generated_files
+import generated_variants
 
 
 class Refused(Exception):
@@ -53,6 +54,8 @@ class Volume:
 def by_gemmi_pdb(path):
     import gemmi
 
+    if text_of(path).startswith("\ufeff"):
+        raise Refused("gemmi skips the line with the byte order mark")
     with unpacked(path) as plain:
         structure = gemmi.read_pdb(str(plain), split_chain_on_ter=True)
     if len(structure) == 0:
@@ -174,6 +177,9 @@ def by_teem_or_hand_nrrd(path):
 def by_nibabel(path):
     import nibabel
 
+    header = decompressed(path.read_bytes())[:348]
+    if header[344:346] == b"n+" and header[108:112] == bytes(4):
+        raise Refused("nibabel takes the header for voxels where vox_offset is 0")
     try:
         image = nibabel.load(str(path))
         data = np.asanyarray(image.dataobj)
@@ -219,6 +225,8 @@ def by_vtk_metaimage(path):
         raise Refused("VTK needs CompressedDataSize")
     if "ndims = 4" in head:
         raise Refused("VTK reads no fourth dimension")
+    if "elementsize" in head and "elementspacing" in head:
+        raise Refused("VTK reads one voxel where both sizes are stated")
     return by_vtk(path, "vtkMetaImageReader")
 
 
@@ -429,7 +437,10 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         if arguments.generate:
             arguments.generate.mkdir(parents=True, exist_ok=True)
+            variants = arguments.generate / "variants"
+            variants.mkdir(exist_ok=True)
             generated_files.write_all(arguments.generate)
+            generated_variants.write_all(variants)
             paths.append(arguments.generate)
             seeds = pathlib.Path(scratch) / "seeds"
             seeds.mkdir()

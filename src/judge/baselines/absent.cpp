@@ -14,7 +14,7 @@ Absent read_entry(const core::JsonNode& entry) {
   Absent absent{.device = entry.at("device").text(), .reason = reason_of(entry)};
   if (entry.has("host")) absent.host = entry.at("host").text();
   if (entry.has("expiry")) absent.expiry = expiry_of(entry);
-  if (matches_everything(absent.device) && matches_everything(absent.host)) {
+  if (matches_every_device(absent.device) && matches_every_host(absent.host)) {
     entry.at("device").fail("expected a device: this excuses every one on every machine");
   }
   return absent;

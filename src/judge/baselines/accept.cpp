@@ -11,6 +11,7 @@
 #include "judge/baselines/accepted.hpp"
 #include "judge/baselines/accepted_values.hpp"
 #include "judge/baselines/baselines.hpp"
+#include "judge/baselines/contradiction.hpp"
 #include "judge/baselines/drop_skipped.hpp"
 #include "judge/baselines/layout.hpp"
 #include "judge/baselines/next_folder.hpp"
@@ -68,15 +69,6 @@ void update_images(const Accepted& accepted, const AcceptRequest& request, NextF
   });
 }
 
-void append_history(const Accepted& accepted, const AcceptRequest& request, NextFolder& next) {
-  std::set<std::string> ids;
-  for (const auto& [id, device] : accepted.devices) ids.insert(id);
-  Update history(next, Layout::history);
-  if (!history.value().is_array()) history.value() = Json::array();
-  history.value().push_back({{"date", request.date}, {"reason", request.reason}, {"devices", ids}});
-  next.files[Layout::history] = bytes_of(core::to_lines(history.value(), 1));
-}
-
 record::Checks all_of(record::Checks checks, const record::Checks& more) {
   checks.insert(more.begin(), more.end());
   return checks;
@@ -106,7 +98,8 @@ Json machines_of(const Accepted& accepted, const Manifest& stored) {
   return kept;
 }
 
-void write_manifest(const Accepted& accepted, const Manifest& stored, NextFolder& next) {
+// The manifest without the hashes of its files.
+Json next_manifest(const Accepted& accepted, const Manifest& stored, NextFolder& next) {
   // A part of a run says nothing about the plan as a whole.
   const bool whole = accepted.replaces_all || stored.plan_hash.empty();
   Json devices = stored.devices;
@@ -117,18 +110,33 @@ void write_manifest(const Accepted& accepted, const Manifest& stored, NextFolder
     }
     devices[id] = drivers;
   }
-  Json files = Json::object();
-  next.files.erase(Layout::manifest);
-  for (const auto& [name, content] : next.files) files[name] = core::content_hash(content);
-  const Json manifest{
+  return {
       {"plan_hash", whole ? accepted.run.plan_hash : stored.plan_hash},
       {"checks", record::text_of(whole ? accepted.checks : all_of(accepted.checks, stored.checks))},
       {"machines", machines_of(accepted, stored)},
-      {"configurations",
-       whole ? std::max<std::uint64_t>(accepted.run.configurations, accepted.configurations.size())
-             : stored.configurations},
-      {"devices", devices},
-      {"files", files}};
+      {"configurations", Update(next, Layout::counters).value().size()},
+      {"devices", devices}};
+}
+
+// `manifest` is the next one, still without the hashes of its files.
+void append_history(const Accepted& accepted, const AcceptRequest& request, const Json& manifest,
+                    NextFolder& next) {
+  std::set<std::string> ids;
+  for (const auto& [id, device] : accepted.devices) ids.insert(id);
+  Update history(next, Layout::history);
+  if (!history.value().is_array()) history.value() = Json::array();
+  history.value().push_back({{"date", request.date},
+                             {"reason", request.reason},
+                             {"devices", ids},
+                             {"manifest", hash_of_statements(manifest)}});
+  next.files[Layout::history] = bytes_of(core::to_lines(history.value(), 1));
+}
+
+void write_manifest(Json manifest, NextFolder& next) {
+  Json files = Json::object();
+  next.files.erase(Layout::manifest);
+  for (const auto& [name, content] : next.files) files[name] = core::content_hash(content);
+  manifest["files"] = std::move(files);
   next.files[Layout::manifest] = bytes_of(core::to_lines(manifest, 2));
 }
 
@@ -162,8 +170,9 @@ std::vector<std::string> accept(const record::Store& store, const std::string& r
   update_images(accepted, request, next);
   update_values(store, accepted, request, next);
   drop_skipped(accepted.skipped, accepted.devices, next);
-  append_history(accepted, request, next);
-  write_manifest(accepted, manifest, next);
+  Json next_one = next_manifest(accepted, manifest, next);
+  append_history(accepted, request, next_one, next);
+  write_manifest(std::move(next_one), next);
   replace_folder(next.folder, next.files, request.on_written);
   return next.lines;
 }

@@ -10,11 +10,11 @@
 #include "core/image_io.hpp"
 #include "core/json_file.hpp"
 #include "judge/baselines/baseline_files.hpp"
+#include "judge/baselines/contradiction.hpp"
 #include "judge/baselines/layout.hpp"
 
 namespace triptych::judge {
 namespace fs = std::filesystem;
-using record::Check;
 namespace {
 
 template <typename Table>
@@ -101,49 +101,13 @@ const std::string& Baselines::problem() const {
       problem = error.what();
     }
     try {
-      if (problem.empty()) problem = contradiction();
+      if (problem.empty()) problem = contradiction_in(folder_, manifest());
     } catch (const core::InputError&) {
       // A file with a wrong value is an error, with its line, when a check reads it.
     }
   }
   cache_->problem = std::move(problem);
   return *cache_->problem;
-}
-
-// Nothing proves the manifest, which proves the other files. So what it says about them is compared
-// with them: a device or driver that the manifest leaves out would count as new, and a check as not
-// requested.
-std::string Baselines::contradiction() const {
-  const Manifest& manifest = this->manifest();
-  std::set<std::string> drivers;
-  for (const auto& [id, known] : manifest.devices) drivers.insert(known.begin(), known.end());
-  const auto lacks = [](const std::string& what) {
-    return fmt::format("{} does not name {}", Layout::manifest, what);
-  };
-  for (const auto& [configuration, counters] : cache_->all_counters()) {
-    for (const auto& [counter, values] : counters) {
-      for (const auto& [id, value] : values) {
-        if (!manifest.devices.contains(id)) return lacks(id + ", which counters.json has");
-      }
-    }
-  }
-  for (const char* folder : {Layout::cost_folder, Layout::statistics_folder}) {
-    for (const auto& [driver, path] : files_in(folder_ / folder)) {
-      if (!drivers.contains(driver)) return lacks(folder + driver + ".json");
-    }
-  }
-  for (const std::set<std::string>& machine : manifest.machines) {
-    for (const std::string& driver : machine) {
-      if (!drivers.contains(driver)) return lacks("a driver of a machine, " + driver);
-    }
-  }
-  for (const auto& [check, file] :
-       {std::pair{Check::accuracy, Layout::errors}, std::pair{Check::stress, Layout::scores}}) {
-    if (fs::exists(folder_ / file) && !manifest.checks.contains(check)) {
-      return lacks(fmt::format("the check {}, which {} is of", record::name_of(check), file));
-    }
-  }
-  return {};
 }
 
 const Manifest& Baselines::manifest() const {
@@ -277,8 +241,8 @@ const std::vector<Absent>& Baselines::absent() const {
   return *cache_->absent;
 }
 
-const std::vector<Waiver>& Baselines::waivers() const {
-  if (!cache_->waivers) cache_->waivers = read_waivers(root_ / "waivers.json");
+const std::vector<Waiver>& Baselines::waivers(const std::string& today) const {
+  if (!cache_->waivers) cache_->waivers = read_waivers(root_ / "waivers.json", today);
   return *cache_->waivers;
 }
 

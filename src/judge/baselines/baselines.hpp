@@ -1,8 +1,9 @@
 #pragma once
 // baselines/<suite>/<plan>/ : what was accepted. Text, sorted, one value per line, so that a change
 // can be reviewed. `accept` is the only writer.
-//   manifest.json             the plan's hash and checks, number of configurations, {device id:
-//                             [drivers]}, [[drivers of one machine]], {file: content hash} of all that follows
+//   manifest.json             the plan's hash and checks, number of configurations in
+//                             counters.json, {device id: [drivers]}, [[drivers of one machine]],
+//                             {file: content hash} of all that follows
 //   counters.json             {configuration: {counter: {device id: value}}}
 //   memory.json               {configuration: {device id: {kind: bytes}}}
 //   cost/<driver>.json        {device, driver_version, counted_by, configurations: {configuration:
@@ -17,7 +18,8 @@
 //   images/<scene hash>.exr   the reference itself, of plans that check images and times
 //   accuracy.json             {configuration: {device id: {rmse, arithmetic}}}
 //   score.json                {configuration: {device id: 0…3}}
-//   history.json              every accept: date, reason, devices
+//   history.json              every accept: date, reason, devices, and the hash of the manifest
+//                             without its files
 // <driver> is Device::statistics_key(): no machine is in it. And baselines/waivers.json
 // (waivers.hpp).
 
@@ -44,7 +46,7 @@ namespace triptych::judge {
 
 struct Manifest {
   std::string plan_hash;
-  std::uint64_t configurations = 0;
+  std::uint64_t configurations = 0;                      // in counters.json
   std::map<std::string, std::set<std::string>> devices;  // device id → Device::statistics_key()
   std::map<std::string, std::string> files;              // name → content hash
   record::Checks checks;  // the checks of the plan when it was accepted
@@ -144,16 +146,14 @@ class Baselines {
       const record::Device& device) const;
   // Configurations with stored counters: a complete run must contain them.
   [[nodiscard]] std::vector<std::string> configurations() const;
-  [[nodiscard]] const std::vector<Waiver>& waivers() const;
+  // The content of waivers.json; `today` as for read_waivers().
+  [[nodiscard]] const std::vector<Waiver>& waivers(const std::string& today) const;
   // The content of absent.json, which is beside waivers.json: devices that machines are meant to
   // lack.
   [[nodiscard]] const std::vector<Absent>& absent() const;
   [[nodiscard]] std::filesystem::path absent_file() const { return root_ / "absent.json"; }
 
  private:
-  // What the manifest says about the files although it is not true; empty if everything is true.
-  [[nodiscard]] std::string contradiction() const;
-
   std::filesystem::path root_;
   std::filesystem::path folder_;
   struct Cache;

@@ -12,19 +12,28 @@
 namespace triptych::judge {
 namespace {
 
+// `text` has the form of a date.
+std::chrono::year_month_day date_of(std::string_view text) {
+  const auto number = [&](std::size_t begin, std::size_t length) {
+    return std::stoi(std::string(text.substr(begin, length)));
+  };
+  return {std::chrono::year(number(0, 4)), std::chrono::month(static_cast<unsigned>(number(5, 2))),
+          std::chrono::day(static_cast<unsigned>(number(8, 2)))};
+}
+
 // Whether the day exists.
 bool is_iso_date(std::string_view text) {
   constexpr std::string_view shape = "dddd-dd-dd";
   const bool written_so = std::ranges::equal(
       text, shape, [](char c, char s) { return s == 'd' ? c >= '0' && c <= '9' : c == s; });
-  if (!written_so) return false;
-  const auto number = [&](std::size_t begin, std::size_t length) {
-    return std::stoi(std::string(text.substr(begin, length)));
-  };
-  const std::chrono::year_month_day date{std::chrono::year(number(0, 4)),
-                                         std::chrono::month(static_cast<unsigned>(number(5, 2))),
-                                         std::chrono::day(static_cast<unsigned>(number(8, 2)))};
-  return date.ok();
+  return written_so && date_of(text).ok();
+}
+
+// Whether the glob matches texts that have nothing in common except the form of all such texts.
+template <std::size_t N>
+bool matches_all(std::string_view glob, const std::array<const char*, N>& samples) {
+  return std::ranges::all_of(
+      samples, [&](std::string_view sample) { return core::glob_matches(glob, sample); });
 }
 
 }  // namespace
@@ -52,12 +61,31 @@ std::string expiry_of(const core::JsonNode& entry) {
   return expiry;
 }
 
-bool matches_everything(std::string_view glob) {
-  // Texts in the form of ids of devices, tests and configurations.
-  constexpr std::array<std::string_view, 4> samples{"a:b#12", "zz9:q", "v.w.xyz.a:b#12",
-                                                    "k=5,z=q_7"};
-  return std::ranges::all_of(
-      samples, [&](std::string_view sample) { return core::glob_matches(glob, sample); });
+void refuse_distant_expiry(const core::JsonNode& expiry, const std::string& today) {
+  const std::string text = expiry.text();
+  if (!is_iso_date(text) || !is_iso_date(today)) return;  // reported by expiry_of()
+  constexpr std::chrono::days most{366};
+  if (std::chrono::sys_days(date_of(text)) - std::chrono::sys_days(date_of(today)) <= most) return;
+  expiry.fail(
+      fmt::format("ends more than {} days after {}: name an earlier day, on which somebody "
+                  "checks whether the entry is still needed",
+                  most.count(), today));
+}
+
+bool matches_every_device(std::string_view glob) {
+  return matches_all(glob, std::array{"a:b#12", "zz9:q"});
+}
+
+bool matches_every_host(std::string_view glob) {
+  return matches_all(glob, std::array{"a", "zz-9.q"});
+}
+
+bool matches_every_test(std::string_view glob) {
+  return matches_all(glob, std::array{"a.b.cdef.g:h#12", "zz9.quick.xyz.v:w"});
+}
+
+bool matches_every_configuration(std::string_view glob) {
+  return matches_all(glob, std::array{"a=5,z=q_7", "k=c:d"});
 }
 
 }  // namespace triptych::judge

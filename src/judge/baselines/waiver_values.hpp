@@ -15,8 +15,12 @@ void refuse_other_keys(const core::JsonNode& entry, std::initializer_list<std::s
 [[nodiscard]] std::string reason_of(const core::JsonNode& entry);
 // Must be a day of the calendar.
 [[nodiscard]] std::string expiry_of(const core::JsonNode& entry);
-// Whether a glob excludes nothing, however it is written: it matches texts that have nothing in
-// common.
-[[nodiscard]] bool matches_everything(std::string_view glob);
+// An end that is more than a year after `today` (an ISO date) excuses for ever in practice.
+void refuse_distant_expiry(const core::JsonNode& expiry, const std::string& today);
+// Whether a glob excludes none of these, however it is written: "*:*" matches every device.
+[[nodiscard]] bool matches_every_device(std::string_view glob);
+[[nodiscard]] bool matches_every_host(std::string_view glob);
+[[nodiscard]] bool matches_every_test(std::string_view glob);
+[[nodiscard]] bool matches_every_configuration(std::string_view glob);
 
 }  // namespace triptych::judge

@@ -30,8 +30,8 @@ Waiver read_entry(const core::JsonNode& entry) {
 
 // An entry that excuses everything would hide everything that is found later.
 void refuse_without_limits(const core::JsonNode& entry, const Waiver& waiver) {
-  if (matches_everything(waiver.device) && matches_everything(waiver.test) &&
-      matches_everything(waiver.configuration)) {
+  if (matches_every_device(waiver.device) && matches_every_test(waiver.test) &&
+      matches_every_configuration(waiver.configuration)) {
     entry.at("test").fail(
         "excuses every finding on every device: name the device, the test or the configuration");
   }
@@ -51,12 +51,13 @@ std::string_view name_of(Known known) {
   return std::ranges::find(known_names, known, &std::pair<Known, std::string_view>::first)->second;
 }
 
-std::vector<Waiver> read_waivers(const std::filesystem::path& file) {
+std::vector<Waiver> read_waivers(const std::filesystem::path& file, const std::string& today) {
   std::vector<Waiver> result;
   const auto json = core::JsonFile::read(file);
   if (!json) return result;
   for (const core::JsonNode& entry : json->root().elements()) {
-    static_cast<void>(entry.at("expiry"));  // what people write must not excuse for ever
+    // An entry that is never looked at again would excuse whatever breaks later.
+    refuse_distant_expiry(entry.at("expiry"), today);
     result.push_back(read_entry(entry));
     refuse_without_limits(entry, result.back());
   }
@@ -70,6 +71,7 @@ std::vector<Waiver> read_expected(const std::filesystem::path& file) {
   for (const core::JsonNode& entry : json->root().elements()) {
     result.push_back(read_entry(entry));
     static_cast<void>(entry.at("configuration"));
+    refuse_without_limits(entry, result.back());
     result.back().known = read_known(entry.at("outcome"));
   }
   return result;

@@ -29,8 +29,10 @@ struct Waiver {
 };
 
 // Reads [{device, test, reason, expiry}, …]; an entry may also have a `configuration`. Without such
-// a file there are no waivers. Throws InputError with file and line.
-[[nodiscard]] std::vector<Waiver> read_waivers(const std::filesystem::path& file);
+// a file there are no waivers. Throws InputError with file and line, also for an entry that excuses
+// everything, and for one that ends later than a year after `today` (an ISO date).
+[[nodiscard]] std::vector<Waiver> read_waivers(const std::filesystem::path& file,
+                                               const std::string& today);
 
 // Reads [{device, test, configuration, outcome, reason}, …]; an entry may also have an `expiry`. A
 // missing file is an InputError too.

@@ -22,17 +22,17 @@ bool applies(const Absent& entry, const record::Run& run, const std::string& tod
 bool is_excused(const RunView& view, const std::string& device) {
   if (core::any_glob_matches(view.request.without_devices, device)) return true;
   return std::ranges::any_of(view.baselines.absent(), [&](const Absent& entry) {
-    return core::glob_matches(entry.device, device) && applies(entry, view.run, view.request.today);
+    return core::glob_matches(entry.device, device) && applies(entry, view.run, view.today());
   });
 }
 
 // Whether one of the run's commands would have measured the device if it had been there.
 bool is_asked_for(const RunView& view, const std::string& device) {
-  const bool judged = view.request.devices.empty() ||
-                      core::any_glob_matches(view.request.devices, device);
+  const bool judged =
+      view.request.devices.empty() || core::any_glob_matches(view.request.devices, device);
   return judged && std::ranges::any_of(view.run.begun, [&](const record::Beginning& begun) {
-    return begun.asks_for(device);
-  });
+           return begun.asks_for(device);
+         });
 }
 
 Advised without(const std::string& device) {
@@ -46,11 +46,10 @@ void report_failed_listings(const RunView& view, std::vector<Finding>& findings)
       const std::string api = each.api();
       const bool matters = each.ended && begun.asks_for_api(api);
       if (!matters || is_excused(view, api) || is_excused(view, api + ":*")) continue;
-      findings.push_back(finding_about(view, *view.checks.begin(), Verdict::cannot_judge,
-                                       {.cause = Cause::listing_failed,
-                                        .facts = {{"what", each.what}},
-                                        .reason = *each.ended},
-                                       without(api)));
+      findings.push_back(finding_about(
+          view, *view.checks.begin(), Verdict::cannot_judge,
+          {.cause = Cause::listing_failed, .facts = {{"what", each.what}}, .reason = *each.ended},
+          without(api)));
     }
   }
 }
@@ -94,10 +93,9 @@ void report_gone_devices(const RunView& view, std::vector<Finding>& findings) {
     if (!is_asked_for(view, id) || is_excused(view, id)) continue;
     record::Device device;
     device.id = id;
-    findings.push_back(
-        finding_about(view, device, *view.checks.begin(), Verdict::cannot_judge,
-                      {.cause = Cause::device_missing, .facts = {{"sibling", sibling}}},
-                      without(id)));
+    findings.push_back(finding_about(
+        view, device, *view.checks.begin(), Verdict::cannot_judge,
+        {.cause = Cause::device_missing, .facts = {{"sibling", sibling}}}, without(id)));
   }
 }
 
@@ -111,10 +109,9 @@ void report_undescribed(const RunView& view, std::vector<Finding>& findings) {
   std::vector<std::string> without;
   std::ranges::set_difference(measured, described, std::back_inserter(without));
   for (const std::string& id : without) {
-    findings.push_back(
-        finding_about(view, view.devices.at(id), *view.checks.begin(), Verdict::cannot_judge,
-                      {.cause = Cause::no_description, .facts = {{"run", view.run.id}}},
-                      {Advice::run_again}));
+    findings.push_back(finding_about(
+        view, view.devices.at(id), *view.checks.begin(), Verdict::cannot_judge,
+        {.cause = Cause::no_description, .facts = {{"run", view.run.id}}}, {Advice::run_again}));
   }
 }
 

@@ -1,6 +1,7 @@
 #include "judge/gate/gate.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -315,6 +316,20 @@ int rank(Verdict verdict) {
   return 6;
 }
 
+// The programs that measured, if one of them is not the one that judges. A run that was resumed may
+// have several.
+std::string other_programs(const RunView& view) {
+  std::set<std::string> programs;
+  for (const record::Beginning& each : view.run.begun) programs.insert(each.program);
+  // Older stores have it only once for each run.
+  const bool is_known = programs.erase(std::string()) == 0 && !programs.empty();
+  const auto program = view.run.system.find("triptych");
+  if (!is_known && program != view.run.system.end()) programs.insert(program->second);
+  programs.erase(view.request.program);
+  if (programs.empty() || view.request.program.empty()) return {};
+  return fmt::format("{}; judged by {}", fmt::join(programs, " and "), view.request.program);
+}
+
 void report_what_is_there(const RunView& view, GateResult& result) {
   for (const record::Record* record : view.measured) result.devices.insert(record->device);
   for (const auto& [id, device] : view.devices) result.environments[id] = device.environment;
@@ -324,11 +339,7 @@ void report_what_is_there(const RunView& view, GateResult& result) {
   for (const record::Record& record : view.records) {
     if (!record.injected.empty()) ++result.injected[record.injected];
   }
-  const auto program = view.run.system.find("triptych");
-  if (program != view.run.system.end() && !view.request.program.empty() &&
-      program->second != view.request.program) {
-    result.measured_by = program->second;
-  }
+  result.measured_by = other_programs(view);
   report_nothing_measured(view, result.run, result.findings);
   report_outcomes(view, result.findings);
   report_device_faults(view, result.findings);

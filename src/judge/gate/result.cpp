@@ -61,6 +61,10 @@ std::string RunView::argument() const {
   return request.argument.empty() ? record::plan_argument(request.plan) : request.argument;
 }
 
+std::string RunView::today() const {
+  return std::max(request.today, run.started_at.substr(0, 10));
+}
+
 Advised RunView::accept(Advice advice) const {
   return {advice,
           fmt::format("triptych accept {}{}{} --reason TEXT", core::shell_quoted(argument()),

@@ -32,6 +32,9 @@ struct RunView {
   [[nodiscard]] std::string plan_test(Check check) const;
   // The plan as commands accept it.
   [[nodiscard]] std::string argument() const;
+  // The date on which waivers may have expired. A clock that was set back after the run does not
+  // bring one back.
+  [[nodiscard]] std::string today() const;
   // Advice with the command that creates or renews the baselines.
   [[nodiscard]] Advised accept(Advice advice = Advice::accept) const;
 };

@@ -13,10 +13,8 @@ bool covers(const Waiver& waiver, const std::string& device, const std::string& 
          core::glob_matches(waiver.configuration, configuration);
 }
 
-// A clock that was set back after the run does not bring a waiver back.
 bool has_expired(const Waiver& waiver, const RunView& view) {
-  const std::string today = std::max(view.request.today, view.run.started_at.substr(0, 10));
-  return !waiver.expiry.empty() && today >= waiver.expiry;
+  return !waiver.expiry.empty() && view.today() >= waiver.expiry;
 }
 
 // The entry of these kinds that the request has for the place of a finding; nullptr if there is
@@ -83,7 +81,7 @@ bool matches_no_test(const Waiver& waiver, const RunView& view) {
 }  // namespace
 
 bool is_waived(const RunView& view, const record::Record& record, Check check) {
-  return std::ranges::any_of(view.baselines.waivers(), [&](const Waiver& waiver) {
+  return std::ranges::any_of(view.baselines.waivers(view.today()), [&](const Waiver& waiver) {
     return !has_expired(waiver, view) &&
            covers(waiver, record.device, record.test_id(name_of(check)), record.configuration);
   });
@@ -97,7 +95,7 @@ void apply_known(const RunView& view, std::vector<Finding>& findings) {
 }
 
 void apply_waivers(const RunView& view, std::vector<Finding>& findings) {
-  for (const Waiver& waiver : view.baselines.waivers()) {
+  for (const Waiver& waiver : view.baselines.waivers(view.today())) {
     bool used = false;
     for (Finding& finding : findings) {
       if (finding.verdict != Verdict::regression ||

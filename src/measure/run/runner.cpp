@@ -60,6 +60,7 @@ std::string open_run(const PlannedRun& planned, const std::vector<std::string>& 
     store.add_run(run);
   }
   record::Beginning begun = options.begun;
+  begun.program = options.program;
   begun.devices = devices;
   if (begun.found.empty()) begun.found = devices;
   std::vector<std::string> keys;

@@ -79,6 +79,8 @@ bool any_matches(const std::vector<std::string>& globs, const std::string& id) {
 
 // Asks the driver whether it compiles for the family of this device, and adds the result.
 void list_compiler(const std::string& id, Listing& listing) {
+  constexpr const char* newer =
+      "but a newer one may: Mesa 25.0 of Debian 13 knows AMD's up to gfx1201";
   const std::string api = id.substr(0, id.find(':'));
   const auto refuse = [&](std::string reason) {
     listing.broken.push_back({.what = id, .reason = std::move(reason)});
@@ -89,15 +91,19 @@ void list_compiler(const std::string& id, Listing& listing) {
                  listing_limit);
     const auto* answer = std::get_if<Message>(&reply);
     if (answer == nullptr) {
-      listing.broken.push_back({.what = id, .reason = {}, .ended = reason_of(reply)});
+      // RADV aborts when it is asked for a family that it does not know.
+      listing.broken.push_back(
+          {.what = id,
+           .reason = std::string("the driver that is installed ended without an answer; it may not "
+                                 "know this family, ") +
+                     newer,
+           .ended = reason_of(reply)});
       return;
     }
     for (record::Device& device : from_json(answer->json).devices) {
       if (device.id == id) return listing.devices.push_back(std::move(device));
     }
-    refuse(
-        "the driver that is installed does not know this family; a newer one may (Mesa 25.0 of "
-        "Debian 13 knows AMD's up to gfx1201)");
+    refuse(std::string("the driver that is installed does not know this family, ") + newer);
   } catch (const core::NotSupported& error) {
     refuse(error.what());
   }

@@ -19,28 +19,37 @@ struct Test {
   std::string lock = {};
 };
 
-// [=[…]=] takes every text literally.
+// A bracket argument of CMake takes every text literally that does not contain its own end.
+std::string bracketed(const std::string& text) {
+  std::string equals = "=";
+  while ((text + "]").find("]" + equals + "]") != std::string::npos) equals += '=';
+  // CMake leaves out a line break at the start.
+  return fmt::format("[{0}[{1}{2}]{0}]", equals, text.starts_with('\n') ? "\n" : "", text);
+}
+
 std::string quoted(const std::vector<std::string>& words, std::string_view separator) {
   std::string text;
   for (const std::string& word : words) {
     if (!text.empty()) text += separator;
-    text += "[=[" + word + "]=]";
+    text += bracketed(word);
   }
   return text;
 }
 
 std::string as_cmake(const Test& test, const std::string& program) {
-  std::string text = fmt::format("add_test([=[{}]=] [=[{}]=] {})\n", test.name, program,
+  const auto list = [](const std::vector<std::string>& words) {
+    return bracketed(fmt::format("{}", fmt::join(words, ";")));
+  };
+  std::string text = fmt::format("add_test({} {} {})\n", bracketed(test.name), bracketed(program),
                                  quoted(test.command, " "));
   text += fmt::format(
-      "set_tests_properties([=[{}]=] PROPERTIES\n  LABELS [=[{}]=] SKIP_RETURN_CODE 77 "
-      "TIMEOUT 1800",
-      test.name, fmt::join(test.labels, ";"));
+      "set_tests_properties({} PROPERTIES\n  LABELS {} SKIP_RETURN_CODE 77 TIMEOUT 1800",
+      bracketed(test.name), list(test.labels));
   if (!test.requires_fixtures.empty()) {
-    text += fmt::format("\n  FIXTURES_REQUIRED [=[{}]=]", fmt::join(test.requires_fixtures, ";"));
+    text += "\n  FIXTURES_REQUIRED " + list(test.requires_fixtures);
   }
-  if (!test.sets_up.empty()) text += fmt::format("\n  FIXTURES_SETUP [=[{}]=]", test.sets_up);
-  if (!test.lock.empty()) text += fmt::format("\n  RESOURCE_LOCK [=[{}]=]", test.lock);
+  if (!test.sets_up.empty()) text += "\n  FIXTURES_SETUP " + bracketed(test.sets_up);
+  if (!test.lock.empty()) text += "\n  RESOURCE_LOCK " + bracketed(test.lock);
   return text + ")\n";
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 
@@ -11,6 +12,22 @@
 namespace triptych::report {
 namespace {
 
+bool is_number(std::string_view text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+// Whether a spreadsheet would run the text as a formula. Texts that begin with an apostrophe count
+// as well, so that a reader who removes one apostrophe restores every text.
+bool is_marked(std::string_view text) {
+  constexpr std::string_view starts = "=+-@\t\r\n'";
+  if (text.empty()) return false;
+  const bool wide = text.starts_with("＝") || text.starts_with("＋") || text.starts_with("－") ||
+                    text.starts_with("＠");  // Japanese spreadsheets read these alike
+  return wide || (starts.find(text.front()) != std::string_view::npos && !is_number(text));
+}
+
 struct Field {
   std::string operator()(std::monostate) const { return {}; }
   std::string operator()(double number) const {
@@ -18,8 +35,11 @@ struct Field {
   }
   std::string operator()(std::uint64_t number) const { return fmt::format("{}", number); }
   std::string operator()(const std::string& text) const {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    const std::string_view mark = is_marked(text) ? "'" : "";
+    // Semicolons and tabs separate fields where a spreadsheet is set up so.
+    if (text.find_first_of(",;\t\"\r\n") == std::string::npos) return std::string(mark) + text;
     std::string quoted = "\"";
+    quoted += mark;
     for (const char c : text) {
       if (c == '"') quoted += c;
       quoted += c;

@@ -15,8 +15,10 @@ namespace triptych::report {
 // A missing value is an empty field, never zero.
 using Cell = std::variant<std::monostate, std::string, double, std::uint64_t>;
 
-// NaN and infinity are written as missing. A text that contains a comma, a quotation mark or the
-// end of a line is quoted. Numbers have as few digits as are needed to read the same number again.
+// NaN is written as missing. A text that contains a separator, a quotation mark or the end of a
+// line is quoted. A text that a spreadsheet would run as a formula, or that begins with an
+// apostrophe, gets an apostrophe before it. Numbers have as few digits as are needed to read the
+// same number again.
 [[nodiscard]] std::string csv_field(const Cell& cell);
 
 class CsvFile {

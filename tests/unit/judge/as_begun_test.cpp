@@ -50,15 +50,15 @@ class AsBegunTest : public GateTest {
   static std::vector<std::string> undecided(const GateResult& result) {
     std::vector<std::string> lines;
     for (const Finding& each : with(result, Verdict::cannot_judge)) {
-      lines.push_back(fmt::format("{} {} {}", each.device, name_of(each.cause),
-                                  fmt::join(each.names, ";")));
+      lines.push_back(
+          fmt::format("{} {} {}", each.device, name_of(each.cause), fmt::join(each.names, ";")));
     }
     return lines;
   }
 
-  std::vector<std::string> configurations_{
-      plain_, bricks_, "camera=side,data=ball,technique=raycast",
-      "camera=side,data=ball,skip=bricks,technique=raycast"};
+  std::vector<std::string> configurations_{plain_, bricks_,
+                                           "camera=side,data=ball,technique=raycast",
+                                           "camera=side,data=ball,skip=bricks,technique=raycast"};
 };
 
 TEST_F(AsBegunTest, AWholeRunPasses) {
@@ -129,6 +129,10 @@ TEST_F(AsBegunTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
   write_absent(R"([{"device": "gl:*", "host": "other", "reason": "no EGL"}])");
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::cannot_judge);
   write_absent(R"([{"device": "gl:*", "reason": "no EGL", "expiry": "2026-02-28"}])");
+  EXPECT_EQ(gate("run").exit_code(), core::ExitCode::cannot_judge);
+  // The fixture's runs began on 2026-02-01, and the clock was set back since.
+  write_absent(R"([{"device": "gl:*", "reason": "no EGL", "expiry": "2026-01-31"}])");
+  request_.today = "2025-06-01";
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::cannot_judge);
   write_absent(R"([{"device": "*", "reason": "all"}])");
   EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
@@ -207,6 +211,36 @@ TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
               HasSubstr("does not name"));
   EXPECT_THAT(changed([](core::Json& json) { json["files"]["../x"] = "0"; }),
               HasSubstr("is outside the folder"));
+  EXPECT_THAT(changed([](core::Json& json) { json["configurations"] = 3; }),
+              HasSubstr("states 3 configurations, and counters.json has 4"));
+  // Statements that no other file contains are compared with the hash in the history.
+  for (const char* name : {"plan_hash", "checks"}) {
+    EXPECT_THAT(changed([&](core::Json& json) { json[name] = "memory"; }),
+                HasSubstr("is not the one that was accepted last"))
+        << name;
+  }
+  EXPECT_THAT(changed([](core::Json& json) { json["machines"] = core::Json::array(); }),
+              HasSubstr("is not the one that was accepted last"));
+  EXPECT_EQ(changed([](core::Json&) {}), "");
+}
+
+// A reader of counters.json that lost a configuration would not miss it in a run.
+TEST_F(AsBegunTest, ALostConfigurationOfTheBaselinesIsNoticed) {
+  accept_begun();
+  core::Json counters = core::Json::parse(folder_.read(baseline("counters.json")));
+  counters.erase(plain_);
+  rewrite("counters.json", counters.dump(1));
+  EXPECT_THAT(Baselines(folder_.path() / "baselines", plan).problem(),
+              HasSubstr("states 4 configurations, and counters.json has 3"));
+}
+
+// The run was begun by one build, and resumed by another one.
+TEST_F(AsBegunTest, EveryProgramThatMeasuredIsCompared) {
+  request_.program = "1, commit b";
+  add_begun("run", {.program = "1, commit b", .devices = {"gl:llvmpipe-egl"}});
+  EXPECT_EQ(gate("run").measured_by, "");
+  begin("run", {.program = "1, commit a", .devices = {"opencl:pocl"}});
+  EXPECT_EQ(gate("run").measured_by, "1, commit a; judged by 1, commit b");
 }
 
 TEST_F(AsBegunTest, AWaiverOfEverythingIsRefused) {
@@ -220,6 +254,11 @@ TEST_F(AsBegunTest, AWaiverOfEverythingIsRefused) {
   EXPECT_NO_THROW(static_cast<void>(gate("run")));
   write_waivers("2026-12-31", "gl:*", "*", "*");
   EXPECT_NO_THROW(static_cast<void>(gate("run")));
+  // Every id of a device has a colon, every test a dot, and every configuration an equals sign.
+  write_waivers("2026-12-31", "*:*", "*=*", "*.*.*");
+  EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
+  write_absent(R"([{"device": "*:*", "reason": "all"}])");
+  EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
 }
 
 }  // namespace

@@ -103,11 +103,13 @@ TEST_F(KnownGateTest, AnExpiredEntryExcusesNothing) {
 TEST_F(KnownGateTest, AFileWithAMistakeIsRefused) {
   const auto file = folder_.path() / "known.json";
   EXPECT_THROW((void)read_expected(file), core::InputError);
-  for (const char* entry :
-       {R"({"device": "a", "test": "b", "reason": "c", "outcome": "fail"})",
-        R"({"device": "a", "test": "b", "configuration": "*", "reason": "c"})",
-        R"({"device": "a", "test": "b", "configuration": "*", "reason": " ", "outcome": "fail"})",
-        R"({"device": "a", "test": "b", "configuration": "*", "reason": "c", "outcome": "red"})"}) {
+  for (
+      const char* entry :
+      {R"({"device": "a", "test": "b", "reason": "c", "outcome": "fail"})",
+       R"({"device": "a", "test": "b", "configuration": "*", "reason": "c"})",
+       R"({"device": "a", "test": "b", "configuration": "*", "reason": " ", "outcome": "fail"})",
+       R"({"device": "a", "test": "b", "configuration": "*", "reason": "c", "outcome": "red"})",
+       R"({"device": "*", "test": "*", "configuration": "*", "reason": "c", "outcome": "fail"})"}) {
     core::write_file(std::string("[") + entry + "]", file);
     EXPECT_THROW((void)read_expected(file), core::InputError) << entry;
   }

@@ -98,10 +98,30 @@ TEST_F(GateTest, AWaiverNeedsReasonAndDate) {
   }
 }
 
+// Somebody has to look again within a year. The fixture judges on 2026-03-01.
+TEST_F(GateTest, AWaiverThatEndsFarAwayIsRefused) {
+  add_run("a");
+  (void)accept_run("a");
+  write_waivers("2027-03-02");
+  EXPECT_NO_THROW((void)gate("a"));
+  for (const char* far : {"2027-03-03", "2099-01-01", "9999-12-31"}) {
+    write_waivers(far);
+    try {
+      (void)gate("a");
+      ADD_FAILURE() << far << " is not refused";
+    } catch (const core::InputError& error) {
+      EXPECT_NE(
+          std::string(error.what()).find("/0/expiry: ends more than 366 days after 2026-03-01"),
+          std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 // It would excuse every configuration.
 TEST_F(GateTest, AWaiverWithAMisspelledKeyIsRefused) {
   accept_first();
-  write_waivers("2099-01-01");
+  write_waivers("2026-12-31");
   const auto file = folder_.path() / "baselines" / "waivers.json";
   std::string text = core::read_text(file);
   text.replace(text.find("\"configuration\""), 15, "\"configurations\"");

@@ -153,6 +153,19 @@ TEST_F(RunAgain, AFinishedRunResumesToNothingAndWithoutResumeBeginsAnew) {
   EXPECT_NE(run(small_plan()).run, first.run);
 }
 
+TEST_F(RunAgain, ABuildThatResumesAnotherOnesRunIsNamed) {
+  options.program = "build a";
+  static_cast<void>(run(plan({{"technique", {"raycast"}}, {"data", {"cube"}}})));
+  options.program = "build b";
+  options.resume = true;
+  static_cast<void>(run(small_plan()));
+  const record::Store store = open_store();
+  ASSERT_EQ(store.runs().size(), 1U);
+  std::set<std::string> programs;
+  for (const record::Beginning& each : store.runs()[0].begun) programs.insert(each.program);
+  EXPECT_EQ(programs, (std::set<std::string>{"build a", "build b"}));
+}
+
 TEST_F(RunAgain, AChangedPlanGoesOnOnlyWithWhatItWouldMeasureItself) {
   const RunResult first = run(plan({{"technique", {"raycast"}}, {"data", {"cube"}}}));
   options.resume = true;

@@ -81,6 +81,37 @@ TEST_F(StoreTest, OtherSchemaVersion) {
   }
 }
 
+// A trigger hides what a driver did wrong, a view shows other records, and an index or another form
+// of a table can do both.
+TEST_F(StoreTest, ObjectsThatOthersMadeAreRefused) {
+  const std::vector<std::pair<std::string, std::string>> attacks{
+      {"CREATE TRIGGER hide AFTER INSERT ON device_fault BEGIN DELETE FROM device_fault; END",
+       "has the trigger hide"},
+      {"ALTER TABLE record RENAME TO kept; CREATE VIEW record AS SELECT * FROM kept",
+       "measure again, into another file"},
+      {"CREATE VIEW x AS SELECT * FROM record", "has the view x"},
+      {"CREATE INDEX x ON record (outcome) WHERE outcome = 'measured'", "has the index x"},
+      {"DROP INDEX run_of_plan", "index run_of_plan is missing"},
+      {"DROP TABLE device_fault; CREATE TABLE device_fault (seq INTEGER PRIMARY KEY, device, kind "
+       "DEFAULT 'x', subject, detail, last_words)",
+       "table device_fault is not the one"}};
+  int number = 0;
+  for (const auto& [attack, expected] : attacks) {
+    const auto file = folder_ / ("s" + std::to_string(number++));
+    make_store(file);
+    EXPECT_NO_THROW(Store(file, Mode::read));
+    SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec(attack);
+    for (const Mode mode : {Mode::read, Mode::append}) {
+      EXPECT_THAT(refusal<core::InputError>(file, mode),
+                  AllOf(StartsWith(file.string()), HasSubstr(expected)));
+    }
+  }
+  const auto file = folder_ / "other";
+  make_store(file);
+  SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec("CREATE TABLE notes (text)");
+  EXPECT_NO_THROW(Store(file, Mode::append));
+}
+
 TEST_F(StoreTest, MissingFile) {
   EXPECT_THAT(refusal<core::IoError>(file_, Mode::read), HasSubstr("no such file"));
   EXPECT_FALSE(std::filesystem::exists(file_)) << "reading makes no file";
@@ -139,6 +170,17 @@ TEST_F(StoreTest, DamagedColumn) {
   EXPECT_THAT(
       [&] { static_cast<void>(Store(file_, Mode::read).runs()); },
       ThrowsMessage<core::InputError>(AllOf(StartsWith(file_.string()), HasSubstr("is damaged"))));
+}
+
+// SQLite stores no value of more than 10⁹ bytes. The seal of such a text would take several times
+// that much memory, and minutes.
+TEST_F(StoreTest, ATextOfManyMegabytesIsRefused) {
+  make_store(file_);
+  SQLite::Database(file_.string(), SQLite::OPEN_READWRITE)
+      .exec("UPDATE record SET detail = CAST(zeroblob(70000000) AS TEXT)");
+  const Store store(file_, Mode::read);
+  EXPECT_THAT([&] { static_cast<void>(store.records(sample_run().id)); },
+              ThrowsMessage<core::InputError>(HasSubstr("a text of 70000000 bytes")));
 }
 
 TEST_F(StoreTest, APictureThatIsNoneIsNamed) {
@@ -285,6 +327,23 @@ std::string fill(const std::filesystem::path& file) {
     if (store.records("run-1").size() != static_cast<std::size_t>(added)) return "records lost";
     return error.what();
   }
+}
+
+// The writer is killed, and its log is not copied. The run before it may have passed.
+TEST_F(StoreTest, ACopyWithoutItsLogKnowsWhatTheLatestRunSetOutToDo) {
+  make_store(file_);
+  Store store(file_, Mode::append);
+  record::Run later = sample_run();
+  later.id = "later";
+  store.add_run(later);
+  store.begin("later", {.devices = {"gl:x"}}, std::vector<std::string>{"step=1"});
+  const auto copy = folder_ / "copy";
+  std::filesystem::copy_file(file_, copy);
+  const Store copied(copy, Mode::read);
+  const auto latest = copied.latest_run(later.plan);
+  ASSERT_TRUE(latest);
+  EXPECT_EQ(latest->id, "later");
+  EXPECT_EQ(copied.planned(*latest), std::vector<std::string>{"step=1"});
 }
 
 TEST_F(StoreTest, FileSizeLimit) {

@@ -31,6 +31,22 @@ TEST(Csv, QuotesWhatNeedsItAndLeavesMissingEmpty) {
   EXPECT_EQ(csv_field(std::string("say \"x\"\n")), "\"say \"\"x\"\"\n\"");
 }
 
+// OpenOffice, Excel and Google Sheets run cells that begin so.
+TEST(Csv, NoTextIsAFormula) {
+  for (const char* text : {"=1+1", "+1+1", "-1+1", "@SUM(1)", "=cmd|' /C calc'!A0", "＝1", "-"}) {
+    const std::string field = csv_field(std::string(text));
+    EXPECT_EQ(field, std::string("'") + text);
+  }
+  EXPECT_EQ(csv_field(std::string("\t=1")), "\"'\t=1\"");
+  EXPECT_EQ(csv_field(std::string("\n=1")), "\"'\n=1\"");
+  EXPECT_EQ(csv_field(std::string("=A,\"B\"")), "\"'=A,\"\"B\"\"\"");
+  EXPECT_EQ(csv_field(std::string("a;=1")), "\"a;=1\"");
+  EXPECT_EQ(csv_field(std::string("'a")), "''a");
+  for (const char* text : {"-0.5", "-1e-9", "a=b", "", "0"}) {
+    EXPECT_EQ(csv_field(std::string(text)), text);
+  }
+}
+
 // The fields of a line, if none of them contains the end of a line.
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> fields{""};

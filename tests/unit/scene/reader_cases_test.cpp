@@ -1,5 +1,5 @@
-// Kinds of mistakes that readers make: lines that are left out, elements that are wrong, numbers cut
-// out of their columns, grammars read by half. Each case comes from a public report of another
+// Kinds of mistakes that readers make: lines that are left out, elements that are wrong, numbers
+// cut out of their columns, grammars read by half. Each case comes from a public report of another
 // program's users; the data are ours.
 
 #include <gmock/gmock.h>
@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -58,7 +59,8 @@ TEST(PdbColumns, NumbersThatRunTogetherAreRefused) {
 TEST(PdbRecords, NothingThatBeginsLikeAnAtomIsLeftOut) {
   const std::string atom = pdb_atom(" C  ", "LIG", here);
   const std::string rest = atom.substr(6);
-  for (const char* begin : {"atom  ", "Atom  ", " ATOM ", "hetatm", "Hetatm", "ATOM\t ", "ATOM* "}) {
+  for (const char* begin :
+       {"atom  ", "Atom  ", " ATOM ", "hetatm", "Hetatm", "ATOM\t ", "ATOM* "}) {
     expect_refused("a.pdb", begin + rest + atom, ":1:", "");
   }
   // A serial number of six digits.
@@ -68,26 +70,27 @@ TEST(PdbRecords, NothingThatBeginsLikeAnAtomIsLeftOut) {
 }
 
 TEST(PdbElements, ComeFromTheResidueWhereNamesAreAdjustedToTheLeft) {
-  const ParticleSet set = load("a.pdb", pdb_atom("N   ", "ALA", here) + pdb_atom("CA  ", "ALA", here) +
-                                            pdb_atom("HG2 ", "ARG", here) +
-                                            pdb_atom("CD  ", "LIG", here) +
-                                            pdb_atom("CA  ", " CA", here));
+  const ParticleSet set =
+      load("a.pdb", pdb_atom("N   ", "ALA", here) + pdb_atom("CA  ", "ALA", here) +
+                        pdb_atom("HG2 ", "ARG", here) + pdb_atom("CD  ", "LIG", here) +
+                        pdb_atom("CA  ", " CA", here));
   EXPECT_EQ(kinds_of(set), "H1 C2 N1 Ca1");
   EXPECT_THAT(set.facts.notes, ElementsAre(HasSubstr("no element for 1 atom")));
 }
 
 TEST(PdbElements, ComeFromTheColumnsWhereNamesAreAdjustedToTheRight) {
-  const ParticleSet set = load("a.pdb", pdb_atom(" CA ", "ALA", here) + pdb_atom("CD  ", "LIG", here) +
-                                            pdb_atom(" CD ", "LIG", here));
+  const ParticleSet set =
+      load("a.pdb", pdb_atom(" CA ", "ALA", here) + pdb_atom("CD  ", "LIG", here) +
+                        pdb_atom(" CD ", "LIG", here));
   EXPECT_EQ(kinds_of(set), "C2 Cd1");
   EXPECT_THAT(set.facts.notes, IsEmpty());
 }
 
 // The last columns may hold the end of a word.
 TEST(PdbElements, AreNoPartOfAWord) {
-  const ParticleSet set =
-      load("a.pdb", pdb_atom(" C1 ", "POPC", here, "  1.00  0.00      MEMBRANE").replace(21, 1, "") +
-                        pdb_atom(" CA ", "ALA", here, "  1.00  0.00      PROA C  "));
+  const ParticleSet set = load(
+      "a.pdb", pdb_atom(" C1 ", "POPC", here, "  1.00  0.00      MEMBRANE").replace(21, 1, "") +
+                   pdb_atom(" CA ", "ALA", here, "  1.00  0.00      PROA C  "));
   EXPECT_EQ(kinds_of(set), "C2");
 }
 
@@ -103,13 +106,18 @@ TEST(ByteOrderMark, IsDroppedOrNamed) {
   const std::string atom = pdb_atom(" C  ", "LIG", here);
   EXPECT_EQ(load("a.pdb", mark + atom + atom).count(), 2U);
   EXPECT_EQ(load("a.xyz", mark + "1\n\nC 0 0 0\n").count(), 1U);
-  EXPECT_EQ(load("a.gro", mark + "t\n1\n    1SOL     OW    1   0.000   0.000   0.000\n 1 1 1\n").count(),
-            1U);
+  EXPECT_EQ(
+      load("a.gro", mark + "t\n1\n    1SOL     OW    1   0.000   0.000   0.000\n 1 1 1\n").count(),
+      1U);
   EXPECT_EQ(load("a.cif", mark + "data_x\n_atom_site.type_symbol C\n_atom_site.Cartn_x 1\n"
                                  "_atom_site.Cartn_y 1\n_atom_site.Cartn_z 1\n")
                 .count(),
             1U);
-  expect_refused("a.xyz", std::string("\xFF\xFE" "1\0\n\0", 6), ": ", "UTF-16");
+  expect_refused("a.xyz",
+                 std::string("\xFF\xFE"
+                             "1\0\n\0",
+                             6),
+                 ": ", "UTF-16");
 }
 
 TEST(LineEnds, MayBeACarriageReturn) {
@@ -119,7 +127,10 @@ TEST(LineEnds, MayBeACarriageReturn) {
 TEST(Compression, IsKnownByTheContent) {
   const std::string atom = pdb_atom(" C  ", "LIG", here);
   EXPECT_EQ(load("a.pdb", gzipped(atom)).count(), 1U);
-  expect_refused("a.pdb", "\xFD" "7zXZ\0", ": ", "compressed with xz; unpack it first: xz -d");
+  expect_refused("a.pdb",
+                 "\xFD"
+                 "7zXZ\0",
+                 ": ", "compressed with xz; unpack it first: xz -d");
   expect_refused("a.pdb", "BZh9broken", ": ", "broken bzip2 stream");
 }
 
@@ -166,17 +177,20 @@ TEST(MmcifRows, MayComeInAnyOrder) {
 
 TEST(MmcifElements, ComeFromNamesWhereTheyAreNotStated) {
   const ParticleSet set =
-      load("a.cif", "data_X\nloop_\n_atom_site.label_atom_id\n_atom_site.label_comp_id\n"
-                    "_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n"
-                    "_atom_site.Cartn_z\nCA ALA ? 1 0 0\nCA CA . 2 0 0\nFE HEM FE3+ 2 0 0\n");
+      load("a.cif",
+           "data_X\nloop_\n_atom_site.label_atom_id\n_atom_site.label_comp_id\n"
+           "_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n"
+           "_atom_site.Cartn_z\nCA ALA ? 1 0 0\nCA CA . 2 0 0\nFE HEM FE3+ 2 0 0\n");
   EXPECT_EQ(kinds_of(set), "C1 Ca1 Fe1");
 }
 
 TEST(GroColumns, AreCheckedWithTheirNeighbours) {
   const std::string head = "t\n 2\n    1SOL     OW    1   0.000   0.000   0.000\n";
   const std::string end = " 1 1 1\n";
-  EXPECT_EQ(load("a.gro", head + "    1SOL     OW    2-999.000-999.000-999.000\n" + end).count(), 2U);
-  expect_refused("a.gro", head + "    1SOL     OW    210000.000   0.000   0.000\n" + end, ":4:", "");
+  EXPECT_EQ(load("a.gro", head + "    1SOL     OW    2-999.000-999.000-999.000\n" + end).count(),
+            2U);
+  expect_refused("a.gro", head + "    1SOL     OW    210000.000   0.000   0.000\n" + end,
+                 ":4:", "");
   expect_refused("a.gro", "t\n 1\n    1SOL     OW    110000.00010000.00010000.000\n" + end,
                  ":3:", "too wide");
 }
@@ -194,7 +208,8 @@ TEST(Pqr, HasItsOwnRadii) {
   expect_refused("a.pqr", "ATOM1 N ALA 1 1 2 3 0 1\n", ":1:", "expected a blank after ATOM");
 }
 
-// The files of a folder that is not part of the project, each with the file that shows what is right.
+// The files of a folder that is not part of the project, each with the file that shows what is
+// right.
 struct Row {
   const char* file;
   const char* twin;  // equal to it, or nullptr where it is just read
@@ -202,21 +217,30 @@ struct Row {
 
 TEST(ReaderCases, EveryRowOfTheTableIsRight) {
   const char* root = std::getenv("TRIPTYCH_DATA");
-  const std::filesystem::path folder = std::filesystem::path(root == nullptr ? "" : root) / "readers";
+  const std::filesystem::path folder =
+      std::filesystem::path(root == nullptr ? "" : root) / "readers";
   if (root == nullptr || !std::filesystem::is_directory(folder)) {
     GTEST_SKIP() << "TRIPTYCH_DATA does not name a folder that has readers/";
   }
-  const std::vector<Row> particles{
-      {"p02_left_names.pdb", "p02_twin.xyz"},  {"p04b_dexp.xyz", "p04_twin.xyz"},
-      {"p04c_Z.xyz", "p04_twin.xyz"},          {"p04d_starexp.xyz", nullptr},
-      {"p04e_qm9.xyz", nullptr},               {"p05_charmm_ions.pdb", "p05_twin.xyz"},
-      {"p05b_charmm_ions.gro", nullptr},       {"p05c_metals.gro", nullptr},
-      {"p06_bom.pdb", "p06_twin.xyz"},         {"p06b_bom.xyz", "p06_twin.xyz"},
-      {"p07_pairs.cif", nullptr},              {"p07c_noclose_mark.cif", nullptr},
-      {"p08_huge_box.gro", nullptr},           {"p10_noend.pdb", nullptr},
-      {"p10f_endmdl_only.pdb", "p06_twin.xyz"}, {"p11_gz_named.pdb", "p06_twin.xyz"},
-      {"p13_lammps_dump.xyz", nullptr},        {"p13d_escaped.xyz", "p13d_twin.xyz"},
-      {"p13e_casp.pdb", nullptr}};
+  const std::vector<Row> particles{{"p02_left_names.pdb", "p02_twin.xyz"},
+                                   {"p04b_dexp.xyz", "p04_twin.xyz"},
+                                   {"p04c_Z.xyz", "p04_twin.xyz"},
+                                   {"p04d_starexp.xyz", nullptr},
+                                   {"p04e_qm9.xyz", nullptr},
+                                   {"p05_charmm_ions.pdb", "p05_twin.xyz"},
+                                   {"p05b_charmm_ions.gro", nullptr},
+                                   {"p05c_metals.gro", nullptr},
+                                   {"p06_bom.pdb", "p06_twin.xyz"},
+                                   {"p06b_bom.xyz", "p06_twin.xyz"},
+                                   {"p07_pairs.cif", nullptr},
+                                   {"p07c_noclose_mark.cif", nullptr},
+                                   {"p08_huge_box.gro", nullptr},
+                                   {"p10_noend.pdb", nullptr},
+                                   {"p10f_endmdl_only.pdb", "p06_twin.xyz"},
+                                   {"p11_gz_named.pdb", "p06_twin.xyz"},
+                                   {"p13_lammps_dump.xyz", nullptr},
+                                   {"p13d_escaped.xyz", "p13d_twin.xyz"},
+                                   {"p13e_casp.pdb", nullptr}};
   for (const auto& [file, twin] : particles) {
     SCOPED_TRACE(file);
     const ParticleSet set = load_particles(file, ColourKind::rgba8, {folder});
@@ -234,21 +258,26 @@ TEST(ReaderCases, EveryRowOfTheTableIsRight) {
   EXPECT_EQ(kinds("p05b_charmm_ions.gro"), "Na1 Cl1 K1 Ca1");
   EXPECT_EQ(kinds("p05c_metals.gro"), "N1 Si1 Cl1 Fe1 Br1");
   const Volume twin = load_volume("v_twin.nrrd", {folder});
-  for (const char* file : {"v01b_4d_one.nrrd", "v03_colon_keys.nrrd", "v08b_ascii.nrrd",
-                           "v08c_hex.nrrd", "v08d_bz2.nrrd", "v09_int.nrrd", "v09_uint32.nrrd",
-                           "v04_gz_minus1.nhdr", "v12_vmml.dat", "v13.mha", "v13.mhd", "v13.nrrd.gz",
-                           "v13.raw:6x5x4:u8:1x2x3"}) {
+  for (const char* file :
+       {"v01b_4d_one.nrrd", "v03_colon_keys.nrrd", "v08b_ascii.nrrd", "v08c_hex.nrrd",
+        "v08d_bz2.nrrd", "v09_int.nrrd", "v09_uint32.nrrd", "v04_gz_minus1.nhdr", "v12_vmml.dat",
+        "v13.mha", "v13.mhd", "v13.nrrd.gz", "v13.raw:6x5x4:u8:1x2x3"}) {
     EXPECT_EQ(load_volume(file, {folder}).voxels, twin.voxels) << file;
   }
   EXPECT_EQ(load_volume("v12c_iv3d.dat", {folder}).type, ScalarType::i16);
-  // Those without sizes or voxels are refused with that reason.
-  for (const char* file : {"v04.nii", "v04.nii.gz", "v13.vti", "v13.vtk"}) {
+  // These hold no volume: the NIfTI headers are empty, and the VTK files end before the values.
+  // nibabel refuses the former, and VTK finds no array in the latter.
+  const std::map<std::string, std::string> reasons{
+      {"v04.nii", "states neither sizes nor a type"},
+      {"v04.nii.gz", "states neither sizes nor a type"},
+      {"v13.vti", "holds no data"},
+      {"v13.vtk", "where POINT_DATA was expected"}};
+  for (const auto& [file, reason] : reasons) {
     try {
-      EXPECT_EQ(load_volume(file, {folder}).voxels, twin.voxels) << file;
+      (void)load_volume(file, {folder});
+      ADD_FAILURE() << file << " is read";
     } catch (const core::InputError& error) {
-      EXPECT_THAT(error.what(), testing::AnyOf(HasSubstr("zero bytes where 'n+1'"),
-                                               HasSubstr("holds no data"),
-                                               HasSubstr("where POINT_DATA was expected")));
+      EXPECT_THAT(error.what(), HasSubstr(reason));
     }
   }
 }

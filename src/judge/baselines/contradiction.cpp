@@ -1,0 +1,131 @@
+#include "judge/baselines/contradiction.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <utility>
+
+#include "core/hash.hpp"
+#include "core/json_file.hpp"
+#include "core/json_text.hpp"
+#include "judge/baselines/layout.hpp"
+#include "record/check.hpp"
+
+namespace triptych::judge {
+namespace {
+
+namespace fs = std::filesystem;
+using record::Check;
+
+// The devices of a file {configuration: {device: …}}.
+std::set<std::string> devices_of(const fs::path& file) {
+  std::set<std::string> devices;
+  const auto json = core::JsonFile::read(file);
+  if (!json) return devices;
+  for (const auto& [configuration, values] : json->root().members()) {
+    for (const auto& [device, value] : values.members()) devices.insert(device);
+  }
+  return devices;
+}
+
+// What counters.json holds: {configuration: {counter: {device: …}}}.
+struct Counted {
+  std::size_t configurations = 0;
+  std::set<std::string> devices;
+};
+
+Counted counted_in(const fs::path& folder) {
+  Counted counted;
+  const auto json = core::JsonFile::read(folder / Layout::counters);
+  if (!json) return counted;
+  for (const auto& [configuration, counters] : json->root().members()) {
+    ++counted.configurations;
+    for (const auto& [counter, values] : counters.members()) {
+      for (const auto& [device, value] : values.members()) counted.devices.insert(device);
+    }
+  }
+  return counted;
+}
+
+std::string lacks(const std::string& what) {
+  return fmt::format("{} does not name {}", Layout::manifest, what);
+}
+
+// A driver that has a file, or is one of a machine's, and is not named.
+std::string unknown_driver(const fs::path& folder, const Manifest& manifest) {
+  std::set<std::string> drivers;
+  for (const auto& [id, known] : manifest.devices) drivers.insert(known.begin(), known.end());
+  for (const char* subfolder :
+       {Layout::cost_folder, Layout::code_folder, Layout::statistics_folder}) {
+    if (!fs::is_directory(folder / subfolder)) continue;
+    for (const auto& entry : fs::directory_iterator(folder / subfolder)) {
+      const fs::path file = entry.path();
+      if (file.extension() != ".json" || drivers.contains(file.stem().string())) continue;
+      return lacks(subfolder + file.filename().string());
+    }
+  }
+  for (const std::set<std::string>& machine : manifest.machines) {
+    for (const std::string& driver : machine) {
+      if (!drivers.contains(driver)) return lacks("a driver of a machine, " + driver);
+    }
+  }
+  return {};
+}
+
+std::string unknown_device(const Manifest& manifest, const std::set<std::string>& devices,
+                           const char* file) {
+  for (const std::string& id : devices) {
+    if (!manifest.devices.contains(id)) return lacks(fmt::format("{}, which {} has", id, file));
+  }
+  return {};
+}
+
+std::string lost_check(const fs::path& folder, const Manifest& manifest) {
+  for (const auto& [check, file] :
+       {std::pair{Check::accuracy, Layout::errors}, std::pair{Check::stress, Layout::scores}}) {
+    if (fs::exists(folder / file) && !manifest.checks.contains(check)) {
+      return lacks(fmt::format("the check {}, which {} is of", record::name_of(check), file));
+    }
+  }
+  return {};
+}
+
+// Baselines that were accepted before entries had a hash have none.
+std::string other_statements(const fs::path& folder) {
+  const auto manifest = core::JsonFile::read(folder / Layout::manifest);
+  const auto history = core::JsonFile::read(folder / Layout::history);
+  if (!manifest || !history) return {};
+  const auto entries = history->root().elements();
+  if (entries.empty() || !entries.back().has("manifest")) return {};
+  if (entries.back().at("manifest").text() == hash_of_statements(manifest->value())) return {};
+  return fmt::format("{} is not the one that was accepted last, according to {}", Layout::manifest,
+                     Layout::history);
+}
+
+}  // namespace
+
+std::string contradiction_in(const fs::path& folder, const Manifest& manifest) {
+  std::string found = unknown_driver(folder, manifest);
+  const auto look = [&](std::string next) {
+    if (found.empty()) found = std::move(next);
+  };
+  const Counted counted = counted_in(folder);
+  look(unknown_device(manifest, counted.devices, Layout::counters));
+  for (const char* each : {Layout::memory, Layout::errors}) {
+    look(unknown_device(manifest, devices_of(folder / each), each));
+  }
+  look(lost_check(folder, manifest));
+  if (counted.configurations != manifest.configurations) {
+    look(fmt::format("{} states {} configurations, and {} has {}", Layout::manifest,
+                     manifest.configurations, Layout::counters, counted.configurations));
+  }
+  look(other_statements(folder));
+  return found;
+}
+
+std::string hash_of_statements(core::Json manifest) {
+  manifest.erase("files");
+  return core::content_hash(core::json_text(manifest));
+}
+
+}  // namespace triptych::judge

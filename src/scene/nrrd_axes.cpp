@@ -1,0 +1,306 @@
+#include "scene/nrrd_axes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "scene/header_fields.hpp"
+#include "scene/text_lines.hpp"
+
+namespace triptych::scene::nrrd {
+namespace {
+
+using Vector = Vector3;
+
+// One "(a,b,c)", taken off the front of `text`.
+Vector take_vector(std::string_view& text, const core::FilePlace& place) {
+  const std::size_t open = text.find_first_not_of(" \t");
+  const std::size_t close = text.find(')');
+  if (open == std::string_view::npos || text[open] != '(' || close == std::string_view::npos) {
+    throw core::InputError(place, "expected three vectors (a,b,c) (d,e,f) (g,h,i)");
+  }
+  std::string inside(text.substr(open + 1, close - open - 1));
+  std::replace(inside.begin(), inside.end(), ',', ' ');
+  text.remove_prefix(close + 1);
+  const auto words = split_words(inside);
+  Vector vector{};
+  if (words.size() != vector.size()) {
+    throw core::InputError(place, fmt::format("a vector of {} numbers; expected 3", words.size()));
+  }
+  for (std::size_t c = 0; c < vector.size(); ++c) {
+    const auto number = parse_number<double>(words[c]);
+    if (!number || !std::isfinite(*number)) {
+      throw core::InputError(place,
+                             fmt::format("'{}'; expected a finite number", quotable(words[c])));
+    }
+    vector.at(c) = *number;
+  }
+  return vector;
+}
+
+std::array<Vector, 3> parse_directions(const Field& field, const LeftOut& left_out) {
+  std::string_view text = field.value;
+  std::array<Vector, 3> axes{};
+  const std::size_t count = left_out ? 4 : 3;
+  for (std::size_t axis = 0, i = 0; axis < count; ++axis) {
+    constexpr std::string_view none = "none";
+    if (axis != left_out) {
+      axes.at(i++) = take_vector(text, field.place);
+    } else if (text = trimmed(text); lower_case(text.substr(0, none.size())) == none) {
+      text.remove_prefix(none.size());
+    } else {
+      static_cast<void>(take_vector(text, field.place));
+    }
+  }
+  if (!trimmed(text).empty()) {
+    throw core::InputError(field.place,
+                           fmt::format("unexpected '{}' after three vectors", quotable(text)));
+  }
+  return axes;
+}
+
+std::array<double, 3> lengths_of(const std::array<Vector, 3>& axes, const std::array<int, 3>& size,
+                                 const core::FilePlace& place) {
+  std::array<double, 3> spacing{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    spacing.at(i) = usable_spacing(length_of(axes.at(i)), size.at(i), place);
+  }
+  if (const std::string sheared = sheared_axes(axes); !sheared.empty()) {
+    throw core::InputError(
+        place, fmt::format("{} are not perpendicular; sheared grids are not supported", sheared));
+  }
+  return spacing;
+}
+
+// The words of a field that has one for each axis, without that of the components.
+std::vector<std::string_view> words_of_axes(std::string_view value, const LeftOut& left_out) {
+  auto words = split_words(value);
+  if (left_out && words.size() == 4) {
+    words.erase(words.begin() + static_cast<std::ptrdiff_t>(*left_out));
+  }
+  return words;
+}
+
+// Where the axes begin or end, NaN where that is not known.
+Vector parse_ends(const Field& field, const LeftOut& left_out) {
+  const auto words = words_of_axes(field.value, left_out);
+  Vector ends{};
+  if (words.size() != ends.size()) {
+    throw core::InputError(field.place,
+                           fmt::format("expected 3 ends of axes, got {}", words.size()));
+  }
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const auto number = parse_number<double>(words[i]);
+    if (!number) {
+      throw core::InputError(field.place,
+                             fmt::format("'{}'; expected a number", quotable(words[i])));
+    }
+    ends.at(i) = *number;
+  }
+  return ends;
+}
+
+// Whether samples stand at the ends of an axis; else they are the middles of cells, as the format's
+// own library has it where nothing is said.
+std::array<bool, 3> parse_node_centred(const Field* field, const LeftOut& left_out) {
+  std::array<bool, 3> node{};
+  if (field == nullptr) return node;
+  const auto words = words_of_axes(field->value, left_out);
+  if (words.size() != node.size()) {
+    throw core::InputError(field->place,
+                           fmt::format("expected 3 centerings, got {}", words.size()));
+  }
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const std::string name = lower_case(words[i]);
+    node.at(i) = name == "node";
+    if (node.at(i) || name == "cell" || name == "none" || name == "???") continue;
+    throw core::InputError(
+        field->place,
+        fmt::format("centering '{}' of axis {}; expected cell or node", quotable(words[i]), i));
+  }
+  return node;
+}
+
+// From where the axes begin and end; nothing where that is not known of any.
+std::optional<Vector> spacing_of_ends(const Header& header, const std::array<int, 3>& size,
+                                      const LeftOut& left_out) {
+  const Field* lowest = header.find("axis mins");
+  const Field* highest = header.find("axis maxs");
+  if (lowest == nullptr || highest == nullptr) return std::nullopt;
+  const Vector begin = parse_ends(*lowest, left_out);
+  const Vector end = parse_ends(*highest, left_out);
+  const auto is_nan = [](double each) { return std::isnan(each); };
+  if (std::ranges::all_of(begin, is_nan) && std::ranges::all_of(end, is_nan)) return std::nullopt;
+  const std::array<bool, 3> node = parse_node_centred(header.find("centerings"), left_out);
+  Vector spacing{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double length = std::abs(end.at(i) - begin.at(i));
+    const int steps = node.at(i) ? size.at(i) - 1 : size.at(i);
+    if (steps == 0) {
+      throw core::InputError(
+          highest->place, fmt::format("axis {} has one sample, a node: its ends give no spacing; "
+                                      "expected 'spacings'",
+                                      i));
+    }
+    spacing.at(i) = usable_spacing(length / steps, size.at(i), highest->place);
+  }
+  return spacing;
+}
+
+// The letters of a space whose axes have anatomical names, such as left-posterior-superior.
+std::string orientation_of(const std::array<Vector, 3>& axes, const Field* space) {
+  if (space == nullptr) return {};
+  const std::string name = lower_case(space->value);
+  static constexpr std::array<std::array<std::string_view, 2>, 6> spaces{
+      {{"right-anterior-superior", "RAS"},
+       {"ras", "RAS"},
+       {"left-anterior-superior", "LAS"},
+       {"las", "LAS"},
+       {"left-posterior-superior", "LPS"},
+       {"lps", "LPS"}}};
+  for (const auto& [spelling, letters] : spaces) {
+    if (name == spelling) return anatomical_letters(axes, letters);
+  }
+  return {};
+}
+
+bool is_space(std::string_view kind) {
+  const std::string name = lower_case(kind);
+  return name == "domain" || name == "space" || name == "none" || name == "???";
+}
+
+// Colours or vectors along one of three axes would be drawn as if they were places.
+void require_places(const Field& kinds) {
+  const auto words = split_words(kinds.value);
+  if (words.size() != 3) {
+    throw core::InputError(kinds.place, fmt::format("expected 3 kinds, got {}", words.size()));
+  }
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (is_space(words[i])) continue;
+    throw core::InputError(
+        kinds.place,
+        fmt::format("kind '{}' of axis {}; expected domain or space, or a fourth axis: "
+                    "a volume has three axes in space",
+                    quotable(words[i]), i));
+  }
+}
+
+// Finds the component axis among four: the one whose kind is not spatial, else the one without a
+// direction, else the only one of size 1.
+std::size_t component_axis(const Header& header, const std::vector<std::string_view>& sizes) {
+  const core::FilePlace& place = header.require("dimension").place;
+  std::vector<std::size_t> found;
+  if (const Field* kinds = header.find("kinds")) {
+    const auto words = split_words(kinds->value);
+    if (words.size() != 4) {
+      throw core::InputError(kinds->place, fmt::format("expected 4 kinds, got {}", words.size()));
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (!is_space(words[i])) found.push_back(i);
+    }
+  }
+  if (const Field* directions = header.find("space directions"); found.empty() && directions) {
+    // "none" stands where a vector would be.
+    std::size_t axis = 0;
+    bool inside = false;
+    for (std::size_t i = 0; i < directions->value.size(); ++i) {
+      const char c = directions->value[i];
+      if (c == '(') inside = true;
+      if (c == ')') inside = false;
+      if (c == ')') ++axis;
+      if (!inside && lower_case(directions->value.substr(i, 4)) == "none") found.push_back(axis++);
+    }
+  }
+  if (found.empty()) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (sizes[i] == "1") found.push_back(i);
+    }
+  }
+  if (found.size() == 1 && found.front() < 4) return found.front();
+  throw core::InputError(
+      place,
+      "expected 3 axes, or 4 of which 'kinds' or 'space directions' states the one "
+      "that is not spatial, as in 'kinds: vector domain domain domain'");
+}
+
+}  // namespace
+
+LeftOut parse_axes(const Header& header, Volume& volume, ValueLayout& layout) {
+  const Field& dimension = header.require("dimension");
+  const Field& sizes = header.require("sizes");
+  const auto axes = parse_number<int>(dimension.value);
+  if (axes != 3 && axes != 4) {
+    throw core::InputError(dimension.place,
+                           fmt::format("dimension '{}'; expected 3 axes, or 4 of which one is not "
+                                       "spatial",
+                                       quotable(dimension.value)));
+  }
+  if (axes == 3) {
+    if (const Field* kinds = header.find("kinds")) require_places(*kinds);
+    volume.size = parse_sizes(sizes.value, sizes.place);
+    return std::nullopt;
+  }
+  const auto words = split_words(sizes.value);
+  if (words.size() != 4) {
+    throw core::InputError(sizes.place, fmt::format("expected 4 sizes, got {}", words.size()));
+  }
+  const std::size_t axis = component_axis(header, words);
+  volume.size =
+      parse_sizes(fmt::format("{}", fmt::join(words_of_axes(sizes.value, axis), " ")), sizes.place);
+  const auto count = parse_number<std::uint32_t>(words[axis]);
+  if (!count || *count == 0) {
+    throw core::InputError(sizes.place, fmt::format("size '{}' along axis {}; expected a whole "
+                                                    "number from 1 on",
+                                                    quotable(words[axis]), axis));
+  }
+  layout.components = *count;
+  for (std::size_t i = 0; i < axis; ++i) {
+    layout.block *= static_cast<std::uint64_t>(volume.size.at(i));
+  }
+  return axis;
+}
+
+void parse_spacing(const Header& header, const LeftOut& left_out, Volume& volume) {
+  const Field* spacings = header.find("spacings");
+  const Field* directions = header.find("space directions");
+  if (spacings != nullptr && directions != nullptr) {
+    throw core::InputError(directions->place,
+                           "'space directions' and 'spacings' exclude each other");
+  }
+  if (directions != nullptr) {
+    const std::array<Vector, 3> axes = parse_directions(*directions, left_out);
+    volume.spacing = lengths_of(axes, volume.size, directions->place);
+    volume.facts.orientation = orientation_of(axes, header.find("space"));
+  } else if (spacings != nullptr) {
+    const auto words = words_of_axes(spacings->value, left_out);
+    volume.spacing =
+        parse_spacings(fmt::format("{}", fmt::join(words, " ")), volume.size, spacings->place);
+  } else {
+    volume.spacing = spacing_of_ends(header, volume.size, left_out).value_or(Vector{1, 1, 1});
+  }
+}
+
+// Units are a list in quotes: '"mm" "mm" "mm"'.
+std::string unit_of(const Header& header) {
+  for (const char* name : {"space units", "units"}) {
+    const Field* field = header.find(name);
+    if (field == nullptr) continue;
+    std::size_t at = 0;
+    while ((at = field->value.find('"', at)) != std::string::npos) {
+      const std::size_t end = field->value.find('"', at + 1);
+      if (end == std::string::npos) break;
+      if (end > at + 1) return quotable(field->value.substr(at + 1, end - at - 1));
+      at = end + 1;
+    }
+  }
+  return {};
+}
+
+}  // namespace triptych::scene::nrrd

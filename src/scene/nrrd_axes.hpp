@@ -1,0 +1,29 @@
+#pragma once
+// The axes of an NRRD file: which of them are spatial, and their sizes, spacing, unit and
+// orientation.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "scene/nrrd_header.hpp"
+#include "scene/raw_voxels.hpp"
+#include "scene/volume.hpp"
+
+namespace triptych::scene::nrrd {
+
+// The axis of four that is not spatial, because it is that of the components. Fields that have one
+// word for each axis have one for it as well.
+using LeftOut = std::optional<std::size_t>;
+
+// Sets the sizes and, for four axes, the layout of the components. Throws InputError with file and
+// line, as all functions here do.
+[[nodiscard]] LeftOut parse_axes(const Header& header, Volume& volume, ValueLayout& layout);
+
+// Sets the spacing and the orientation.
+void parse_spacing(const Header& header, const LeftOut& left_out, Volume& volume);
+
+// The first unit of the axes; empty if there is none.
+[[nodiscard]] std::string unit_of(const Header& header);
+
+}  // namespace triptych::scene::nrrd

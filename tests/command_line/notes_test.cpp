@@ -1,0 +1,32 @@
+// What was guessed while data were read is printed once, however many configurations and devices
+// draw them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "program.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+int count_of(std::string_view part, std::string_view text) {
+  int count = 0;
+  for (auto at = text.find(part); at != std::string_view::npos; at = text.find(part, at + 1))
+    ++count;
+  return count;
+}
+
+TEST(Notes, AreToldOnce) {
+  const Program program;
+  program.write("ligand.gro",
+                "made\n    1\n    1LIG     SI    1   0.100   0.100   0.100\n   1.0 1.0 1.0\n");
+  // Two orders of drawing on one device, and a second process for the reference.
+  const Result result = program.run(
+      "gate particles/quick --measure --check image --device null:scripted --set data=ligand.gro "
+      "--set technique=point --set viewport=16,32 --store s.sqlite --baselines b 2>&1");
+  EXPECT_EQ(count_of("guessed from the atom names: Si 1", result.output), 1) << result.output;
+}
+
+}  // namespace
+}  // namespace triptych::command_line
