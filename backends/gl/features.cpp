@@ -66,7 +66,7 @@ std::vector<Value> read_back(const Api& gl, const Buffer& buffer, std::uint64_t 
 template <class Value, class Expected>
 std::uint64_t count_right(const std::vector<Value>& values, const Expected& expected) {
   std::uint64_t right = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) right += values[i] == expected(i) ? 1 : 0;
+  for (std::size_t i = 0; i < values.size(); ++i) right += values[i] == expected(i) ? 1U : 0U;
   return right;
 }
 

@@ -53,7 +53,7 @@ std::vector<Value> read_back(const Bench& bench, const cl::Buffer& buffer, std::
 template <class Value, class Expected>
 std::uint64_t count_right(const std::vector<Value>& values, const Expected& expected) {
   std::uint64_t right = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) right += values[i] == expected(i) ? 1 : 0;
+  for (std::size_t i = 0; i < values.size(); ++i) right += values[i] == expected(i) ? 1U : 0U;
   return right;
 }
 

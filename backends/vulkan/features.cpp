@@ -114,7 +114,7 @@ ProbedFeature probe_dynamic_offsets(const Gpu& gpu) {
   const Words found = read_back<std::uint32_t>(gpu, numbers, std::size_t{dispatches} * words);
   std::uint64_t right = 0;
   for (std::uint32_t n = 0; n < dispatches; ++n) {
-    for (std::uint32_t i = 0; i < 64; ++i) right += found[n * words + i] == 1000 * n + i ? 1 : 0;
+    for (std::uint32_t i = 0; i < 64; ++i) right += found[n * words + i] == 1000 * n + i ? 1U : 0U;
   }
   return judged_feature(right, std::uint64_t{64} * dispatches,
                         fmt::format("{} offsets", dispatches));
@@ -143,7 +143,7 @@ ProbedFeature probe_subgroups(const Gpu& gpu) {
     for (std::size_t k = group; k < group + 64; ++k) {
       if (found[k][0] == found[i][0]) expected += static_cast<std::uint32_t>(k) + 1;
     }
-    right += found[i][1] == expected ? 1 : 0;
+    right += found[i][1] == expected ? 1U : 0U;
   }
   return judged_feature(right, count, fmt::format("subgroups of {}", subgroups.subgroupSize));
 }
