@@ -66,6 +66,7 @@ void GLAD_API_PTR make_image_3d(GLenum target, GLint level, GLint internal, GLsi
 void forbid_execution(GladGLContext& gl) {
   forbid(gl.DrawArrays);
   forbid(gl.DrawArraysInstanced);
+  forbid(gl.DrawElementsBaseVertex);
   forbid(gl.MultiDrawArraysIndirect);
   forbid(gl.DispatchCompute);
   forbid(gl.DispatchComputeIndirect);

@@ -92,8 +92,7 @@ ProbedFeature probe_offset(const Bench& bench, std::uint64_t offset) {
   const auto count_line = [&](std::uint64_t begin, cl_uint first, cl_uint factor) {
     std::vector<cl_uint> found(count);
     checked([&] {
-      cl::CommandQueue queue(bench.session.context, bench.session.device);
-      queue.enqueueReadBuffer(buffer, CL_TRUE, begin, bytes, found.data());
+      bench.session.queue.enqueueReadBuffer(buffer, CL_TRUE, begin, bytes, found.data());
     });
     right +=
         count_right(found, [&](std::size_t i) { return first + factor * static_cast<cl_uint>(i); });
@@ -124,7 +123,7 @@ ProbedFeature probe_launch_offset(const Bench& bench) {
   const Launch launch = make_launch(bench.program(), "write_numbers", cl::NDRange(count - begin),
                                     cl::NullRange, numbers);
   checked([&] {
-    cl::CommandQueue queue(bench.session.context, bench.session.device);
+    const Queue& queue = bench.session.queue;
     queue.enqueueNDRangeKernel(launch.kernel, cl::NDRange(begin), launch.global, cl::NullRange);
     queue.finish();
   });
@@ -155,7 +154,8 @@ constexpr std::size_t image_edge = 16;
 // The texel along one axis for a coordinate outside of the image; `image_edge` for the border.
 std::size_t addressed(int at, std::string_view kernel) {
   constexpr int size = static_cast<int>(image_edge);
-  if (kernel == "sample_border") return at < 0 || at >= size ? image_edge : static_cast<std::size_t>(at);
+  if (kernel == "sample_border")
+    return at < 0 || at >= size ? image_edge : static_cast<std::size_t>(at);
   const int period = kernel == "sample_mirrored" ? 2 * size : size;
   const int within = (at % period + period) % period;
   return static_cast<std::size_t>(within < size ? within : period - 1 - within);
@@ -173,7 +173,9 @@ ProbedFeature probe_addressing(const Bench& bench, const char* kernel) {
                                           cl::NullRange, image, values, cl_int{image_edge})});
   const auto found = read_back<float>(bench, values, count);
   const auto expected = [&](std::size_t i) {
-    const auto place = [](std::size_t at) { return static_cast<int>(at) - static_cast<int>(image_edge); };
+    const auto place = [](std::size_t at) {
+      return static_cast<int>(at) - static_cast<int>(image_edge);
+    };
     const std::size_t x = addressed(place(i % side), kernel);
     const std::size_t y = addressed(place(i / side), kernel);
     return x == image_edge || y == image_edge ? 0.0F : texels[x + image_edge * y];

@@ -44,7 +44,10 @@ int brick_at(int i) { return brick_visible[i]; }
 vec4 quadrature_entry(int i) { return quadrature_table[i]; }
 #endif
 #if TRI_TRACE
-layout(std430) TRI_BINDING(5) buffer Counters { uint counters[]; };
-#elif TRI_COUNT
-layout(std430) TRI_BINDING(5) writeonly buffer Counters { uint counters[]; };
+#define TRI_COUNTERS buffer
+#else
+#define TRI_COUNTERS writeonly buffer
+#endif
+#if TRI_COUNT
+layout(std430) TRI_BINDING(5) TRI_COUNTERS Counters { uint counters[]; };
 #endif
