@@ -41,7 +41,10 @@ Counted counted_in(const fs::path& folder) {
   for (const auto& [configuration, counters] : json->root().members()) {
     ++counted.configurations;
     for (const auto& [counter, values] : counters.members()) {
-      for (const auto& [device, value] : values.members()) counted.devices.insert(device);
+      for (const auto& [device, value] : values.members()) {
+        static_cast<void>(value.whole_number());  // a wrong value is an error with its line
+        counted.devices.insert(device);
+      }
     }
   }
   return counted;

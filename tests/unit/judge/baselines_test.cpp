@@ -102,6 +102,19 @@ TEST_F(BaselinesTest, APictureIsStillJudgedWithoutThem) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
 }
 
+// The ones of this repository, which a careless merge of two branches could damage.
+TEST(OurBaselines, AreWhole) {
+  const std::filesystem::path root = std::filesystem::path(TRIPTYCH_SOURCE_FOLDER) / "baselines";
+  int plans = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+    if (entry.path().filename() != "manifest.json") continue;
+    const std::string plan = entry.path().parent_path().lexically_relative(root).generic_string();
+    EXPECT_EQ(Baselines(root, plan).problem(), "") << plan;
+    ++plans;
+  }
+  EXPECT_GE(plans, 10);
+}
+
 // A number that is none, or infinite, would let any error pass.
 TEST_F(BaselinesTest, NumbersThatAreNoneAreRefused) {
   for (const char* number : {"NaN", "nan", "1e999", "-1", "null", "\"0.1\""}) {
