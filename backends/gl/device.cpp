@@ -137,8 +137,8 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
     const Api& gl = context_->gl();
     if (!gl.can_keep_reports()) {
       throw core::NotSupported(
-          "the context has no KHR_debug or is no debug context (TRIPTYCH_GL_DEBUG=1 asks for one): "
-          "its driver reports nothing of the code that it generates");
+          "the driver does not report the code that it generates: the context lacks KHR_debug, or "
+          "is not a debug context (TRIPTYCH_GL_DEBUG=1 requests one)");
     }
     gl.keep_reports();
     try {

@@ -97,7 +97,7 @@ class NullPrepared final : public measure::Prepared {
   core::Image image() override {
     if (overwritten_ && !drawn_) return filled(std::numeric_limits<float>::quiet_NaN());
     log_call(*script_, "image");
-    if (frames_ == 0) throw core::Error("the picture was asked for before a frame was drawn");
+    if (frames_ == 0) throw core::Error("the image was requested before a frame was drawn");
     play_failure(*script_, Place::image, subject_);
     if (!image_) image_ = drawn_image();
     const bool stale = failure_ == FailureKind::stale_image && frames_ > 1 && overwritten_;

@@ -87,8 +87,7 @@ Failure parse_failure(const Json& json) {
       refuse(key, "no such key in a failure (there are: kind, at, frame, only, once)");
     }
   }
-  if (of_image && failure.at != Place::image)
-    refuse("at", "\"image\" for a failure of the picture");
+  if (of_image && failure.at != Place::image) refuse("at", "\"image\" for a failure of the image");
   return failure;
 }
 

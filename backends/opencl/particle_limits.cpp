@@ -31,8 +31,8 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
   }
   constexpr int most_pixels = 32768;  // an edge: pixel rectangles have 16 bits for a place
   if (work.scene.width > most_pixels || work.scene.height > most_pixels) {
-    return fmt::format("the picture is {}x{}, this rasterizer reaches {}x{}", work.scene.width,
-                       work.scene.height, most_pixels, most_pixels);
+    return fmt::format("the image has {}x{} pixels, and this rasterizer supports at most {}x{}",
+                       work.scene.width, work.scene.height, most_pixels, most_pixels);
   }
   const auto items =
       checked([&] { return session.device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>(); });

@@ -144,7 +144,7 @@ double root_mean_square(const core::Image& a, const core::Image& b, const core::
 
 core::Image difference_image(const core::Image& a, const core::Image& b, double gain) {
   if (!same_size(a, b)) {
-    throw core::InputError(fmt::format("pictures of different size: {}x{} and {}x{}", a.width,
+    throw core::InputError(fmt::format("images of different sizes: {}x{} and {}x{}", a.width,
                                        a.height, b.width, b.height));
   }
   core::Image result(a.width, a.height);

@@ -70,7 +70,7 @@ Json parse(const std::filesystem::path& file, const std::string& text) {
     const std::size_t times = ++seen[key];
     if (!open_objects.back().insert(key).second) {
       throw InputError(place_at(file, text, offset_of_key(text, key, times)),
-                       fmt::format("the key '{}' stands twice in one object", key));
+                       fmt::format("the key '{}' appears twice in one object", key));
     }
     return true;
   };

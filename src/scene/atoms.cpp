@@ -79,7 +79,7 @@ std::vector<std::uint32_t> sorted_by_number(const Atoms& atoms, const LineReader
     const std::uint32_t second = *std::next(twice);
     reader.reject_at(
         first_line + static_cast<int>(second),
-        fmt::format("atom {} is there twice; expected each number once", number(second)));
+        fmt::format("atom {} appears twice; expected each number once", number(second)));
   }
   return sorted;
 }

@@ -22,10 +22,12 @@ struct Conversion {
 };
 
 constexpr std::array<Conversion, 14> of_particles{{
-    {".xtc .trr .tng .tpr", "a GROMACS file", ".gro", "gmx trjconv -f IN.xtc -s RUN.tpr -o OUT.gro"},
+    {".xtc .trr .tng .tpr", "a GROMACS file", ".gro",
+     "gmx trjconv -f IN.xtc -s RUN.tpr -o OUT.gro"},
     {".dcd .psf .crd .prmtop .parm7 .inpcrd .rst7 .nc .ncdf .mdcrd",
      "a file of CHARMM, NAMD or AMBER", ".pdb",
-     "python3 -c \"import MDAnalysis as m; m.Universe('TOPOLOGY','TRAJECTORY').atoms.write('OUT.pdb')\""},
+     "python3 -c \"import MDAnalysis as m; "
+     "m.Universe('TOPOLOGY','TRAJECTORY').atoms.write('OUT.pdb')\""},
     {".mol2 .sdf .mol .mdl .smi .cml .cdx", "a molecule", ".xyz", "obabel IN -O OUT.xyz"},
     {".pdbqt", "an AutoDock file", ".pdb", "obabel IN.pdbqt -O OUT.pdb"},
     {".bcif .mmtf", "a binary structure of the PDB", ".cif",
@@ -54,13 +56,13 @@ constexpr std::array<Conversion, 14> of_volumes{{
      "python3 -c \"import tifffile as t; a=t.imread('IN.tif'); print(a.shape[::-1], a.dtype); "
      "a.tofile('OUT.raw')\"; then data=OUT.raw:XxYxZ:TYPE"},
     {".mrc .map .ccp4 .rec .st", "a density map", "its size",
-     "by its size, behind a header of 1024 bytes: data=IN.mrc:XxYxZ:f32:skip=1024"},
+     "by its size, after a header of 1024 bytes: data=IN.mrc:XxYxZ:f32:skip=1024"},
     {".npy .npz", "a NumPy array", ".raw and its size",
      "python3 -c \"import numpy as n; a=n.load('IN.npy'); print(a.shape[::-1], a.dtype); "
      "a.tofile('OUT.raw')\"; then data=OUT.raw:XxYxZ:TYPE"},
     {".h5 .hdf5 .hdf .nc .nc4 .bp", "an HDF5 or netCDF file", ".raw and its size",
      "h5dump -d DATASET -b LE -o OUT.raw IN.h5; then data=OUT.raw:XxYxZ:TYPE"},
-    {".vtu .vtp .vts .vtr .vtm .pvd .pvti", "a VTK file that is no single image", ".vti",
+    {".vtu .vtp .vts .vtr .vtm .pvd .pvti", "a VTK file that is not a single image", ".vti",
      "in ParaView: Filters, Resample To Image; then File, Save Data, as .vti"},
     {".czi .lif .ims .oib .nd2 .lsm .stk", "a microscope's file", ".nrrd",
      "in Fiji: File, Import, Bio-Formats; then File, Save As, Nrrd"},
@@ -69,7 +71,7 @@ constexpr std::array<Conversion, 14> of_volumes{{
     {".img", "the voxels of an Analyze or NIfTI pair", ".hdr", "name the .hdr file beside it"},
     {".cube .cub .xplor .dx", "a density of a chemistry program", ".nrrd",
      "in ChimeraX: open IN; save OUT.mrc; then data=OUT.mrc:XxYxZ:f32:skip=1024"},
-    {".pvm .vol .bov .raw .bin .img16 .yuv", "voxels whose size the name does not say",
+    {".pvm .vol .bov .raw .bin .img16 .yuv", "voxels whose size the name does not contain",
      "its size", "data=FILE:XxYxZ:TYPE, for instance head.raw:256x256x128:u8"},
     {".fits .fit", "an astronomical image", ".raw and its size",
      "python3 -c \"from astropy.io import fits; a=fits.getdata('IN.fits'); print(a.shape[::-1], "

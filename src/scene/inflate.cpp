@@ -50,7 +50,7 @@ struct Inflater::Stream {
   void drop_padding() {
     bool padded = false;
     for (; has_input() && *zlib.next_in == 0; ++zlib.next_in, --zlib.avail_in) padded = true;
-    if (padded && has_input()) reject("more behind zero bytes");
+    if (padded && has_input()) reject("more data after zero bytes");
   }
 
   void step() {

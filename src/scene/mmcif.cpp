@@ -128,7 +128,7 @@ struct AtomColumns {
     const auto found = std::ranges::find(item_names, tag.substr(category.size()));
     if (found == item_names.end()) return;
     auto& place = places.at(static_cast<std::size_t>(found - item_names.begin()));
-    if (place) reader.reject(fmt::format("'{}' is there twice", tag));
+    if (place) reader.reject(fmt::format("'{}' appears twice", tag));
     place = index;
   }
 };

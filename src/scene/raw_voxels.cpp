@@ -405,7 +405,7 @@ std::filesystem::path data_file_beside(const std::filesystem::path& header, std:
   const std::filesystem::path file = header.parent_path() / std::filesystem::path(name);
   std::error_code unreadable;
   if (!std::filesystem::is_regular_file(file, unreadable)) {
-    throw core::InputError(place, fmt::format("the data file '{}' is not there", quotable(name)));
+    throw core::InputError(place, fmt::format("the data file '{}' does not exist", quotable(name)));
   }
   return file;
 }

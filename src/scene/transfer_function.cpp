@@ -100,7 +100,7 @@ std::array<double, 4> parse_entry(std::string_view text, const core::FilePlace& 
     const auto number = parse_number<double>(words[c]);
     if (!number || !(*number >= 0 && *number <= 255)) {
       throw core::InputError(
-          place, fmt::format("'{}' is no channel value; expected a number in 0..255", words[c]));
+          place, fmt::format("'{}' is not a channel value; expected a number in 0..255", words[c]));
     }
     entry.at(c) = *number;
   }

@@ -29,7 +29,7 @@ class CommentParser {
       if (!key || !value) {
         comment.error = "a quote or bracket is not closed";
       } else if (has_value && lower_case(*key) == properties_key) {
-        if (comment.properties) comment.error = "Properties is there twice";
+        if (comment.properties) comment.error = "Properties appears twice";
         comment.properties = *value;
       }
     }

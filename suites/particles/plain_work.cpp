@@ -104,9 +104,10 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
     plainer("transfer", "vertex", "stored colours are not looked up");
     plainer("transfer_function", "haze", "stored colours are not looked up");
   }
-  if (!technique.asks_corners) plainer("corners", "8", "only polygon_tess is told how many");
+  if (!technique.asks_corners)
+    plainer("corners", "8", "only polygon_tess uses the number of corners");
   if (technique.method == technique::Method::rays) {
-    plainer("conservative_depth", "off", "rays leave out what lies behind in any case");
+    plainer("conservative_depth", "off", "rays skip hidden cells in any case");
     plainer("culling", "frustum", "rays leave out what they cannot hit in any case");
     return plain;
   }

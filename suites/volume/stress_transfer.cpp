@@ -155,8 +155,8 @@ StressScene stress_transparent(std::string_view /*variant*/) {
   scene.expectations = {
       {"exactly the background, as nothing is added to 0", record::OneColour{scene.background}}};
   scene.when_skipping = {
-      {"one sample per ray at most: the last may lie beyond the last brick, where a walk knows no "
-       "brick that would say it is transparent",
+      {"at most one sample per ray: the last one may lie beyond the last brick, so no brick proves "
+       "that it is transparent",
        record::CountAtMost{.counter = "samples", .factor = 1, .of = "rays_hit"}}};
   scene.when_leaping = {{"no sample, as no brick is visible",
                          record::CountAtMost{.counter = "samples", .factor = 0}}};

@@ -59,7 +59,8 @@ TEST(Reduce, TheFolderHoldsWhatAReportNeeds) {
   EXPECT_THAT(text, HasSubstr("# A frame that null:scripted gets wrong"));
   EXPECT_THAT(text, HasSubstr("| viewport | 1 |"));
   EXPECT_THAT(text, HasSubstr("triptych render volume --device null:scripted"));
-  EXPECT_THAT(text, HasSubstr("With any plainer level of one factor it does not fail so."));
+  EXPECT_THAT(text,
+              HasSubstr("With a simpler level of any factor it no longer fails in this way."));
   EXPECT_THAT(program.read("r/frame.json"), HasSubstr("transfer_function"));
   EXPECT_FALSE(std::filesystem::exists(program.folder() / "r/.reduce.sqlite"));
   const Result again = program.run(last_command(result.output), failing("crash", "none"));

@@ -123,7 +123,7 @@ std::vector<PlacedText> with_ranges(const Factor& factor, const std::vector<Plac
     const std::optional<double> n = parse_number(count);
     if (!n || *n != std::floor(*n) || *n < 1 || *n > most) {
       throw core::InputError(
-          value.place, fmt::format("'{}': '{}': expected a whole number, 1 to {}, behind '*/'",
+          value.place, fmt::format("'{}': '{}': expected a whole number from 1 to {} after '*/'",
                                    factor.name, value.text, most));
     }
     for (int i = 0; i < static_cast<int>(*n); ++i) {
@@ -166,7 +166,7 @@ std::vector<std::string> canonical_values(const Suite& suite, const Factor& fact
     if (same != result.end()) {
       const PlacedText& first = values[static_cast<std::size_t>(same - result.begin())];
       throw core::InputError(
-          value.place, fmt::format("'{}': {} is there twice{}", factor.name, value.text,
+          value.place, fmt::format("'{}': {} appears twice{}", factor.name, value.text,
                                    first.text == value.text ? "" : ", first as " + first.text));
     }
     result.push_back(std::move(text));

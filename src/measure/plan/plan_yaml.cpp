@@ -181,7 +181,8 @@ PlanText parse_plan(std::string_view yaml, const std::string& file) {
     }
   }
   if (plan.suite.text.empty()) {
-    throw core::InputError({.file = file, .line = 1}, "no 'suite:' says what the factors are of");
+    throw core::InputError({.file = file, .line = 1},
+                           "'suite:' is missing, which names the suite of the factors");
   }
   return plan;
 }

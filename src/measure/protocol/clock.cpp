@@ -62,7 +62,7 @@ std::string verdict_of(const record::ClockTrust& trust, double wall_ns, std::siz
                   percent(ClockLimits::most_ratio));
   const bool is_short = wall_ns < ClockLimits::least_frame_ns / 4 && trust.ratio < 1;
   return fmt::format("not trusted: {}; {}{}", seen, limits,
-                     is_short ? ", but frames this short tell little" : "");
+                     is_short ? ", but frames this short prove little" : "");
 }
 
 // Finer steps along the rays, or more pixels of the same particles, are the same kind of work.
@@ -116,7 +116,7 @@ record::ClockTrust calibrate(Prepared& prepared, technique::Work work_kind) {
   for (int i = 0; i < frames; ++i) {
     const Frame frame = proof.draw(Purpose::timing);
     proof.check("a frame of the clock's calibration");
-    if (!frame.device_ns) return without_time(work_kind, "not trusted: the device tells no time");
+    if (!frame.device_ns) return without_time(work_kind, "not trusted: the device reports no time");
     if (std::isnan(*frame.device_ns)) {
       record::ClockTrust trust =
           without_time(work_kind, "not trusted: the driver never wrote a time stamp");

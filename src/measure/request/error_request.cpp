@@ -270,7 +270,7 @@ std::string describe(const ErrorAnswer& answer, const RequestedError& request) {
   const double nothing = answer.nothing.of(request.metric);
   if (answer.record == nullptr) {
     const std::string why = nothing > 0 ? fmt::format("the least error is {:.3g}", error)
-                                        : std::string("no picture was drawn");
+                                        : std::string("no image was drawn");
     return fmt::format("{} {}: no candidate keeps {}; {}", answer.device, answer.scene,
                        text_of(request), why);
   }

@@ -271,8 +271,8 @@ std::string describe(const RunResult& result, const std::string& plan, const std
   }
   if (result.taken_over > 0) {
     text += fmt::format(
-        "{} of them took over another configuration's frames, which their scene cannot tell "
-        "apart; --measure-every measures them too\n",
+        "{} of them reused the frames of an equivalent configuration; --measure-every measures "
+        "them too\n",
         result.taken_over);
   }
   return text;

@@ -32,7 +32,7 @@ Header checked(std::span<const std::byte> bytes) {
   Header header;
   std::memcpy(&header, bytes.data(), sizeof header);
   if (header.mark != magic) {
-    throw core::InputError("a worker's pipe carries something that is no message");
+    throw core::InputError("a worker's pipe contains data that is not a message");
   }
   return header;
 }
@@ -202,7 +202,9 @@ Message to_message(const Job& job) {
 }
 
 Message to_message(const Loading& loading) {
-  return {{{"type", "loading"}, {"what", loading.what}, {"share", loading.share},
+  return {{{"type", "loading"},
+           {"what", loading.what},
+           {"share", loading.share},
            {"note", loading.note}},
           {}};
 }

@@ -38,7 +38,7 @@ struct File {
 constexpr std::array files{
     File{"frame.json", "camera, scene, transfer function and every factor"},
     File{"image.png", "what was drawn; `image.exr`: as floats, linear and premultiplied"},
-    File{"truth.png", "what is right, from a renderer in double precision; `truth.exr`: as floats"},
+    File{"truth.png", "the reference image, rendered in double precision; `truth.exr`: as floats"},
     File{"difference.png", "their difference; white is the largest error"},
     File{"dump",
          "what the driver was given: device code, options, buffers, a program in C for some "
@@ -70,15 +70,16 @@ std::string markdown(const BugReport& report) {
       fmt::format("# A frame that {} gets wrong\n\n{}\n", markdown_escaped(report.device.id),
                   markdown_escaped(report.message));
   text += facts(report);
-  text += "\n## To see it again\n" + fenced(report.command, "");
-  text += "\nIt ends with 0 where nothing is wrong.\n\n## Files\n\n" + list_of_files(report);
+  text += "\n## How to reproduce it\n" + fenced(report.command, "");
+  text += "\nThe command exits with code 0 if nothing is wrong.\n\n## Files\n\n" +
+          list_of_files(report);
   text += "\n## The frame\n\n| factor | level |\n|---|---|\n";
   for (const auto& [factor, level] : report.factors) text += row(factor, level);
-  text += fmt::format("\n{} frames were drawn to find it. Made plainer: {}.\n", report.frames,
+  text += fmt::format("\n{} frames were drawn to find it. Simplified: {}.\n", report.frames,
                       markdown_escaped(text_of(report.changes)));
   text += report.complete
-              ? "With any plainer level of one factor it does not fail so.\n"
-              : "The search ended at its limit of frames: a plainer one may fail too.\n";
+              ? "With a simpler level of any factor it no longer fails in this way.\n"
+              : "The search stopped at its limit of frames, so a simpler frame may fail, too.\n";
   return text;
 }
 

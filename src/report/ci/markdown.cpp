@@ -39,8 +39,8 @@ std::string item(const Cause& cause) {
 std::string bounds(const Overview& all) {
   if (all.bounds.empty()) return {};
   std::string text =
-      "\n<details><summary>How near pictures come to their bounds</summary>\n\n"
-      "| plan | device | pictures | largest error over bound | where |\n|---|---|--:|--:|---|\n";
+      "\n<details><summary>How close images come to their bounds</summary>\n\n| plan | device | "
+      "images | largest error over bound | where |\n|---|---|--:|--:|---|\n";
   for (const NearestBound& bound : all.bounds) {
     text += fmt::format("| {} | {} | {} | {:.3g} | {} |\n", markdown_escaped(bound.plan),
                         markdown_escaped(bound.device), bound.pictures, bound.share,

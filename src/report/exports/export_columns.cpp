@@ -55,7 +55,7 @@ Columns<RecordSource> what_it_was() {
       {{"plan", "text", "", "the plan that was run"}, of(&Record::plan)},
       {{"configuration", "text", "", "what the plan named, factor=value,…"},
        of(&Record::configuration)},
-      {{"scene", "text", "", "the factors that decide the picture"}, of(&Record::scene)},
+      {{"scene", "text", "", "the factors that determine the image"}, of(&Record::scene)},
       {{"technique", "text", "", "the technique"}, of(&Record::technique)},
       {{"device", "text", "", "the device's id, see devices"}, of(&Record::device)},
       {{"outcome", "text", "", "measured, skipped, failed, crashed, hung or lost"},
@@ -69,7 +69,7 @@ Columns<RecordSource> what_it_was() {
       {{"same_as", "text", "", "the equivalent configuration whose frames these are"},
        of(&Record::same_as)},
       {{"injected", "text", "", "the injected fault"}, of(&Record::injected)},
-      {{"image", "text", "", "hash of the picture in the store"}, of(&Record::image)},
+      {{"image", "text", "", "hash of the image in the store"}, of(&Record::image)},
       {{"data_hash", "text", "", "hash of the data"}, of(&Record::data_hash)},
       {{"kernel_hash", "text", "", "hash of the device code"}, of(&Record::kernel_hash)},
       {{"counted_by", "text", "", "what counted instructions; no times then"},
@@ -84,7 +84,8 @@ Cell when_timed(const RecordSource& s, Cell cell) {
 
 Columns<RecordSource> what_it_took() {
   return {
-      {{"clock", "text", "", "the clock that counts: device where it is trusted, else wall"},
+      {{"clock", "text", "",
+        "the clock whose times are used: device if it is trusted, otherwise wall"},
        [](const RecordSource& s) { return when_timed(s, std::string(s.record.clock())); }},
       {{"frames", "integer", "frames", "timed on that clock"},
        [](const RecordSource& s) { return when_timed(s, s.record.time_ns().size()); }},
@@ -144,7 +145,7 @@ std::string cost_unit(const std::string& part) {
 Columns<RunSource> run_columns() {
   return {
       {{"run", "text", "", "id of the run"}, [](const RunSource& s) { return text(s.run.id); }},
-      {{"store", "text", "", "the file that held it"},
+      {{"store", "text", "", "the store that contained it"},
        [](const RunSource& s) { return text(s.store); }},
       {{"plan", "text", "", "the plan that was run"},
        [](const RunSource& s) { return text(s.run.plan); }},
@@ -199,7 +200,7 @@ Columns<ClockSource> clock_columns() {
        [](const ClockSource& s) { return text(s.device); }},
       {{"work", "text", "", "compute or draw"},
        [](const ClockSource& s) { return text(s.clock.work); }},
-      {{"offered", "integer", "", "1: the device tells a time"},
+      {{"offered", "integer", "", "1: the device reports a time"},
        [](const ClockSource& s) { return std::uint64_t{s.clock.offered}; }},
       {{"trusted", "integer", "", "1: it follows the wall clock"},
        [](const ClockSource& s) { return std::uint64_t{s.clock.trusted}; }},

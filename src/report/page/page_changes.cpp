@@ -106,7 +106,9 @@ Html time_bars(const PlanData& plan) {
                     fmt::to_string(shares.size())});
   }
   if (by_row.empty()) return {};
-  return markup("<p>Times beside stored: median and middle half of the configurations.</p>\n") +
+  return markup(
+             "<p>Times compared with the stored ones: median and middle half of the "
+             "configurations.</p>\n") +
          table(rows, "bars");
 }
 

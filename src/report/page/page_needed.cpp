@@ -60,7 +60,7 @@ Html needed_section(const PlanData& plan) {
     rows.push_back({scene, technique, level, grouped(work.taken), grouped(work.needed),
                     fmt::format("{:.3f}", share), fmt::format("{}", fmt::join(names, ", "))});
   }
-  return folded("Skipping: what was taken, and what the picture needed",
+  return folded("Skipping: samples that were taken, and samples that the image needed",
                 markup("<p>{}.</p>", volume ? "Samples, and those that are not transparent"
                                             : "Spheres drawn, and those that a pixel shows") +
                     table(rows));

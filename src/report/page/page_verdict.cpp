@@ -112,7 +112,7 @@ Html bounds(const Overview& all) {
     rows.push_back({bound.plan, bound.device, fmt::to_string(bound.pictures),
                     fmt::format("{:.3g}", bound.share), breakable(bound.configuration)});
   }
-  return folded("How near pictures come to their bounds", table(rows));
+  return folded("How close images come to their bounds", table(rows));
 }
 
 const PlanData& plan_of(const Cause& cause, std::span<const PlanData> plans) {

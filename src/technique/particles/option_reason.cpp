@@ -16,18 +16,19 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
     case ParticleFault::wrong_sense:
       // tiles rejects whole spheres by their front, whatever the option says.
       if (tiles || options.conservative_depth) return std::nullopt;
-      return "wrong_sense is a fault of conservative depth: without it nothing is rejected early";
+      return "the fault wrong_sense needs conservative depth: without it nothing is rejected early";
     case ParticleFault::culled_visible:
       if (options.culling != Culling::none) return std::nullopt;
-      return "culled_visible is a fault of culling";
+      return "the fault culled_visible needs culling";
     case ParticleFault::lost_at_border:
       if (in_tiles) return std::nullopt;
-      return "lost_at_border is a fault of tiles: here the rasterizer decides what a sprite covers";
+      return "the fault lost_at_border needs tiles: here the rasterizer decides what a sprite "
+             "covers";
     case ParticleFault::missing_barrier:
       if (rasterizer == SpriteRasterizer::in_tiles) return std::nullopt;
-      return "missing_barrier is a fault of work groups that wait for each other: here none does";
+      return "the fault missing_barrier needs work groups that wait for each other: here none does";
     case ParticleFault::small_box:
-      return "small_box is a fault of the boxes that rays look into: there are none";
+      return "the fault small_box needs a hierarchy of boxes, which only rays have";
     case ParticleFault::none:
     case ParticleFault::small_sprite:
     case ParticleFault::unresolved_ties:
@@ -40,11 +41,11 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
 std::optional<std::string> fault_of_rays(ParticleFault fault) {
   switch (fault) {
     case ParticleFault::small_sprite:
-      return "small_sprite is a fault of sprites: rays need none";
+      return "the fault small_sprite needs sprites: rays need none";
     case ParticleFault::culled_visible:
-      return "culled_visible is a fault of culling: rays leave no cells out";
+      return "the fault culled_visible needs culling: rays leave no cells out";
     case ParticleFault::lost_at_border:
-      return "lost_at_border is a fault of tiles: rays put no sphere into any";
+      return "the fault lost_at_border needs tiles: rays put no sphere into any";
     case ParticleFault::missing_barrier:
       return "missing_barrier is a fault of work groups that wait for each other: here none does";
     case ParticleFault::none:

@@ -44,11 +44,11 @@ TEST_F(PlanTest, WrongType) {
 TEST_F(PlanTest, RangeOfViewsWithoutACount) {
   for (const char* bad : {"0", "-3", "2.5", "x", "", "1000000"}) {
     EXPECT_THAT(refusal("suite: fake\ncamera: ['orbit_y:*/" + std::string(bad) + "']\n"),
-                AllOf(StartsWith(at(2, 10)), HasSubstr("expected a whole number, 1 to 10000")))
+                AllOf(StartsWith(at(2, 10)), HasSubstr("expected a whole number from 1 to 10000")))
         << bad;
   }
   EXPECT_THAT(refusal("suite: fake\ncamera: ['orbit_y:1/3', 'orbit_y:*/3']\n"),
-              AllOf(StartsWith(at(2, 25)), HasSubstr("orbit_y:1/3 is there twice")));
+              AllOf(StartsWith(at(2, 25)), HasSubstr("orbit_y:1/3 appears twice")));
 }
 
 TEST_F(PlanTest, OutOfRange) {
@@ -102,7 +102,7 @@ TEST_F(PlanTest, ValueThatWouldBreakALine) {
 }
 
 TEST_F(PlanTest, Suite) {
-  EXPECT_THAT(refusal("data: cube\n"), HasSubstr("no 'suite:'"));
+  EXPECT_THAT(refusal("data: cube\n"), HasSubstr("'suite:' is missing"));
   EXPECT_THAT(refusal("data: cube\nsuite: fakee\n"),
               AllOf(StartsWith(at(2, 8)), HasSubstr("unknown suite 'fakee'")));
   EXPECT_THAT(refusal("suite: [fake]\n"), StartsWith(at(1, 8)));

@@ -73,7 +73,7 @@ TEST(Calibrate, SaysWhenTheDeviceTellsNoTime) {
   const auto trust = verdict_on([](int) { return frame_of(30 * millisecond); });
   EXPECT_FALSE(trust.offered);
   EXPECT_FALSE(trust.trusted);
-  EXPECT_THAT(trust.verdict, HasSubstr("tells no time"));
+  EXPECT_THAT(trust.verdict, HasSubstr("reports no time"));
 }
 
 TEST(Calibrate, SurvivesTimesThatAreNone) {
@@ -150,7 +150,7 @@ TEST(CalibrateClock, SaysThatShortFramesTellLittleWhereNothingLongerRuns) {
   GrowingDevice device(1);
   const record::ClockTrust trust = calibrate_clock(device, suite, technique::Work::compute);
   EXPECT_FALSE(trust.trusted);
-  EXPECT_THAT(trust.verdict, HasSubstr("frames this short tell little"));
+  EXPECT_THAT(trust.verdict, HasSubstr("frames this short prove little"));
 }
 
 TEST(CalibrateClock, SaysWhyAKindOfWorkCannotBeCalibrated) {

@@ -167,7 +167,7 @@ TEST(WorkerLink, AWorkerThatTalksNonsenseIsBuriedWithItsWords) {
   const auto* died = std::get_if<WorkerLink::Died>(&reply);
   ASSERT_NE(died, nullptr);
   EXPECT_EQ(died->reason.cause, record::Cause::bad_answer);
-  EXPECT_THAT(died->reason.detail, testing::HasSubstr("no message"));
+  EXPECT_THAT(died->reason.detail, testing::HasSubstr("not a message"));
   EXPECT_EQ(died->reason.last_words, "broken");
 }
 

@@ -85,7 +85,7 @@ TEST(Dat, BrokenFilesNameTheirLine) {
   expect("ObjectFileName: a.raw\nFormat: UCHAR\nResolution: 1 1 1\n",
          ":3: 1 x 1 x 1 voxels of u8 nee");
   expect("ObjectFileName: b.raw\nFormat: UCHAR\nResolution: 1 1 2\n",
-         ":1: the data file 'b.raw' is not there");
+         ":1: the data file 'b.raw' does not exist");
   expect("ObjectFileName: a.raw\nFormat: UCHAR\nResolution: 1 0 2\n", ":3: size '0' along axis 1");
 }
 

@@ -279,11 +279,11 @@ TEST(Nrrd, BrokenHeadersNameTheirLine) {
       {with_line("byte skip: x"), ":3: 'x'"},
       {with_line("line skip: -1"), ":3: '-1'; expected a whole number from 0 on"},
       {with_line("line skip: 5"), ":3: a.nrrd has only 0 lines to skip"},
-      {with_line("data file: nothing.raw"), ":3: the data file 'nothing.raw' is not there"},
+      {with_line("data file: nothing.raw"), ":3: the data file 'nothing.raw' does not exist"},
       {with_line("data file: LIST"), ": the header has no field 'type'"},
-      {minimal + "data file: LIST\nnothing.raw\n", ":7: the data file 'nothing.raw' is not there"},
+      {minimal + "data file: LIST\nnothing.raw\n", ":7: the data file 'nothing.raw' does not exist"},
       {minimal + "data file: LIST\n", ":6: expected the names of the data files after LIST"},
-      {with_line("data file: slice%03d.raw 1 9 1"), ":3: the data file 'slice001.raw' is not there"},
+      {with_line("data file: slice%03d.raw 1 9 1"), ":3: the data file 'slice001.raw' does not exist"},
       {with_line("data file: slice %03d.raw 1 9 -1 2"), ":3: the pattern names no file"},
       {with_line("data file: slice%s.raw 1 9 1"), ":3: expected a pattern such as slice%03d.raw"},
       {"NRRD0004\ntype: uint8\ntype: uint8\n", ":3: field 'type' is given twice"},
@@ -388,7 +388,7 @@ TEST(Nrrd, BrokenGzipStreamsAreBadInput) {
       {header, ": broken gzip stream: ends too early"},
       {header + bad_sum, ": broken gzip stream: incorrect data check"},
       {header + good + "garbage", ": broken gzip stream: incorrect header check"},
-      {header + good + std::string("\0x", 2), ": broken gzip stream: more behind zero bytes"},
+      {header + good + std::string("\0x", 2), ": broken gzip stream: more data after zero bytes"},
   });
 }
 

@@ -321,8 +321,8 @@ TEST(ParticleFiles, WithoutAnyUsableParticleAreRefused) {
 TEST(ParticleFiles, ZeroBytesBehindGzipAreSkipped) {
   const std::string padded = gzipped(xyz) + std::string(100'000, '\0');
   EXPECT_EQ(load("a.xyz.gz", padded).hash, load("a.xyz.gz", gzipped(xyz)).hash);
-  expect_refused("a.xyz.gz", padded + "x", ": ", "broken gzip stream: more behind zero bytes");
-  expect_refused("a.xyz.gz", padded + gzipped(xyz), ": ", "more behind zero bytes");
+  expect_refused("a.xyz.gz", padded + "x", ": ", "broken gzip stream: more data after zero bytes");
+  expect_refused("a.xyz.gz", padded + gzipped(xyz), ": ", "more data after zero bytes");
 }
 
 TEST(ParticleFiles, UnpackNoMoreThanIsAllowed) {

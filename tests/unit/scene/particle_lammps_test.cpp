@@ -81,7 +81,7 @@ TEST(LammpsDump, RefusesBrokenFiles) {
   expect_refused("a.dump", dump("id x y z", "9999999999", rows), ":4:", "too many");
   expect_refused("a.dump", dump("id x y", "2", rows), ":9:", "expected columns x y z");
   expect_refused("a.dump", dump("id x y z", "2", "1 0 0 0\n1 1 0 0\n"),
-                 ":11:", "atom 1 is there twice");
+                 ":11:", "atom 1 appears twice");
   expect_refused("a.dump", dump("id x y z", "2", "1 0 0 0\n2 1 0\n"),
                  ":11:", "expected 4 values, found 3");
   expect_refused("a.dump", dump("id x y z", "2", "1 0 0 0\n2 1 zero 0\n"),
@@ -148,8 +148,7 @@ TEST(LammpsData, RefusesBrokenFiles) {
                  ":14:", "image flag in z: expected a whole number, found '0.5'");
   expect_refused("a.data", data("Atoms", "1 1 1.5 2 3 0 0 0\n2 1 1 2 3 0 x 0\n"),
                  ":15:", "image flag in y: expected a whole number, found 'x'");
-  expect_refused("a.data", data("Atoms", "1 1 1 2 7\n1 1 1 2 3\n"),
-                 ":15:", "atom 1 is there twice");
+  expect_refused("a.data", data("Atoms", "1 1 1 2 7\n1 1 1 2 3\n"), ":15:", "atom 1 appears twice");
   expect_refused("a.data", data("Atoms", "1 1 1 2 7\n2 1 1 - 3\n"), ":15:", "y: expected a number");
   expect_refused("a.data", data("Atoms", "1 1 1 2 7\n2x 1 1 1 3\n"),
                  ":15:", "id: expected a whole number");

@@ -99,8 +99,8 @@ TEST(TransferFunction, BrokenFilesAreNamedWithTheirLine) {
                 ThrowsMessage<core::InputError>(HasSubstr(file.string() + message)));
   };
   expect("0 0 0 0\n0 0 0\n", ":2: expected 'R G B A', got 3 words");
-  expect("0 0 0 0\n\n0 0 zero 0\n", ":3: 'zero' is no channel value");
-  expect("0 0 0 256\n", ":1: '256' is no channel value; expected a number in 0..255");
+  expect("0 0 0 0\n\n0 0 zero 0\n", ":3: 'zero' is not a channel value");
+  expect("0 0 0 256\n", ":1: '256' is not a channel value; expected a number in 0..255");
   expect("0 0 0 -1\n", ":1: '-1'");
   expect("0 0 nan 1\n", ":1: 'nan'");
   expect(repeated("0 0 0 0\n", 255), ":255: the file ends after 255 entries; expected 256");

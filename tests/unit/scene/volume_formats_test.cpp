@@ -263,7 +263,7 @@ TEST(MetaImage, ThatIsBrokenNamesTheLine) {
                         ":1: 2 dimensions");
   expect_volume_refused("a.mha", "ObjectType = Mesh\nElementDataFile = LOCAL\n",
                         ":1: 'Mesh' is not a volume");
-  expect_volume_refused("a.mha", meta + "ElementDataFile =\n", "the data file '' is not there");
+  expect_volume_refused("a.mha", meta + "ElementDataFile =\n", "the data file '' does not exist");
   expect_volume_refused("a.mha",
                         meta +
                             "TransformMatrix = 1 1 0 0 1 0 0 0 1\nElementType = MET_UCHAR\n"
