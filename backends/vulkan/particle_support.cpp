@@ -19,18 +19,15 @@ std::uint64_t particle_bytes(const scene::ParticleSet& set) {
 }
 
 std::optional<std::string> storage_reason(const Gpu& gpu, const scene::ParticleSet& set,
-                                          const std::string& technique) {
+                                          const technique::Technique& drawn) {
   constexpr std::uint32_t buffers = 12;  // the most that a technique binds
   const vk::PhysicalDeviceLimits& limits = gpu.properties.limits;
   if (limits.maxPerStageDescriptorStorageBuffers < buffers) {
     return fmt::format("needs {} storage buffers; maxPerStageDescriptorStorageBuffers = {}",
                        buffers, limits.maxPerStageDescriptorStorageBuffers);
   }
-  const technique::Technique& drawn = technique::technique(technique);
-  const bool fetches_by_index = drawn.method != technique::Method::sprites ||
-                                technique == "quad_instanced" || technique == "point" || technique == "mesh";
   const std::uint64_t bytes = sphere_bytes * set.count();
-  if (fetches_by_index && bytes > limits.maxStorageBufferRange) {
+  if (drawn.fetches_by_index && bytes > limits.maxStorageBufferRange) {
     return fmt::format("{} particles need {} bytes in one buffer; maxStorageBufferRange = {}",
                        set.count(), bytes, limits.maxStorageBufferRange);
   }
@@ -60,11 +57,13 @@ std::optional<std::string> feature_reason(const Gpu& gpu, Needs needs) {
     return "the device lacks tessellationShader";
   }
   if (needs == Needs::ray_query && !gpu.extensions.ray_query) {
-    return "the device lacks VK_KHR_ray_query or what it depends on: Mesa's lavapipe has it from 25.0 "
+    return "the device lacks VK_KHR_ray_query or what it depends on: Mesa's lavapipe has it from "
+           "25.0 "
            "(Debian 13)";
   }
   if (needs == Needs::ray_pipeline && !gpu.extensions.ray_pipeline) {
-    return "the device lacks VK_KHR_ray_tracing_pipeline or what it depends on: Mesa's lavapipe has it "
+    return "the device lacks VK_KHR_ray_tracing_pipeline or what it depends on: Mesa's lavapipe "
+           "has it "
            "from 25.0 (Debian 13)";
   }
   if (needs == Needs::mesh && !gpu.extensions.mesh_shader) {
@@ -115,7 +114,8 @@ std::optional<std::string> particle_reason(const Gpu& gpu, const measure::Partic
                                              technique::SpriteRasterizer::of_the_api)) {
     return reason;
   }
-  if (technique == "polygon_tess") {
+  const technique::Technique& drawn = technique::technique(technique);
+  if (drawn.asks_corners) {
     if (auto reason = corners_reason(gpu, work.options.corners)) return reason;
   }
   if (needs != Needs::nothing && gpu.features.vertexPipelineStoresAndAtomics == VK_FALSE) {
@@ -123,15 +123,14 @@ std::optional<std::string> particle_reason(const Gpu& gpu, const measure::Partic
   }
   if (auto reason = ParticleTarget::format_reason(gpu)) return reason;
   if (work.options.culling != technique::Culling::none) {
-    if (auto reason = cannot_cull(gpu, technique == "quad_instanced")) return reason;
+    if (auto reason = cannot_cull(gpu, drawn.instanced)) return reason;
   }
-  if (auto reason = storage_reason(gpu, set, technique)) return reason;
+  if (auto reason = storage_reason(gpu, set, drawn)) return reason;
   constexpr std::uint64_t colour = 4 * sizeof(float);
   constexpr std::uint64_t depth = sizeof(float);
   const bool reads_depths = work.options.culling == technique::Culling::occlusion;
   std::uint64_t pixel_bytes = reads_depths ? depth : 0;
-  const bool draws_sprites =
-      technique::technique(technique).method == technique::Method::sprites;
+  const bool draws_sprites = drawn.method == technique::Method::sprites;
   if (!draws_sprites) pixel_bytes = depth + sizeof(std::uint32_t);  // and the id of a particle
   if (auto reason = picture_reason(gpu, scene.width, scene.height, needs, pixel_bytes)) {
     return reason;

@@ -28,15 +28,19 @@ std::vector<Technique> parse(std::string_view text) {
   // A named object, because at() below refers into it.
   const core::Json catalogue = core::Json::parse(text);
   for (const core::Json& entry : catalogue.at("techniques")) {
-    result.push_back({.id = entry.at("id"),
-                      .suite = entry.at("suite"),
-                      .work = entry.at("work") == "draw" ? Work::draw : Work::compute,
-                      .method = method_of(entry),
-                      .vertices = vertices_of(entry),
-                      .asks_corners = entry.value("asks_corners", false),
-                      .picture = entry.at("picture"),
-                      .apis = entry.at("apis"),
-                      .summary = entry.at("summary")});
+    result.push_back(
+        {.id = entry.at("id"),
+         .suite = entry.at("suite"),
+         .work = entry.at("work") == "draw" ? Work::draw : Work::compute,
+         .method = method_of(entry),
+         .vertices = vertices_of(entry),
+         .asks_corners = entry.value("asks_corners", false),
+         .fetches_by_index = entry.value("fetches_by_index", method_of(entry) != Method::sprites),
+         .instanced = entry.value("instanced", false),
+         .parts = entry.value("parts", false),
+         .picture = entry.at("picture"),
+         .apis = entry.at("apis"),
+         .summary = entry.at("summary")});
   }
   return result;
 }

@@ -25,7 +25,10 @@ struct Technique {
   Work work = Work::compute;
   Method method = Method::rays;
   Vertices vertices = Vertices::none;
-  bool asks_corners = false;  // draws as many corners as the factor `corners` says
+  bool asks_corners = false;      // draws as many corners as the factor `corners` says
+  bool fetches_by_index = false;  // its shaders read all spheres from one storage buffer
+  bool instanced = false;         // one instance for each sphere
+  bool parts = false;             // can draw a volume in parts that do not fit into memory at once
   bool picture = true;  // draws the scene; false for a bound on speed, whose image is meaningless
   std::vector<std::string> apis;  // the APIs on which the technique exists
   std::string summary;

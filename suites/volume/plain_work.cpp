@@ -1,5 +1,6 @@
 #include "suites/volume/plain_work.hpp"
 
+#include "technique/catalogue.hpp"
 #include "technique/volume/bricks.hpp"
 
 namespace triptych::volume_suite {
@@ -15,10 +16,11 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
                               const measure::VolumeWork& work) {
   measure::PlainWork plain{.levels = configuration};
   plain.levels.erase("ert");
-  if (configuration.at("technique") != "speed_of_light") {
+  const technique::Technique& technique = technique::technique(configuration.at("technique"));
+  if (technique.picture) {
     plain.ends_below = work.options.ert;
   } else if (work.options.ert > 0) {
-    plain.why["ert"] = "speed_of_light ends no ray";
+    plain.why["ert"] = technique.id + " ends no ray early";
   }
   const bool cells = work.scene.quadrature == scene::Quadrature::cells;
   // With quadrature cells a ray looks at a brick even then, and counts it.

@@ -1,10 +1,11 @@
 // Every technique is implemented in every backend, or listed with the reason why not.
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <map>
 #include <regex>
+#include <set>
 
 #include "source_tree.hpp"
 #include "technique/catalogue.hpp"
@@ -89,6 +90,36 @@ TEST(Matrix, UnsupportedNamesOnlyTechniquesThereAre) {
   for (const std::string& api : apis) {
     for (const auto& [technique, reason] : unsupported(api)) {
       EXPECT_NO_THROW(static_cast<void>(technique::technique(technique))) << api;
+    }
+  }
+}
+
+// The ids of techniques with which a text compares something.
+std::set<std::string> compared_ids(const std::string& text) {
+  static const std::regex comparison(R"re(technique(?:\.id|"\))?\s*[=!]=\s*"([a-z_]+)")re");
+  std::set<std::string> ids;
+  for (std::sregex_iterator at(text.begin(), text.end(), comparison), end; at != end; ++at) {
+    const std::string id = (*at)[1];
+    if (std::ranges::count(technique::catalogue(), id, &technique::Technique::id) > 0) {
+      ids.insert(id);
+    }
+  }
+  return ids;
+}
+
+// A rule for one technique would be forgotten for the next one. What differs between techniques is
+// a column of the catalogue.
+TEST(Matrix, SharedCodeComparesNoIdsOfTechniques) {
+  EXPECT_EQ(compared_ids("if (work.technique == \"point\" && at(\"technique\") != \"raycast\" && "
+                         "technique.id == \"mesh\" && api == \"gl\")"),
+            (std::set<std::string>{"mesh", "point", "raycast"}));
+  // Records know only names; has_picture_test compares this file with the catalogue.
+  static const std::set<std::string> tested_against_the_catalogue{"has_picture.hpp"};
+  for (const std::string folder : {"src", "backends", "suites"}) {
+    for (const auto& file : files_below(folder, {".hpp", ".cpp"})) {
+      if (tested_against_the_catalogue.contains(file.filename().string())) continue;
+      const auto ids = compared_ids(read(file));
+      EXPECT_THAT(ids, testing::IsEmpty()) << file;
     }
   }
 }

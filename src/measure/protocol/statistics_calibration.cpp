@@ -4,10 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
@@ -80,45 +82,59 @@ ParticleWork many_small() {
   return seen_from_origin(std::move(spheres), width, height, fov_y_deg);
 }
 
-// What `sprites` visible quads consist of, depending on the technique that makes them.
-record::Counts counts_of(std::string_view technique, std::uint64_t sprites) {
+// A technique that makes a quad from a sphere, with what the pipeline counts for each visible quad,
+// apart from the two primitives that are clipped.
+struct QuadTechnique {
+  std::string_view id;
+  record::Counts counts;
+};
+
+// Instances are strips of four vertices; the others are points, or patches of one vertex.
+const std::array<QuadTechnique, 3>& quad_techniques() {
+  static const std::array<QuadTechnique, 3> techniques{{
+      {"quad_instanced",
+       {{"input_assembly_vertices", 4},
+        {"input_assembly_primitives", 2},
+        {"vertex_invocations", 4}}},
+      {"quad_screen",
+       {{"input_assembly_vertices", 1},
+        {"input_assembly_primitives", 1},
+        {"vertex_invocations", 1},
+        {"geometry_invocations", 1},
+        {"geometry_primitives", 2}}},
+      {"quad_tess",
+       {{"input_assembly_vertices", 1},
+        {"input_assembly_primitives", 1},
+        {"vertex_invocations", 1},
+        {"tessellation_control_patches", 1},
+        {"tessellation_evaluation_invocations", 4}}},
+  }};
+  return techniques;
+}
+
+record::Counts counts_of(const QuadTechnique& technique, std::uint64_t sprites) {
   record::Counts counts{{"clipping_invocations", 2 * sprites},
                         {"clipping_primitives", 2 * sprites}};
-  if (technique == "quad_instanced") {  // each instance is a strip of four vertices
-    counts["input_assembly_vertices"] = 4 * sprites;
-    counts["input_assembly_primitives"] = 2 * sprites;
-    counts["vertex_invocations"] = 4 * sprites;
-    return counts;
-  }
-  counts["input_assembly_vertices"] = sprites;  // points, or patches of one vertex
-  counts["input_assembly_primitives"] = sprites;
-  counts["vertex_invocations"] = sprites;
-  if (technique == "quad_screen") {
-    counts["geometry_invocations"] = sprites;
-    counts["geometry_primitives"] = 2 * sprites;
-  } else {
-    counts["tessellation_control_patches"] = sprites;
-    counts["tessellation_evaluation_invocations"] = 4 * sprites;
-  }
+  for (const auto& [name, each] : technique.counts) counts[name] = each * sprites;
   return counts;
 }
 
 std::vector<CalibrationScene> draw_scenes() {
   std::vector<CalibrationScene> scenes;
-  for (const char* const technique : {"quad_instanced", "quad_screen", "quad_tess"}) {
+  for (const QuadTechnique& technique : quad_techniques()) {
     const ParticleWork one = around_the_eye();
     CalibrationScene& whole = scenes.emplace_back();
-    whole.name = fmt::format("one sprite of {} over the whole view", technique);
+    whole.name = fmt::format("one sprite of {} over the whole view", technique.id);
     whole.expected = counts_of(technique, 1);
     whole.expected["fragment_invocations"] =
         static_cast<std::uint64_t>(one.scene.width) * static_cast<std::uint64_t>(one.scene.height);
-    whole.work = {.technique = technique, .scene = one};
+    whole.work = {.technique = std::string(technique.id), .scene = one};
 
     CalibrationScene& many = scenes.emplace_back();
-    many.name = fmt::format("{} small sprites of {}", small_sprites, technique);
+    many.name = fmt::format("{} small sprites of {}", small_sprites, technique.id);
     many.expected = counts_of(technique, small_sprites);
     many.counts_fragments = true;
-    many.work = {.technique = technique, .scene = many_small()};
+    many.work = {.technique = std::string(technique.id), .scene = many_small()};
   }
   return scenes;
 }

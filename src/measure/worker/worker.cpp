@@ -27,6 +27,7 @@
 #include "measure/system/host_arithmetic.hpp"
 #include "measure/system/stopwatch.hpp"
 #include "measure/worker/wire.hpp"
+#include "technique/catalogue.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -165,7 +166,7 @@ class Worker {
 
   [[nodiscard]] Batch draw(const Frames& frames) {
     return batch([&](Batch& batch) {
-      if (!held_) throw core::InputError("frames are asked for, but no configuration is held");
+      if (!held_) throw core::InputError("frames were requested, but no configuration is prepared");
       for (int i = 0; i < frames.count; ++i) {
         const Frame frame = proof_->draw(Purpose::timing);
         proof_->check(fmt::format("frame {} of {}", i + 1, frames.count));
@@ -371,8 +372,8 @@ record::Outcome serve_one(Worker& worker, const Message& message, int answer_fd)
   } else if (as_release(message)) {
     batch = worker.release();
   } else {
-    throw core::InputError(fmt::format("a worker is asked for what it does not know: '{}'",
-                                       message.json.value("type", "")));
+    throw core::InputError(
+        fmt::format("unknown request to a worker: '{}'", message.json.value("type", "")));
   }
   send(answer_fd, to_message(batch));
   return batch.outcome;
@@ -410,7 +411,8 @@ void describe_work(const Work& work, const Device& device, record::Record& recor
     record.data_hash = particles->scene.particles->hash;
     if (const auto rasterizer = device.rasterizer()) {
       record.precision["sub_pixel_bits"] = rasterizer->sub_pixel_bits;
-      if (work.technique == "point") {
+      const bool points = technique::technique(work.technique).vertices == technique::Vertices::one;
+      if (points) {
         record.precision["point_margin"] = rasterizer->point_margin;
         record.precision["largest_point"] = rasterizer->largest_point;
       }

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "record/has_picture.hpp"
 #include "report/html.hpp"
 #include "report/page/charts.hpp"
 #include "report/page/page_frame.hpp"
@@ -64,10 +65,14 @@ Html taken_over(const PlanData& plan) {
         {record.configuration, record.device, record.same_as, words::text_of(record.reason)});
   }
   if (rows.size() == 1) return {};
-  return folded(fmt::format("{} configurations measured as another, which their scene cannot tell "
-                            "from them",
+  return folded(fmt::format("{} configurations reused the frames of an equivalent configuration",
                             rows.size() - 1),
                 table(rows));
+}
+
+// Whether its technique only fetches, as a bound on speed.
+bool is_bound(const record::Record& record) {
+  return !record::has_picture(record) && record.code.empty();
 }
 
 }  // namespace
@@ -115,14 +120,14 @@ Html speed_of_light_section(const PlanData& plan) {
   // The bare fetches (speed_of_light), by device and scene.
   std::map<std::pair<std::string, std::string>, const record::Record*> bounds;
   for (const record::Record* record : measured(plan)) {
-    if (record->technique == "speed_of_light") {
+    if (is_bound(*record)) {
       bounds[{record->device, scene_title(plan, *record)}] = record;
     }
   }
   Rows rows{{"scene", "device", "technique", "clock", "time", "speed of light", "times as long"}};
   for (const record::Record* record : measured(plan)) {
     const auto found = bounds.find({record->device, scene_title(plan, *record)});
-    if (record->technique == "speed_of_light" || found == bounds.end()) continue;
+    if (is_bound(*record) || found == bounds.end()) continue;
     const std::string_view clock = clock_of_both(*record, *found->second);
     const double time = record::percentile(record->time_ns_by(clock), 0.5);
     const double bound = record::percentile(found->second->time_ns_by(clock), 0.5);
@@ -133,9 +138,8 @@ Html speed_of_light_section(const PlanData& plan) {
   if (rows.size() == 1) return {};
   return folded("Speed of light: times over those of the bare fetches",
                 markup("<p>The same fetches and transfer-function look-ups alone, with "
-                       "the same skipping but without early termination: a picture can be faster "
-                       "than that where "
-                       "rays end early, and is hardly faster where they do not.</p>") +
+                       "the same skipping but without early termination: a technique can be faster "
+                       "than that if rays end early, and hardly faster if they do not.</p>") +
                     table(rows));
 }
 
@@ -161,8 +165,8 @@ Html counts_section(const PlanData& plan) {
     text += folded(title, table(rows, "counts"));
   };
   section(
-      "Cost: instructions of one frame, by whose code they are; misses: lines of 64 bytes that "
-      "device code moves into a cache of 32 KiB",
+      "Cost: instructions of one frame by the code that they belong to; misses: lines of 64 bytes "
+      "that device code loads into a cache of 32 KiB",
       [](const record::Record& r) -> const record::Counts& { return r.cost; });
   section("Memory allocated on the device, bytes",
           [](const record::Record& r) -> const record::Counts& { return r.memory; });
@@ -170,7 +174,7 @@ Html counts_section(const PlanData& plan) {
           [](const record::Record& r) -> const record::Counts& { return r.energy; });
   section("Counters of our own, from a build that is never timed",
           [](const record::Record& r) -> const record::Counts& { return r.counters; });
-  section("Pipeline statistics, as the drivers tell them; an empty cell: it tells nothing",
+  section("Pipeline statistics as the drivers report them; an empty cell: not reported",
           [](const record::Record& r) -> const record::Counts& { return r.statistics; });
   return text;
 }

@@ -1,5 +1,7 @@
 #include "technique/volume/brick_kinds.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,6 +11,7 @@
 #include <unordered_map>
 
 #include "scene/exact_math.hpp"
+#include "technique/catalogue.hpp"
 
 namespace triptych::technique {
 namespace {
@@ -176,8 +179,8 @@ std::vector<std::int32_t> brick_kinds(const BrickRanges& ranges, const scene::Vo
 std::optional<std::string> adapt_reason(std::string_view technique, const scene::VolumeScene& scene,
                                         const RaycastOptions& options) {
   if (!(options.adapt > 0)) return std::nullopt;
-  if (technique == "speed_of_light") {
-    return "speed_of_light takes every sample of the lattice: adapt merges some";
+  if (!technique::technique(technique).picture) {
+    return fmt::format("{} takes every sample of the lattice, but adapt merges some", technique);
   }
   if (scene.quadrature != scene::Quadrature::midpoint) {
     return "adapt merges samples of the midpoint rule: other quadratures have none in the middle";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "technique/catalogue.hpp"
 #include "technique/volume/bricks.hpp"
 #include "technique/volume/packed_cells.hpp"
 
@@ -52,8 +53,8 @@ std::vector<Part> front_to_back(std::vector<Part> parts, const scene::VolumeScen
 
 std::optional<std::string> why_whole_only(std::string_view technique,
                                           const RaycastOptions& options) {
-  if (technique != "raycast") {
-    return fmt::format("in parts it is drawn by raycast only, not by {}", technique);
+  if (!technique::technique(technique).parts) {
+    return fmt::format("{} cannot draw a volume in parts", technique);
   }
   if (options.sampler == Sampler::hardware) {
     return "in parts it is drawn by sampler manual or packed: a device's own would round otherwise";

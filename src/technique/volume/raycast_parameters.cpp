@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "scene/camera.hpp"
+#include "technique/catalogue.hpp"
 #include "technique/volume/brick_kinds.hpp"
 #include "technique/volume/bricks.hpp"
 #include "technique/volume/extra_work.hpp"
@@ -153,11 +154,12 @@ std::optional<std::string> raycast_reason(std::string_view technique,
                                           const RaycastOptions& options) {
   const bool midpoint = scene.quadrature == scene::Quadrature::midpoint;
   const std::string_view quadrature = scene::name_of(scene.quadrature);
-  if (technique == "speed_of_light" && !midpoint) {
+  const bool only_fetches = !technique::technique(technique).picture;
+  if (only_fetches && !midpoint) {
     return fmt::format(
-        "speed_of_light bounds the midpoint rule: its fetches and look-ups are not those of "
+        "{} is a bound for the midpoint rule: its fetches and look-ups are not those of "
         "quadrature {}",
-        quadrature);
+        technique, quadrature);
   }
   if (scene.quadrature == scene::Quadrature::cells) {
     if (auto reason = cells_reason(scene, options)) return reason;
@@ -166,8 +168,9 @@ std::optional<std::string> raycast_reason(std::string_view technique,
   }
   if (auto reason = adapt_reason(technique, scene, options)) return reason;
   if (options.precision == Precision::fp32) return std::nullopt;
-  if (technique == "speed_of_light") {
-    return "speed_of_light bounds precision fp32: it fetches, and computes nothing of note";
+  if (only_fetches) {
+    return fmt::format("{} is a bound for precision fp32, because it hardly computes anything",
+                       technique);
   }
   if (!midpoint) {
     return fmt::format(

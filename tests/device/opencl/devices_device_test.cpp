@@ -128,7 +128,7 @@ TEST(OpenClDevices, LimitsAreReasonsWithBothNumbers) {
     ASSERT_TRUE(large);
     const std::uint64_t bytes = 68'820'189'192 * scene::bytes_of(grid.format);  // 4098³ voxels
     EXPECT_THAT(*large, HasSubstr(fmt::format("the volume takes {} bytes", bytes)));
-    EXPECT_THAT(*large, HasSubstr("by raycast only"));
+    EXPECT_THAT(*large, HasSubstr("cannot draw a volume in parts"));
 
     scene = make_scene({.width = 1'000'000, .height = 1'000});
     EXPECT_THAT(device.unsupported(make_work("raycast", scene)).value_or(""),

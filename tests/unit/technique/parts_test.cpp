@@ -105,8 +105,8 @@ TEST(Parts, AreRefusedWithTheReason) {
             "the volume takes 102 bytes, theLimit is 5; its thinnest part takes 6");
   EXPECT_EQ(reason("raycast", Sampler::manual, 6), "");
   EXPECT_EQ(reason("raycast_fragment", Sampler::manual, 50),
-            "the volume takes 102 bytes, theLimit is 50; in parts it is drawn by raycast only, not "
-            "by raycast_fragment");
+            "the volume takes 102 bytes, theLimit is 50; raycast_fragment cannot draw a volume in "
+            "parts");
   EXPECT_NE(reason("raycast", Sampler::hardware, 50).find("by sampler manual or packed"),
             std::string::npos);
   EXPECT_EQ(within_budget({1000, "theLimit"}, {.budget = 10}).limit, "the budget");
