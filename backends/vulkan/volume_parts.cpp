@@ -22,7 +22,7 @@ technique::Room image_room(const Gpu& gpu, const technique::Layers& slices,
   if (deepest < image.maxResourceSize) return {deepest, "the reach of maxImageDimension3D"};
   return {image.maxResourceSize, "maxResourceSize"};
 } catch (const vk::FormatNotSupportedError&) {
-  return {0, "the reach of images of this format, of which the device has none"};
+  return {0, "the largest image of this format"};
 }
 
 // How much memory the voxels may take on a device.

@@ -199,7 +199,8 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
 
 void refuse_bad_files(const GateArguments& arguments) {
   if (!arguments.faults.empty() && !arguments.measure && arguments.base.empty()) {
-    throw core::InputError("--inject needs --measure or --base: it goes into what is measured");
+    throw core::InputError(
+        "--inject needs --measure or --base, because a fault is injected while measuring");
   }
   std::vector<core::NamedFile> read{{"--store", arguments.store}};
   for (const std::string& plan : arguments.plans) read.push_back({"PLAN", plan});

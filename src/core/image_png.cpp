@@ -40,7 +40,7 @@ std::vector<std::uint8_t> to_srgb(const Image& image) {
 
 std::vector<std::byte> encode_png(const Image& image) {
   if (image.width < 1 || image.height < 1 || image.rgba.size() != 4 * image.pixel_count()) {
-    throw InputError(fmt::format("an image of {}x{} pixels with {} values cannot become a PNG",
+    throw InputError(fmt::format("an image of {}x{} pixels with {} values cannot be written as PNG",
                                  image.width, image.height, image.rgba.size()));
   }
   const std::vector<std::uint8_t> rgb = to_srgb(image);

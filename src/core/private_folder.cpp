@@ -78,7 +78,7 @@ int open_within(int parent, const std::string& name, const fs::path& folder) {
   FolderDescriptor fd(
       ::openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
   if (fd.get() < 0) {
-    if (errno == ELOOP || errno == ENOTDIR) refuse(folder, "is a symbolic link or no folder");
+    if (errno == ELOOP || errno == ENOTDIR) refuse(folder, "is a symbolic link, or is not a folder");
     refuse(folder, errno);
   }
   const struct stat status = status_of(fd.get(), folder);

@@ -62,7 +62,7 @@ std::vector<char> read_content(const std::filesystem::path& file, const Progress
   const bool promises_gzip = lower_case(file.extension().string()) == ".gz";
   if (promises_gzip && packing == Packing::none) {
     throw core::InputError({.file = name}, "broken gzip stream: it does not begin as one; if the file "
-                                           "is not compressed, take .gz off its name");
+                                           "is not compressed, remove .gz from its name");
   }
   if (packing == Packing::none) {
     const auto* begin = reinterpret_cast<const char*>(bytes.data());

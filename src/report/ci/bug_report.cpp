@@ -39,7 +39,7 @@ constexpr std::array files{
     File{"frame.json", "camera, scene, transfer function and every factor"},
     File{"image.png", "what was drawn; `image.exr`: as floats, linear and premultiplied"},
     File{"truth.png", "the reference image, rendered in double precision; `truth.exr`: as floats"},
-    File{"difference.png", "their difference; white is the largest error"},
+    File{"difference.png", "the difference between image and reference; white is the largest error"},
     File{"dump",
          "what the driver was given: device code, options, buffers, a program in C for some "
          "techniques; `compile.sh` compiles the device code"},

@@ -72,7 +72,8 @@ Columns<RecordSource> what_it_was() {
       {{"image", "text", "", "hash of the image in the store"}, of(&Record::image)},
       {{"data_hash", "text", "", "hash of the data"}, of(&Record::data_hash)},
       {{"kernel_hash", "text", "", "hash of the device code"}, of(&Record::kernel_hash)},
-      {{"counted_by", "text", "", "what counted instructions; no times then"},
+      {{"counted_by", "text", "",
+        "the program that counted instructions; such records have no times"},
        of(&Record::counted_by)},
   };
 }

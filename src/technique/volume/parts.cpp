@@ -57,7 +57,8 @@ std::optional<std::string> why_whole_only(std::string_view technique,
     return fmt::format("{} cannot draw a volume in parts", technique);
   }
   if (options.sampler == Sampler::hardware) {
-    return "in parts it is drawn by sampler manual or packed: a device's own would round otherwise";
+    return "a volume is drawn in parts only by sampler manual or packed, because a device's own "
+           "sampler would round differently";
   }
   return std::nullopt;
 }
