@@ -19,7 +19,9 @@ struct BinTable {
 };
 // Chunks are so small that many compute units have work, but larger if the table would otherwise be
 // larger than the entries that it is used to sort. Only the scene decides their number, so that the
-// bytes that a frame allocates do not depend on the machine.
+// bytes that a frame allocates are the same on every machine and can be compared with a baseline.
+// Few compute units could do with fewer chunks: with two of them, the 390 chunks of
+// stress:pile:200000 take 24,304 bytes more than 16 would.
 [[nodiscard]] BinTable bin_table(int width, int height, std::size_t particles);
 
 // Why the device cannot draw these particles with this technique; empty if it can.
