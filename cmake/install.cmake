@@ -10,7 +10,11 @@ install(DIRECTORY baselines analysis DESTINATION ${TRIPTYCH_DATA_FOLDER} FILE_PE
 foreach(script analyze notebook python)
   install(PROGRAMS analysis/${script} DESTINATION ${TRIPTYCH_DATA_FOLDER}/analysis)
 endforeach()
-install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# Everything to which README.md links.
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILE_PERMISSIONS ${for_all} DIRECTORY_PERMISSIONS ${folder_for_all})
+install(DIRECTORY ci/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/ci FILE_PERMISSIONS ${for_all}
+        DIRECTORY_PERMISSIONS ${folder_for_all})
 install(FILES ${TRIPTYCH_DOCUMENTS}/triptych.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${TRIPTYCH_DOCUMENTS}/triptych.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME triptych)

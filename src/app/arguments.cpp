@@ -23,16 +23,29 @@ void add_choice_options(CLI::App& command, PlanChoice& choice) {
       "factor=a,b: replace the plan's values of a factor (repeatable); write a comma inside a "
       "value as %2C");
   command.add_option("--shard", choice.shard, "i/n: only the i-th of n parts of the plan");
+  add_selection_options(command, choice);
 }
 
-void add_baselines_option(CLI::App& command, std::string& folder) {
-  command
-      .add_option(
-          "--baselines", folder,
-          "Folder with the baselines (default: ./baselines, else those that were installed)")
-      ->check([](const std::string& name) {
-        return name.empty() ? "a folder needs a name" : std::string();
-      });
+void add_selection_options(CLI::App& command, PlanChoice& choice) {
+  command.add_option("--filter", choice.filter,
+                     "Only configurations whose name or key matches this glob (repeatable); "
+                     "`triptych list PLAN` prints both");
+  command.add_option("--caselist", choice.caselist,
+                     "Only configurations that this file lists, one name or key a line");
+  command.add_option("--fraction", choice.fraction,
+                     "1/n: only an n-th of the configurations, the same ones every time");
+}
+
+core::InputError nothing_selected(const PlanChoice& choice) {
+  return core::InputError(
+      fmt::format("{}: no configuration matches; `triptych list PLAN` prints names and keys",
+                  choice.selection_text()));
+}
+
+void add_baselines_option(CLI::App& command, std::string& folder, const std::string& help) {
+  command.add_option("--baselines", folder, help)->check([](const std::string& name) {
+    return name.empty() ? "a folder needs a name" : std::string();
+  });
 }
 
 void add_devices_option(CLI::App& command, std::vector<std::string>& globs) {
@@ -51,6 +64,16 @@ void add_limit_option(CLI::App& command, int& seconds, const std::string& what) 
                   fmt::format("Seconds after which {} is regarded as hung", what))
       ->capture_default_str()
       ->check(CLI::Range(1, 86400));
+}
+
+void add_without_data_option(CLI::App& command, bool& without) {
+  command.add_flag("--without-data", without,
+                   "This machine is meant to lack data files: configurations that need them are "
+                   "skipped, whatever was accepted");
+}
+
+void add_verbose_option(CLI::App& command, bool& verbose) {
+  command.add_flag("--verbose", verbose, "Print a line for each configuration that is measured");
 }
 
 void print(const core::Json& json, int indent) {

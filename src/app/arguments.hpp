@@ -42,9 +42,13 @@ struct Commands {
 // share.
 void add_example(CLI::App& command, const std::string& example);
 
-// Adds --set and --shard.
 using measure::PlanChoice;
+// Adds --set, --shard and those of add_selection_options.
 void add_choice_options(CLI::App& command, PlanChoice& choice);
+// Adds --filter, --caselist and --fraction.
+void add_selection_options(CLI::App& command, PlanChoice& choice);
+// The error if these options select nothing in any plan.
+[[nodiscard]] core::InputError nothing_selected(const PlanChoice& choice);
 
 // Adds the positional argument PLAN. At least one plan is required.
 template <typename Plans>
@@ -59,7 +63,10 @@ inline constexpr const char* standard_store = "triptych.sqlite";
 inline constexpr auto bisect_skips = static_cast<core::ExitCode>(125);
 
 // Adds --baselines. An empty name is refused, because it would mean the current folder.
-void add_baselines_option(CLI::App& command, std::string& folder);
+void add_baselines_option(
+    CLI::App& command, std::string& folder,
+    const std::string& help =
+        "Folder with the baselines (default: ./baselines, else those that were installed)");
 
 // Adds --device, for devices that have been measured already.
 void add_devices_option(CLI::App& command, std::vector<std::string>& globs);
@@ -71,6 +78,12 @@ void add_inject_option(CLI::App& command, std::vector<std::string>& faults,
 // Adds --limit, the seconds after which `what` is regarded as hung.
 inline constexpr int standard_limit_s = record::standard_limit.count();
 void add_limit_option(CLI::App& command, int& seconds, const std::string& what);
+
+// Adds --without-data.
+void add_without_data_option(CLI::App& command, bool& without);
+
+// Adds --verbose.
+void add_verbose_option(CLI::App& command, bool& verbose);
 
 // Prints to standard output.
 void print(const core::Json& json, int indent = 2);

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "app/compare_sides.hpp"
 #include "app/registry.hpp"
@@ -48,6 +51,29 @@ measure::SideOptions parse_side(std::string_view option, const std::string& text
   return side;
 }
 
+// The records of the latest run, and for each device that it does not have, those of the latest
+// earlier run of the same plan that has it: `compare --store` writes a run for each side.
+std::vector<record::Record> records_of_all_devices(const record::Store& store,
+                                                   const record::Run& latest) {
+  std::vector<record::Record> records;
+  std::set<std::string> devices;
+  std::vector<record::Run> runs = store.runs();
+  std::ranges::reverse(runs);
+  for (const record::Run& run : runs) {
+    if (run.plan != latest.plan || run.plan_hash != latest.plan_hash) continue;
+    std::set<std::string> fresh;
+    for (const auto& entry : store.devices(run.id)) {
+      if (!devices.contains(entry.device.id)) fresh.insert(entry.device.id);
+    }
+    if (fresh.empty()) continue;
+    for (record::Record& record : store.records(run.id)) {
+      if (fresh.contains(record.device)) records.push_back(std::move(record));
+    }
+    devices.merge(fresh);
+  }
+  return records;
+}
+
 // Compares all devices of the latest run of each plan with each other.
 core::ExitCode show_apis(const CompareArguments& arguments) {
   const Comparing& comparing = arguments.comparing;
@@ -62,7 +88,7 @@ core::ExitCode show_apis(const CompareArguments& arguments) {
   core::Json json = core::Json::object();
   for (const record::Run& run : latest_runs(store)) {
     if (!asked.empty() && !asked.contains(run.id)) continue;
-    const auto table = comparison::side_by_side(store.records(run.id));
+    const auto table = comparison::side_by_side(records_of_all_devices(store, run));
     if (!table) continue;
     json[run.plan] = report::to_json(*table);
     if (!arguments.json) put_lines(fmt::format("{}\n\n{}\n", run.plan, report::screen_of(*table)));
@@ -166,6 +192,7 @@ void add_compare_commands(Commands& commands) {
       ->capture_default_str();
   add_inject_option(command, comparing.faults,
                     "Inject a fault into side b to prove that it is found; see run --help");
+  add_verbose_option(command, comparing.verbose);
   command.add_flag("--json", arguments.json, "Print machine-readable JSON");
 }
 

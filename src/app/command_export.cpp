@@ -1,13 +1,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <optional>
 
+#include "accuracy/requested_error.hpp"
 #include "app/arguments.hpp"
+#include "app/registry.hpp"
 #include "app/terminal.hpp"
 #include "app/verdicts.hpp"
 #include "app/version.hpp"
 #include "core/output_files.hpp"
 #include "measure/plan/plan.hpp"
+#include "measure/truth/truths.hpp"
+#include "record/short_name.hpp"
 #include "record/store.hpp"
 #include "report/exports/export_tables.hpp"
 
@@ -18,7 +26,53 @@ struct ExportArguments {
   std::vector<std::string> stores;
   std::string out;
   std::string plan;
+  bool errors = false;
   bool json = false;
+};
+
+// The errors of images against their reference images and limits. A store that cannot be written
+// gives its images, but the reference images are drawn each time.
+class Errors {
+ public:
+  explicit Errors(const std::vector<std::string>& files) : registry_(make_registry()) {
+    for (const std::string& file : files) {
+      record::Store& store = stores_.emplace_back(open_to_judge(file));
+      for (const record::Run& run : store.runs()) {
+        truths_.emplace(run.id, measure::Truths(registry_.find_suite(), store));
+      }
+    }
+  }
+
+  std::vector<report::ImageError> of(const record::Record& record) {
+    const auto truths = truths_.find(record.run);
+    if (record.image.empty() || truths == truths_.end()) return {};
+    std::vector<report::ImageError> errors;
+    try {
+      const core::Image image = truths->second.picture_of(record);
+      add("reference", truths->second.of(record).truth, image, errors);
+      if (const accuracy::LimitPicture* limit = truths->second.limit_of(record)) {
+        add("limit", limit->image, image, errors);
+      }
+    } catch (const core::Error& error) {
+      say("triptych: {}: no errors: {}\n", record::short_name(record), error.what());
+    }
+    return errors;
+  }
+
+ private:
+  static void add(const std::string& against, const core::Image& right, const core::Image& image,
+                  std::vector<report::ImageError>& errors) {
+    const accuracy::PictureErrors all = accuracy::errors_against(right, image);
+    for (const accuracy::Metric metric : accuracy::all_metrics) {
+      const double error = all.of(metric);
+      if (std::isnan(error)) continue;  // the images cannot be compared
+      errors.push_back({against, std::string(accuracy::name_of(metric)), error});
+    }
+  }
+
+  Registry registry_;
+  std::deque<record::Store> stores_;
+  std::map<std::string, measure::Truths> truths_;  // by run
 };
 
 // The plan's name in the stores, or the name of the file that was run.
@@ -37,11 +91,17 @@ core::ExitCode write_tables(const ExportArguments& arguments) {
   std::vector<const record::Store*> all(stores.size());
   std::ranges::transform(stores, all.begin(), [](const record::Store& each) { return &each; });
   core::require_writable(arguments.out);
-  const report::ExportedRows rows = report::export_tables(
-      all, {.plan = plan_in(stores, arguments.plan),
-            .folder = arguments.out,
-            .made_by = "triptych " + version(),
-            .begins = [](const record::Run& run) { say("{} of {}\n", run.id, run.plan); }});
+  report::ExportRequest request{
+      .plan = plan_in(stores, arguments.plan),
+      .folder = arguments.out,
+      .made_by = "triptych " + version(),
+      .begins = [](const record::Run& run) { say("{} of {}\n", run.id, run.plan); }};
+  std::optional<Errors> errors;
+  if (arguments.errors) {
+    errors.emplace(arguments.stores);
+    request.errors = [&](const record::Record& record) { return errors->of(record); };
+  }
+  const report::ExportedRows rows = report::export_tables(all, request);
   if (arguments.json) {
     print({{"folder", arguments.out}, {"rows", rows}}, 1);
     return core::ExitCode::pass;
@@ -60,6 +120,9 @@ void add_export_command(Commands& commands) {
   command.add_option("--out", arguments.out, "Folder for the tables")->required();
   command.add_option("--plan", arguments.plan,
                      "Only this plan: SUITE/PLAN or the YAML file, as it was run (default: all)");
+  command.add_flag("--errors", arguments.errors,
+                   "Also write errors.csv: the errors of each image against its reference image "
+                   "and its limit, by four metrics; draws those that are not in the store");
   command.add_flag("--json", arguments.json, "Print the number of rows of each table as JSON");
   add_example(command, "triptych export results.sqlite --out tables");
 }

@@ -6,6 +6,7 @@
 
 #include "app/compare_sides.hpp"
 #include "app/measure_plans.hpp"
+#include "app/own_baselines.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/terminal.hpp"
@@ -44,13 +45,16 @@ struct GateArguments {
   bool json = false;
   bool times = false;
   bool bisect = false;
+  bool without_data = false;
+  bool verbose = false;
+  std::string ci = standard_ci;
 };
 
 struct AcceptArguments {
   std::vector<std::string> plans;  // as they were typed
   PlanChoice choice;
   std::string store = standard_store;
-  std::string baselines = default_baselines().string();
+  std::string baselines;  // empty: the user's own
   std::string reason;
   std::string only;
   bool drop = false;
@@ -80,6 +84,7 @@ std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry&
   std::vector<JudgedPlan> plans;
   for (const std::string& typed : arguments.plans.empty() ? gate_job() : arguments.plans) {
     JudgedPlan each{typed, arguments.choice.load(typed, registry.find_suite()), asked};
+    if (each.plan.configurations.empty() && arguments.choice.selects()) continue;
     if (each.plan.configurations.empty()) {
       throw core::NotSupported(
           fmt::format("{}: shard {} holds no configuration, so there is nothing to judge",
@@ -91,6 +96,7 @@ std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry&
     std::erase_if(each.checks, [&](record::Check check) { return without.contains(check); });
     if (!each.checks.empty()) plans.push_back(std::move(each));
   }
+  if (plans.empty() && arguments.choice.selects()) throw nothing_selected(arguments.choice);
   if (plans.empty()) throw core::InputError("--without leaves nothing to judge");
   return plans;
 }
@@ -108,7 +114,7 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
   request.program = version();
   request.checks = judged.checks;
   request.times_decide = arguments.times;
-  request.part = !arguments.choice.set.empty() || !arguments.choice.shard.empty();
+  request.part = !arguments.choice.is_whole();
   return request;
 }
 
@@ -127,6 +133,7 @@ core::ExitCode judge_by_base(const GateArguments& arguments) {
     each.choice = arguments.choice;
     each.faults = arguments.faults;
     each.times = arguments.times;
+    each.verbose = arguments.verbose;
   }
   return compare_and_tell(comparisons, arguments.json);
 }
@@ -166,6 +173,7 @@ void leave_out_compilers(const GateArguments& arguments, const Registry& registr
 }
 
 core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Stopwatch& since) {
+  const CiSystem ci = ci_system(arguments.ci);
   if (!arguments.base.empty()) return judge_by_base(arguments);
   const Registry registry = make_registry();
   std::vector<JudgedPlan> plans = plans_of(arguments, registry);
@@ -180,6 +188,8 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
                        .faults = arguments.faults,
                        .brief = !arguments.times,
                        .statistics = true,
+                       .verbose = arguments.verbose,
+                       .ci = ci,
                        .told_to = stderr});
   }
   record::Store store = open_to_judge(arguments.store);
@@ -189,12 +199,15 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
     const judge::GateRequest request = request_for(arguments, each, registry, truths);
     results.push_back(judge_named(store, latest_run_of(store, each.typed, arguments.store),
                                   arguments.baselines, request));
+    if (arguments.without_data) excuse_absent_data(store, results.back());
   }
   return tell_verdict(store, truths, results, since.seconds(),
                       {.folder = arguments.out,
                        .junit = arguments.junit,
                        .markdown = arguments.markdown,
-                       .json = arguments.json ? "-" : ""});
+                       .json = arguments.json ? "-" : "",
+                       .baselines = arguments.baselines,
+                       .ci = ci});
 }
 
 void refuse_bad_files(const GateArguments& arguments) {
@@ -226,7 +239,7 @@ core::ExitCode gate(const GateArguments& arguments) {
 }
 
 void accept_one(const AcceptArguments& arguments, const std::string& typed, record::Store& store,
-                measure::Truths& truths) {
+                measure::Truths& truths, const OwnBaselines& baselines) {
   const std::string plan = measure::plan_name(typed);
   const judge::GateRequest judged = request_of(truths, plan);
   const judge::AcceptRequest request{
@@ -242,17 +255,37 @@ void accept_one(const AcceptArguments& arguments, const std::string& typed, reco
       .limit = judged.limit,
       .stress = judge::StressTruths{judged.truth, judged.expectations}};
   const std::vector<std::string> changes = judge::accept(
-      store, latest_run_of(store, typed, arguments.store), arguments.baselines, request);
+      store, latest_run_of(store, typed, arguments.store), baselines.folder(), request);
   for (const std::string& change : changes) put_lines(change + "\n");
   put("{}: {} changes under {}; review them before you commit\n", plan, changes.size(),
-      arguments.baselines);
+      baselines.name().string());
+}
+
+// All plans that were measured, if none is named.
+std::vector<std::string> plans_to_accept(const AcceptArguments& arguments,
+                                         const record::Store& store) {
+  if (!arguments.plans.empty()) return arguments.plans;
+  std::vector<std::string> plans;
+  for (const record::Run& run : latest_runs(store)) plans.push_back(run.plan);
+  if (plans.empty()) {
+    throw core::NotSupported(fmt::format("{} holds no run: measure first", arguments.store));
+  }
+  return plans;
 }
 
 core::ExitCode accept(const AcceptArguments& arguments) {
   const Registry registry = make_registry();
   record::Store store = open_to_judge(arguments.store);
   measure::Truths truths(registry.find_suite(), store);
-  for (const std::string& typed : arguments.plans) accept_one(arguments, typed, store, truths);
+  OwnBaselines baselines(arguments.baselines);
+  for (const std::string& typed : plans_to_accept(arguments, store)) {
+    accept_one(arguments, typed, store, truths, baselines);
+  }
+  baselines.keep();
+  if (!baselines.copied_from().empty()) {
+    put("{} is new: everything else in it is a copy of {}\n", baselines.name().string(),
+        baselines.copied_from().string());
+  }
   return core::ExitCode::pass;
 }
 
@@ -261,8 +294,9 @@ void add_accept_command(Commands& commands) {
       commands.add("accept", "Make the latest runs of plans the baselines", accept);
   add_example(command,
               "triptych accept volume/quick --store results.sqlite --reason 'new driver version'");
-  command.add_option("PLAN", arguments.plans, "SUITE/PLAN or the YAML file, as it was run")
-      ->required();
+  command.add_option("PLAN", arguments.plans,
+                     "SUITE/PLAN or the YAML file, as it was run (default: every plan in the "
+                     "store)");
   command.add_option("--reason", arguments.reason, "The reason, which is kept in history.json")
       ->required();
   command.add_option("--only", arguments.only, "Only configurations that match this glob");
@@ -272,7 +306,9 @@ void add_accept_command(Commands& commands) {
                    "that a device skips now");
   command.add_option("--store", arguments.store, "SQLite file with the records")
       ->capture_default_str();
-  add_baselines_option(command, arguments.baselines);
+  add_baselines_option(command, arguments.baselines,
+                       "Folder to write to (default: ./baselines, which is started as a copy of "
+                       "the installed baselines)");
 }
 
 }  // namespace
@@ -305,6 +341,7 @@ void add_gate_commands(Commands& commands) {
   command.add_option("--without-device", arguments.without_devices,
                      "This machine is meant to lack devices that match this glob, or an API whose "
                      "devices cannot be listed (repeatable; see docs/gate.md)");
+  add_without_data_option(command, arguments.without_data);
   command.add_flag("--times", arguments.times,
                    "Let times affect the verdict: for a machine that is reserved for measuring");
   CLI::Option* base = command.add_option(
@@ -318,6 +355,8 @@ void add_gate_commands(Commands& commands) {
   command.add_option("--junit", arguments.junit, "Write JUnit XML of all plans to this file");
   command.add_option("--markdown", arguments.markdown, "Write a Markdown summary to this file");
   command.add_flag("--json", arguments.json, "Print every finding as JSON");
+  add_verbose_option(command, arguments.verbose);
+  add_ci_option(command, arguments.ci);
   command.add_flag("--bisect", arguments.bisect,
                    "For `git bisect run`: exit with code 125 instead of 2 or 3");
   for (const char* other : {"--measure", "--store", "--baselines", "--check", "--without",

@@ -10,6 +10,7 @@
 #include "app/arguments.hpp"
 #include "app/registry.hpp"
 #include "app/terminal.hpp"
+#include "record/short_name.hpp"
 
 namespace triptych::app {
 namespace {
@@ -115,17 +116,33 @@ core::ExitCode print_json(const measure::Plan& plan) {
   return core::ExitCode::pass;
 }
 
+void print_name(const measure::Suite& suite, const std::string& plan,
+                const measure::Configuration& configuration) {
+  const std::string key = measure::configuration_key(suite, configuration);
+  put_lines(record::short_name(suite.name(), plan, key) + "  " + key + "\n");
+}
+
 core::ExitCode list_plan(const ListArguments& arguments, const Registry& registry) {
   const auto& [name, choice, as_json] = arguments;
   if (as_json) return print_json(choice.load(name, registry.find_suite()));
+  const std::string plan_name = measure::plan_name(name);
   std::size_t count = 0;
-  const measure::Plan plan =
-      measure::list_plan(name, choice.overrides(), registry.find_suite(), choice.part(),
-                         [&](const measure::Suite& suite, const measure::Configuration& each) {
-                           put_lines(measure::configuration_key(suite, each) + "\n");
-                           ++count;
-                         });
-  say("{}: {} configurations\n", plan.name, count);
+  if (choice.selects()) {
+    const measure::Plan plan = choice.load(name, registry.find_suite());
+    for (const measure::Configuration& each : plan.configurations) {
+      print_name(registry.suite(plan.suite), plan_name, each);
+    }
+    count = plan.configurations.size();
+    if (count == 0) throw nothing_selected(choice);
+  } else {
+    static_cast<void>(
+        measure::list_plan(name, choice.overrides(), registry.find_suite(), choice.part(),
+                           [&](const measure::Suite& suite, const measure::Configuration& each) {
+                             print_name(suite, plan_name, each);
+                             ++count;
+                           }));
+  }
+  say("{}: {} configurations\n", plan_name, count);
   return core::ExitCode::pass;
 }
 
@@ -135,9 +152,10 @@ core::ExitCode list(const ListArguments& arguments) {
       std::ranges::find(registry.suites, arguments.plan,
                         [](const auto& each) -> std::string { return std::string(each->name()); });
   if (suite == registry.suites.end()) return list_plan(arguments, registry);
-  if (!arguments.choice.set.empty() || !arguments.choice.shard.empty()) {
+  if (!arguments.choice.is_whole()) {
     throw core::InputError(fmt::format(
-        "{0} is a suite: --set and --shard need a plan, such as {0}/quick", arguments.plan));
+        "{0} is a suite: options that choose configurations need a plan, such as {0}/quick",
+        arguments.plan));
   }
   return list_suite(**suite, registry, arguments.json);
 }

@@ -91,6 +91,7 @@ void add_run_options(CLI::App& command, Measuring& measuring) {
                   "more fails (default: no limit; has no effect under Valgrind)")
       ->transform(CLI::AsSizeValue(false))
       ->check(CLI::Range(least_memory, std::numeric_limits<std::uint64_t>::max()));
+  add_verbose_option(command, measuring.verbose);
   command.add_flag("--untimed", measuring.untimed,
                    "Draw only one frame for the image and one for the counters: no times, no "
                    "statistics");

@@ -71,37 +71,6 @@ judge::GateResult judge_store(const CheckArguments& arguments, const record::Sto
   return judge_named(store, run->id, default_baselines().string(), request);
 }
 
-// Missing files are no fault of a device or driver, even if it measured them when they existed.
-// Findings that could not be judged only because of them become skips with the same reason.
-void excuse_absent_data(const CheckArguments& arguments, const Registry& registry,
-                        const record::Store& store, judge::GateResult& result) {
-  const auto undecided = [](const judge::Finding& finding) {
-    return finding.verdict == judge::Verdict::cannot_judge;
-  };
-  if (std::ranges::none_of(result.findings, undecided)) return;
-  std::vector<record::Record> records = store.records(result.run);
-  std::erase_if(records, [&](const record::Record& record) {
-    return !arguments.device.empty() && record.device != arguments.device;
-  });
-  const auto absent = [&](const record::Record* record) {
-    return record->outcome == record::Outcome::skipped &&
-           !registry.suite(record->suite).missing_data(record->factors).empty();
-  };
-  for (judge::Finding& finding : result.findings) {
-    if (!undecided(finding)) continue;
-    std::vector<const record::Record*> about;
-    for (const record::Record& record : records) {
-      const bool device = finding.device.empty() || finding.device == record.device;
-      const bool configuration =
-          finding.configuration.empty() || finding.configuration == record.configuration;
-      if (device && configuration) about.push_back(&record);
-    }
-    if (!about.empty() && std::ranges::all_of(about, absent)) {
-      finding.verdict = judge::Verdict::skipped;
-    }
-  }
-}
-
 // Judges the plan's latest run in the store. The test is skipped if nothing was judged, or if the
 // cause of a failure is a slow or noisy machine or a missing file.
 core::ExitCode check(const CheckArguments& arguments) {
@@ -109,7 +78,7 @@ core::ExitCode check(const CheckArguments& arguments) {
   record::Store store = open_to_judge(arguments.store);
   measure::Truths truths(registry.find_suite(), store);
   judge::GateResult result = judge_store(arguments, store, truths);
-  excuse_absent_data(arguments, registry, store, result);
+  excuse_absent_data(store, result);
   judge::FindTruth pictured;
   if (arguments.check == "image") {
     pictured = [&](const record::Record& record) { return truths.of(record); };

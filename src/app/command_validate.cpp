@@ -37,13 +37,16 @@ struct ValidateArguments {
   std::string baselines = default_baselines().string();
   std::string junit;
   std::string json;
-  PlanChoice choice;  // only its shard
+  PlanChoice choice;  // without --set
   int jobs = 0;       // see measure::RunOptions
   int limit_s = standard_limit_s;
   std::string expect;
   std::string write_expect;
   bool resume = false;
   int repeat = 1;
+  bool without_data = false;
+  bool verbose = false;
+  std::string ci = standard_ci;
 };
 
 // Times, image bits and statistics differ between devices. Any device must draw the right image
@@ -63,6 +66,8 @@ Measuring measuring_of(const ValidateArguments& arguments, const std::string& fi
           .limit_s = arguments.limit_s,
           .untimed = true,
           .statistics = true,
+          .verbose = arguments.verbose,
+          .ci = ci_system(arguments.ci),
           .told_to = stderr};
 }
 
@@ -173,7 +178,9 @@ class Validation {
                         {.folder = arguments_.out,
                          .junit = arguments_.junit,
                          .markdown = {},
-                         .json = arguments_.json});
+                         .json = arguments_.json,
+                         .baselines = arguments_.baselines,
+                         .ci = ci_system(arguments_.ci)});
   }
 
  private:
@@ -212,11 +219,13 @@ class Validation {
     judge::GateRequest request = request_of(truths_, plan, registry_.suite(plan.suite));
     request.checks = checks_of(plan.checks);
     request.devices = arguments_.devices;
-    request.part = !arguments_.choice.shard.empty();
+    request.part = !arguments_.choice.is_whole();
     request.known = known_;
     const std::optional<record::Run> run = store_.latest_run(plan.name);
     const std::string id = run && !before_.contains(run->id) ? run->id : "";
-    return judge_named(store_, id, arguments_.baselines, request);
+    judge::GateResult result = judge_named(store_, id, arguments_.baselines, request);
+    if (arguments_.without_data) excuse_absent_data(store_, result);
+    return result;
   }
 
   // Returns false if it was interrupted.
@@ -277,6 +286,7 @@ FeatureTable features_of(const ValidateArguments& arguments) {
 
 core::ExitCode validate(const ValidateArguments& arguments) {
   const measure::Stopwatch since;
+  static_cast<void>(ci_system(arguments.ci));  // refuses an unknown name before measuring
   core::refuse_overwriting({{"--expect", arguments.expect}},
                            {{"--junit", arguments.junit},
                             {"--json", arguments.json},
@@ -334,12 +344,16 @@ void add_validate_command(Commands& commands) {
   add_limit_option(command, arguments.limit_s, "a configuration");
   command.add_option("--shard", arguments.choice.shard,
                      "i/n: only the i-th of n parts of each plan");
+  add_selection_options(command, arguments.choice);
   command.add_option("--expect", arguments.expect,
                      "A file of --write-expect with known failures, flakes and skips: they are "
                      "waived, and everything else has to pass");
   command.add_option("--write-expect", arguments.write_expect,
                      "Write failures, flakes and skips to this file, for --expect");
   add_baselines_option(command, arguments.baselines);
+  add_without_data_option(command, arguments.without_data);
+  add_verbose_option(command, arguments.verbose);
+  add_ci_option(command, arguments.ci);
 }
 
 }  // namespace triptych::app

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "app/registry.hpp"
 #include "app/terminal.hpp"
@@ -18,8 +19,10 @@
 #include "measure/system/environment.hpp"
 #include "measure/system/process.hpp"
 #include "measure/worker/own_program.hpp"
+#include "record/short_name.hpp"
 #include "report/exports/comparison_json.hpp"
 #include "report/screen/comparison_screen.hpp"
+#include "report/screen/progress_log.hpp"
 #include "report/words/comparison.hpp"
 
 namespace triptych::app {
@@ -27,13 +30,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void print_comparison_progress(const comparison::ComparisonProgress& progress) {
-  if (progress.loading) return show_loading(*progress.loading);
-  const auto seconds = progress.left.count();
-  const std::string left = seconds > 0 ? fmt::format(", at most {} s left", seconds) : "";
-  show("{}/{} {}: {}{}", progress.done, progress.total, report::words::stage_of(progress),
-       progress.configuration, left);
-}
+// A log gets a line for each stage, and a sign of life from time to time.
+class ComparisonPrinter {
+ public:
+  explicit ComparisonPrinter(bool verbose) : verbose_(verbose) {}
+
+  void print(const comparison::ComparisonProgress& progress) {
+    if (progress.loading) return show_loading(*progress.loading);
+    const std::string stage = report::words::stage_of(progress);
+    const bool new_stage = std::exchange(stage_, stage) != stage;
+    if (!watched() && !verbose_ && !new_stage && !signs_.due()) return;
+    const auto seconds = progress.left.count();
+    const std::string left =
+        seconds > 0 ? ", at most " + report::rough_time(progress.left) + " left" : "";
+    show("{}/{} {}: {}{}", progress.done, progress.total, stage,
+         record::short_name(progress.configuration), left);
+  }
+
+ private:
+  bool verbose_;
+  std::string stage_;
+  report::SignsOfLife signs_;
+};
 
 report::ComparisonCommand command_of(const Comparing& comparing, const std::string& typed,
                                      const measure::Plan& plan) {
@@ -65,9 +83,10 @@ class Comparer {
     store_.require_whole();  // reference images are read from it
   }
 
-  [[nodiscard]] Told compare(const Comparing& comparing, const std::string& typed) {
+  [[nodiscard]] Told compare(const Comparing& comparing, const std::string& typed,
+                             measure::Plan plan) {
     comparison::ComparisonOptions options{
-        .plan = comparing.choice.load(typed, registry_.find_suite()),
+        .plan = std::move(plan),
         .a = comparing.a,
         .b = comparing.b,
         .faults = measure::parse_faults(comparing.faults),
@@ -77,8 +96,10 @@ class Comparer {
     };
     for (const measure::InjectedFault& each : options.faults) measure::check_fault(each.fault);
     if (comparing.budget_s > 0) options.budget = std::chrono::seconds(comparing.budget_s);
+    ComparisonPrinter printer(comparing.verbose);
     comparison::ComparisonResult result = comparison::compare(
-        options, registry_.suite(options.plan.suite), store_, truths_, print_comparison_progress);
+        options, registry_.suite(options.plan.suite), store_, truths_,
+        [&](const comparison::ComparisonProgress& progress) { printer.print(progress); });
     clear_line();
     return {std::move(result), command_of(comparing, typed, options.plan)};
   }
@@ -121,14 +142,17 @@ core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool 
     if (!each.store.empty()) core::require_writable(fs::path(each.store).parent_path());
     Comparer comparer(registry, each.store);
     for (const std::string& typed : each.plans.empty() ? main_job : each.plans) {
+      measure::Plan plan = each.choice.load(typed, registry.find_suite());
+      if (plan.configurations.empty() && each.choice.selects()) continue;
       try {
-        all.push_back(comparer.compare(each, typed));
+        all.push_back(comparer.compare(each, typed, std::move(plan)));
       } catch (const measure::Interrupted&) {
         throw core::Error("interrupted; a comparison cannot be continued: start it again");
       }
       code = core::worse_of(code, all.back().result.exit_code());
     }
   }
+  if (all.empty() && !comparisons.empty()) throw nothing_selected(comparisons.front().choice);
   tell(all, json);
   return code;
 }

@@ -25,6 +25,7 @@ struct Comparing {
   int limit_s = standard_limit_s;
   std::uint64_t seed = 1;
   bool times = true;
+  bool verbose = false;
 };
 
 // Compares, prints the differences and returns the exit code over all comparisons.

@@ -15,38 +15,40 @@
 #include "measure/system/system_facts.hpp"
 #include "measure/worker/listing.hpp"
 #include "measure/worker/own_program.hpp"
-#include "report/words/outcome.hpp"
+#include "report/screen/progress_log.hpp"
 
 namespace triptych::app {
 namespace {
 
-std::string outcome_text(const record::Record& record) {
-  if (record.outcome != record::Outcome::measured) {
-    return report::words::text_of(record.outcome, record.reason);
-  }
-  if (!record.same_as.empty()) {
-    return fmt::format("the same as {} ({})", record.same_as,
-                       report::words::text_of(record.reason));
-  }
-  const auto summary = record::summarise(record.time_ns());
-  return summary ? fmt::format("{:.3f} ms ({})", summary->median / 1e6, record.clock())
-                 : "measured";
+void write_raw(const std::string& text) {
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
 }
 
-// On a terminal the line also shows the time left; elsewhere there is a line for configurations
-// that are done.
-void print_progress(const measure::Progress& progress) {
-  if (progress.loading) return show_loading(*progress.loading);
-  const std::string what = progress.record != nullptr ? outcome_text(*progress.record) : "";
-  if (watched()) {
-    show("{}/{} {} {} {} left {} s", progress.done, progress.total, progress.device,
-         progress.configuration, what, progress.left.count());
-    if (progress.done == progress.total) say("\n");
-  } else if (progress.record != nullptr) {
-    show("{}/{} {} {}: {}", progress.done, progress.total, progress.device, progress.configuration,
-         what);
+// Passes progress on to a log or a terminal.
+class ProgressPrinter {
+ public:
+  explicit ProgressPrinter(const Measuring& measuring)
+      : log_({.width = columns(), .verbose = measuring.verbose}) {}
+
+  void print(const measure::Progress& progress) {
+    if (progress.loading) {
+      if (!progress.loading->note.empty()) return show_note(*progress.loading);
+      return write_raw(log_.loading(progress.loading->what, progress.loading->share));
+    }
+    if (progress.record != nullptr) plan_ = progress.record->plan;
+    write_raw(log_.next({.plan = plan_,
+                         .device = progress.device,
+                         .done = progress.done,
+                         .total = progress.total,
+                         .left = progress.left,
+                         .record = progress.record}));
   }
-}
+  void end() { write_raw(log_.end()); }
+
+ private:
+  report::ProgressLog log_;
+  std::string plan_;
+};
 
 // An option for a factor or an error applies to a single plan: a factor belongs to one suite, and
 // an error to the scenes of a plan.
@@ -69,6 +71,7 @@ std::vector<measure::Plan> load_plans(const Measuring& measuring, const Registry
           "two plans are called {}: rename one, because runs are found by the plan's name",
           plan.name));
     }
+    if (plan.configurations.empty() && measuring.choice.selects()) continue;
     const bool chooses = measuring.chooses && !plan.automatic.empty();
     if (chooses && measuring.untimed && !plan.counted()) {
       throw core::InputError(
@@ -79,6 +82,7 @@ std::vector<measure::Plan> load_plans(const Measuring& measuring, const Registry
     }
     plans.push_back(std::move(plan));
   }
+  if (plans.empty()) throw nothing_selected(measuring.choice);
   return plans;
 }
 
@@ -127,8 +131,18 @@ std::vector<measure::RunResult> measure_on(const Bench& bench,
   for (const measure::Plan& plan : plans) {
     runs.push_back({plan, bench.registry.suite(plan.suite), options});
   }
-  std::vector<measure::RunResult> results =
-      measure::run_plans(runs, bench.devices, bench.store, print_progress);
+  ProgressPrinter printer(bench.measuring);
+  std::vector<measure::RunResult> results;
+  try {
+    const LogSection section(bench.measuring.ci, "Measuring");
+    results =
+        measure::run_plans(runs, bench.devices, bench.store,
+                           [&](const measure::Progress& progress) { printer.print(progress); });
+    printer.end();
+  } catch (...) {
+    printer.end();
+    throw;
+  }
   for (const auto& [fault, only] : measure::faults_that_hit_nothing(runs, bench.devices)) {
     say("triptych: --inject {}@{} hits nothing: no configuration or device matches; `triptych list "
         "PLAN` prints the names of configurations, in which defaults are left out\n",

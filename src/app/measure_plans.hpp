@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/arguments.hpp"
+#include "app/ci_system.hpp"
 #include "measure/run/runner.hpp"
 
 namespace triptych::app {
@@ -32,6 +33,8 @@ struct Measuring {
   bool timed = false;                     // also measure times for plans without the check timing
   std::optional<std::string> error = {};  // requested error, as it was typed
   bool chooses = false;                   // report the fastest of the levels that "auto" stands for
+  bool verbose = false;                   // a line for each configuration
+  CiSystem ci = CiSystem::none;           // whose log it is
   std::FILE* told_to = stdout;
 };
 

@@ -60,18 +60,22 @@ inline void put_lines(std::string_view text, std::FILE* to = stdout) {
 
 // Whether the output is shown by a terminal.
 [[nodiscard]] bool watched();
+// The columns of that terminal; 0 without a terminal.
+[[nodiscard]] std::size_t columns();
 // On a terminal, removes the line that show() has left.
 void clear_line();
 
-// Shows progress: one line that is rewritten on a terminal, and a line for each step elsewhere.
+// Shows progress: one line that is rewritten on a terminal and cut to its width, and a line for
+// each step elsewhere.
+void show_line(std::string_view text);
 template <typename... Args>
 void show(fmt::format_string<Args...> format, Args&&... args) {
-  clear_line();
-  say(format, std::forward<Args>(args)...);
-  if (!watched()) say("\n");
+  show_line(shown_text(format, std::forward<Args>(args)...));
 }
-// The line disappears when loading has ended. A note is printed once, although each process that
-// reads the data sends it.
+// Something that had to be guessed about the data. A note is printed once, although each process
+// that reads the data sends it.
+void show_note(const measure::Loading& loading);
+// The line disappears when loading has ended.
 void show_loading(const measure::Loading& loading);
 
 }  // namespace triptych::app

@@ -5,21 +5,26 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <map>
 #include <utility>
 
 #include "app/arguments.hpp"
+#include "app/ci_system.hpp"
 #include "app/paths.hpp"
+#include "app/terminal.hpp"
 #include "core/foreign_error.hpp"
 #include "core/output_files.hpp"
 #include "core/quoting.hpp"
 #include "measure/plan/plan.hpp"
 #include "record/factor_list.hpp"
+#include "report/ci/annotations.hpp"
 #include "report/ci/folder.hpp"
 #include "report/ci/junit.hpp"
 #include "report/ci/markdown.hpp"
+#include "report/circumstances.hpp"
 #include "report/exports/benchmark_json.hpp"
 #include "report/overview.hpp"
 #include "report/page/page.hpp"
@@ -28,8 +33,11 @@
 namespace triptych::app {
 namespace {
 
-report::ScreenOptions screen() {
+report::ScreenOptions screen_for(const record::Store& store) {
   report::ScreenOptions options;
+  options.store_option = store_option(store.file().string());
+  constexpr std::size_t widest = 120;
+  if (const std::size_t width = columns(); width > 0) options.width = std::min(width, widest);
   options.colours = ::isatty(STDOUT_FILENO) == 1 && std::getenv("NO_COLOR") == nullptr;
   return options;
 }
@@ -98,6 +106,24 @@ judge::GateResult judge_named(const record::Store& store, const std::string& run
   });
 }
 
+void excuse_absent_data(const record::Store& store, judge::GateResult& result) {
+  const std::vector<record::Record> records = store.records(result.run);
+  for (judge::Finding& finding : result.findings) {
+    if (finding.verdict != judge::Verdict::cannot_judge) continue;
+    bool any = false;
+    bool all_absent = true;
+    for (const record::Record& record : records) {
+      const bool device = finding.device.empty() || finding.device == record.device;
+      const bool configuration =
+          finding.configuration.empty() || finding.configuration == record.configuration;
+      if (!device || !configuration) continue;
+      any = true;
+      all_absent = all_absent && report::lacks_data(record.outcome, record.reason);
+    }
+    if (any && all_absent) finding.verdict = judge::Verdict::skipped;
+  }
+}
+
 judge::GateRequest request_of(measure::Truths& truths, const std::string& plan) {
   using record::Record;
   return {
@@ -137,22 +163,72 @@ std::string page_of(const record::Store& store, measure::Truths& truths,
   return page_about(store, truths, results);
 }
 
+namespace {
+
+report::FindingPlaces places_of(const record::Store& store,
+                                const std::vector<judge::GateResult>& results,
+                                const VerdictFiles& files) {
+  report::FindingPlaces::Sources sources{.repository = ci_repository(files.ci),
+                                         .baselines = files.baselines,
+                                         .job = ci_job_file(files.ci)};
+  for (const judge::GateResult& result : results) {
+    for (const auto& entry : store.devices(result.run)) {
+      sources.devices.emplace(entry.device.id, entry.device);
+    }
+  }
+  return report::FindingPlaces(std::move(sources));
+}
+
+report::JunitFacts junit_facts(const record::Store& store,
+                               const std::vector<judge::GateResult>& results,
+                               const report::FindingPlaces& places) {
+  report::JunitFacts facts{.places = &places};
+  for (const judge::GateResult& result : results) {
+    for (const record::Record& record : store.records(result.run)) {
+      const double ns = record.prepare_ns + record.loop_wall_ns + record.overhead_ns;
+      facts.seconds[result.plan][{record.device, record.configuration}] = ns / 1e9;
+    }
+  }
+  return facts;
+}
+
+// Writes what a CI system reads apart from files in the folder.
+void tell_ci(const std::vector<judge::GateResult>& results, const report::FindingPlaces& places,
+             CiSystem ci) {
+  if (ci != CiSystem::github) return;
+  const std::string commands = report::github_annotations(results, places);
+  static_cast<void>(std::fwrite(commands.data(), 1, commands.size(), stderr));
+  add_to_job_summary(ci, report::markdown(results));
+}
+
+}  // namespace
+
 core::ExitCode tell_verdict(const record::Store& store, measure::Truths& truths,
                             const std::vector<judge::GateResult>& results, double seconds,
                             const VerdictFiles& files) {
-  if (!files.junit.empty()) core::write_text(files.junit, report::junit(results));
+  const report::FindingPlaces places = places_of(store, results, files);
+  const report::JunitFacts facts = files.junit.empty() && files.folder.empty()
+                                       ? report::JunitFacts{}
+                                       : junit_facts(store, results, places);
+  if (!files.junit.empty()) core::write_text(files.junit, report::junit(results, facts));
   if (!files.markdown.empty()) core::write_text(files.markdown, report::markdown(results));
   std::vector<std::string> written;
   if (!files.folder.empty()) {
     core::require_writable(files.folder);
-    written = report::write_folder(files.folder, results, page_about(store, truths, results),
-                                   report::benchmark_json(store, latest_runs(store)));
+    written = report::write_folder(
+        files.folder, results,
+        {.page = page_about(store, truths, results),
+         .benchmark = report::benchmark_json(store, latest_runs(store)),
+         .code_quality = files.ci == CiSystem::gitlab ? report::gitlab_code_quality(results, places)
+                                                      : std::string(),
+         .junit = facts});
   }
+  tell_ci(results, places, files.ci);
   if (files.json == "-") {
     fmt::print("{}", report::json(results));
   } else {
     if (!files.json.empty()) core::write_text(files.json, report::json(results));
-    fmt::print("{}", report::last_screen(results, seconds, written, screen()));
+    fmt::print("{}", report::last_screen(results, seconds, written, screen_for(store)));
   }
   return report::overview(results).code;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/ci_system.hpp"
 #include "judge/gate/gate.hpp"
 #include "measure/plan/plan.hpp"
 #include "measure/truth/truths.hpp"
@@ -40,16 +41,22 @@ void require_store(const std::filesystem::path& file);
 [[nodiscard]] judge::GateRequest request_of(measure::Truths& truths, const measure::Plan& plan,
                                             const measure::Suite& suite);
 
+// Findings that could not be judged only because data files are not here become skips: for a
+// machine that is meant to lack them. A failure of a device is never excused.
+void excuse_absent_data(const record::Store& store, judge::GateResult& result);
+
 // The files to which a verdict is written; empty: not written.
 struct VerdictFiles {
-  std::string folder;  // for a CI: report.html, gate.log, summary.md, benchmark.json and JUnit XML
+  std::string folder;  // for a CI: see report/ci/folder.hpp
   std::string junit;
   std::string markdown;
-  std::string json;  // "-": printed instead of the last screen
+  std::string json;       // "-": printed instead of the last screen
+  std::string baselines;  // the folder that was judged by
+  CiSystem ci = CiSystem::none;
 };
 
-// Writes the files and prints the last screen, which lists those in the folder. `seconds` is the
-// total time. Returns the exit code over all results.
+// Writes the files and what the CI system reads, and prints the last screen, which lists the files
+// in the folder. `seconds` is the total time. Returns the exit code over all results.
 core::ExitCode tell_verdict(const record::Store& store, measure::Truths& truths,
                             const std::vector<judge::GateResult>& results, double seconds,
                             const VerdictFiles& files);

@@ -94,7 +94,7 @@ ComparisonResult compare(const ComparisonOptions& options, const measure::Suite&
   for (const ConfigurationDiff& each : diff.configurations) {
     result.configurations.push_back(compared_by(each, *by_key.at(each.key)));
   }
-  if (result.timed) measure_times(options, tell, result.configurations);
+  if (result.timed) measure_times(options, stopwatch, tell, result.configurations);
   result.seconds = stopwatch.seconds();
   return result;
 }

@@ -2,6 +2,7 @@
 // Compares two sides over a plan: first what repeats exactly (images, counters, statistics, cost,
 // memory), then times, interleaved.
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -22,8 +23,9 @@ struct ComparisonOptions {
   measure::SideOptions a;
   measure::SideOptions b;
   std::vector<measure::InjectedFault> faults;  // injected into side b
-  // The time budget from the start on. After it no configuration is continued. The first looks and
-  // the confirmation of suspects are always made, because without them there is no result.
+  // The time budget from the start on. After it no configuration is continued. The time that the
+  // confirmation of suspects needs is kept back from it. What repeats, the first looks and the
+  // confirmation are always made, because without them there is no result.
   std::optional<std::chrono::seconds> budget;
   std::chrono::seconds limit{60};
   std::uint64_t seed = 1;
@@ -31,6 +33,9 @@ struct ComparisonOptions {
   SequentialDesign design = SequentialDesign::standard();
   ConfirmationDesign confirmation;
 };
+
+// Frame times of one side: the median and the quartiles over the blocks of the first process run.
+using SideTime = record::Summary;
 
 // The results of one configuration.
 struct Compared {
@@ -47,6 +52,7 @@ struct Compared {
   measure::SideClock clock = measure::SideClock::wall;
   WallClockCause why_wall = WallClockCause::none;
   double seconds = 0;  // time spent on it
+  std::optional<std::array<SideTime, 2>> times = {};  // of sides a and b, in nanoseconds
   std::optional<judge::WorkChange> work;
   std::vector<Difference> differences;
 

@@ -24,9 +24,11 @@ struct Entry {
 
 class Timer {
  public:
-  Timer(const ComparisonOptions& options, const Tell& tell, std::vector<Compared>& compared)
+  Timer(const ComparisonOptions& options, const measure::Stopwatch& since, const Tell& tell,
+        std::vector<Compared>& compared)
       : options_(options),
         tell_(tell),
+        since_begin_(since),
         interleaved_({.suite = options.plan.suite,
                       .kinds = measure::work_kinds(options.plan),
                       .limit = options.limit,
@@ -111,7 +113,7 @@ class Timer {
   void draw_until(Entry& entry, int blocks) {
     hold(entry);
     const bool first = entry.blocks.empty();
-    while (static_cast<int>(entry.blocks.size()) < blocks && (first || !over_budget())) {
+    while (static_cast<int>(entry.blocks.size()) < blocks && (first || !must_confirm())) {
       entry.blocks.push_back(interleaved_.block());
     }
   }
@@ -126,10 +128,42 @@ class Timer {
     compared.verdict = look.verdict;
     compared.shift = look.shift;
     compared.blocks = static_cast<int>(entry.blocks.size());
+    compared.times = {time_of(entry, &measure::Block::a), time_of(entry, &measure::Block::b)};
+  }
+
+  static SideTime time_of(const Entry& entry, measure::SideTimes measure::Block::*side) {
+    std::vector<double> times;
+    for (const measure::Block& block : entry.blocks) {
+      const measure::SideTimes& of = block.*side;
+      const bool device = entry.compared.clock == SideClock::device;
+      for (const double ns : device ? of.device_ns.value() : of.wall_ns) times.push_back(ns);
+    }
+    return record::summarise(times).value_or(SideTime{});
   }
 
   [[nodiscard]] bool over_budget() const {
-    return options_.budget && since_start_.elapsed() >= *options_.budget;
+    return options_.budget && since_begin_.elapsed() >= *options_.budget;
+  }
+
+  // The time that the confirmation of the present suspects takes at least.
+  [[nodiscard]] double confirmation_s() const {
+    double seconds = 0;
+    for (const Entry& entry : entries_) {
+      const Compared& compared = entry.compared;
+      const bool suspected =
+          compared.verdict == PairVerdict::slower || compared.verdict == PairVerdict::faster;
+      if (!suspected || compared.ended || compared.blocks == 0) continue;
+      seconds += compared.seconds / compared.blocks *
+                 static_cast<double>(options_.confirmation.blocks_per_process_run) *
+                 least_process_runs;
+    }
+    return seconds;
+  }
+
+  // Whether more blocks would take the time that the confirmation needs.
+  [[nodiscard]] bool must_confirm() const {
+    return options_.budget && since_begin_.seconds() + confirmation_s() >=
+                                  std::chrono::duration<double>(*options_.budget).count();
   }
 
   [[nodiscard]] bool may_go_on(const Entry& entry) const {
@@ -149,11 +183,11 @@ class Timer {
     }
     if (!options_.budget) return left;
     return std::min(
-        left, std::chrono::duration<double>(*options_.budget).count() - since_start_.seconds());
+        left, std::chrono::duration<double>(*options_.budget).count() - since_begin_.seconds());
   }
 
   void go_on_with_the_widest() {
-    while (!over_budget()) {
+    while (!must_confirm()) {
       Entry* widest = nullptr;
       int open = 0;
       for (Entry& entry : entries_) {
@@ -286,7 +320,8 @@ class Timer {
 
   const ComparisonOptions& options_;
   const Tell& tell_;
-  measure::Stopwatch since_start_;
+  const measure::Stopwatch& since_begin_;  // of the whole comparison
+  measure::Stopwatch since_start_;         // of measuring times
   measure::Interleaved interleaved_;
   std::vector<Entry> entries_;
   const Entry* held_ = nullptr;  // the configuration that both workers keep ready
@@ -294,9 +329,9 @@ class Timer {
 
 }  // namespace
 
-void measure_times(const ComparisonOptions& options, const Tell& tell,
-                   std::vector<Compared>& compared) {
-  Timer(options, tell, compared).run();
+void measure_times(const ComparisonOptions& options, const measure::Stopwatch& since,
+                   const Tell& tell, std::vector<Compared>& compared) {
+  Timer(options, since, tell, compared).run();
 }
 
 }  // namespace triptych::comparison

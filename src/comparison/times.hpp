@@ -4,12 +4,14 @@
 #include <vector>
 
 #include "comparison/comparison.hpp"
+#include "measure/system/stopwatch.hpp"
 
 namespace triptych::comparison {
 
-// Sets the verdict on the time of each configuration that has no reason against it. Throws what
+// Sets the verdict on the time of each configuration that has no reason against it. `since` began
+// with the comparison, whose budget includes what was done before. Throws what
 // measure::Interleaved throws.
-void measure_times(const ComparisonOptions& options, const Tell& tell,
-                   std::vector<Compared>& compared);
+void measure_times(const ComparisonOptions& options, const measure::Stopwatch& since,
+                   const Tell& tell, std::vector<Compared>& compared);
 
 }  // namespace triptych::comparison

@@ -5,10 +5,40 @@
 
 #include <map>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include "report/words/outcome.hpp"
 
 namespace triptych::report {
+
+namespace {
+
+// Names one file, because the others are in the same folder.
+std::string absent_data(std::span<const judge::GateResult* const> results) {
+  std::set<std::string> files;
+  std::set<std::tuple<std::string, std::string, std::string>> missing;
+  for (const judge::GateResult* result : results) {
+    for (const judge::Finding& finding : result->findings) {
+      if (!lacks_data(finding.outcome, finding.reason)) continue;
+      files.insert(finding.reason.subject);
+      missing.emplace(result->plan, finding.device, finding.configuration);
+    }
+  }
+  if (files.empty()) return {};
+  return fmt::format(
+      "data: {} of the plans' files missing ({}{}): {} results skipped; see docs/data.md, or "
+      "accept "
+      "that with --without-data",
+      files.size(), *files.begin(), files.size() > 1 ? ", …" : "", missing.size());
+}
+
+}  // namespace
+
+bool lacks_data(record::Outcome outcome, const record::Reason& reason) {
+  return outcome == record::Outcome::skipped && reason.cause == record::Cause::not_supported &&
+         !reason.subject.empty();
+}
 
 std::vector<std::string> circumstances(std::span<const judge::GateResult* const> results) {
   std::set<std::string> injected;
@@ -37,6 +67,7 @@ std::vector<std::string> circumstances(std::span<const judge::GateResult* const>
   for (const auto& [reason, what] : unusable) {
     lines.push_back(fmt::format("not usable here: {}: {}", fmt::join(what, ", "), reason));
   }
+  if (std::string data = absent_data(results); !data.empty()) lines.push_back(std::move(data));
   return lines;
 }
 

@@ -15,4 +15,7 @@ namespace triptych::report {
 [[nodiscard]] std::vector<std::string> circumstances(
     std::span<const judge::GateResult* const> results);
 
+// Whether a record was skipped because its data file, which is the reason's subject, is not here.
+[[nodiscard]] bool lacks_data(record::Outcome outcome, const record::Reason& reason);
+
 }  // namespace triptych::report

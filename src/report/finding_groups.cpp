@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <set>
 #include <string_view>
 #include <tuple>
@@ -96,6 +98,24 @@ bool is_smaller(const Finding* a, const Finding* b) {
   return key(a) < key(b);
 }
 
+// The distance of a finding from what it should be, for comparing findings of one kind.
+double severity_of(const Finding& finding) {
+  if (finding.cause == judge::Cause::pixels_over_bound) return finding.number("pixels_over");
+  double largest = 0;
+  for (const judge::Change& change : finding.changes) {
+    const bool both = change.before && change.now && *change.before > 0 && *change.now > 0;
+    largest = std::max(largest, both ? std::abs(std::log(*change.now / *change.before))
+                                     : std::numeric_limits<double>::infinity());
+  }
+  return largest;
+}
+
+// The first one, if they are equally bad.
+const Finding* worse_of(const Finding* a, const Finding* b) {
+  if (a == nullptr || b == nullptr) return a == nullptr ? b : a;
+  return severity_of(*b) > severity_of(*a) ? b : a;
+}
+
 // What is known about all findings while groups are made.
 class Grouping {
  public:
@@ -161,6 +181,8 @@ class Grouping {
     FindingGroup group{first, members.size(), signature_of(members)};
     group.members = members;
     group.kind = kind_of(*first);
+    group.worst = first;
+    for (const Finding* each : members) group.worst = worse_of(group.worst, each);
     if (const auto found = passes_.find({first->check, first->configuration});
         found != passes_.end() && !first->configuration.empty()) {
       group.right_on = found->second;
@@ -315,6 +337,7 @@ bool take_in(FindingGroup& group, const FindingGroup& other) {
     group.right_on = other.right_on;
     group.wrong_on = other.wrong_on;
   }
+  group.worst = worse_of(group.worst, other.worst);
   group.configurations += other.configurations;
   group.members.insert(group.members.end(), other.members.begin(), other.members.end());
   group.changed_with_it += other.changed_with_it;
@@ -327,7 +350,8 @@ bool is_open(const Finding& finding) {
 }
 
 std::string command_of(const Finding& finding, const judge::GateResult& result) {
-  if (finding.device.empty()) return {};
+  // A command could only show a skip again.
+  if (finding.device.empty() || finding.verdict == Verdict::skipped) return {};
   if (finding.configuration.empty() && finding.check != Check::correlation) return {};
   Command command{.command = "render",
                   .object = finding.test.substr(0, finding.test.find('.')),

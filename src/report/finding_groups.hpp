@@ -40,6 +40,8 @@ struct FindingGroup {
   std::size_t changed_with_it = 0;
   std::vector<const judge::Finding*> members = {};
   std::string kind = {};  // judge::kind_of its findings
+  // The member that is farthest from what it should be: the most wrong pixels, the largest change.
+  const judge::Finding* worst = nullptr;
   [[nodiscard]] Blame blame() const;
 };
 

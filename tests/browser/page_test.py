@@ -240,7 +240,7 @@ class Comparison(PageTest):
         for size in (WIDE, NARROW):
             page = self.open_first(size)
             names = self.names_of(page)
-            self.assertIn("the truth", names)
+            self.assertIn("the reference image", names)
             self.assertGreaterEqual(len(names), 5)
             alone = {name: self.shown(page, name, name, 50) for name in names}
             if size == WIDE:

@@ -42,7 +42,31 @@ TEST_F(AbsentData, IsASkipForCTestAndNotToBeJudgedForTheGate) {
     EXPECT_EQ(result.code, 77) << result.output;
     EXPECT_NE(result.output.find("'field.nrrd' is not here"), std::string::npos) << result.output;
   }
-  EXPECT_EQ(program.run("gate plan --baselines baselines --store s.sqlite").code, 2);
+  const Result gate = program.run("gate plan --baselines baselines --store s.sqlite");
+  EXPECT_EQ(gate.code, 2) << gate.output;
+  EXPECT_NE(gate.output.find("data: 1 of the plans' files missing (field.nrrd)"), std::string::npos)
+      << gate.output;
+}
+
+// A machine may be meant to lack data, but something has to be judged.
+TEST_F(AbsentData, IsExcusedByAnOptionUnlessNothingIsLeft) {
+  ASSERT_EQ(program.run("run plan --device 'null:*' --store first.sqlite").code, 0);
+  const std::string accept = "accept plan --reason new --baselines baselines --store ";
+  ASSERT_EQ(program.run(accept + "first.sqlite").code, 0);
+  std::filesystem::remove(program.folder() / "field.nrrd");
+  ASSERT_EQ(program.run("run plan --device 'null:*' --store s.sqlite").code, 2);
+  const std::string gate =
+      "gate plan --check counters --without-data --baselines baselines --store ";
+  EXPECT_EQ(program.run(gate + "s.sqlite").code, 2);
+  program.write("plan",
+                "suite: volume\ntechnique: [raycast]\ndata: [field.nrrd, "
+                "generate:gaussian_blob:12]\ntransfer_function: [haze]\nviewport: [16]\n");
+  ASSERT_EQ(program.run("run plan --device 'null:*' --store both.sqlite").code, 0);
+  ASSERT_EQ(program.run(accept + "both.sqlite --only '*blob*'").code, 0);
+  const Result excused = program.run(gate + "both.sqlite");
+  EXPECT_EQ(excused.code, 0) << excused.output;
+  EXPECT_EQ(
+      program.run("gate plan --check counters --baselines baselines --store both.sqlite").code, 2);
 }
 
 // The page shows what it can: the times, the image, and the reason why it cannot be judged.
@@ -52,7 +76,7 @@ TEST_F(AbsentData, LeavesAPageWithoutATruth) {
   const Result reported = program.run("report --store s.sqlite --baselines b --out page.html");
   EXPECT_EQ(reported.code, 0) << reported.output;
   const std::string page = program.read("page.html");
-  EXPECT_NE(page.find("no truth: field.nrrd: not found"), std::string::npos);
+  EXPECT_NE(page.find("no reference image: field.nrrd: not found"), std::string::npos);
   EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
 }
 

@@ -50,6 +50,7 @@ TEST_F(Compare, ASideIsNotSlowerThanItself) {
 TEST_F(Compare, FivePercentAreFoundEitherWay) {
   const Result slower = compare(b_as(1.05));
   expect_verdict(slower, 1, "FAIL: 1 slower");
+  EXPECT_NE(slower.output.find(" ms ("), std::string::npos) << slower.output;
   EXPECT_NE(slower.output.find("5 fresh process runs"), std::string::npos) << slower.output;
   expect_verdict(compare(b_as(1 / 1.05)), 0, "PASS: 1 faster");
 }
@@ -130,6 +131,11 @@ TEST_F(Compare, JsonSaysTheSame) {
       result.output.substr(result.output.find("\n{") + 1));  // after the progress
   EXPECT_EQ(json.at("exit_code"), 1);
   const auto& compared = json.at("configurations").at(0);
+  // The scripted times, of which the ratio is the verdict.
+  EXPECT_NEAR(compared.at("a").at("median_ns").get<double>(), 5e6, 0.02 * 5e6);
+  EXPECT_NEAR(compared.at("b").at("median_ns").get<double>(), 5.25e6, 0.02 * 5.25e6);
+  EXPECT_LT(compared.at("b").at("lower_quartile_ns"), compared.at("b").at("median_ns"));
+  EXPECT_GT(compared.at("b").at("upper_quartile_ns"), compared.at("b").at("median_ns"));
   EXPECT_EQ(compared.at("verdict"), "slower");
   EXPECT_NEAR(compared.at("ratio").get<double>(), 1.05, 0.02);
   EXPECT_LT(compared.at("ratio_low"), compared.at("ratio_high"));
@@ -157,6 +163,20 @@ TEST_F(Compare, SideBySideNeedsAStoreOfTwoDevices) {
   ASSERT_EQ(program.run(run, script(1, 1)).code, 0);
   expect_verdict(program.run("compare --apis --store s.sqlite"), 2, "no two devices measured");
   expect_verdict(program.run("compare volume/quick"), 3, "needs two sides");
+}
+
+// Each side is a run of its own.
+TEST_F(Compare, SideBySideReadsWhatAComparisonStored) {
+  const std::string two = R"({"devices": [1, 1.7], "base_ns": 1e6})";
+  const Result compared =
+      program.run(fmt::format("compare volume/quick {} --a null:scripted --b 'null:scripted#2' "
+                              "--budget 1 --store c.sqlite",
+                              tiny_plan),
+                  two);
+  ASSERT_NE(compared.code, 3) << compared.output;
+  const Result table = program.run("compare --apis --store c.sqlite", two);
+  expect_verdict(table, 0, "null:scripted#2");
+  EXPECT_NE(table.output.find("null:scripted "), std::string::npos) << table.output;
 }
 
 }  // namespace

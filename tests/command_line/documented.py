@@ -27,7 +27,7 @@ ELSEWHERE = {
     "ci/drivers/fetch": "needs a network", "ci/drivers/spheres": "ci/test", "analysis/rays": "analysis.unit",
     "ci/peers/embree_spheres": "no test: its packages are not installed",
     "ci/drivers/history": "needs a network", "ci/gpu": "needs a GPU", "ci/bench": "takes hours", "ci/cluster/submit": "cluster tests",
-    "ci/dashboard": "command_line.dashboard", "ci/ratios": "command_line.ratios", "ci/publish": "analysis.publish", "analysis/analyze": "analysis.end_to_end",
+    "ci/dashboard": "command_line.dashboard", "ci/ratios": "command_line.ratios", "ci/publish": "analysis.publish", "analysis/analyze": "analysis.end_to_end", "analysis/notebook": "analysis.end_to_end",
     "apt-get": "examples_test",
     "ctest": "CI", "cmake": "CI", "git": "the triptych command in it is run", "cc": "layer.FramePrograms", "gdb": "interactive", "renderdoccmd": "the triptych command in it is run",
     "apitrace": "the triptych command in it is run", "cat": "", "exit": "", "export": "",

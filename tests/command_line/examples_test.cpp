@@ -3,6 +3,7 @@
 // can be made and a package is given.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -28,17 +29,16 @@ struct Job {
   std::vector<std::string> steps;    // run until the first that fails
   std::vector<std::string> at_last;  // run whatever failed
   std::string kept;                  // the folder of the artifacts
-  std::string junit;                 // a glob
+  std::vector<std::string> reports;  // files and globs that the CI system reads
 };
 
 Job github() {
   Job job;
   for (const YAML::Node& step : YAML::LoadFile(examples / "github.yml")["jobs"]["gate"]["steps"]) {
-    const bool always = step["if"] && step["if"].as<std::string>() == "${{ !cancelled() }}";
+    const bool always = step["if"] && step["if"].as<std::string>().starts_with("${{ !cancelled()");
     if (step["run"]) (always ? job.at_last : job.steps).push_back(step["run"].as<std::string>());
-    if (!always || !step["with"]) continue;
-    if (step["with"]["path"]) job.kept = step["with"]["path"].as<std::string>();
-    if (step["with"]["report_paths"]) job.junit = step["with"]["report_paths"].as<std::string>();
+    if (!always || !step["with"] || !job.kept.empty()) continue;
+    job.kept = step["with"]["path"].as<std::string>();
   }
   return job;
 }
@@ -51,54 +51,72 @@ Job gitlab() {
           .kept = kept["when"].as<std::string>() == "always"
                       ? kept["paths"].as<std::vector<std::string>>().at(0)
                       : "",
-          .junit = kept["reports"]["junit"].as<std::string>()};
+          .reports = {kept["reports"]["junit"].as<std::string>(),
+                      kept["reports"]["codequality"].as<std::string>()}};
 }
 
-// A shell script with these steps. It then runs the last steps, shows the summary as GitHub does,
-// and exits with the code of the first step that failed.
+// A shell script with these steps. Each step of GitHub is a shell of its own, while those of GitLab
+// share one. It then runs the last steps, shows the summary as GitHub does, and exits with the code
+// of the first step that failed.
 std::string script_of(const Job& job) {
-  std::string script = "export GITHUB_STEP_SUMMARY=$PWD/summary\ntouch summary\ncode=0\n";
-  for (const std::string& step : job.steps) {
-    script += fmt::format("[ $code -ne 0 ] || (set -e\n{}\n) || code=$?\n", step);
+  std::vector<std::string> shells = job.steps;
+  if (!job.reports.empty()) shells = {fmt::format("{}", fmt::join(job.steps, "\n"))};
+  std::string script =
+      "export GITHUB_STEP_SUMMARY=$PWD/summary GITHUB_ENV=$PWD/environment\n"
+      "touch summary environment\ncode=0\n";
+  for (const std::string& shell : shells) {
+    script += fmt::format(
+        "cat > step <<'END_OF_STEP'\n{}\nEND_OF_STEP\n[ $code -ne 0 ] || "
+        "(set -a; . ./environment; exec sh -e step) || code=$?\n",
+        shell);
   }
   for (const std::string& step : job.at_last) script += fmt::format("(set -e\n{}\n)\n", step);
   return script + "cat summary\nexit $code\n";
 }
 
 // Replaces the program: it uses a scripted device and one small scene, whatever devices the job
-// requires.
+// requires, and accepts what that leaves of the plan.
 constexpr const char* stand_in = R"(#!/bin/bash
+[ "$1" = gate ] || exec {0} "$@" --drop
 arguments=()
 for each in "$@"; do
   case $each in opencl:* | vulkan:* | gl:*) each='null:*' ;; esac
   arguments+=("$each")
 done
-exec {} "${{arguments[@]}}" volume/quick {}
+exec {0} "${{arguments[@]}}" volume/quick {1}
 )";
 
+// Replaces `git clone URL FOLDER`: a checkout whose ci/package leaves a package.
+constexpr const char* stand_in_git = R"(#!/bin/sh
+[ "$1" = clone ] || exit 0
+mkdir -p "$3/ci"
+printf '#!/bin/sh\nmkdir -p "$1"\ntouch "$1/triptych.deb"\necho built >> builds\n' > "$3/ci/package"
+chmod +x "$3/ci/package"
+)";
+
+// A repository with nothing of Triptych but the job, on a machine whose driver is scripted.
 class Examples : public testing::TestWithParam<Job (*)()> {
  protected:
   void SetUp() override {
-    const std::string right =
-        fmt::format(R"({{"images": {{"*": "{}"}}}})", right_picture(program).string());
-    for (const std::string& command :
-         {fmt::format("run volume/quick {} --store a.sqlite", tiny),
-          std::string("accept volume/quick --store a.sqlite --reason new --baselines baselines")}) {
-      ASSERT_EQ(program.run(command, right).code, 0);
-    }
-    right_ = right;
+    right_ = fmt::format(R"({{"images": {{"*": "{}"}}}})", right_picture(program).string());
     fs::create_directory(program.folder() / "bin");
     make("triptych", fmt::format(stand_in, TRIPTYCH_PROGRAM, tiny));
     make("apt-get", "#!/bin/sh\n");
+    make("git", stand_in_git);
   }
 
-  [[nodiscard]] Result run(const Job& job, const std::string& device) const {
-    program.write("job", script_of(job));
-    return test::run_command(fmt::format(
-        "cd '{}' && PATH=\"$PWD/bin:$PATH\" TRIPTYCH_DATA= TRIPTYCH_NULL_SCRIPT='{}' sh job",
-        program.folder().string(), device));
+  [[nodiscard]] Result run(const std::string& device, const std::string& accept = {}) const {
+    const bool on_github = GetParam() == &github;
+    program.write("job", script_of(GetParam()()));
+    return test::run_command(
+        fmt::format("cd '{}' && env PATH=\"$PWD/bin:$PATH\" TRIPTYCH_DATA= "
+                    "TRIPTYCH_NULL_SCRIPT='{}' ACCEPT='{}' "
+                    "TRIPTYCH_GIT=address TRIPTYCH_COMMIT=main {} sh job",
+                    program.folder().string(), device, accept,
+                    on_github ? "GITHUB_ACTIONS=true" : "GITLAB_CI=true"));
   }
-  [[nodiscard]] Result pass(const Job& job) const { return run(job, right_); }
+  [[nodiscard]] Result pass() const { return run(right_); }
+  [[nodiscard]] Result accept() const { return run(right_, "they are right"); }
 
   Program program;
 
@@ -111,22 +129,47 @@ class Examples : public testing::TestWithParam<Job (*)()> {
   std::string right_;
 };
 
-TEST_P(Examples, ArePassedByAGoodDriverAndKeepEverything) {
+TEST_P(Examples, GoGreenRedAndGreenInARepositoryOfTheirOwn) {
+  // The scripted device is new to the baselines that come with Triptych.
+  EXPECT_EQ(pass().code, 2);
+  EXPECT_EQ(accept().code, 2);
+  ASSERT_TRUE(fs::exists(program.folder() / "baselines/volume/quick/manifest.json"));
+  const Result green = pass();
+  EXPECT_EQ(green.code, 0) << green.output;
+  EXPECT_THAT(green.output, HasSubstr("## PASS"));
+  const Result red = run("{}");
+  EXPECT_EQ(red.code, 1) << red.output;
+  EXPECT_THAT(red.output.substr(red.output.find("## ")),
+              AllOf(HasSubstr("pixels exceed the error bound"), HasSubstr("image")));
+  const Result mended = pass();
+  EXPECT_EQ(mended.code, 0) << mended.output;
+  EXPECT_EQ(program.read("builds"), "built\n") << "the package is built once and then kept";
+}
+
+TEST_P(Examples, KeepEverythingAndAnnotate) {
+  ASSERT_EQ(accept().code, 2);
+  const Result red = run("{}");
   const Job job = GetParam()();
-  const Result done = pass(job);
-  EXPECT_EQ(done.code, 0) << done.output;
-  EXPECT_THAT(done.output, HasSubstr("## "));
   for (const char* file : {"report.html", "gate.sqlite", "summary.md", "volume-quick.xml"}) {
     EXPECT_TRUE(fs::exists(program.folder() / job.kept / file)) << file;
   }
-  EXPECT_EQ(job.junit, "out/*.xml");
+  if (GetParam() == &github) {
+    EXPECT_THAT(red.output, HasSubstr("\n::error file=baselines/volume/quick/counters.json,line="));
+    return;
+  }
+  EXPECT_EQ(job.reports, (std::vector<std::string>{"out/*.xml", "out/codequality.json"}));
+  EXPECT_THAT(program.read("out/codequality.json"), HasSubstr("\"severity\": \"major\""));
 }
 
-TEST_P(Examples, AreRedForAWrongPictureAndSayIt) {
-  const Result done = run(GetParam()(), "{}");
-  EXPECT_EQ(done.code, 1) << done.output;
-  EXPECT_THAT(done.output.substr(done.output.find("## ")),
-              AllOf(HasSubstr("pixels exceed the error bound"), HasSubstr("image")));
+// A driver of one's own is used by all steps that follow.
+TEST_P(Examples, UseTheDriverThatIsLeftInTheRepository) {
+  const fs::path icd = program.folder() / "mesa/share/vulkan/icd.d";
+  fs::create_directories(icd);
+  program.write("mesa/share/vulkan/icd.d/lvp_icd.json", "{}");
+  program.write("bin/triptych",
+                "#!/bin/sh\necho \"driver: $VK_DRIVER_FILES\"\nmkdir -p out\n"
+                "touch out/summary.md\n");
+  EXPECT_THAT(pass().output, HasSubstr("driver: " + (icd / "lvp_icd.json").string()));
 }
 
 // Takes about ten minutes, so it runs only if a package for the release is given.
@@ -138,8 +181,14 @@ TEST_P(Examples, RunInABareSystem) {
   }
   if (::geteuid() != 0) GTEST_SKIP() << "needs root, to make a bare system";
   Job job = GetParam()();
-  if (job.steps.size() > 1) job.steps.erase(job.steps.begin());  // ci/fresh has installed it
-  job.steps.back() += " --inject 'slowdown:5@*technique=raycast,*' volume/cost";
+  // ci/fresh has installed the package.
+  std::erase_if(job.steps, [](const std::string& step) {
+    return step.find("triptych gate") == std::string::npos;
+  });
+  const std::string gate = "triptych gate --measure";
+  std::string& step = job.steps.back();
+  step.replace(step.find(gate), gate.size(),
+               gate + " --inject 'slowdown:5@*technique=raycast,*' volume/cost");
   program.write("job", script_of(job));
   const Result done = test::run_command(
       fmt::format("'{}/ci/fresh' --deb '{}' {} \"$(cat '{}/job')\"", TRIPTYCH_SOURCE_FOLDER,

@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "program.hpp"
+#include "right_picture.hpp"
 
 namespace triptych::command_line {
 namespace {
@@ -37,6 +40,40 @@ TEST_F(Export, WritesTablesAndSaysHowManyRows) {
     EXPECT_EQ(std::ranges::count(text, '\n'), count.get<int>() + 1) << table;
   }
   EXPECT_THAT(program.read("tables/records.csv"), HasSubstr(",factor_step,"));
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+// Run time against error can be drawn from the tables alone. A right image has no error against its
+// reference image, and one against the limit that falls with the step.
+TEST_F(Export, HasEveryErrorOfEveryImage) {
+  const std::string right = R"({"images": {"*": ")" + right_picture(program).string() + R"("}})";
+  ASSERT_EQ(program
+                .run(std::string("run volume/quick --store e.sqlite ") + tiny +
+                         " --set quadrature=midpoint",
+                     right)
+                .code,
+            0);
+  const Result result = program.run("export e.sqlite --errors --out tables");
+  ASSERT_EQ(result.code, 0) << result.output;
+  const std::vector<std::string> rows = lines_of(program.read("tables/errors.csv"));
+  ASSERT_GE(rows.size(), 5U) << program.read("tables/errors.csv") << result.output;
+  EXPECT_EQ(rows[0], "record,against,metric,error");
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::string start =
+        "1,reference," + std::array<std::string, 4>{"rms", "covered", "p99.9", "max"}.at(i) + ",";
+    ASSERT_TRUE(rows[i + 1].starts_with(start)) << rows[i + 1];
+  }
+  const auto dictionary = nlohmann::json::parse(program.read("tables/dictionary.json"));
+  EXPECT_EQ(dictionary["tables"]["errors"]["columns"][3]["unit"], "full scale");
+  EXPECT_EQ(dictionary["tables"]["energy"]["columns"][2]["unit"], "microjoules");
+  EXPECT_THAT(program.read("tables/records.csv"),
+              HasSubstr(",volume.quick.raycast.gaussian_blob_16."));
 }
 
 TEST_F(Export, IsTheSameTwice) {

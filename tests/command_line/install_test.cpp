@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <regex>
 
 #include "program.hpp"
+#include "tree.hpp"
 
 namespace triptych::command_line {
 namespace {
@@ -67,6 +69,50 @@ TEST_F(Installed, JudgesByTheBaselinesInstalledWithIt) {
                             " && triptych gate --check counters --json" + scene);
   EXPECT_EQ(judged.code, 2) << judged.output;
   EXPECT_THAT(judged.output, HasSubstr("no baselines in " + kept + "/volume/quick"));
+}
+
+// Every link of the installed documentation to another file leads to a file.
+TEST_F(Installed, HasTheWholeDocumentation) {
+  const std::filesystem::path documents = prefix() + "/share/doc/triptych";
+  const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
+  std::size_t links = 0;
+  for (const auto& [name, text] : tree(documents)) {
+    if (!name.ends_with(".md")) continue;
+    for (std::sregex_iterator at(text.begin(), text.end(), link), end; at != end; ++at) {
+      const auto target = documents / std::filesystem::path(name).parent_path() / (*at)[1].str();
+      EXPECT_TRUE(std::filesystem::exists(target)) << name << ": " << (*at)[1];
+      ++links;
+    }
+  }
+  EXPECT_GT(links, 100U);
+}
+
+// Accepting starts the user's own baselines, which from then on are the ones to judge by. An
+// installation may be shared, and that of a container is lost.
+TEST_F(Installed, AcceptsIntoTheWorkingDirectoryAndNowhereElse) {
+  const std::filesystem::path installed = prefix() + "/share/triptych/baselines";
+  const auto before = tree(installed);
+  const std::string scene = std::string(" volume/quick --store s.sqlite ") + tiny;
+  const std::string device = "export TRIPTYCH_NULL_SCRIPT='{}'; ";
+  const Result refused =
+      run("mkdir repository && cd repository && " + device + "triptych run" + scene +
+          " --inject coarse_filter; triptych accept --store s.sqlite "
+          "--reason new");
+  EXPECT_EQ(refused.code, 3) << refused.output;
+  EXPECT_TRUE(tree(folder.path() / "repository/baselines").empty());
+  const Result accepted = run("cd repository && " + device + "triptych run" + scene +
+                              " && triptych accept --store s.sqlite --drop --reason new");
+  EXPECT_EQ(accepted.code, 0) << accepted.output;
+  EXPECT_THAT(accepted.output, HasSubstr("baselines is new: everything else in it is a copy of " +
+                                         installed.string()));
+  EXPECT_TRUE(tree(installed) == before);
+  auto own = tree(folder.path() / "repository/baselines");
+  EXPECT_EQ(own.at("volume/cost/manifest.json"), before.at("volume/cost/manifest.json"));
+  EXPECT_NE(own.at("volume/quick/manifest.json"), before.at("volume/quick/manifest.json"));
+  const Result judged =
+      run("cd repository && " + device + "triptych gate --check counters" + scene);
+  EXPECT_EQ(judged.code, 0) << judged.output;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "repository/.baselines.starting"));
 }
 
 TEST_F(Installed, CompletesCommandsOptionsAndPlans) {

@@ -80,7 +80,8 @@ class Kill : public testing::Test {
 
 // "3/8 null:scripted …" is printed for a configuration after it was stored.
 TEST_F(Kill, ARunLosesNothingThatItToldOf) {
-  const std::string run = "run " + volume + " --set step=0.5,1 --set ert=0,0.002 --store s.sqlite";
+  const std::string run =
+      "run " + volume + " --verbose --set step=0.5,1 --set ert=0,0.002 --store s.sqlite";
   kill_repeatedly(
       words_of(run), [&] { remove_store("s.sqlite"); },
       [&] {
@@ -177,9 +178,9 @@ cat told; exit $code
   for (int i = 0; i < std::min(kills(), 100) / 4; ++i) {
     remove_store("s.sqlite");
     const std::string delay = fmt::format("{:.2f}", random.uniform(0, 0.5));
-    const Result result =
-        program.run("run " + volume + " --set step=0.5,1 --set ert=0,0.002 --store s.sqlite",
-                    R"({"base_ns": 10000000, "sleep": true})", "sh kill_worker.sh " + delay);
+    const Result result = program.run(
+        "run " + volume + " --verbose --set step=0.5,1 --set ert=0,0.002 --store s.sqlite",
+        R"({"base_ns": 10000000, "sleep": true})", "sh kill_worker.sh " + delay);
     SCOPED_TRACE(delay + result.output);
     EXPECT_EQ(result.code, 0);
     const auto told = [&](const char* what) {

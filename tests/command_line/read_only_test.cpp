@@ -55,7 +55,7 @@ TEST_F(ReadOnly, IsAccepted) {
 TEST_F(ReadOnly, IsReported) {
   const Result reported = run("report --store kept/s.sqlite --out own/page.html --baselines own/b");
   EXPECT_EQ(reported.code, 0) << reported.output;
-  EXPECT_NE(program.read("own/page.html").find("the truth"), std::string::npos);
+  EXPECT_NE(program.read("own/page.html").find("the reference image"), std::string::npos);
 }
 
 // A writable file in a folder that is not writable: it can be opened, but not changed.
@@ -65,7 +65,7 @@ TEST_F(ReadOnly, InAFolderAloneIsJudgedToo) {
   const Result judged = run("gate volume/quick --store kept/s.sqlite --baselines own/b");
   EXPECT_EQ(judged.code, 2) << judged.output;
   EXPECT_NE(judged.output.find("there are no baselines"), std::string::npos) << judged.output;
-  EXPECT_EQ(judged.output.find("no truth"), std::string::npos) << judged.output;
+  EXPECT_EQ(judged.output.find("no reference image"), std::string::npos) << judged.output;
 }
 
 TEST_F(ReadOnly, TakesNoNewRun) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "program.hpp"
+#include "right_picture.hpp"
 #include "support/well_formed.hpp"
 
 namespace triptych::command_line {
@@ -48,6 +49,16 @@ TEST_F(ReportTest, EveryChartIsDrawn) {
     EXPECT_EQ(test::xml_fault(figure), "");
     EXPECT_EQ(figure.find("nan"), std::string::npos);
   }
+}
+
+// A plan without baselines is an exploration, unless an image is wrong.
+TEST_F(ReportTest, WithoutBaselinesBeginsWithResults) {
+  const std::string run = std::string("run volume/quick --untimed --store s.sqlite ") + tiny;
+  const std::string right = R"({"images": {"*": ")" + right_picture(program_).string() + R"("}})";
+  ASSERT_EQ(program_.run(run, right).code, 0);
+  EXPECT_THAT(report(), HasSubstr("<h1>Results without baselines (2)</h1>"));
+  ASSERT_EQ(program_.run(run).code, 0);
+  EXPECT_THAT(report(), HasSubstr("<h1>FAIL (1)</h1>"));
 }
 
 TEST_F(ReportTest, NeedsNoNetwork) {

@@ -49,22 +49,84 @@ void set_values(const Suite& suite, const std::vector<PlanEntry>& entries, Block
   }
 }
 
-void apply(const Overrides& overrides, const Suite& suite, BlockText& block) {
-  std::vector<std::string> seen;
+// An override with its values as they were typed.
+struct PlacedOverride {
+  const Factor* factor;
+  std::vector<PlacedText> values;
+};
+
+std::vector<PlacedOverride> placed(const Overrides& overrides, const Suite& suite) {
+  std::vector<PlacedOverride> all;
   for (const auto& [name, texts] : overrides) {
     const core::FilePlace place{.file = "--set " + name};
     // A separate variable, because GCC 14 takes the reference for one into the argument, and warns.
     const PlacedText placed_name{.text = name, .place = place};
     const Factor& factor = factor_of(suite, placed_name);
-    if (std::ranges::find(seen, name) != seen.end()) {
+    if (std::ranges::find(all, &factor, &PlacedOverride::factor) != all.end()) {
       throw core::InputError(place, "given twice; put all values into one list: a,b");
     }
-    seen.push_back(name);
     if (texts.empty()) throw core::InputError(place, "expected factor=value or factor=a,b");
-    std::vector<PlacedText> placed;
-    for (const std::string& each : texts) placed.push_back({.text = each, .place = place});
-    block.set(suite, factor, placed);
+    std::vector<PlacedText> values;
+    for (const std::string& each : texts) values.push_back({.text = each, .place = place});
+    all.push_back({&factor, std::move(values)});
   }
+  return all;
+}
+
+// Replaces the values of the block.
+void apply(const std::vector<PlacedOverride>& overrides, const Suite& suite, BlockText& block) {
+  for (const PlacedOverride& each : overrides) block.set(suite, *each.factor, each.values);
+}
+
+std::vector<std::string> values_in(const BlockText& block, const Factor& factor) {
+  const auto found = block.values.find(factor.name);
+  return found == block.values.end() ? std::vector{standard_of(factor)} : found->second;
+}
+
+// Keeps only the values that are also among these. Returns false if none is left.
+bool keep_values(const std::vector<std::string>& values, const Factor& factor, BlockText& block) {
+  const std::vector<std::string> known = values_in(block, factor);
+  std::vector<std::string> kept;
+  for (const std::string& each : values) {
+    if (std::ranges::find(known, each) != known.end()) kept.push_back(each);
+  }
+  if (kept.empty()) return false;
+  block.values[factor.name] = std::move(kept);
+  return true;
+}
+
+// In a plan of several blocks, an override whose values all occur in the plan selects
+// configurations of the plan: each block keeps those of its values, and a block without any of them
+// is left out. If it replaced the values of each block, it would make combinations that the plan
+// does not have, and for which nothing is stored. An override with another value replaces the
+// values of each block, and so do overrides that no block has in common.
+std::vector<bool> apply_to_all(const std::vector<PlacedOverride>& overrides, const Suite& suite,
+                               std::vector<BlockText>& blocks) {
+  std::vector<BlockText> chosen = blocks;
+  std::vector<bool> used(blocks.size(), true);
+  for (const PlacedOverride& each : overrides) {
+    const Factor& factor = *each.factor;
+    const std::vector<std::string> values = canonical_values(suite, factor, each.values);
+    const bool known = std::ranges::all_of(values, [&](const std::string& value) {
+      return std::ranges::any_of(blocks, [&](const BlockText& block) {
+        const std::vector<std::string> in_block = values_in(block, factor);
+        return std::ranges::find(in_block, value) != in_block.end();
+      });
+    });
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      if (!known || is_automatic(factor, each.values)) {
+        chosen[i].set(suite, factor, each.values);
+      } else if (!keep_values(values, factor, chosen[i])) {
+        used[i] = false;
+      }
+    }
+  }
+  if (std::ranges::find(used, true) != used.end()) {
+    blocks = std::move(chosen);
+    return used;
+  }
+  for (BlockText& block : blocks) apply(overrides, suite, block);
+  return std::vector<bool>(blocks.size(), true);
 }
 
 // --- where plans come from
@@ -177,15 +239,21 @@ OpenPlan open_plan(std::string_view name_or_file, const Overrides& overrides,
   const PlanText text = parse_plan(source.yaml, source.file);
   const Suite& suite = suite_of(source, text, find_suite);
   std::vector<BlockText> texts(1 + text.also.size());
+  const auto entries_of = [&](std::size_t block) {
+    std::vector<const std::vector<PlanEntry>*> entries{&text.entries};
+    if (block > 0) entries.push_back(&text.also[block - 1]);
+    return entries;
+  };
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    for (const auto* each : entries_of(i)) set_values(suite, *each, texts[i]);
+  }
+  const std::vector<bool> used = apply_to_all(placed(overrides, suite), suite, texts);
   std::vector<ValuesByFactor> blocks;
   std::vector<core::FilePlace> places;
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    std::vector<const std::vector<PlanEntry>*> entries{&text.entries};
-    if (i > 0) entries.push_back(&text.also[i - 1]);
-    for (const auto* each : entries) set_values(suite, *each, texts[i]);
-    apply(overrides, suite, texts[i]);
+    if (!used[i]) continue;
     blocks.push_back(texts[i].values);
-    places.push_back(longest_place(source, blocks[i], entries, overrides));
+    places.push_back(longest_place(source, blocks.back(), entries_of(i), overrides));
   }
   Combinations combinations(suite, blocks);
   Plan plan = plan_of(source.name, suite, combinations);
@@ -196,8 +264,8 @@ OpenPlan open_plan(std::string_view name_or_file, const Overrides& overrides,
   for (const ValuesByFactor& block : blocks) {
     for (const auto& [factor, values] : block) plan.named.insert(factor);
   }
-  for (const BlockText& block : texts) {
-    plan.automatic.insert(block.automatic.begin(), block.automatic.end());
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (used[i]) plan.automatic.insert(texts[i].automatic.begin(), texts[i].automatic.end());
   }
   return {std::move(plan), suite, std::move(combinations), std::move(places)};
 }
@@ -261,7 +329,7 @@ Plan list_plan(std::string_view name_or_file, const Overrides& overrides,
 
 Plan default_plan(const Suite& suite, const Overrides& overrides) {
   BlockText block;
-  apply(overrides, suite, block);
+  apply(placed(overrides, suite), suite, block);
   const Combinations combinations(suite, {block.values});
   require_few(combinations, {{.file = "--set"}}, {});
   Plan plan = plan_of(std::string(suite.name()) + "/defaults", suite, combinations);

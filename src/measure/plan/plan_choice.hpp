@@ -11,8 +11,23 @@ namespace triptych::measure {
 struct PlanChoice {
   std::vector<std::string> set = {};  // each is "factor=a,b"
   std::string shard = {};             // "i/n"; empty: the whole plan
+  // These select among the configurations: those that match one of the globs
+  // (record::names_configuration), those that the file lists, and an n-th of what is left.
+  std::vector<std::string> filter = {};
+  std::string caselist = {};  // a file with a name or a key in each line
+  std::string fraction = {};  // "1/n"
 
-  // Like load_plan(). All functions throw core::InputError.
+  // Whether the plan is loaded as it is written.
+  [[nodiscard]] bool is_whole() const { return set.empty() && shard.empty() && !selects(); }
+  // Whether configurations are selected by name or by chance, which may leave none of a plan.
+  [[nodiscard]] bool selects() const {
+    return !filter.empty() || !caselist.empty() || !fraction.empty();
+  }
+  // The options that select, as they were typed.
+  [[nodiscard]] std::string selection_text() const;
+
+  // Like load_plan(). The fraction is the same every time: the configurations are chosen by the
+  // hash of their keys. At least one is chosen. All functions throw core::InputError.
   [[nodiscard]] Plan load(const std::string& plan, const FindSuite& find_suite) const;
   // "factor=a,b" → {factor, {a, b}}. Each value may be written plainly or as record::escaped writes
   // it.

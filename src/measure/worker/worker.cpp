@@ -66,6 +66,17 @@ struct BadInput : core::NotSupported {
   using NotSupported::NotSupported;
 };
 
+// A data file is not here, which is not the device's fault either.
+class MissingData : public core::NotSupported {
+ public:
+  MissingData(const std::string& reason, std::string data)
+      : NotSupported(reason), data_(std::move(data)) {}
+  [[nodiscard]] const std::string& data() const { return data_; }
+
+ private:
+  std::string data_;
+};
+
 // Host memory is exhausted. The reason contains the limit that --memory or the user's limits set
 // for a worker.
 record::Reason out_of_memory(const std::string& data) {
@@ -91,6 +102,9 @@ void outcome_of(const Act& act, const std::string& data, const OnFailure& on_fai
     act();
   } catch (const BadInput& error) {
     on_failure(Outcome::skipped, {.cause = Cause::bad_input, .detail = error.what()});
+  } catch (const MissingData& error) {
+    on_failure(Outcome::skipped,
+               {.cause = Cause::not_supported, .subject = error.data(), .detail = error.what()});
   } catch (const core::NotSupported& error) {
     on_failure(Outcome::skipped, {.cause = Cause::not_supported, .detail = error.what()});
   } catch (const core::DeviceLost& error) {
@@ -228,7 +242,7 @@ class Worker {
     const auto data = configuration.find("data");
     data_ = data == configuration.end() ? "none" : data->second;
     if (std::string reason = suite_.missing_data(configuration); !reason.empty()) {
-      throw core::NotSupported(reason);
+      throw MissingData(reason, data_);
     }
     Work work = suite_.work(configuration, *device_);
     for (const std::string& fault : faults) inject(fault, work);

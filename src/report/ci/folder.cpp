@@ -60,18 +60,21 @@ std::string log_of(const judge::GateResult& result) {
 
 std::vector<std::string> write_folder(const std::filesystem::path& folder,
                                       std::span<const judge::GateResult> results,
-                                      const std::string& page, const std::string& benchmark) {
+                                      const FolderTexts& texts) {
   std::string log;
   for (const judge::GateResult& result : results) {
     log += log_of(result);
     std::string name = result.plan + ".xml";
     std::ranges::replace(name, '/', '-');
-    core::write_file(junit(result), folder / name);
+    core::write_file(junit(result, texts.junit), folder / name);
   }
   core::write_file(log, folder / "gate.log");
   core::write_file(markdown(results), folder / "summary.md");
-  core::write_file(page, folder / "report.html");
-  core::write_file(benchmark, folder / "benchmark.json");
+  core::write_file(texts.page, folder / "report.html");
+  core::write_file(texts.benchmark, folder / "benchmark.json");
+  if (!texts.code_quality.empty()) {
+    core::write_file(texts.code_quality, folder / "codequality.json");
+  }
   return {(folder / "report.html").string(), (folder / "gate.log").string(),
           (folder / "summary.md").string()};
 }

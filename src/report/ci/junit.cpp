@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
+#include "record/short_name.hpp"
 #include "report/finding_groups.hpp"
 #include "report/html.hpp"
 #include "report/words/finding.hpp"
@@ -26,6 +28,7 @@ std::string properties(const Finding& finding) {
     text +=
         fmt::format("        <property name=\"{}\" value=\"{}\"/>\n", escape(name), escape(value));
   };
+  if (!finding.configuration.empty()) add("configuration", finding.configuration);
   add("cause", judge::name_of(finding.cause));
   if (finding.against != judge::Against::nothing) {
     add("against", judge::name_of(finding.against));
@@ -46,10 +49,44 @@ std::string properties(const Finding& finding) {
   return "      <properties>\n" + text + "      </properties>\n";
 }
 
-std::string test_case(const Finding& finding, const judge::GateResult& result) {
-  const std::string name = finding.configuration.empty() ? "plan" : finding.configuration;
-  std::string text = fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n",
-                                 escape(finding.test), escape(name));
+std::string name_of(const Finding& finding) {
+  if (finding.configuration.empty()) return "plan";
+  const std::string name = record::short_name(finding.configuration);
+  return name.empty() ? finding.configuration : name;
+}
+
+// One document. Remembers which configurations have had their time.
+class Junit {
+ public:
+  explicit Junit(const JunitFacts& facts) : facts_(facts) {}
+  std::string test_suites(const judge::GateResult& result);
+
+ private:
+  std::string test_case(const Finding& finding, const judge::GateResult& result);
+  double take_seconds(const Finding& finding, const judge::GateResult& result);
+
+  const JunitFacts& facts_;
+  std::set<std::string> timed_;
+};
+
+double Junit::take_seconds(const Finding& finding, const judge::GateResult& result) {
+  const auto plan = facts_.seconds.find(result.plan);
+  if (plan == facts_.seconds.end()) return 0;
+  const auto found = plan->second.find({finding.device, finding.configuration});
+  const std::string key = result.plan + '\n' + finding.device + '\n' + finding.configuration;
+  return found != plan->second.end() && timed_.insert(key).second ? found->second : 0;
+}
+
+std::string Junit::test_case(const Finding& finding, const judge::GateResult& result) {
+  std::string text =
+      fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"",
+                  escape(finding.test), escape(name_of(finding)), take_seconds(finding, result));
+  const SourcePlace place =
+      facts_.places == nullptr ? SourcePlace{} : facts_.places->of(finding, result);
+  if (!place.file.empty()) {
+    text += fmt::format(" file=\"{}\" line=\"{}\"", escape(place.file), place.line);
+  }
+  text += ">\n";
   text += properties(finding);
   const std::string message = escape(words::text_of(finding));
   if (is_open(finding)) {
@@ -64,7 +101,7 @@ std::string test_case(const Finding& finding, const judge::GateResult& result) {
   return text + "    </testcase>\n";
 }
 
-std::string test_suites(const judge::GateResult& result) {
+std::string Junit::test_suites(const judge::GateResult& result) {
   std::map<std::string, std::vector<const Finding*>> suites;
   for (const Finding& finding : result.findings) {
     suites[std::string(judge::name_of(finding.check))].push_back(&finding);
@@ -86,14 +123,15 @@ std::string test_suites(const judge::GateResult& result) {
 
 }  // namespace
 
-std::string junit(std::span<const judge::GateResult> results) {
+std::string junit(std::span<const judge::GateResult> results, const JunitFacts& facts) {
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
-  for (const judge::GateResult& result : results) text += test_suites(result);
+  Junit document(facts);
+  for (const judge::GateResult& result : results) text += document.test_suites(result);
   return text + "</testsuites>\n";
 }
 
-std::string junit(const judge::GateResult& result) {
-  return junit(std::span(&result, 1));
+std::string junit(const judge::GateResult& result, const JunitFacts& facts) {
+  return junit(std::span(&result, 1), facts);
 }
 
 }  // namespace triptych::report

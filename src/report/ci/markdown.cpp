@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "core/quoting.hpp"
 #include "report/overview.hpp"
@@ -39,8 +40,8 @@ std::string item(const Cause& cause) {
 std::string bounds(const Overview& all) {
   if (all.bounds.empty()) return {};
   std::string text =
-      "\n<details><summary>How close images come to their bounds</summary>\n\n| plan | device | "
-      "images | largest error over bound | where |\n|---|---|--:|--:|---|\n";
+      "\n<details><summary>How close images come to their bounds</summary>\n\n"
+      "| plan | device | images | largest error over bound | where |\n|---|---|--:|--:|---|\n";
   for (const NearestBound& bound : all.bounds) {
     text += fmt::format("| {} | {} | {} | {:.3g} | {} |\n", markdown_escaped(bound.plan),
                         markdown_escaped(bound.device), bound.pictures, bound.share,
@@ -48,6 +49,19 @@ std::string bounds(const Overview& all) {
     if (text.size() > most_of_bounds) break;
   }
   return text + "\n</details>\n";
+}
+
+// Skips and advice are on the page. In a summary they would hide what is new.
+std::string counted(const std::map<std::string_view, std::size_t>& remarks) {
+  if (remarks.empty()) return {};
+  std::size_t all = 0;
+  std::string checks;
+  for (const auto& [check, count] : remarks) {
+    all += count;
+    checks += fmt::format("{}{} {}", checks.empty() ? "" : ", ", check, count);
+  }
+  return fmt::format("\n{} remark{} without effect on the verdict, in report.html: {}\n", all,
+                     all == 1 ? "" : "s", checks);
 }
 
 }  // namespace
@@ -102,8 +116,16 @@ std::string markdown(std::span<const judge::GateResult> results) {
       rest.push_back(&all.open[i]);
     }
   }
-  for (const Cause& cause : all.aside) rest.push_back(&cause);
-  text += bounds(all);
+  std::map<std::string_view, std::size_t> remarks;  // by check
+  for (const Cause& cause : all.aside) {
+    const judge::Verdict verdict = cause.group.first->verdict;
+    if (verdict == judge::Verdict::waived || verdict == judge::Verdict::improved) {
+      rest.push_back(&cause);
+    } else {
+      ++remarks[judge::name_of(cause.group.first->check)];
+    }
+  }
+  text += bounds(all) + counted(remarks);
   if (rest.empty()) return text;
   text += fmt::format("\n<details><summary>{} more</summary>\n\n", rest.size());
   for (const Cause* cause : rest) {

@@ -58,6 +58,15 @@ Json to_json(const Compared& compared, bool timed, const ComparisonCommand& comm
     const auto set = [&json](const char* name, double ln) {
       if (std::isfinite(ln)) json[name] = std::exp(ln);
     };
+    if (compared.times) {
+      const auto side = [](const comparison::SideTime& time) {
+        return Json{{"median_ns", time.median},
+                    {"lower_quartile_ns", time.lower_quartile},
+                    {"upper_quartile_ns", time.upper_quartile}};
+      };
+      json["a"] = side((*compared.times)[0]);
+      json["b"] = side((*compared.times)[1]);
+    }
     set("ratio", compared.shift.estimate);
     set("ratio_low", compared.shift.interval.low);
     set("ratio_high", compared.shift.interval.high);

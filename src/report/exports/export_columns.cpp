@@ -1,6 +1,7 @@
 #include "report/exports/export_columns.hpp"
 
 #include "core/json_text.hpp"
+#include "record/short_name.hpp"
 #include "report/words/outcome.hpp"
 
 namespace triptych::report {
@@ -55,6 +56,8 @@ Columns<RecordSource> what_it_was() {
       {{"plan", "text", "", "the plan that was run"}, of(&Record::plan)},
       {{"configuration", "text", "", "what the plan named, factor=value,…"},
        of(&Record::configuration)},
+      {{"name", "text", "", "the configuration's short name"},
+       [](const RecordSource& s) { return record::short_name(s.record); }},
       {{"scene", "text", "", "the factors that determine the image"}, of(&Record::scene)},
       {{"technique", "text", "", "the technique"}, of(&Record::technique)},
       {{"device", "text", "", "the device's id, see devices"}, of(&Record::device)},

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -123,9 +124,46 @@ Columns<CodeSource> code_columns() {
   };
 }
 
+struct ErrorSource {
+  std::uint64_t record;
+  const ImageError& error;
+};
+
+Columns<ErrorSource> error_columns() {
+  return {
+      {{"record", "integer", "", numbers}, [](const ErrorSource& s) { return s.record; }},
+      {{"against", "text", "",
+        "reference: the image in double precision on the same samples; limit: the image with ever "
+        "finer sampling"},
+       [](const ErrorSource& s) { return s.error.against; }},
+      {{"metric", "text", "",
+        "rms: over all pixels and channels; covered: over the pixels that show something; p99.9: "
+        "percentile over the pixels; max: the largest"},
+       [](const ErrorSource& s) { return s.error.metric; }},
+      {{"error", "number", "full scale", "difference of linear color, 1 is white"},
+       [](const ErrorSource& s) { return s.error.error; }},
+  };
+}
+
+struct EnergySource {
+  std::uint64_t record;
+  const std::string& meter;
+  std::uint64_t microjoules;
+};
+
+Columns<EnergySource> energy_columns() {
+  return {
+      {{"record", "integer", "", numbers}, [](const EnergySource& s) { return s.record; }},
+      {{"meter", "text", "", "what was metered"}, [](const EnergySource& s) { return s.meter; }},
+      {{"energy_uj", "integer", "microjoules", "of one frame"},
+       [](const EnergySource& s) { return s.microjoules; }},
+  };
+}
+
 class Tables {
  public:
-  Tables(const std::filesystem::path& folder, const RecordNames& names)
+  Tables(const std::filesystem::path& folder, const RecordNames& names,
+         const ExportRequest& request)
       : runs_(folder, "runs", "one `triptych run` a row", run_columns()),
         devices_(folder, "devices", "a device of a run a row", device_columns()),
         clocks_(folder, "clocks", "a device's clock for one kind of work a row", clock_columns()),
@@ -137,7 +175,13 @@ class Tables {
         statistics_(folder, "statistics", "a pipeline statistic a row",
                     value_columns("of one frame, by the driver")),
         cost_(folder, "cost", "a part of a cost a row", cost_columns()),
-        code_(folder, "code", "one statistic of one executable per row", code_columns()) {}
+        code_(folder, "code", "one statistic of one executable per row", code_columns()),
+        energy_(folder, "energy", "one meter of a record per row", energy_columns()),
+        errors_of_(request.errors) {
+    if (errors_of_) {
+      errors_.emplace(folder, "errors", "one error of a record's image per row", error_columns());
+    }
+  }
 
   void add(const Store& store, const Run& run) {
     runs_.add({store.file().string(), run});
@@ -158,6 +202,8 @@ class Tables {
     statistics_.end(dictionary, rows);
     cost_.end(dictionary, rows);
     code_.end(dictionary, rows);
+    energy_.end(dictionary, rows);
+    if (errors_) errors_->end(dictionary, rows);
   }
 
  private:
@@ -181,6 +227,11 @@ class Tables {
         code_.add({number, executable, name, value});
       }
     }
+    for (const auto& [meter, microjoules] : record.energy) {
+      energy_.add({number, meter, microjoules});
+    }
+    if (!errors_) return;
+    for (const ImageError& each : errors_of_(record)) errors_->add({number, each});
   }
 
   std::uint64_t last_ = 0;
@@ -191,6 +242,9 @@ class Tables {
   Table<SampleSource> samples_;
   Table<ValueSource> counters_, statistics_, cost_;
   Table<CodeSource> code_;
+  Table<EnergySource> energy_;
+  std::function<std::vector<ImageError>(const Record&)> errors_of_;
+  std::optional<Table<ErrorSource>> errors_;
 };
 
 struct RunInStore {
@@ -240,7 +294,7 @@ ExportedRows export_tables(const std::vector<const Store*>& stores, const Export
   const std::vector<RunInStore> runs = runs_of(stores, request.plan);
   const std::filesystem::path dictionary_file = request.folder / "dictionary.json";
   std::filesystem::remove(dictionary_file);
-  Tables tables(request.folder, names_of(runs));
+  Tables tables(request.folder, names_of(runs), request);
   for (const auto& [store, run] : runs) {
     if (request.begins) request.begins(run);
     tables.add(*store, run);

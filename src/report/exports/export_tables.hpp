@@ -13,11 +13,20 @@
 
 namespace triptych::report {
 
+// An error of a record's image, in full scale (1 = white).
+struct ImageError {
+  std::string against;  // "reference" or "limit"
+  std::string metric;   // "rms", "covered", "p99.9" or "max"
+  double error = 0;
+};
+
 struct ExportRequest {
   std::string plan;  // empty: all plans
   std::filesystem::path folder;
   std::string made_by;                                  // the program and its version
   std::function<void(const record::Run&)> begins = {};  // called with each run that is begun
+  // The errors of a record's image; empty: the table of errors is not written.
+  std::function<std::vector<ImageError>(const record::Record&)> errors = {};
 };
 
 // The number of rows of each table.

@@ -37,7 +37,8 @@ PlanData data_of(const record::Store& store, const PlanReport& report, std::size
                 .name = report.verdict.plan,
                 .devices = store.devices(report.run.id),
                 .records = store.records(report.run.id),
-                .verdict = &report.verdict};
+                .verdict = &report.verdict,
+                .run = &report.run};
   const auto& judged = report.verdict.environments;
   if (judged.empty()) return plan;
   std::erase_if(plan.devices, [&](const auto& each) { return !judged.contains(each.device.id); });
@@ -81,6 +82,7 @@ std::string page(const record::Store& store, const PageRequest& request) {
               markup("<main>") + first_part(all, {store, request.truth, judged}, plans);
   for (std::size_t i = 0; i < plans.size(); ++i)
     text += plan_part(store, request.plans[i], plans[i]);
+  text += words_section(all);
   const Html whole = without_repeated_pictures(text) + markup("</main>") + comparison_dialog() +
                      page_end(/*with_script=*/true);
   return whole.text();

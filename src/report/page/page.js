@@ -1,5 +1,5 @@
-// Pictures that repeat, filters, the comparison of two pictures, links into what is folded. Controls
-// are hidden until this shows them.
+// Images that repeat, filters, the comparison of two images, links into what is folded, buttons that
+// copy commands, tables that can be sorted. Controls are hidden until this shows them.
 'use strict';
 const all = (selector, within = document) => [...within.querySelectorAll(selector)];
 const find = (selector, within = document) => within.querySelector(selector);
@@ -22,7 +22,8 @@ function openTarget() {
 
 function startFilters(form) {
   const kinds = [['finding', all('[data-kind=finding]')], ['picture', all('[data-kind=picture]')],
-                 ['remark', all('[data-kind=remark]')], ['plan', all('[data-kind=plan]')]];
+                 ['remark', all('[data-kind=remark]')], ['plan', all('[data-kind=plan]')],
+                 ['table', all('[data-kind=values]')]];
   const apply = () => {
     const wanted = all('select', form).filter(select => select.value);
     const fits = part => wanted.every(({ name, value }) =>
@@ -124,8 +125,76 @@ function magnifyAt(view, { x, y }, width, height) {
   set('--mark-height', `${100 * scale / height}%`);
 }
 
+// Commands are copied as they are run, on one line.
+function startCopying() {
+  for (const block of all('article pre, header pre')) {
+    const button = document.createElement('button');
+    button.type = 'button';
+    button.className = 'copy';
+    button.textContent = 'Copy';
+    button.setAttribute('aria-label', 'Copy the command');
+    button.addEventListener('click', async () => {
+      try {
+        await navigator.clipboard.writeText(block.textContent);
+        button.textContent = 'Copied';
+      } catch {
+        getSelection().selectAllChildren(block);
+        button.textContent = 'Selected';
+      }
+      setTimeout(() => { button.textContent = 'Copy'; }, 2000);
+    });
+    block.after(button);
+  }
+}
+
+// The number in a cell, with its unit and with spaces between digits; null for text.
+function numberIn(cell) {
+  const scale = { ns: 1e-9, 'µs': 1e-6, ms: 1e-3, s: 1 };
+  const [, digits, unit] = cell.textContent.replace(/\u2009/g, '').match(/^([+-]?[\d.]+(?:e[+-]?\d+)?)\s*(\S*)/) ?? [];
+  return digits === undefined ? null : +digits * (scale[unit] ?? 1);
+}
+
+// A click on the head of a column sorts by it, and the next click in the other direction.
+function startSorting() {
+  for (const table of all('.scroll > table')) {
+    const [head, ...rows] = all('tr', table);
+    if (rows.length < 3) continue;
+    all('th', head).forEach((cell, column) => {
+      if (!cell.textContent) return;
+      const button = document.createElement('button');
+      button.type = 'button';
+      button.className = 'sort';
+      button.append(...cell.childNodes);
+      cell.append(button);
+      button.addEventListener('click', () => {
+        const down = cell.getAttribute('aria-sort') !== 'descending';
+        for (const each of all('th', head)) each.removeAttribute('aria-sort');
+        cell.setAttribute('aria-sort', down ? 'descending' : 'ascending');
+        const order = rows.map(row => ({ row, text: row.cells[column].textContent, number: numberIn(row.cells[column]) }));
+        order.sort((a, b) => (a.number === null || b.number === null
+          ? a.text.localeCompare(b.text) : a.number - b.number) * (down ? -1 : 1));
+        for (const { row } of order) row.parentElement.append(row);
+      });
+    });
+  }
+}
+
+// Paper has nothing to unfold.
+function startPrinting() {
+  let folded = [];
+  addEventListener('beforeprint', () => {
+    folded = all('details:not([open])');
+    for (const part of folded) part.open = true;
+  });
+  addEventListener('afterprint', () => {
+    for (const part of folded) part.open = false;
+  });
+}
 
 showRepeated(all('img'));
+startCopying();
+startSorting();
+startPrinting();
 addEventListener('hashchange', openTarget);
 startFilters(find('#filters'));
 startComparison(find('#compare'));

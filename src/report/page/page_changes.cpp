@@ -1,12 +1,18 @@
-// Cost and times compared with the stored ones, as bars.
+// Values, cost and times compared with the stored ones.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <optional>
+#include <span>
+#include <vector>
 
+#include "record/short_name.hpp"
 #include "report/html.hpp"
+#include "report/page/page_frame.hpp"
 #include "report/page/page_sections.hpp"
 
 namespace triptych::report {
@@ -87,6 +93,73 @@ Html cost_bars(const PlanData& plan) {
   return told + table(rows, "bars");
 }
 
+std::string value_text(const std::optional<double>& value) {
+  if (!value) return "–";
+  const bool whole = *value >= 0 && *value == std::floor(*value) && *value < 9e15;
+  return whole ? grouped(static_cast<std::uint64_t>(*value)) : fmt::format("{:.6g}", *value);
+}
+
+std::string change_text(const judge::Change& change) {
+  if (!change.before) return "new";
+  if (!change.now) return "missing";
+  if (*change.before == 0) return "";
+  return percent(*change.now / *change.before - 1);
+}
+
+// A changed value with the finding that contains it.
+struct ChangedValue {
+  const Finding* finding;
+  const judge::Change* change;
+  [[nodiscard]] double size() const {
+    const bool both = change->before && change->now && *change->before > 0 && *change->now > 0;
+    return both ? std::abs(std::log(*change->now / *change->before))
+                : std::numeric_limits<double>::infinity();
+  }
+};
+
+Html values_table(std::span<const ChangedValue> values) {
+  Rows rows{{"device", "configuration", "value", "stored", "now", "change"}};
+  for (const auto& [finding, change] : values) {
+    const std::string name = record::short_name(finding->configuration);
+    rows.push_back({finding->device, breakable(name.empty() ? finding->configuration : name),
+                    change->name, value_text(change->before), value_text(change->now),
+                    change_text(*change)});
+  }
+  return table(rows, "values");
+}
+
+// The values of every check that differ from the stored ones, the largest change first. Cost has
+// bars of its own.
+Html changed_values(const PlanData& plan) {
+  std::map<Check, std::vector<ChangedValue>> by_check;
+  for (const Finding& finding : plan.verdict->findings) {
+    if (finding.check == Check::cost || finding.check == Check::timing) continue;
+    for (const judge::Change& change : finding.changes) {
+      by_check[finding.check].push_back({&finding, &change});
+    }
+  }
+  Html text;
+  for (auto& [check, values] : by_check) {
+    std::ranges::stable_sort(values, std::greater{}, &ChangedValue::size);
+    constexpr std::size_t shown = 12;
+    constexpr std::size_t listed = 200;
+    const std::span<const ChangedValue> all(values);
+    const std::span<const ChangedValue> rest =
+        all.subspan(std::min(shown, all.size()))
+            .first(std::min(listed, all.size() - std::min(shown, all.size())));
+    text += markup(
+                "<div data-kind=\"values\" data-check=\"{}\"><h4>{}: {} of the stored values "
+                "differ</h4>",
+                judge::name_of(check), judge::name_of(check), all.size()) +
+            values_table(all.first(std::min(shown, all.size())));
+    if (!rest.empty()) {
+      text += folded(fmt::format("{} more", all.size() - shown), values_table(rest));
+    }
+    text += markup("</div>\n");
+  }
+  return text;
+}
+
 // For each technique on a device, the median change of its configurations and the range of the
 // middle half.
 Html time_bars(const PlanData& plan) {
@@ -115,8 +188,8 @@ Html time_bars(const PlanData& plan) {
 }  // namespace
 
 Html changes_section(const PlanData& plan) {
-  const Html all = cost_bars(plan) + time_bars(plan);
-  return all.empty() ? all : markup("<h3>Beside what is stored</h3>\n") + all;
+  const Html all = changed_values(plan) + cost_bars(plan) + time_bars(plan);
+  return all.empty() ? all : markup("<h3>Compared with what is stored</h3>\n") + all;
 }
 
 }  // namespace triptych::report

@@ -60,13 +60,28 @@ std::variant<judge::TruthPair, std::string> truth_or_reason(const PictureSources
   try {
     return sources.truth(record);
   } catch (const core::Error& error) {
-    return fmt::format("no truth: {}", error.what());
+    return fmt::format("no reference image: {}", error.what());
   }
 }
 
 Html picture(const Image& image, std::string_view alt) {
   return markup("<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\">",
                 data_uri(core::encode_png(image)), image.width, image.height, alt);
+}
+
+// The image with a ring around the worst pixels of each region beyond the bound.
+Html ringed(const Html& image, const ShareOfBound& shares) {
+  if (shares.marks.empty()) return image;
+  Html rings;
+  for (const ShareOfBound::Mark& mark : shares.marks) {
+    for (const char* layer : {"under", "over"}) {
+      rings += markup("<circle class=\"{}\" cx=\"{}.5\" cy=\"{}.5\" r=\"{}\"/>", layer, mark.x,
+                      mark.y, shares.ring);
+    }
+  }
+  return markup(
+      "<div class=\"ringed\">{}<svg viewBox=\"0 0 {} {}\" aria-hidden=\"true\">{}</svg></div>",
+      image, shares.image.width, shares.image.height, rings);
 }
 
 Html figure(const Html& content, std::string_view caption) {
@@ -146,7 +161,8 @@ Panel panel_of(const PictureScene& scene, const SameBits& group) {
   const record::Record& record = *group.front();
   const auto found = truth_or_reason(scene.sources, record);
   const auto* pair = std::get_if<judge::TruthPair>(&found);
-  const Html reference = pair ? figure(picture(pair->truth, "the truth"), "the truth") : Html();
+  const Html reference =
+      pair ? figure(picture(pair->truth, "the reference image"), "the reference image") : Html();
   if (record.image.empty()) {
     return {.html = titled(scene, group, reference + tile(record),
                            markup("<b class=\"regression\">{}</b>", words::text_of(record.reason))),
@@ -171,7 +187,7 @@ Panel panel_of(const PictureScene& scene, const SameBits& group) {
     shares.y = result.worst.y;
   }
   const Html difference =
-      figure(picture(shares.image, "the difference of " + name), "the difference");
+      figure(ringed(picture(shares.image, "the difference of " + name), shares), "the difference");
   return {.html = titled(scene, group, reference + drawn + difference, verdict_text(result, shares),
                          &shares),
           .wrong = !result.within_bound(),

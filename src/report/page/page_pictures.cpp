@@ -40,8 +40,11 @@ struct Scene {
   std::string title;
   std::vector<Panel> panels;  // sorted by the distance from the right image, the farthest first
   [[nodiscard]] bool wrong() const { return panels.front().wrong; }
-  // Wrong images come before configurations that drew nothing.
-  [[nodiscard]] std::pair<bool, bool> rank() const { return {wrong(), panels.front().drawn}; }
+  // Wrong images come before configurations that drew nothing, and those that are farthest beyond
+  // their bound come first.
+  [[nodiscard]] std::tuple<bool, bool, double> rank() const {
+    return {wrong(), panels.front().drawn, wrong() ? panels.front().ratio : 0};
+  }
 };
 
 void append_scenes(std::vector<Scene>& scenes, const PictureSources& sources, const PlanData& plan,
@@ -108,9 +111,10 @@ Pictures pictures_section(const PictureSources& sources, std::span<const PlanDat
   if (scenes.empty()) return {};
   std::ranges::stable_sort(scenes, std::greater{}, &Scene::rank);
   Html text = markup(
-      "<h2 id=\"pictures\">Pictures</h2><p class=\"system\">The difference is the error as a share "
-      "of the bound derived for that pixel: 0 <span class=\"ramp\"></span> the bound itself, <span "
-      "class=\"beyond\"></span> beyond it.</p>");
+      "<h2 id=\"pictures\">Images</h2><p class=\"system\">The reference image is drawn in double "
+      "precision on the same samples. The difference is the error as a share of the bound derived "
+      "for that pixel: 0 <span class=\"ramp\"></span> the bound itself, <span "
+      "class=\"beyond\"></span> beyond it; rings mark the worst pixels beyond it.</p>");
   const std::size_t shown = std::min(open_scenes, scenes.size());
   const bool any_wrong = scenes.front().wrong();
   Html rest;
@@ -127,7 +131,7 @@ Pictures pictures_section(const PictureSources& sources, std::span<const PlanDat
     left += scene.panels.size() - open;
   }
   if (!any_wrong) text += one_of_each(std::span(scenes).first(shown));
-  return {text + folded(fmt::format("{} more pictures", left), rest), any_wrong};
+  return {text + folded(fmt::format("{} more images", left), rest), any_wrong};
 }
 
 }  // namespace triptych::report

@@ -22,6 +22,7 @@ struct PlanData {
   std::vector<record::Store::DeviceEntry> devices;
   std::vector<record::Record> records;
   const judge::GateResult* verdict = nullptr;
+  const record::Run* run = nullptr;
 };
 
 // The judgement of an image.
@@ -56,9 +57,11 @@ struct Pictures {
 [[nodiscard]] bool has_tile(const record::Record& record);
 // Two images of a scene under a slider; closed until the script opens it.
 [[nodiscard]] Html comparison_dialog();
+// The meaning of the words on the page, and the documentation of each check.
+[[nodiscard]] Html words_section(const Overview& all);
 // The devices of one plan.
 [[nodiscard]] Html devices_section(const PlanData& plan);
-// Cost and times compared with the stored ones, as bars.
+// Every value that differs from the stored one, by check, and cost and times as bars.
 [[nodiscard]] Html changes_section(const PlanData& plan);
 [[nodiscard]] Html times_section(const PlanData& plan);
 [[nodiscard]] Html speed_of_light_section(const PlanData& plan);

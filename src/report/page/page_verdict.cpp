@@ -1,13 +1,17 @@
 // The beginning of the page: the verdict.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <ranges>
+#include <set>
 
 #include "core/hash.hpp"
+#include "core/quoting.hpp"
 #include "report/html.hpp"
 #include "report/overview.hpp"
 #include "report/page/page_frame.hpp"
@@ -40,7 +44,23 @@ Html circumstances_of(const Overview& all) {
   return text;
 }
 
+// Nothing is wrong, but nothing is stored either: somebody explores.
+bool has_no_baselines(const Overview& all) {
+  return !all.open.empty() && std::ranges::all_of(all.open, [](const Cause& cause) {
+    return cause.group.first->cause == judge::Cause::no_baselines;
+  });
+}
+
+std::string heading(const Overview& all) {
+  if (has_no_baselines(all)) return "Results without baselines";
+  return std::string(words::word_of(all.code));
+}
+
 std::string lead(const Overview& all) {
+  if (has_no_baselines(all)) {
+    return "Images were compared with the reference image. Nothing is stored to compare the rest "
+           "with:";
+  }
   if (all.open.size() == 1) return "One cause:";
   if (!all.open.empty()) return fmt::format("{} causes, the worst first:", all.open.size());
   return all.code == core::ExitCode::pass ? "All that was asked for is right."
@@ -68,6 +88,73 @@ Html contents(const Overview& all) {
   return text + markup("</ol>");
 }
 
+// An option and its value stay on one line if there is space.
+Html command_block(std::string_view command) {
+  if (command.empty()) return {};
+  Html text = markup("<pre><span>");
+  std::size_t from = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    if (command[i] == '\'') quoted = !quoted;
+    if (quoted || !command.substr(i).starts_with(" --")) continue;
+    text += markup("{}</span> <span>", command.substr(from, i - from));
+    from = i + 1;
+  }
+  return text + markup("{}</span></pre>", command.substr(from));
+}
+
+std::string fact(const PlanData& plan, const std::string& name) {
+  const auto found = plan.run->system.find(name);
+  return found == plan.run->system.end() ? std::string() : found->second;
+}
+
+// The command that measures and judges the same plans and devices again.
+std::string command_for(std::span<const PlanData> plans) {
+  std::vector<std::string> words{"triptych", "gate"};
+  std::set<std::string> devices;
+  for (const PlanData& plan : plans) {
+    const std::string& typed = plan.verdict->argument;
+    words.push_back(typed.empty() ? record::plan_argument(plan.name) : typed);
+    for (const record::Beginning& begun : plan.run->begun) {
+      devices.insert(begun.asked.begin(), begun.asked.end());
+    }
+  }
+  for (const std::string& device : devices) words.insert(words.end(), {"--device", device});
+  words.emplace_back("--measure");
+  return core::shell_command(words);
+}
+
+// The program, the machine and the drivers that were tested.
+Html tested(std::span<const PlanData> plans) {
+  std::map<std::string, std::set<std::string>> facts;
+  for (const PlanData& plan : plans) {
+    if (plan.run == nullptr) continue;
+    facts["measured"].insert(plan.run->started_at);
+    for (const auto& [name, label] :
+         {std::pair("triptych", "Triptych"), {"processor", "machine"}, {"os", "system"}}) {
+      if (const std::string text = fact(plan, name); !text.empty()) facts[label].insert(text);
+    }
+    for (const auto& [device, clocks] : plan.devices) {
+      facts["drivers"].insert(
+          fmt::format("{}: {} {}", device.id, device.driver, device.driver_version));
+    }
+  }
+  if (facts.empty()) return {};
+  Html rows;
+  for (const char* name : {"Triptych", "measured", "machine", "system", "drivers"}) {
+    const auto found = facts.find(name);
+    if (found == facts.end()) continue;
+    std::set<std::string> texts = found->second;
+    if (std::string_view(name) == "measured" && texts.size() > 1) {
+      texts = {*texts.begin() + " to " + *texts.rbegin()};
+    }
+    rows += markup("<dt>{}</dt><dd>", name);
+    for (const std::string& text : texts) rows += markup("<div>{}</div>", text);
+    rows += markup("</dd>");
+  }
+  return folded("What was tested", markup("<dl>{}</dl>", rows) + command_block(command_for(plans)));
+}
+
 Html card(const Overview& all, std::span<const PlanData> plans) {
   Html names;
   for (const PlanData& plan : plans) {
@@ -75,10 +162,10 @@ Html card(const Overview& all, std::span<const PlanData> plans) {
   }
   return markup(
       "<header id=\"verdict\" class=\"{}\"><h1>{} ({})</h1><p class=\"lead\">{}</p>{}"
-      "{}<p>Triptych · {} {}{}{}</p></header>\n",
-      css_class(all.code), words::word_of(all.code), static_cast<int>(all.code), lead(all),
-      contents(all), circumstances_of(all), all.devices, all.devices == 1 ? "device" : "devices",
-      all.part ? " · a part of the plans" : "", names);
+      "{}<p>Triptych · {} {}{}{}</p>{}</header>\n",
+      css_class(all.code), heading(all), static_cast<int>(all.code), lead(all), contents(all),
+      circumstances_of(all), all.devices, all.devices == 1 ? "device" : "devices",
+      all.part ? " · a part of the plans" : "", names, tested(plans));
 }
 
 // With a link to the first cause of this kind.
@@ -107,7 +194,7 @@ Html kinds(const Overview& all) {
 
 Html bounds(const Overview& all) {
   if (all.bounds.empty()) return {};
-  Rows rows{{"plan", "device", "pictures", "largest error over bound", "where"}};
+  Rows rows{{"plan", "device", "images", "largest error over bound", "where"}};
   for (const NearestBound& bound : all.bounds) {
     rows.push_back({bound.plan, bound.device, fmt::to_string(bound.pictures),
                     fmt::format("{:.3g}", bound.share), breakable(bound.configuration)});
@@ -125,7 +212,7 @@ Html picture_link(const PlanData& plan, const Finding& finding) {
            has_tile(record);
   };
   if (!std::ranges::any_of(plan.records, drawn)) return {};
-  return markup(" <a href=\"#{}\">picture</a>",
+  return markup(" <a href=\"#{}\">image</a>",
                 picture_id(plan, finding.device, finding.configuration));
 }
 
@@ -135,19 +222,24 @@ Html links(const Cause& cause, const PlanData& plan) {
   return picture_link(plan, first) + markup(" <a href=\"#verdict\">verdict</a>");
 }
 
-// An option and its value stay on one line if there is space.
-Html command_block(std::string_view command) {
-  if (command.empty()) return {};
-  Html text = markup("<pre><span>");
-  std::size_t from = 0;
-  bool quoted = false;
-  for (std::size_t i = 0; i < command.size(); ++i) {
-    if (command[i] == '\'') quoted = !quoted;
-    if (quoted || !command.substr(i).starts_with(" --")) continue;
-    text += markup("{}</span> <span>", command.substr(from, i - from));
-    from = i + 1;
+// The checks by which a reader finds the cause. A wrong image whose counters or statistics changed
+// too is the cause of these findings as well.
+std::string checks_of(const Cause& cause) {
+  std::set<std::string_view> checks{judge::name_of(cause.group.first->check)};
+  if (cause.group.changed_with_it > 0) {
+    std::set<std::pair<std::string_view, std::string_view>> places;
+    for (const Finding* each : cause.group.members) {
+      places.emplace(each->device, each->configuration);
+    }
+    for (const Finding& each : cause.result->findings) {
+      const bool work =
+          each.check == judge::Check::counters || each.check == judge::Check::statistics;
+      if (work && is_open(each) && places.contains({each.device, each.configuration})) {
+        checks.insert(judge::name_of(each.check));
+      }
+    }
   }
-  return text + markup("{}</span></pre>", command.substr(from));
+  return fmt::format("{}", fmt::join(checks, " "));
 }
 
 Html article(const Cause& cause, const PlanData& plan, const Html& id) {
@@ -156,7 +248,7 @@ Html article(const Cause& cause, const PlanData& plan, const Html& id) {
   const bool several = cause.group.configurations > 1;
   return markup(
       "<article class=\"{0}\"{1} data-kind=\"{2}\" data-device=\"{3}\" data-suite=\"{4}\" "
-      "data-check=\"{5}\"><h3><span class=\"verdict {0}\">{5}</span> {6}</h3><p>{7}{8}</p>{9}{10}"
+      "data-check=\"{11}\"><h3><span class=\"verdict {0}\">{5}</span> {6}</h3><p>{7}{8}</p>{9}{10}"
       "</article>\n",
       judge::name_of(first.verdict), id, is_open(first) ? "finding" : "remark", first.device,
       suite_of(plan), judge::name_of(first.check), breakable(words::place(cause)),
@@ -165,7 +257,7 @@ Html article(const Cause& cause, const PlanData& plan, const Html& id) {
           ? Html()
           : markup("<p class=\"system\">{}{}</p>", several ? "the smallest: " : "",
                    breakable(first.configuration)),
-      command_block(command));
+      command_block(command), checks_of(cause));
 }
 
 // Open causes have element ids, which contain their numbers.
@@ -202,6 +294,41 @@ Html verdict_card(const Overview& all, std::span<const PlanData> plans) {
 
 Html findings_section(const Overview& all, std::span<const PlanData> plans) {
   return kinds(all) + bounds(all) + findings(all, plans);
+}
+
+Html words_section(const Overview& all) {
+  struct Meaning {
+    std::string_view word;
+    std::string_view meaning;
+    std::string_view page;
+  };
+  constexpr std::array meanings{
+      Meaning{"reference image", "the image in double precision, on the same samples as the device",
+              "docs/accuracy.md"},
+      Meaning{"bound", "the largest error that rounding explains, derived for each pixel",
+              "docs/accuracy.md"},
+      Meaning{"limit", "the image that the scene tends to as its sampling is refined",
+              "docs/accuracy.md"},
+      Meaning{"front", "the settings that no other setting beats in both error and time",
+              "docs/accuracy.md"},
+      Meaning{"stored", "what was accepted with `triptych accept`", "docs/baselines.md"},
+      Meaning{"device key", "everything that times and the bits of images depend on",
+              "docs/glossary.md"},
+  };
+  Rows rows{{"word", "meaning", "documentation"}};
+  for (const auto& [word, meaning, page] : meanings) rows.push_back({word, meaning, page});
+  for (const KindRow& row : all.rows) {
+    const std::string name(judge::name_of(row.check));
+    const std::string_view page = row.check == judge::Check::cost          ? "docs/cost.md"
+                                  : row.check == judge::Check::code        ? "docs/code.md"
+                                  : row.check == judge::Check::correlation ? "docs/correlation.md"
+                                  : row.check == judge::Check::accuracy    ? "docs/accuracy.md"
+                                  : row.check == judge::Check::stress      ? "docs/validate.md"
+                                                                           : "docs/gate.md";
+    rows.push_back(
+        {fmt::format("check {}", name), fmt::format("the row {} above", row.kind), page});
+  }
+  return folded("What the words mean", table(rows));
 }
 
 JudgedPictures judged_pictures(const Overview& all, std::span<const PlanData> plans) {

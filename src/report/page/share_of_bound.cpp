@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 
 namespace triptych::report {
 namespace {
@@ -27,10 +29,31 @@ void paint(Image& shares, std::size_t i, double share) {
   const auto ramp = [&](double from, double to) {
     return static_cast<float>(std::clamp((share - from) / (to - from), 0.0, 1.0));
   };
-  shares.rgba[i] = share > 1 ? std::numeric_limits<float>::quiet_NaN() : ramp(0.2, 0.7);
-  shares.rgba[i + 1] = ramp(0.3, 1.0);
-  shares.rgba[i + 2] = std::max(0.4F * ramp(0.0, 0.2), ramp(0.8, 1.0));
+  const bool beyond = share > 1;
+  shares.rgba[i] = beyond ? 0 : ramp(0.2, 0.7);
+  shares.rgba[i + 1] = beyond ? 1 : ramp(0.3, 1.0);
+  shares.rgba[i + 2] = beyond ? 1 : std::max(0.4F * ramp(0.0, 0.2), ramp(0.8, 1.0));
   shares.rgba[i + 3] = 1;
+}
+
+// A pixel beyond the bound.
+struct Beyond {
+  double share;
+  ShareOfBound::Mark at;
+};
+
+std::vector<ShareOfBound::Mark> apart(std::vector<Beyond> beyond, int distance) {
+  constexpr std::size_t most = 12;
+  std::ranges::stable_sort(beyond, std::greater{}, &Beyond::share);
+  std::vector<ShareOfBound::Mark> marks;
+  for (const Beyond& each : beyond) {
+    const bool covered = std::ranges::any_of(marks, [&](const ShareOfBound::Mark& mark) {
+      return std::hypot(mark.x - each.at.x, mark.y - each.at.y) < distance;
+    });
+    if (!covered) marks.push_back(each.at);
+    if (marks.size() == most) break;
+  }
+  return marks;
 }
 
 }  // namespace
@@ -38,15 +61,19 @@ void paint(Image& shares, std::size_t i, double share) {
 ShareOfBound share_of_bound(const Image& image, const Image& truth, const Image& bound) {
   ShareOfBound result{.image = Image(image.width, image.height)};
   double largest = 0;
+  std::vector<Beyond> beyond;
   for (std::size_t i = 0; i < result.image.rgba.size(); i += 4) {
     const double share = share_at(image, truth, bound, i);
     paint(result.image, i, share);
+    const int pixel = static_cast<int>(i / 4);
+    if (share > 1) beyond.push_back({share, {pixel % image.width, pixel / image.width}});
     if (share <= largest) continue;
     largest = share;
-    const int pixel = static_cast<int>(i / 4);
     result.x = pixel % image.width;
     result.y = pixel / image.width;
   }
+  result.ring = std::max(3, std::max(image.width, image.height) / 24);
+  result.marks = apart(std::move(beyond), 2 * result.ring);
   return result;
 }
 

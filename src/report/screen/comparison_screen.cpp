@@ -29,6 +29,17 @@ std::string ratio_of(const comparison::Shift& shift) {
                      std::exp(shift.interval.low), std::exp(shift.interval.high));
 }
 
+// "1.23 ms (1.20 to 1.26) → 1.31 ms (1.28 to 1.35)": the medians of both sides and the middle half of
+// their frames.
+std::string milliseconds_of(const Compared& compared) {
+  if (!compared.times) return {};
+  const auto side = [](const comparison::SideTime& time) {
+    return fmt::format("{:.3g} ms ({:.3g} to {:.3g})", time.median / 1e6, time.lower_quartile / 1e6,
+                       time.upper_quartile / 1e6);
+  };
+  return fmt::format("{} → {}  ", side((*compared.times)[0]), side((*compared.times)[1]));
+}
+
 // "+1.20 % samples, +0.31 % time for each", with the second part if it has a time; empty if the
 // work is the same.
 std::string work_of(const Compared& compared) {
@@ -45,7 +56,8 @@ std::string work_of(const Compared& compared) {
 std::string line_of(const Compared& compared, const ComparisonCommand& command) {
   std::string line = fmt::format("{:<12}", compared.verdict_name());
   if (compared.has_time()) {
-    line += fmt::format("{}  {} blocks", ratio_of(compared.shift), compared.blocks);
+    line += milliseconds_of(compared) +
+            fmt::format("{}  {} blocks", ratio_of(compared.shift), compared.blocks);
     if (compared.process_runs > 0) {
       line += fmt::format(" and {} fresh process runs", compared.process_runs);
     }

@@ -6,6 +6,7 @@
 
 #include "core/quoting.hpp"
 #include "core/text.hpp"
+#include "record/short_name.hpp"
 #include "report/overview.hpp"
 #include "report/words/cause.hpp"
 #include "report/words/finding.hpp"
@@ -21,6 +22,7 @@ constexpr std::size_t longest_command = 600;
 constexpr std::size_t longest_message = 3;  // lines
 constexpr std::size_t most_waived = 3;
 constexpr std::size_t most_circumstances = 5;
+constexpr std::size_t longest_circumstance = 2;  // lines
 
 std::size_t width_of(std::string_view text) {
   return static_cast<std::size_t>(std::ranges::count_if(
@@ -69,6 +71,9 @@ class Screen {
     waived(all);
     causes(all, files);
     list(files);
+    const std::vector<std::string> next = words::next_steps(all, options_.store_option);
+    for (const std::string& each : next) add("  " + core::printable(each));
+    if (!next.empty()) add("");
     add(fmt::format("  exit {}", words::meaning_of(all.code)));
     return text_;
   }
@@ -100,12 +105,13 @@ class Screen {
   // "✗ image on gl:x: crashed: …": the cause and the place in one line.
   [[nodiscard]] std::string worst_of(const Cause& cause) const {
     const judge::Finding& first = *cause.group.first;
+    const judge::Finding& worst = cause.group.worst == nullptr ? first : *cause.group.worst;
     return fmt::format(
         "  {} {}", sign_of(first),
         core::printable(fmt::format("{} {} {}: {}", judge::name_of(first.check),
                                     first.device.empty() ? "of" : "on",
                                     first.device.empty() ? cause.result->plan : first.device,
-                                    words::text_of(first)),
+                                    words::text_of(worst)),
                         width_ - 4));
   }
 
@@ -117,7 +123,11 @@ class Screen {
   void circumstances(const Overview& all) {
     const std::size_t shown = std::min(most_circumstances, all.circumstances.size());
     for (std::size_t i = 0; i < shown; ++i) {
-      add("  ! " + core::printable(all.circumstances[i], width_ - 4));
+      std::vector<std::string> lines;
+      append_wrapped(
+          lines, core::printable(all.circumstances[i], longest_circumstance * (width_ - 6)), "");
+      lines.front().replace(0, 3, "  !");
+      for (const std::string& line : lines) add(line);
     }
     if (shown < all.circumstances.size()) {
       add(fmt::format("  ! {} more of these are in the page", all.circumstances.size() - shown));
@@ -139,7 +149,7 @@ class Screen {
 
   // As many as there is space for above the last lines.
   void causes(const Overview& all, std::span<const std::string> files) {
-    const std::size_t below = files.empty() ? 2 : 4;
+    const std::size_t below = files.empty() ? 5 : 7;  // with the next steps
     std::size_t shown = 0;
     for (const Cause& cause : all.open) {
       const std::vector<std::string> lines = lines_of(cause);
@@ -168,6 +178,12 @@ class Screen {
     if (width_of(command) > longest_command) {
       lines.emplace_back("    (its command is in the page: it is too long for a terminal)");
     } else if (!command.empty()) {
+      if (cause.group.configurations > 1 && !first.configuration.empty()) {
+        append_wrapped(lines,
+                       core::printable("reproduce the smallest, " +
+                                       record::short_name(first.configuration) + ":"),
+                       "");
+      }
       append_wrapped(lines, command, " \\");
     }
     return lines;

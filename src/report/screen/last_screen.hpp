@@ -8,6 +8,7 @@
 namespace triptych::report {
 
 struct ScreenOptions {
+  std::string store_option = {};  // " --store FILE" for printed commands, if it is not the default
   bool colours = false;
   std::size_t width = 100;  // of the terminal, in characters
 };

@@ -3,6 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <set>
+
+#include "core/quoting.hpp"
+#include "record/short_name.hpp"
 #include "report/words/finding.hpp"
 
 namespace triptych::report::words {
@@ -36,7 +41,11 @@ std::string place(const Cause& cause) {
 
 std::string found(const Cause& cause) {
   const FindingGroup& group = cause.group;
-  std::string text = found(*group.first);
+  const Finding& worst = group.worst == nullptr ? *group.first : *group.worst;
+  std::string text = found(worst);
+  if (&worst != group.first) {
+    text = fmt::format("worst in {}: {}", record::short_name(worst.configuration), text);
+  }
   if (!group.right_on.empty() && group.first->verdict == judge::Verdict::regression) {
     text += fmt::format("; {} right", with_verb(group.right_on, "is", "are"));
   }
@@ -72,6 +81,32 @@ std::string text_of(const Cause& cause) {
     if (!more.empty()) text += "; " + more;
   }
   return text;
+}
+
+std::vector<std::string> next_steps(const Overview& all, std::string_view store_option) {
+  const auto regression = [](const Cause& cause) {
+    return cause.group.first->verdict == judge::Verdict::regression;
+  };
+  const auto against_stored = [&](const Cause& cause) {
+    const judge::Against against = cause.group.first->against;
+    return regression(cause) &&
+           (against == judge::Against::baseline || against == judge::Against::other_devices);
+  };
+  if (std::ranges::none_of(all.open, regression)) return {};
+  std::set<std::string> plans;
+  for (const Cause& cause : all.open) {
+    const judge::GateResult& result = *cause.result;
+    if (against_stored(cause)) {
+      plans.insert(core::shell_quoted(result.argument.empty() ? result.plan : result.argument));
+    }
+  }
+  const std::string drawn =
+      "next: for a bug report, use the command above with reduce instead of render";
+  return {plans.empty() ? drawn
+                        : fmt::format("next: if the change is intended, triptych accept {}{} "
+                                      "--reason TEXT",
+                                      fmt::join(plans, " "), store_option),
+          "      find the commit: gate --bisect; excuse a known bug: waivers.json"};
 }
 
 std::string_view word_of(core::ExitCode code) {

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "report/overview.hpp"
 
@@ -13,12 +14,17 @@ namespace triptych::report::words {
 [[nodiscard]] std::string subject(const FindingGroup& group);
 // "vulkan:lavapipe, technique=raycast (12 configurations)"; the plans if neither is known.
 [[nodiscard]] std::string place(const Cause& cause);
-// The finding for the smallest configuration, and the devices that are right.
+// The finding for the worst configuration, and the devices that are right.
 [[nodiscard]] std::string found(const Cause& cause);
 // The party at fault; empty if the other devices do not show it.
 [[nodiscard]] std::string blame(const FindingGroup& group);
 // The finding, the party at fault and the advice.
 [[nodiscard]] std::string text_of(const Cause& cause);
+
+// Two lines about what to do after a regression, with commands that apply to it; none if there is
+// no regression. `store_option` is " --store FILE", or empty for the default.
+[[nodiscard]] std::vector<std::string> next_steps(const Overview& all,
+                                                  std::string_view store_option);
 
 // "FAIL", "PASS", "CANNOT JUDGE"
 [[nodiscard]] std::string_view word_of(core::ExitCode code);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <set>
 
 #include "plan_fixture.hpp"
@@ -120,9 +121,39 @@ TEST_F(PlanTest, AlsoAddsCombinationsBesideTheirDataAndNoneTwice) {
   EXPECT_THAT(values(plan, "data"), ElementsAre("x", "x", "x", "x", "x", "x", "y", "y", "y"));
   EXPECT_THAT(values(plan, "step"), ElementsAre("1", "2", "2", "4", "4", "1", "1", "2", "1"));
   EXPECT_THAT(plan.varied, ElementsAre("data", "step", "skip", "ert"));
-  const Plan overridden = load(yaml, {{"data", {"y"}}, {"ert", {"0"}}});
-  EXPECT_THAT(values(overridden, "step"), ElementsAre("1", "2", "2", "4", "4"));
-  EXPECT_THAT(overridden.varied, ElementsAre("step", "skip"));
+}
+
+// Values of the plan select configurations that it has. Other values make new ones.
+TEST_F(PlanTest, AnOverrideOfSeveralBlocksSelectsWhatThePlanHas) {
+  const std::string yaml =
+      "suite: fake\n"
+      "data: [x, y]\n"
+      "step: [1, 2]\n"
+      "also:\n"
+      "  - data: x\n"
+      "    step: [2, 4]\n"
+      "    skip: [none, bricks]\n"
+      "  - ert: 0.5\n"
+      "    step: 1\n";
+  const std::vector<Configuration> all = load(yaml).configurations;
+  for (const Overrides& overrides :
+       {Overrides{{"data", {"y"}}, {"ert", {"0"}}}, Overrides{{"skip", {"none"}}},
+        Overrides{{"step", {"4", "1"}}}, Overrides{{"ert", {"0.5"}}, {"data", {"x"}}}}) {
+    const std::vector<Configuration> some = load(yaml, overrides).configurations;
+    std::vector<Configuration> expected;
+    for (const Configuration& each : all) {
+      const bool chosen = std::ranges::all_of(overrides, [&](const auto& override) {
+        return std::ranges::find(override.second, each.at(override.first)) != override.second.end();
+      });
+      if (chosen) expected.push_back(each);
+    }
+    ASSERT_FALSE(expected.empty());
+    EXPECT_THAT(some, testing::UnorderedElementsAreArray(expected));
+  }
+  EXPECT_THAT(values(load(yaml, {{"step", {"8"}}}), "step"), testing::Each("8"));
+  EXPECT_EQ(values(load(yaml, {{"step", {"8"}}}), "data").size(), 5U);
+  // No block has both, so they replace what the blocks have.
+  EXPECT_THAT(values(load(yaml, {{"ert", {"0.5"}}, {"step", {"4"}}}), "step"), testing::Each("4"));
 }
 
 // --- what is refused, and where
@@ -258,8 +289,8 @@ TEST_F(PlanTest, AListThatWouldNotEndIsRefused) {
   for (int i = 0; i < 1000; ++i) cameras += "random:" + std::to_string(i) + ", ";
   std::string data;
   for (int i = 0; i < 1000; ++i) data += "d" + std::to_string(i) + ", ";
-  const std::string yaml = "suite: fake\ndata: [" + data + "]\nstep: [" + values +
-                           "]\ncamera: [" + cameras + "]\n";
+  const std::string yaml =
+      "suite: fake\ndata: [" + data + "]\nstep: [" + values + "]\ncamera: [" + cameras + "]\n";
   EXPECT_THAT(refusal(yaml), HasSubstr("more than 1000000 combinations"));
   int listed = 0;
   EXPECT_THROW(list_plan(file_.string(), {}, find_, {},

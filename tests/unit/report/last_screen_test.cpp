@@ -176,13 +176,29 @@ TEST(LastScreen, RepeatsTheEnvironment) {
               HasSubstr("LP_NUM_THREADS=2 triptych render"));
 }
 
+// Accepting cannot make an image right, so it is proposed only for stored values.
+TEST(LastScreen, SaysWhatToDoNext) {
+  const std::string wrong = last_screen(std::vector{failing()}, 3, {});
+  EXPECT_THAT(wrong, HasSubstr("next: for a bug report, use the command above with reduce"));
+  EXPECT_THAT(wrong, Not(HasSubstr("triptych accept")));
+  GateResult counted{.plan = "volume/quick", .run = "r", .findings = {}};
+  add(counted, Check::counters, regression, "gl:x", "step=1", changed("samples"));
+  EXPECT_THAT(last_screen(std::vector{counted}, 3, {}, {.store_option = " --store s.sqlite"}),
+              HasSubstr("triptych accept volume/quick --store s.sqlite --reason TEXT\n"));
+  EXPECT_THAT(last_screen(std::vector{passing()}, 3, {}), Not(HasSubstr("next:")));
+}
+
 // A single fault of a driver appears in every plan.
 TEST(LastScreen, OneCauseInSeveralPlansIsToldOnce) {
   GateResult stress{.plan = "volume/stress", .run = "r", .findings = {}};
   add(stress, Check::image, regression, "vulkan:lavapipe", "technique=raycast", over_bound(3));
   const std::string text = last_screen(std::vector{failing(), stress}, 3, {});
   EXPECT_THAT(text, HasSubstr("vulkan:lavapipe (7 configurations)"));
-  EXPECT_THAT(text, HasSubstr("3 of 36864 pixels"));
+  // The worst configuration is described, and the smallest one reproduced.
+  EXPECT_THAT(text, HasSubstr("image on vulkan:lavapipe: 11144 of 36864 pixels"));
+  EXPECT_THAT(text, HasSubstr("worst in raycast.s6: 11144 of 36864 pixels"));
+  EXPECT_THAT(text, Not(HasSubstr("3 of 36864 pixels")));
+  EXPECT_THAT(text, HasSubstr("reproduce the smallest, raycast:"));
   EXPECT_THAT(text, Not(HasSubstr("--set step")));
   EXPECT_EQ(text.find("✗", text.find("\n\n")), text.rfind("✗"));
 

@@ -1,5 +1,6 @@
 #include "report/page/page.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <regex>
@@ -70,6 +71,38 @@ TEST(Page, ShowsCostAndTimesBesideWhatIsStored) {
   EXPECT_THAT(page, HasSubstr("<td class=\"number\">968\u2009288 → 987\u2009654</td>"));
   EXPECT_THAT(page, HasSubstr("<span class=\"bar more\" style=\"width:100.0%\">"));
   EXPECT_THAT(page, HasSubstr("<td class=\"number\">-10.00 %</td><td><span class=\"bar less\""));
+}
+
+// The counters of a wrong image are told with the image, and a filter for counters finds both.
+TEST(Page, ListsEveryValueThatDiffersFromTheStoredOne) {
+  const std::string page = page_of(true);
+  const std::string table = page.substr(page.find("data-kind=\"values\" data-check=\"counters\""));
+  EXPECT_THAT(table, HasSubstr("counters: 3 of the stored values differ"));
+  EXPECT_THAT(table, HasSubstr("<td>samples</td><td class=\"number\">3</td><td class=\"number\">4"
+                               "</td><td class=\"number\">+33.33 %</td>"));
+  EXPECT_THAT(page, HasSubstr("data-check=\"counters image\""));
+  EXPECT_THAT(page_of(false), Not(HasSubstr("data-kind=\"values\"")));
+}
+
+// A single pixel is easily missed, and readers differ in the colors that they can tell apart.
+TEST(Page, RingsPixelsBeyondTheirBound) {
+  EXPECT_THAT(page_of(true), HasSubstr("<circle class=\"over\""));
+  EXPECT_THAT(page_of(false), Not(HasSubstr("<circle class=\"over\"")));
+}
+
+TEST(Page, SaysWhatWasTested) {
+  const std::string page = page_of(false);
+  EXPECT_THAT(page, HasSubstr("<dt>machine</dt><dd><div>two cores</div></dd>"));
+  EXPECT_THAT(page, HasSubstr("<dt>measured</dt><dd><div>2026-01-02T03:04:05Z</div></dd>"));
+  EXPECT_THAT(page, HasSubstr("<div>vulkan:lavapipe: d 1</div>"));
+  EXPECT_THAT(page, HasSubstr("<span>triptych gate volume/quick</span> <span>--measure</span>"));
+}
+
+TEST(Page, ExplainsItsWords) {
+  const std::string page = page_of(true);
+  for (const char* word : {"reference image", "bound", "limit", "front"}) {
+    EXPECT_THAT(page, HasSubstr(fmt::format("<td>{}</td>", word)));
+  }
 }
 
 TEST(Page, TellsHowMuchOfWhatWasTakenThePictureNeeded) {

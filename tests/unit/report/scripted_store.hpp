@@ -112,7 +112,10 @@ class ScriptedStore {
          : bad   ? over_bound(811)
                  : within_bound(),
          bad);
-    find(record, judge::Check::counters, {.cause = judge::Cause::as_stored}, false);
+    const bool counts_differ = bad && !crashed;
+    find(record, judge::Check::counters,
+         counts_differ ? changed("samples") : judge::Observation{.cause = judge::Cause::as_stored},
+         counts_differ);
     if (crashed) return;
     const bool dearer = wrong_ && device == "vulkan:lavapipe" && technique == "slices";
     find(record, judge::Check::cost, changed("device_code"), dearer);

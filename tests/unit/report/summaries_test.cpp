@@ -92,7 +92,15 @@ TEST(Markdown, HasTheRowsAndCausesOfTheLastScreen) {
   EXPECT_THAT(text, HasSubstr("| Images | **FAIL** | gl:x: 1 of 1 checks wrong |"));
   EXPECT_THAT(text, HasSubstr("3 &lt; 4 \\| pixels"));
   EXPECT_THAT(text, HasSubstr("```sh\n  triptych render volume --device gl:x"));
-  EXPECT_THAT(text, HasSubstr("<summary>1 more</summary>"));
+  EXPECT_THAT(text, HasSubstr("1 remark without effect on the verdict, in report.html: timing 1"));
+}
+
+TEST(Markdown, ListsWhatIsWaivedAndImproved) {
+  judge::GateResult result = some_result();
+  result.findings.push_back(finding_of(judge::Check::cost, judge::Verdict::improved, "gl:x",
+                                       "step=2", changed("device_code")));
+  EXPECT_THAT(markdown(result), HasSubstr("<summary>1 more</summary>"));
+  EXPECT_THAT(markdown(result), HasSubstr("- **improved** cost: gl:x"));
 }
 
 TEST(Markdown, KeepsTextText) {

@@ -1,0 +1,62 @@
+#include "app/own_baselines.hpp"
+
+#include <system_error>
+
+#include "app/paths.hpp"
+#include "core/error.hpp"
+
+namespace triptych::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* own_folder = "baselines";
+constexpr const char* starting_folder = ".baselines.starting";
+
+// Installed files may be read-only. The copies are not.
+void copy_tree(const fs::path& from, const fs::path& to) {
+  fs::create_directories(to);
+  for (const auto& entry : fs::recursive_directory_iterator(from)) {
+    const fs::path target = to / entry.path().lexically_relative(from);
+    if (entry.is_directory()) {
+      fs::create_directories(target);
+    } else if (entry.is_regular_file()) {
+      fs::copy_file(entry.path(), target);
+      fs::permissions(target, fs::perms::owner_write, fs::perm_options::add);
+    }
+  }
+}
+
+}  // namespace
+
+OwnBaselines::OwnBaselines(const std::string& named)
+    : name_(named.empty() ? own_folder : named), working_(name_) {
+  if (!named.empty() || fs::exists(fs::symlink_status(name_))) return;
+  const fs::path installed = default_baselines();
+  if (!fs::is_directory(installed)) return;
+  try {
+    fs::remove_all(starting_folder);
+    copy_tree(installed, starting_folder);
+  } catch (const fs::filesystem_error& error) {
+    throw core::IoError(error.what());
+  }
+  working_ = starting_folder;
+  copied_from_ = installed;
+}
+
+OwnBaselines::~OwnBaselines() {
+  std::error_code ignored;  // what remains is replaced by the next one
+  if (working_ != name_) fs::remove_all(working_, ignored);
+}
+
+void OwnBaselines::keep() {
+  if (working_ == name_) return;
+  try {
+    fs::rename(working_, name_);
+  } catch (const fs::filesystem_error& error) {
+    throw core::IoError(error.what());
+  }
+  working_ = name_;
+}
+
+}  // namespace triptych::app

@@ -1,0 +1,87 @@
+#include "report/ci/annotations.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "core/hash.hpp"
+#include "core/json.hpp"
+#include "core/json_text.hpp"
+#include "core/quoting.hpp"
+#include "report/overview.hpp"
+#include "report/words/cause.hpp"
+
+namespace triptych::report {
+namespace {
+
+using judge::Finding;
+using judge::Verdict;
+
+constexpr std::size_t most_of_each = 10;
+
+// The text of a workflow command. Everything that could end it or begin another one is escaped.
+std::string escaped(std::string_view text, std::string_view also) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '%' || c == '\n' || c == '\r' || also.find(c) != std::string_view::npos) {
+      result += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+std::string title_of(const Cause& cause) {
+  return core::printable(
+      fmt::format("{}: {}", judge::name_of(cause.group.first->check), words::place(cause)), 200);
+}
+
+std::string message_of(const Cause& cause) {
+  const std::string command = command_of(*cause.group.first, *cause.result);
+  return core::printable(words::text_of(cause)) +
+         (command.empty() ? "" : "\n" + core::printable(command));
+}
+
+}  // namespace
+
+std::string github_annotations(std::span<const judge::GateResult> results,
+                               const FindingPlaces& places) {
+  std::map<Verdict, std::size_t> written;
+  std::string text;
+  for (const Cause& cause : overview(results).open) {
+    const Finding& first = *cause.group.first;
+    if (++written[first.verdict] > most_of_each) continue;
+    const SourcePlace place = places.of(first, *cause.result);
+    std::string where;
+    if (!place.file.empty()) {
+      where = fmt::format("file={},line={},", escaped(place.file, ",:"), place.line);
+    }
+    text += fmt::format("::{} {}title={}::{}\n",
+                        first.verdict == Verdict::regression ? "error" : "warning", where,
+                        escaped(title_of(cause), ",:"), escaped(message_of(cause), ""));
+  }
+  return text;
+}
+
+std::string gitlab_code_quality(std::span<const judge::GateResult> results,
+                                const FindingPlaces& places) {
+  core::Json issues = core::Json::array();
+  for (const Cause& cause : overview(results).open) {
+    const Finding& first = *cause.group.first;
+    const SourcePlace place = places.of(first, *cause.result);
+    issues.push_back(
+        {{"description", title_of(cause) + ": " + message_of(cause)},
+         {"check_name", judge::name_of(first.check)},
+         {"fingerprint", core::content_hash(fmt::format("{}\n{}\n{}", first.test,
+                                                        first.configuration, cause.group.kind))},
+         {"severity", first.verdict == Verdict::regression ? "major" : "minor"},
+         // GitLab ignores an issue without a path.
+         {"location",
+          {{"path", place.file.empty() ? cause.result->plan : place.file},
+           {"lines", {{"begin", place.line}}}}}});
+  }
+  return core::json_text(issues, 2) + "\n";
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,43 @@
+#pragma once
+// Where a finding is shown in a repository: the line of a stored value, or a file.
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "judge/gate/gate.hpp"
+#include "record/record.hpp"
+
+namespace triptych::report {
+
+struct SourcePlace {
+  std::string file;  // relative to the repository; empty: nowhere
+  std::size_t line = 1;
+};
+
+class FindingPlaces {
+ public:
+  struct Sources {
+    std::filesystem::path repository;                    // its top folder
+    std::filesystem::path baselines;                     // the folder that was judged by
+    std::map<std::string, record::Device> devices = {};  // of all results, by id
+    std::string job = {};  // the file that defines the CI job, relative to the repository
+  };
+
+  explicit FindingPlaces(Sources sources);
+
+  // The stored value with which the configuration was compared, if its file is in the repository;
+  // otherwise the file of the plan, and otherwise the file that defines the job.
+  [[nodiscard]] SourcePlace of(const judge::Finding& finding,
+                               const judge::GateResult& result) const;
+
+ private:
+  [[nodiscard]] std::string in_repository(const std::filesystem::path& file) const;
+  [[nodiscard]] const std::string& text_of(const std::filesystem::path& file) const;
+
+  Sources sources_;
+  mutable std::map<std::filesystem::path, std::string> texts_;
+};
+
+}  // namespace triptych::report

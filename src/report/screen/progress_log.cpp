@@ -1,0 +1,151 @@
+#include "report/screen/progress_log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/quoting.hpp"
+#include "record/short_name.hpp"
+#include "report/words/outcome.hpp"
+
+namespace triptych::report {
+namespace {
+
+constexpr int most_failures_each = 3;  // lines for each device of a plan
+constexpr std::string_view to_start_of_line = "\r\033[K";
+
+std::string time_of(const record::Record& record) {
+  const auto summary = record::summarise(record.time_ns());
+  return summary ? fmt::format("{:.3f} ms ({})", summary->median / 1e6, record.clock())
+                 : "measured";
+}
+
+std::string outcome_of(const record::Record& record) {
+  if (record.outcome != record::Outcome::measured) {
+    return words::text_of(record.outcome, record.reason);
+  }
+  if (record.same_as.empty()) return time_of(record);
+  return fmt::format("the same as {} ({})", record::short_name(record.same_as),
+                     words::text_of(record.reason));
+}
+
+bool is_failure(const record::Record& record) {
+  return record.outcome != record::Outcome::measured && record.outcome != record::Outcome::skipped;
+}
+
+}  // namespace
+
+std::string rough_time(std::chrono::seconds time) {
+  const auto seconds = time.count();
+  if (seconds < 120) return fmt::format("{} s", seconds);
+  if (seconds < 7200) return fmt::format("{} min", (seconds + 59) / 60);
+  return fmt::format("{} h", (seconds + 3599) / 3600);
+}
+
+SignsOfLife::SignsOfLife(std::function<Clock::time_point()> now)
+    : now_(std::move(now)), begun_(now_()), last_(begun_) {}
+
+bool SignsOfLife::due() {
+  const Clock::time_point now = now_();
+  const auto interval = std::max<Clock::duration>(std::chrono::seconds(30), (now - begun_) / 5);
+  if (now - last_ < interval) return false;
+  last_ = now;
+  return true;
+}
+
+void SignsOfLife::restart() {
+  last_ = now_();
+}
+
+ProgressLog::ProgressLog(Options options)
+    : options_(std::move(options)), signs_(options_.now), last_(options_.now()) {}
+
+void ProgressLog::count(const record::Record& record) {
+  const Clock::time_point begun = std::exchange(last_, options_.now());
+  Tally& tally =
+      tallies_.try_emplace({record.plan, record.device}, Tally{.begun = begun}).first->second;
+  if (record.outcome == record::Outcome::measured) {
+    ++tally.measured;
+  } else {
+    ++(record.outcome == record::Outcome::skipped ? tally.skipped : tally.failed);
+  }
+  tally.ended = last_;
+}
+
+std::string ProgressLog::line_for(const Step& step) {
+  if (step.record == nullptr) return {};
+  const record::Record& record = *step.record;
+  const bool failure = is_failure(record);
+  const int failed = tallies_.at({record.plan, record.device}).failed;
+  if (!options_.verbose && (!failure || failed > most_failures_each)) return {};
+  return core::printable(fmt::format("{}/{} {} {}: {}", step.done, step.total, record.device,
+                                     record::short_name(record), outcome_of(record))) +
+         "\n";
+}
+
+std::string ProgressLog::bar(const Step& step) const {
+  constexpr int cells = 20;
+  const int full = step.total > 0 ? cells * step.done / step.total : 0;
+  const std::string text =
+      fmt::format("{} [{:#>{}}{:.>{}}] {}/{} {}{}", step.plan, "", full, "", cells - full,
+                  step.done, step.total, step.device,
+                  step.left.count() > 0 ? ", " + rough_time(step.left) + " left" : std::string());
+  return fitted(text);
+}
+
+// A line that fills the last column would wrap on some terminals. A wrapped line could not be
+// removed.
+std::string ProgressLog::fitted(std::string_view text) const {
+  return core::printable(core::printable(text), options_.width > 1 ? options_.width - 1 : 1);
+}
+
+std::string ProgressLog::summaries() {
+  std::string text;
+  for (const auto& [where, tally] : tallies_) {
+    const auto& [plan, device] = where;
+    const auto took = std::chrono::duration_cast<std::chrono::seconds>(tally.ended - tally.begun);
+    text += core::printable(fmt::format("{} on {}: {} measured, {} skipped, {} failed, {}", plan,
+                                        device, tally.measured, tally.skipped, tally.failed,
+                                        rough_time(took))) +
+            "\n";
+  }
+  tallies_.clear();
+  return text;
+}
+
+std::string ProgressLog::next(const Step& step) {
+  std::string text;
+  if (plan_ != step.plan) {
+    text = summaries();
+    plan_ = step.plan;
+    last_ = options_.now();
+  }
+  if (step.record != nullptr) count(*step.record);
+  text += line_for(step);
+  if (options_.width > 0) return std::string(to_start_of_line) + text + bar(step);
+  if (!text.empty()) {
+    signs_.restart();
+  } else if (signs_.due()) {
+    text = core::printable(fmt::format(
+               "{}: {} of {}{}", step.plan, step.done, step.total,
+               step.left.count() > 0 ? ", about " + rough_time(step.left) + " left" : "")) +
+           "\n";
+  }
+  return text;
+}
+
+std::string ProgressLog::loading(std::string_view data, double share) {
+  const std::string text = fmt::format("loading {}: {:.0f} %", data, 100 * share);
+  if (options_.width > 0) {
+    return std::string(to_start_of_line) + (share < 1 ? fitted(text) : std::string());
+  }
+  return signs_.due() ? core::printable(text) + "\n" : std::string();
+}
+
+std::string ProgressLog::end() {
+  const std::string text = summaries();
+  return options_.width > 0 ? std::string(to_start_of_line) + text : text;
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,48 @@
+"""The front of run time against error, from tables with known answers."""
+
+import os
+import tempfile
+import unittest
+
+import pandas as pd
+from triptych_analysis import front, tables
+
+
+class Front(unittest.TestCase):
+    def setUp(self):
+        self.folder = self.enterContext(tempfile.TemporaryDirectory())
+
+    def write(self, costs, errors):
+        pd.DataFrame([
+            {"record": i + 1, "device": "gl:x", "scene": f"camera=c,data=ball,step={i}", "name": f"p.s{i}", "median_ns": cost}
+            for i, cost in enumerate(costs)]).to_csv(os.path.join(self.folder, "records.csv"), index=False)
+        rows = [{"record": i + 1, "against": "limit", "metric": "rms", "error": error} for i, error in enumerate(errors)]
+        rows += [{"record": 1, "against": "reference", "metric": "rms", "error": 1e-9},
+                 {"record": 1, "against": "limit", "metric": "max", "error": 0.5}]
+        pd.DataFrame(rows).to_csv(os.path.join(self.folder, "errors.csv"), index=False)
+
+    def test_what_nothing_beats_is_on_it(self):
+        self.write(costs=[10, 20, 30, 40], errors=[0.1, 0.2, 0.05, 0.05])
+        found = front.points(self.folder)
+        self.assertEqual(list(found[found["front"]]["name"]), ["p.s0", "p.s2"])
+        self.assertEqual(set(found["scene"]), {"camera=c,data=ball"})
+        self.assertIn("<svg", front.draw(found)._repr_svg_())
+
+    def test_what_has_no_time_is_left_out(self):
+        self.write(costs=[10, None], errors=[0.1, 0.05])
+        self.assertEqual(list(front.points(self.folder)["name"]), ["p.s0"])
+
+    def test_other_errors_are_chosen(self):
+        self.write(costs=[10, 20], errors=[0.1, 0.05])
+        self.assertEqual(list(front.points(self.folder, against="reference")["error"]), [1e-9])
+        self.assertEqual(list(front.points(self.folder, metric="max")["error"]), [0.5])
+        with self.assertRaises(tables.InputError):
+            front.points(self.folder, against="truth")
+
+    def test_an_export_without_errors_has_none(self):
+        self.assertIsNone(front.points(self.folder))
+        self.assertIsNone(front.draw(None))
+
+
+if __name__ == "__main__":
+    unittest.main()
