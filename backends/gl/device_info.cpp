@@ -155,6 +155,7 @@ record::Device device_info(const Api& gl, std::string_view suffix) {
     // The id contains what the variables selected.
     info.id = measure::compile_only_id("gl", driver, family);
     info.compiles_for = std::move(family);
+    info.name = measure::without_kernel_version(std::move(info.name));
     info.environment.clear();
   }
   gl.check("glGetString");

@@ -96,6 +96,8 @@ void only_compile(const std::string& driver, record::Device& info) {
   if (family.empty()) return;
   info.id = measure::compile_only_id("opencl", driver, family);
   info.compiles_for = std::move(family);
+  info.name = measure::without_kernel_version(std::move(info.name));
+  info.driver_version = measure::without_kernel_version(std::move(info.driver_version));
   info.environment.clear();
 }
 

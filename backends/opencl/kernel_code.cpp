@@ -4,9 +4,10 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "measure/code/compiled_code.hpp"
-#include "measure/code/standard_error.hpp"
+#include "measure/code/printed_kernels.hpp"
 
 namespace triptych::opencl_backend {
 namespace {
@@ -39,30 +40,6 @@ std::map<std::string, double> work_group_info(const Session& session, const cl::
   };
 }
 
-// The text between two lines that contain these words, for the last such pair of lines.
-std::string between(std::string_view text, std::string_view start, std::string_view end) {
-  const std::size_t at = text.rfind(start);
-  if (at == std::string_view::npos) return {};
-  const std::size_t first = text.find('\n', at);
-  if (first == std::string_view::npos) return {};
-  const std::size_t last = text.find(end, first);
-  return std::string(text.substr(first + 1, last - first - 1));
-}
-
-// radeonsi prints a disassembly, and one statistic on each line.
-void add_printed(std::string_view printed, std::map<std::string, double>& statistics,
-                 std::string& assembly) {
-  assembly = between(printed, "disassembly:", "*** SHADER");
-  std::string lines = between(printed, "*** SHADER STATS ***", "****");
-  while (!lines.empty()) {
-    const std::size_t end = std::min(lines.find('\n'), lines.size());
-    for (const auto& [name, value] : measure::parse_statistics(lines.substr(0, end))) {
-      statistics[name] = value;
-    }
-    lines.erase(0, std::min(end + 1, lines.size()));
-  }
-}
-
 // Parses NVIDIA's build log with -cl-nv-verbose: "… Used 32 registers, 8 bytes stack frame, …".
 // Other logs have no such lines.
 void add_logged(const std::string& log, const std::string& kernel,
@@ -78,20 +55,25 @@ void add_logged(const std::string& log, const std::string& kernel,
 
 }  // namespace
 
-measure::Compiled code_of(const Session& session, const std::vector<cl::Program>& programs) {
+measure::Compiled code_of(const Session& session, const std::vector<CapturedProgram>& programs) {
   measure::CompiledCode code;
-  for (const cl::Program& program : programs) {
+  for (const auto& [program, printed] : programs) {
     const std::string log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(session.device);
-    const std::vector<std::string> kernels = kernels_of(program);
-    for (const std::string& name : kernels) {
-      cl::Kernel kernel;
-      const std::string printed =
-          measure::standard_error_of([&] { kernel = cl::Kernel(program, name.c_str()); });
-      std::map<std::string, double> statistics = work_group_info(session, kernel);
-      std::string assembly;
-      add_printed(printed, statistics, assembly);
-      add_logged(log, name, statistics);
-      code.add(name, std::move(statistics), std::move(assembly));
+    std::multimap<std::string, measure::PrintedKernel> compiled;
+    for (measure::PrintedKernel& kernel : measure::parse_printed_kernels(printed)) {
+      compiled.emplace(kernel.name.substr(0, kernel.name.find(' ')), std::move(kernel));
+    }
+    for (const std::string& name : kernels_of(program)) {
+      std::map<std::string, double> info =
+          work_group_info(session, cl::Kernel(program, name.c_str()));
+      add_logged(log, name, info);
+      const auto [first, last] = compiled.equal_range(name);
+      if (first == last) code.add(name, std::move(info), {});
+      for (auto each = first; each != last; ++each) {
+        measure::PrintedKernel& kernel = each->second;
+        kernel.statistics.insert(info.begin(), info.end());
+        code.add(kernel.name, std::move(kernel.statistics), std::move(kernel.assembly));
+      }
     }
   }
   return code.take();

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "measure/code/standard_error.hpp"
 #include "measure/contract/dump.hpp"
 #include "technique/sources.hpp"
 #include "triptych_backend_opencl_embedded.hpp"
@@ -76,10 +78,15 @@ cl::Program Programs::get(const std::string& source, const std::string& options)
   if (captures_ && !counts && std::ranges::find(captured_, key) == captured_.end()) {
     captured_.push_back(key);
   }
-  if (const auto found = built_.find(key); found != built_.end()) return found->second;
-  cl::Program program = build(session_, source, options);
-  built_.emplace(key, program);
-  return program;
+  if (const auto found = built_.find(key); found != built_.end()) return found->second.program;
+  CapturedProgram built;
+  const auto compile = [&] { built.program = build(session_, source, options); };
+  if (captures_) {
+    built.printed = measure::standard_error_of(compile);
+  } else {
+    compile();
+  }
+  return built_.emplace(key, std::move(built)).first->second.program;
 }
 
 void Programs::start_capture() {
@@ -87,9 +94,9 @@ void Programs::start_capture() {
   captured_.clear();
 }
 
-std::vector<cl::Program> Programs::end_capture() {
+std::vector<CapturedProgram> Programs::end_capture() {
   captures_ = false;
-  std::vector<cl::Program> programs;
+  std::vector<CapturedProgram> programs;
   for (const std::string& key : captured_) {
     if (const auto found = built_.find(key); found != built_.end()) {
       programs.push_back(found->second);

@@ -41,6 +41,11 @@ struct Constants {
 [[nodiscard]] cl::Program build(const Session& session, const std::string& source,
                                 const std::string& options);
 
+struct CapturedProgram {
+  cl::Program program;
+  std::string printed;  // to standard error while it was built; empty if nothing was captured then
+};
+
 // Programs that have been compiled, by source and options.
 class Programs {
  public:
@@ -52,11 +57,11 @@ class Programs {
   // From now on, the programs that are requested are recorded once each, except those that count.
   // end_capture() returns them in that order.
   void start_capture();
-  [[nodiscard]] std::vector<cl::Program> end_capture();
+  [[nodiscard]] std::vector<CapturedProgram> end_capture();
 
  private:
   const Session& session_;
-  std::map<std::string, cl::Program> built_;  // by hash
+  std::map<std::string, CapturedProgram> built_;  // by hash
   bool captures_ = false;
   std::vector<std::string> captured_;  // hashes
 };

@@ -192,6 +192,7 @@ std::vector<std::string> compile_only_environment(std::string_view device_id,
     environment.emplace_back("LIBGL_ALWAYS_SOFTWARE=false");
   } else if (driver.name == "rusticl") {
     environment.emplace_back("AMD_DEBUG=cs,asm");
+    environment.emplace_back("RUSTICL_DEBUG=nir");  // prints the names of the kernels
     environment.emplace_back("RUSTICL_ENABLE=radeonsi");
   }
   return environment;
@@ -209,6 +210,13 @@ std::string compiled_family(std::string_view driver) {
   }
   const std::string family = value_of("AMDGPU_GPU_ID", {});
   return family.empty() ? "stub" : family;
+}
+
+std::string without_kernel_version(std::string text) {
+  const std::size_t begin = text.find(", DRM ");
+  const std::size_t end = text.find(')', begin);
+  if (begin != std::string::npos && end != std::string::npos) text.erase(begin, end - begin);
+  return text;
 }
 
 std::string compile_only_id(std::string_view api, std::string_view driver,

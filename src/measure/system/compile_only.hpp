@@ -37,6 +37,11 @@ struct CompileOnly {
 // `driver` is its short name. Devices that compute on the processor are never affected.
 [[nodiscard]] std::string compiled_family(std::string_view driver);
 
+// Removes the versions of the kernel and of its DRM interface from the name that radeonsi gives a GPU:
+// "AMD Radeon RX 6800 (radeonsi, navi21, LLVM 19.1.7, DRM 3.49, 6.12.1)". They do not affect a
+// compiler, and a device that only compiles must be the same on every machine.
+[[nodiscard]] std::string without_kernel_version(std::string text);
+
 // The id for a driver's device that only compiles for `family`.
 [[nodiscard]] std::string compile_only_id(std::string_view api, std::string_view driver,
                                           std::string_view family);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "measure/code/printed_kernels.hpp"
 #include "measure/code/standard_error.hpp"
 #include "measure/system/compile_only.hpp"
 
@@ -39,6 +40,36 @@ TEST(ParseCounts, ReadsLinesOfIntelAndNvidia) {
               AllOf(Contains(Pair("inst", 55)), Contains(Pair("cycles", 328))));
   EXPECT_THAT(parse_counts("ptxas info : Used 32 registers, 8 bytes stack frame"),
               AllOf(Contains(Pair("registers", 32)), Contains(Pair("bytes stack frame", 8))));
+}
+
+// What rusticl of Mesa 25.0.7 printed, shortened.
+TEST(PrintedKernels, HaveTheNameThatWasPrintedBefore) {
+  const auto kernels = parse_printed_kernels(
+      "Shader main disassembly:\ns_endpgm\n*** SHADER STATS ***\nVGPRs: 8\n*****\n"
+      "=== Printing nir for 'mm' after spirv_to_nir\n"
+      "shader: MESA_SHADER_KERNEL\n"
+      "=== Printing nir variant 'Default' for 'mm' before driver finalization\n"
+      "Shader main disassembly:\nmain:\n\tv_mov_b32 v0, 1\n\ts_endpgm\n"
+      "*** SHADER STATS ***\nSGPRS: 24\nVGPRS: 12\nCode Size: 128 bytes\nMax Waves: 16\n"
+      "********************\n\n"
+      "=== Printing nir variant 'Default' for 'zz' before driver finalization\n"
+      "=== Printing nir variant 'Optimized' for 'zz' before driver finalization\n"
+      "Shader main disassembly:\n\ts_endpgm\n*** SHADER STATS ***\nVGPRS: 16\n*****\n"
+      "Shader main disassembly:\n\ts_nop 0\n\ts_endpgm\n*** SHADER STATS ***\nVGPRS: 20\n*****\n");
+  ASSERT_EQ(kernels.size(), 3U);
+  EXPECT_EQ(kernels[0].name, "mm");
+  EXPECT_EQ(kernels[0].assembly, "main:\n\tv_mov_b32 v0, 1\n\ts_endpgm\n");
+  EXPECT_THAT(kernels[0].statistics,
+              testing::UnorderedElementsAre(Pair("SGPRS", 24), Pair("VGPRS", 12),
+                                            Pair("Code Size", 128), Pair("Max Waves", 16)));
+  EXPECT_EQ(kernels[1].name, "zz");
+  EXPECT_EQ(kernels[2].name, "zz (optimized)");
+  EXPECT_THAT(kernels[2].statistics, testing::ElementsAre(Pair("VGPRS", 20)));
+}
+
+TEST(PrintedKernels, NothingPrintedIsNoKernel) {
+  EXPECT_THAT(parse_printed_kernels(""), IsEmpty());
+  EXPECT_THAT(parse_printed_kernels("DRM_IOCTL_GET_CAP: unhandled 0x10\n"), IsEmpty());
 }
 
 TEST(CompiledCode, HashesAreNoStatistics) {
@@ -75,8 +106,7 @@ TEST(CompiledCode, CountsInstructionsThatAreNotReported) {
 
 TEST(StandardError, IsKeptAndGivenBack) {
   const auto write = [](const std::string& text) {
-    ASSERT_EQ(::write(STDERR_FILENO, text.data(), text.size()),
-              static_cast<ssize_t>(text.size()));
+    ASSERT_EQ(::write(STDERR_FILENO, text.data(), text.size()), static_cast<ssize_t>(text.size()));
   };
   EXPECT_EQ(standard_error_of([&] { write("from a driver\n"); }), "from a driver\n");
   EXPECT_EQ(standard_error_of([] {}), "");
@@ -103,6 +133,15 @@ TEST(CompileOnly, WhatIsMissingIsNamedWithItsPackage) {
   } catch (const core::NotSupported& error) {
     EXPECT_THAT(std::string(error.what()), Not(IsEmpty()));
   }
+}
+
+// The name of a device that only compiles must be the same on every machine.
+TEST(CompileOnly, TheKernelsVersionIsNoPartOfAName) {
+  EXPECT_EQ(without_kernel_version(
+                "AMD Radeon RX 6800 (radeonsi, navi21, LLVM 19.1.7, DRM 3.49, 6.12.1-amd64)"),
+            "AMD Radeon RX 6800 (radeonsi, navi21, LLVM 19.1.7)");
+  EXPECT_EQ(without_kernel_version("NVK Ampere"), "NVK Ampere");
+  EXPECT_EQ(without_kernel_version("cut off, DRM 3.49"), "cut off, DRM 3.49");
 }
 
 }  // namespace

@@ -1,0 +1,25 @@
+#pragma once
+// Reads what rusticl on radeonsi prints to standard error while it builds a program, with the
+// variables RUSTICL_DEBUG=nir and AMD_DEBUG=cs,asm: the names of kernels, their disassembly and
+// their statistics.
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace triptych::measure {
+
+struct PrintedKernel {
+  // The kernel's name. rusticl may compile a second variant for the usual size of a work group; its
+  // name ends with " (optimized)".
+  std::string name;
+  std::map<std::string, double> statistics;
+  std::string assembly;
+};
+
+// Returns the kernels in the order in which they were printed. Code that belongs to no kernel, such
+// as that of a driver's own shaders, is left out.
+[[nodiscard]] std::vector<PrintedKernel> parse_printed_kernels(std::string_view printed);
+
+}  // namespace triptych::measure
