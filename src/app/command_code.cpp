@@ -29,8 +29,9 @@ struct CodeArguments {
   int limit_s = standard_limit_s;
 };
 
-// "  Inverse Throughput    6486", those first that people want to read first.
-void print_statistics(const record::Executable& executable) {
+// "  Inverse Throughput    6486", those first that people want to read first. `samples`: the
+// executable may have a loop that samples a volume.
+void print_statistics(const record::Executable& executable, bool samples) {
   std::vector<std::pair<std::string, double>> statistics(executable.statistics.begin(),
                                                          executable.statistics.end());
   std::ranges::stable_sort(statistics, {}, [](const auto& each) {
@@ -40,7 +41,7 @@ void print_statistics(const record::Executable& executable) {
     put("  {:<28} {:g}\n", name, value);
   }
   const bool disassembled = !executable.assembly.empty();
-  if (disassembled && !executable.statistics.contains("Loop instructions")) {
+  if (samples && disassembled && !executable.statistics.contains("Loop instructions")) {
     put("  the loop that samples the volume was not found for certain, so the instructions of one "
         "iteration are not reported\n");
   }
@@ -53,7 +54,7 @@ void print_text(const record::Device& device, const record::Record& record,
   put("{}\n", record.configuration);
   for (const auto& [name, executable] : record.code) {
     put("\n{}\n", name);
-    print_statistics(executable);
+    print_statistics(executable, record.suite == "volume" && !name.ends_with(".vert"));
     if (brief || executable.assembly.empty()) continue;
     put_lines("\n" + store.listing(executable.assembly).value_or("") + "\n");
   }

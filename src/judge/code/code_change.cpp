@@ -89,15 +89,25 @@ std::string lower(std::string_view text) {
   return result;
 }
 
+bool counts_instructions(const record::Executable& executable) {
+  return std::ranges::any_of(executable.statistics, [](const auto& each) {
+    return code_statistic(each.first).rank == quantity::instructions.rank;
+  });
+}
+
 void compare_executable(const std::string& name, const record::Executable& before,
                         const record::Executable& now, CodeComparison& comparison) {
+  const bool counted = counts_instructions(before) && counts_instructions(now);
   // A statistic that only one of the two reports is missing, not zero: it did not change.
   for (const auto& [statistic, value] : now.statistics) {
     const auto old = before.statistics.find(statistic);
     if (old == before.statistics.end() || old->second == value) continue;
+    CodeStatistic meaning = code_statistic(statistic);
+    // The size is the next best measure of the number of instructions.
+    if (!counted && meaning.rank == quantity::code_size.rank) meaning.decides = true;
     comparison.changes.push_back({.executable = name,
                                   .driver_name = statistic,
-                                  .statistic = code_statistic(statistic),
+                                  .statistic = meaning,
                                   .before = old->second,
                                   .now = value});
   }
