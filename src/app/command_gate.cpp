@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
+#include "app/code_plans.hpp"
 #include "app/compare_sides.hpp"
 #include "app/measure_plans.hpp"
 #include "app/own_baselines.hpp"
@@ -64,14 +66,14 @@ struct JudgedPlan {
   std::string typed;
   measure::Plan plan;
   record::Checks checks;
+  std::vector<std::string> devices = {};  // globs; empty: those that the user named
 };
-
-const std::vector<std::string> code_plans{"volume/code", "particles/code"};
 
 // The gate judges these plans if none is named.
 std::vector<std::string> gate_job() {
-  // The plans that check code join them once baselines of them are stored.
-  return main_job;
+  std::vector<std::string> plans = main_job;
+  plans.insert(plans.end(), code_plans.begin(), code_plans.end());
+  return plans;
 }
 
 // The plans as they are now. A plan that cannot be read is not judged. A plan that has lost the
@@ -85,6 +87,9 @@ std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry&
   for (const std::string& typed : arguments.plans.empty() ? gate_job() : arguments.plans) {
     JudgedPlan each{typed, arguments.choice.load(typed, registry.find_suite()), asked};
     if (each.plan.configurations.empty() && arguments.choice.selects()) continue;
+    const auto is_asked = [&](record::Check check) { return asked.contains(check); };
+    const bool is_default = arguments.plans.empty() && !asked.empty();
+    if (is_default && std::ranges::none_of(each.plan.checks, is_asked)) continue;
     if (each.plan.configurations.empty()) {
       throw core::NotSupported(
           fmt::format("{}: shard {} holds no configuration, so there is nothing to judge",
@@ -97,14 +102,16 @@ std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry&
     if (!each.checks.empty()) plans.push_back(std::move(each));
   }
   if (plans.empty() && arguments.choice.selects()) throw nothing_selected(arguments.choice);
-  if (plans.empty()) throw core::InputError("--without leaves nothing to judge");
+  if (plans.empty()) {
+    throw core::InputError("--check and --without leave out every check of the plans: name others");
+  }
   return plans;
 }
 
 judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan& judged,
                                const Registry& registry, measure::Truths& truths) {
   judge::GateRequest request = request_of(truths, judged.plan, registry.suite(judged.plan.suite));
-  request.devices = arguments.devices;
+  request.devices = judged.devices.empty() ? arguments.devices : judged.devices;
   // Devices that only compile appear in no other plan, and the other devices need not report code.
   for (const std::string& glob : arguments.required) {
     const bool compiles = measure::compile_only(glob).has_value();
@@ -138,38 +145,37 @@ core::ExitCode judge_by_base(const GateArguments& arguments) {
   return compare_and_tell(comparisons, arguments.json);
 }
 
-// Returns whether a plan that checks code has anything to judge: a device with a GPU's compiler,
-// or, if the gate does not measure, a run in the store.
-bool has_compilers(const GateArguments& arguments, const Registry& registry,
-                   const JudgedPlan& judged) {
-  if (!arguments.measure) {
-    if (!std::filesystem::exists(arguments.store)) return true;  // reported as an error later
-    const record::Store store(arguments.store, record::Store::Mode::read);
-    return store.latest_run(judged.plan.name).has_value();
-  }
-  const measure::Listing listing = registry.devices_and_compilers(arguments.devices);
-  const auto compiles = [&](const record::Device& device) {
-    return device.cpu_features.empty() &&
-           (arguments.devices.empty() || core::any_glob_matches(arguments.devices, device.id));
-  };
-  if (std::ranges::any_of(listing.devices, compiles)) return true;
-  for (const measure::Broken& each : listing.broken) {
-    if (measure::compile_only(each.what)) say("triptych: {}: {}\n", each.what, each.reason);
-  }
-  return false;
+// The devices that were found: those of the machine, or if the gate does not measure, of the run.
+std::vector<record::Device> found_devices(const GateArguments& arguments, const Registry& registry,
+                                          const JudgedPlan& judged) {
+  if (arguments.measure) return registry.devices_and_compilers(arguments.devices).devices;
+  std::vector<record::Device> found;
+  if (!std::filesystem::exists(arguments.store)) return found;  // reported as an error later
+  const record::Store store(arguments.store, record::Store::Mode::read);
+  const auto run = store.latest_run(judged.plan.name);
+  if (!run) return found;
+  for (const auto& entry : store.devices(run->id)) found.push_back(entry.device);
+  return found;
 }
 
-// Removes the plans that check code from the default plans on a machine without any GPU's compiler,
-// unless a device that only compiles is required.
-void leave_out_compilers(const GateArguments& arguments, const Registry& registry,
-                         std::vector<JudgedPlan>& plans) {
-  const bool required = measure::name_a_compiler(arguments.required);
-  const auto compiled =
-      std::ranges::find_if(plans, [](const JudgedPlan& each) { return each.plan.compiled(); });
-  if (!arguments.plans.empty() || required || compiled == plans.end()) return;
-  if (has_compilers(arguments, registry, *compiled)) return;
-  std::erase_if(plans, [](const JudgedPlan& each) { return each.plan.compiled(); });
-  say("triptych: the check code is left out: no GPU's compiler is here to be asked\n");
+// Limits default plans of the check `code` to devices with stored code, and removes the plans
+// without any. If a device that only compiles is required, all are judged.
+void limit_to_stored_code(const GateArguments& arguments, const Registry& registry,
+                          std::vector<JudgedPlan>& plans) {
+  if (!arguments.plans.empty() || measure::name_a_compiler(arguments.required)) return;
+  std::optional<std::vector<record::Device>> found;
+  std::erase_if(plans, [&](JudgedPlan& each) {
+    if (!each.plan.compiled()) return false;
+    if (!found) found = found_devices(arguments, registry, each);
+    JudgedCompilers compilers =
+        judged_compilers(each.plan, *found, arguments.devices, arguments.baselines);
+    if (arguments.measure) print_not_judged(compilers, each.typed);
+    each.devices = std::move(compilers.devices);
+    return each.devices.empty();
+  });
+  if (plans.empty()) {
+    throw core::NotSupported("no plan is left to judge: no code is stored for these devices");
+  }
 }
 
 core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Stopwatch& since) {
@@ -177,7 +183,7 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
   if (!arguments.base.empty()) return judge_by_base(arguments);
   const Registry registry = make_registry();
   std::vector<JudgedPlan> plans = plans_of(arguments, registry);
-  leave_out_compilers(arguments, registry, plans);
+  limit_to_stored_code(arguments, registry, plans);
   if (arguments.measure) {
     std::vector<std::string> typed;
     for (const JudgedPlan& each : plans) typed.push_back(each.typed);

@@ -113,11 +113,14 @@ struct Bench {
   record::Store& store;
 };
 
+// Families whose compiler is not installed are of interest only if the user named one.
 record::Beginning begun_with(const measure::Listing& listing,
                              const std::vector<std::string>& asked) {
   record::Beginning begun{.host = measure::host_name(), .asked = asked};
+  const bool named = measure::name_a_compiler(asked);
   for (const record::Device& each : listing.devices) begun.found.push_back(each.id);
   for (const measure::Broken& each : listing.broken) {
+    if (!named && measure::compile_only(each.what)) continue;
     begun.unusable.push_back({each.what, each.reason, each.ended});
   }
   return begun;
@@ -184,17 +187,16 @@ void tell_the_fastest(const Bench& bench, const measure::Plan& plan, const std::
   }
 }
 
-// Devices that only compile are used by plans that check their code, and by no others. If the user
-// names no device, such a plan leaves out devices that are the processor: the plans that check cost
-// count their instructions.
+// Devices that only compile are used by plans that check their code, and by no others. Such a plan
+// leaves out devices that are the processor, unless the user names no others: the plans that check
+// cost count their instructions.
 std::vector<std::string> devices_of(const measure::Listing& listing,
                                     const std::vector<std::string>& globs, bool compiled) {
   std::vector<std::string> chosen = measure::choose_devices(listing, globs);
   std::vector<std::string> fit;
   for (const std::string& id : chosen) {
     const auto device = std::ranges::find(listing.devices, id, &record::Device::id);
-    const bool computes_here = !device->cpu_features.empty();
-    const bool fits = compiled ? !globs.empty() || !computes_here : device->compiles_for.empty();
+    const bool fits = compiled ? device->cpu_features.empty() : device->compiles_for.empty();
     if (fits) fit.push_back(id);
   }
   // If the user names only devices that do not fit, they are skipped with the reason.

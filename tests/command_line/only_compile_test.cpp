@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <string>
 
+#include "core/json.hpp"
 #include "program.hpp"
 
 namespace triptych::command_line {
@@ -81,6 +83,55 @@ TEST_F(OnlyCompile, AnUnknownFamilyIsToldInOneLine) {
             std::string::npos)
       << result.output;
   EXPECT_NE(result.output.find("know this family"), std::string::npos) << result.output;
+  EXPECT_FALSE(std::filesystem::exists(program.folder() / "s.sqlite"));
+}
+
+// `flipped_axis` is one more arithmetic operation for each sample of a ray, `unresolved_ties` two
+// more for each sphere of a tile.
+TEST_F(OnlyCompile, AFaultInTheLoopIsFoundOnEveryFamily) {
+  program.write("rays.yaml",
+                "suite: volume\nchecks: [code]\ntechnique: [raycast]\nsampler: [hardware]\n"
+                "data: [generate:sparse_field:8]\nviewport: [16]\n");
+  program.write("tiles.yaml",
+                "suite: particles\nchecks: [code]\ntechnique: [tiles]\n"
+                "data: [generate:uniform:50]\nviewport: [16]\n");
+  const std::string all = " --device 'vulkan:radv-*' --store s.sqlite";
+  ASSERT_EQ(program.run("run rays.yaml tiles.yaml" + all).code, 0);
+  ASSERT_EQ(
+      program.run("accept rays.yaml tiles.yaml --reason new --baselines b --store s.sqlite").code,
+      0);
+  ASSERT_EQ(program.run("run rays.yaml --inject flipped_axis" + all).code, 0);
+  ASSERT_EQ(program.run("run tiles.yaml --inject unresolved_ties" + all).code, 0);
+  const Result judged =
+      program.run("gate rays.yaml tiles.yaml --baselines b --store s.sqlite --json");
+  EXPECT_EQ(judged.code, 1) << judged.output;
+
+  std::map<std::string, std::map<std::string, double>> grown;  // by device, then by statistic
+  for (const core::Json& plan : core::Json::parse(judged.output)) {
+    for (const core::Json& finding : plan.at("findings")) {
+      EXPECT_EQ(finding.at("cause"), "values_changed");
+      EXPECT_EQ(finding.at("verdict"), "regression");
+      for (const core::Json& change : finding.at("changes")) {
+        grown[finding.at("device")][change.at("name")] =
+            change.at("now").get<double>() - change.at("before").get<double>();
+      }
+    }
+  }
+  EXPECT_GE(grown.size(), 3U) << judged.output;
+  for (auto& [device, changes] : grown) {
+    EXPECT_EQ(changes["instructions per iteration"], 1) << device;
+    EXPECT_EQ(changes["tiles_index.comp instructions per iteration"], 2) << device;
+  }
+}
+
+// Without stored code there is nothing to judge, and nothing is compiled for it.
+TEST_F(OnlyCompile, TheGateJudgesNoDriverWithoutStoredCode) {
+  const std::string gate =
+      std::string("gate --check code --measure --baselines none --store s.sqlite --device ") +
+      absent_device;
+  const Result result = program.run(gate);
+  EXPECT_EQ(result.code, 2) << result.output;
+  EXPECT_NE(result.output.find("no plan is left to judge"), std::string::npos) << result.output;
   EXPECT_FALSE(std::filesystem::exists(program.folder() / "s.sqlite"));
 }
 

@@ -121,6 +121,10 @@ void list_compiler(const std::string& id, Listing& listing) {
   for (const Broken& each : listing.broken) {
     known += fmt::format("; {}{}{}", each.what, each.reason.empty() ? " cannot be used" : ": ",
                          each.reason);
+    // RADV aborts if it does not know a family, and prints so.
+    if (each.ended && !each.ended->last_words.empty()) {
+      known += fmt::format(" (its last output: {})", each.ended->last_words);
+    }
   }
   throw core::NotSupported(fmt::format("no device matches {}; there are:{}", glob, known));
 }

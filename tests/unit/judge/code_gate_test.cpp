@@ -1,5 +1,6 @@
 // The gate compares the compilers' reports with stored ones.
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
 #include "fixture.hpp"
@@ -60,6 +61,23 @@ TEST(CodeChange, TheInverseThroughputNamesTheDirectionOfAMixedChange) {
   EXPECT_EQ(direction_of({{"Instructions", 700}, {"Latency", 40000}}), CodeDirection::worse);
   EXPECT_TRUE(
       compare_code(as_compiled, with_changes({{"Instructions", 700}, {"Latency", 40000}})).mixed());
+}
+
+// OpenGL drivers report no instructions of a vertex or fragment shader.
+TEST(CodeChange, TheCodeSizeDecidesIfInstructionsAreNotReported) {
+  const auto with = [](std::map<std::string, double> statistics) {
+    return Code{{"sphere.frag", {.statistics = std::move(statistics)}}};
+  };
+  const auto direction = [](const Code& before, const Code& now) {
+    return compare_code(before, now).direction();
+  };
+  EXPECT_EQ(direction(with({{"Code Size", 664}}), with({{"Code Size", 668}})),
+            CodeDirection::worse);
+  EXPECT_EQ(direction(with({{"Code Size", 664}}), with({{"Code Size", 660}})),
+            CodeDirection::better);
+  EXPECT_EQ(direction(with({{"Code Size", 664}, {"Instructions", 90}}),
+                      with({{"Code Size", 668}, {"Instructions", 90}})),
+            CodeDirection::other);
 }
 
 TEST(CodeChange, WhatOnlyOneReportsIsMissingAndNotZero) {
@@ -180,6 +198,34 @@ TEST_F(CodeGateTest, AnotherDriverVersionIsToldInTotals) {
   EXPECT_EQ(told[0].cause, Cause::other_compiler);
   EXPECT_EQ(told[0].changes.at(0).name, "Instrs");
   EXPECT_EQ(with(gate("b"), Verdict::regression).size(), 0U);
+}
+
+// A machine need not have the compiler of a GPU that it lacks. If the driver is there, the family
+// was lost.
+TEST_F(CodeGateTest, AFamilyIsMissedOnlyIfItsDriverIsThere) {
+  const std::vector<std::string> others{"opencl:pocl", "vulkan:lavapipe"};
+  const auto run = [&](const std::string& id, std::vector<std::string> found) {
+    const std::vector<std::string> devices = id == "a" ? found : others;
+    add_run(id, compiled());
+    store_.begin(id, {.host = "host", .found = std::move(found), .devices = devices},
+                 {plain_, bricks_, "camera=side,data=ball,technique=raycast",
+                  "camera=side,data=ball,skip=bricks,technique=raycast"});
+    if (id == "a") return;
+    SQLite::Database rows(store_.file().string(), SQLite::OPEN_READWRITE);
+    rows.exec("DELETE FROM record WHERE run = '" + id + "' AND device = 'gl:llvmpipe-egl'");
+    rows.exec("DELETE FROM device WHERE run = '" + id + "' AND id = 'gl:llvmpipe-egl'");
+  };
+  run("a", {"gl:llvmpipe-egl", "opencl:pocl", "vulkan:lavapipe"});
+  static_cast<void>(accept_run("a"));
+  run("without", others);
+  EXPECT_EQ(gate("without").exit_code(), ExitCode::pass) << text(gate("without"));
+  run("lost", {"gl:llvmpipe-other", "opencl:pocl", "vulkan:lavapipe"});
+  const GateResult lost = gate("lost");
+  EXPECT_EQ(lost.exit_code(), ExitCode::cannot_judge) << text(lost);
+  const auto missing = with(lost, Verdict::cannot_judge);
+  ASSERT_EQ(missing.size(), 1U);
+  EXPECT_EQ(missing[0].cause, Cause::device_missing);
+  EXPECT_EQ(missing[0].device, "gl:llvmpipe-egl");
 }
 
 }  // namespace

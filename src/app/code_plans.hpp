@@ -1,0 +1,33 @@
+#pragma once
+// The plans of the check `code` among those that the gate judges if the user names none. There they
+// are judged only on devices whose driver version has stored code, so that a machine without a
+// GPU's compiler, or with another version of one, passes all the same.
+
+#include <string>
+#include <vector>
+
+#include "measure/plan/plan.hpp"
+#include "record/record.hpp"
+
+namespace triptych::app {
+
+extern const std::vector<std::string> code_plans;
+
+// The devices on which a plan of the check `code` is judged by default.
+struct JudgedCompilers {
+  std::vector<std::string> devices;     // ids, sorted
+  std::vector<std::string> not_stored;  // "ID (DRIVER VERSION)": there is no stored code
+};
+
+// Selects from `found`, the devices that the machine has or that a run describes. Also in `devices`
+// are those with stored code that were not found, because the gate reports them if another device
+// of the same driver is there. `globs`: the devices that the user named; empty: all.
+[[nodiscard]] JudgedCompilers judged_compilers(const measure::Plan& plan,
+                                               const std::vector<record::Device>& found,
+                                               const std::vector<std::string>& globs,
+                                               const std::string& baselines);
+
+// Prints, in one line each, why devices are not judged.
+void print_not_judged(const JudgedCompilers& compilers, const std::string& plan);
+
+}  // namespace triptych::app
