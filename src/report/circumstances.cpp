@@ -45,6 +45,7 @@ std::vector<std::string> circumstances(std::span<const judge::GateResult* const>
   std::size_t injected_records = 0;
   std::map<std::string, std::set<std::string>> unusable;  // by reason
   std::set<std::string> programs;
+  std::set<std::string> days;
   for (const judge::GateResult* result : results) {
     for (const auto& [fault, records] : result->injected) {
       injected.insert(fault);
@@ -54,6 +55,7 @@ std::vector<std::string> circumstances(std::span<const judge::GateResult* const>
       unusable[each.ended ? words::text_of(*each.ended) : each.reason].insert(each.what);
     }
     if (!result->measured_by.empty()) programs.insert(result->measured_by);
+    if (!result->began.empty()) days.insert(result->began);
   }
   std::vector<std::string> lines;
   if (!injected.empty()) {
@@ -63,6 +65,11 @@ std::vector<std::string> circumstances(std::span<const judge::GateResult* const>
   }
   for (const std::string& program : programs) {
     lines.push_back(fmt::format("measured by another build of Triptych: {}", program));
+  }
+  if (!days.empty()) {
+    lines.push_back(
+        fmt::format("measured on {}, and not today: the store has no later run of the plan",
+                    fmt::join(days, " and ")));
   }
   for (const auto& [reason, what] : unusable) {
     lines.push_back(fmt::format("not usable here: {}: {}", fmt::join(what, ", "), reason));

@@ -61,15 +61,20 @@ std::string expiry_of(const core::JsonNode& entry) {
   return expiry;
 }
 
+std::optional<int> days_between(std::string_view from, std::string_view to) {
+  if (!is_iso_date(from) || !is_iso_date(to)) return std::nullopt;
+  return static_cast<int>(
+      (std::chrono::sys_days(date_of(to)) - std::chrono::sys_days(date_of(from))).count());
+}
+
 void refuse_distant_expiry(const core::JsonNode& expiry, const std::string& today) {
-  const std::string text = expiry.text();
-  if (!is_iso_date(text) || !is_iso_date(today)) return;  // reported by expiry_of()
-  constexpr std::chrono::days most{366};
-  if (std::chrono::sys_days(date_of(text)) - std::chrono::sys_days(date_of(today)) <= most) return;
+  constexpr int most = 366;
+  const auto days = days_between(today, expiry.text());
+  if (!days || *days <= most) return;  // expiry_of() reports a text that is no date
   expiry.fail(
       fmt::format("ends more than {} days after {}: name an earlier day, on which somebody "
                   "checks whether the entry is still needed",
-                  most.count(), today));
+                  most, today));
 }
 
 bool matches_every_device(std::string_view glob) {

@@ -2,6 +2,7 @@
 // Values in entries that excuse something, in whichever file they are.
 
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,8 @@ void refuse_other_keys(const core::JsonNode& entry, std::initializer_list<std::s
 [[nodiscard]] std::string reason_of(const core::JsonNode& entry);
 // Must be a day of the calendar.
 [[nodiscard]] std::string expiry_of(const core::JsonNode& entry);
+// nullopt unless both are ISO dates.
+[[nodiscard]] std::optional<int> days_between(std::string_view from, std::string_view to);
 // An end that is more than a year after `today` (an ISO date) excuses for ever in practice.
 void refuse_distant_expiry(const core::JsonNode& expiry, const std::string& today);
 // Whether a glob excludes none of these, however it is written: "*:*" matches every device.

@@ -13,6 +13,7 @@
 
 #include "core/glob.hpp"
 #include "core/quoting.hpp"
+#include "judge/baselines/waiver_values.hpp"
 #include "judge/gate/run_view.hpp"
 
 namespace triptych::judge {
@@ -340,6 +341,8 @@ void report_what_is_there(const RunView& view, GateResult& result) {
     if (!record.injected.empty()) ++result.injected[record.injected];
   }
   result.measured_by = other_programs(view);
+  const std::string day = view.run.started_at.substr(0, 10);
+  if (days_between(day, view.request.today).value_or(0) > 1) result.began = day;
   report_nothing_measured(view, result.run, result.findings);
   report_outcomes(view, result.findings);
   report_device_faults(view, result.findings);

@@ -40,11 +40,13 @@ struct GateResult {
   bool times_decided = false;                        // as in the request
   bool part = false;                                 // as in the request
   // About the run: what was found while devices were listed and cannot be used, the injected faults
-  // with the number of their records, and the program that measured if it is not the one that
-  // judges. The last screen shows all of these, whatever the verdict.
+  // with the number of their records, the program that measured if it is not the one that judges,
+  // and the day of a run that began more than a day before it is judged: a later one may have
+  // failed before it began. The last screen shows all of these, whatever the verdict.
   std::vector<record::Unusable> unusable = {};
   std::map<std::string, std::size_t> injected = {};
   std::string measured_by = {};
+  std::string began = {};
   // Devices of which all findings are advisory or reasons for not judging.
   [[nodiscard]] std::vector<std::string> nothing_decided() const;
   [[nodiscard]] core::ExitCode exit_code() const;

@@ -234,6 +234,20 @@ TEST_F(AsBegunTest, ALostConfigurationOfTheBaselinesIsNoticed) {
               HasSubstr("states 4 configurations, and counters.json has 3"));
 }
 
+// A later run may have failed before it began, and the store then ends with an older one. The
+// fixture's runs began on 2026-02-01.
+TEST_F(AsBegunTest, AnOldRunIsNamedWithItsDay) {
+  add_begun("run");
+  for (const auto& [today, began] : {std::pair{"2026-02-01", ""},
+                                     {"2026-02-02", ""},
+                                     {"2026-02-03", "2026-02-01"},
+                                     {"2027-02-01", "2026-02-01"},
+                                     {"2026-01-01", ""}}) {
+    request_.today = today;
+    EXPECT_EQ(gate("run").began, began) << today;
+  }
+}
+
 // The run was begun by one build, and resumed by another one.
 TEST_F(AsBegunTest, EveryProgramThatMeasuredIsCompared) {
   request_.program = "1, commit b";
