@@ -24,7 +24,7 @@ struct NearestBound {
 [[nodiscard]] std::vector<NearestBound> nearest_bounds(
     std::span<const judge::GateResult* const> results);
 
-// "nearest 0.61 of it, farthest 0.0031 on gl:x in volume/quick": the largest share of all, and then
+// "at most 0.61 of the bound, only 0.0031 on gl:x in volume/quick": the largest share of all, and then
 // the device and plan with the smallest share if it is below a hundredth. Empty if there are no
 // pictures.
 [[nodiscard]] std::string nearest_text(std::span<const NearestBound> bounds);

@@ -28,7 +28,9 @@ std::string excuse(const Finding& finding) {
     case Excuse::Of::waived:
       return fmt::format("waived until {} ({}): ", excuse.expiry, excuse.reason);
     case Excuse::Of::known:
-      return fmt::format("known {}: ", judge::name_of(excuse.known));
+      return excuse.known == Known::fail
+                 ? "known failure: "
+                 : fmt::format("known {}: ", judge::name_of(excuse.known));
     case Excuse::Of::unexpected:
       return finding.verdict == Verdict::improved
                  ? fmt::format("passes, but it is expected as a {} ({}): ",
@@ -141,7 +143,7 @@ std::string advice(const Finding& finding) {
     case Advice::more_time:
       return "give it more time with --limit";
     case Advice::times:
-      return "times decide only with --times";
+      return "times affect the verdict only with --times";
     case Advice::repair_driver:
       return "repair the driver, or state that this machine lacks the device with " + command;
     case Advice::remove_entry:

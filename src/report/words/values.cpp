@@ -193,7 +193,7 @@ std::string residual_moved(const Observation& what) {
   if (what.number("configurations") > 1) {
     text += fmt::format(" in {:.0f} configurations", what.number("configurations"));
   }
-  return text + fmt::format("; the cost ratios to {} changed by more than they repeat",
+  return text + fmt::format("; the cost ratios to {} changed by more than they vary between runs",
                             joined(what.names));
 }
 

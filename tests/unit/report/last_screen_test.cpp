@@ -65,7 +65,7 @@ TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
   result.findings.back().numbers["ratio"] = 7;  // about no device
   EXPECT_THAT(
       last_screen(std::vector{result}, 3, {}, {.width = 120}),
-      HasSubstr("3 within their error bounds; nearest 0.61 of it, farthest 0.003 on opencl:y in "
+      HasSubstr("3 within their error bounds; at most 0.61 of the bound, only 0.003 on opencl:y in "
                 "volume/quick\n"));
   const auto all = overview(std::vector{result});
   ASSERT_EQ(all.bounds.size(), 2U);
@@ -84,7 +84,7 @@ TEST(LastScreen, NamesWhatIsWaived) {
       .of = judge::Excuse::Of::waived, .reason = "known", .expiry = "2027-01-01"};
   result.findings.back().numbers["ratio"] = 4e5;
   const std::string text = last_screen(std::vector{result}, 3, {});
-  EXPECT_THAT(text, HasSubstr("1 within their error bounds; 1 waived; nearest 0.5 of it\n"));
+  EXPECT_THAT(text, HasSubstr("1 within their error bounds; 1 waived; at most 0.5 of the bound\n"));
   EXPECT_THAT(text, HasSubstr("\n  – gl:x, step=2: waived until 2027-01-01 (known): 3 of"));
 }
 
