@@ -1,5 +1,6 @@
 // The command run, and the processes that it starts.
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>

@@ -204,12 +204,14 @@ TEST_F(CodeGateTest, AnotherDriverVersionIsToldInTotals) {
 // was lost.
 TEST_F(CodeGateTest, AFamilyIsMissedOnlyIfItsDriverIsThere) {
   const std::vector<std::string> others{"opencl:pocl", "vulkan:lavapipe"};
+  const std::vector<std::string> configurations{
+      plain_, bricks_, "camera=side,data=ball,technique=raycast",
+      "camera=side,data=ball,skip=bricks,technique=raycast"};
   const auto run = [&](const std::string& id, std::vector<std::string> found) {
     const std::vector<std::string> devices = id == "a" ? found : others;
     add_run(id, compiled());
     store_.begin(id, {.host = "host", .found = std::move(found), .devices = devices},
-                 {plain_, bricks_, "camera=side,data=ball,technique=raycast",
-                  "camera=side,data=ball,skip=bricks,technique=raycast"});
+                 configurations);
     if (id == "a") return;
     SQLite::Database rows(store_.file().string(), SQLite::OPEN_READWRITE);
     rows.exec("DELETE FROM record WHERE run = '" + id + "' AND device = 'gl:llvmpipe-egl'");

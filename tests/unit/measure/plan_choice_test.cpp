@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/output_files.hpp"
+#include "core/temporary_folder.hpp"
 #include "plan_fixture.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -33,15 +34,17 @@ TEST_F(Selection, FiltersByNameAndKey) {
 }
 
 TEST_F(Selection, TakesTheCasesOfAFile) {
-  const test::TemporaryFolder folder;
+  const core::TemporaryFolder folder;
+  const auto written = [&](const char* name, const std::string& text) {
+    core::write_text(folder.path() / name, text);
+    return (folder.path() / name).string();
+  };
   const Names all = names({});
   const std::string file =
-      folder
-          .write("cases", "# two\n" + all[3] + "\nfake.quick.raycast.ball.random_7.s0_5.v8  " +
-                              all[9] + "\nfake.other.name\n")
-          .string();
+      written("cases", "# two\n" + all[3] + "\nfake.quick.raycast.ball.random_7.s0_5.v8  " +
+                           all[9] + "\nfake.other.name\n");
   EXPECT_EQ(names({.caselist = file}).size(), 2U);
-  const std::string none = folder.write("none", "# nothing\n").string();
+  const std::string none = written("none", "# nothing\n");
   EXPECT_THROW(static_cast<void>(names({.caselist = none})), core::InputError);
   EXPECT_THROW(static_cast<void>(names({.caselist = file + "x"})), core::IoError);
 }
