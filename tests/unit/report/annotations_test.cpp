@@ -87,8 +87,7 @@ TEST_F(Annotations, NoNameEndsACommandOrBeginsOne) {
     const std::string text = github_annotations(std::vector{result}, places());
     EXPECT_EQ(std::ranges::count(text, '\n'), 1) << text;
     EXPECT_EQ(text.find('\r'), std::string::npos);
-    EXPECT_NO_THROW(static_cast<void>(
-        nlohmann::json::parse(gitlab_code_quality(std::vector{result}, places()))));
+    EXPECT_TRUE(nlohmann::json::accept(gitlab_code_quality(std::vector{result}, places())));
   }
 }
 
