@@ -26,6 +26,7 @@ Difference everything(DifferenceCause cause) {
       {.name = "device_code", .unit = judge::Unit::instructions, .before = 1000, .now = 1100}};
   what.sides = {ended(record::Outcome::failed, {.cause = record::Cause::error, .detail = "DETAIL"}),
                 crashed(11)};
+  if (cause == DifferenceCause::reported_by_one_side) what.changes[0].before.reset();
   if (cause == DifferenceCause::wrong_image) what.sides = {std::nullopt, over_bound(16)};
   what.worths = {
       record::StatisticWorth{},
