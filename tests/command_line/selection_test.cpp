@@ -70,12 +70,14 @@ TEST_P(Selected, InListRunAndGate) {
   EXPECT_EQ(compared.code, 0) << compared.output;
 }
 
+std::string option_name(const testing::TestParamInfo<const char*>& info) {
+  return std::array{"filter", "caselist", "fraction"}.at(info.index);
+}
+
 INSTANTIATE_TEST_SUITE_P(Options, Selected,
                          testing::Values("--filter '*.surfaces.*'", "--caselist cases",
                                          "--fraction 1/2"),
-                         [](const auto& each) {
-                           return std::array{"filter", "caselist", "fraction"}.at(each.index);
-                         });
+                         option_name);
 
 TEST(Selection, OfNothingIsAMistake) {
   const Program program;
