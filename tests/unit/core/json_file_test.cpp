@@ -69,7 +69,7 @@ TEST_F(JsonFileTest, KeyTwiceInOneObjectIsAnError) {
   const auto error = error_of("{\n \"x\": {\"a\": 1},\n \"y\": {\"a\": 1,\n  \"a\": 2}\n}\n",
                               [](const JsonNode&) {});
   EXPECT_EQ(error.place().line, 4);
-  EXPECT_THAT(error.what(), HasSubstr("'a' stands twice"));
+  EXPECT_THAT(error.what(), HasSubstr("'a' appears twice"));
 }
 
 TEST_F(JsonFileTest, WrongTypeHasLineAndPath) {
