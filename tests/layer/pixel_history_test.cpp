@@ -23,7 +23,7 @@ class PixelHistories : public testing::TestWithParam<const char*> {
   [[nodiscard]] Traced trace(const std::string& more) const {
     const test::Result result = test::run_command(fmt::format(
         "cd '{}' && TRIPTYCH_DATA= '{}' render volume --device {} --pixel 7,8 --set viewport=16 "
-        "--set data=generate:marschner_lobb:8 --set step=0.5 --out frame {}",
+        "--set data=generate:marschner_lobb:8 --out frame {}",
         folder_.path().string(), TRIPTYCH_PROGRAM, GetParam(), more));
     Traced traced{.code = result.code, .operation = {}, .output = result.output};
     constexpr std::string_view before = "first difference: ";
@@ -46,9 +46,9 @@ class PixelHistories : public testing::TestWithParam<const char*> {
 
 TEST_P(PixelHistories, DoNotDifferOnACorrectDevice) {
   for (const char* each :
-       {"--set skip=none --set shading=headlight", "--set sampler=manual",
-        "--set quadrature=preintegrated --set step=4", "--set budget=0.001",
-        "--set ert=0 --set precision=fp64", "--set adapt=1/256 --set skip=bricks"}) {
+       {"--set skip=none --set shading=gradient", "--set sampler=manual --set step=0.5",
+        "--set quadrature=preintegrated --set step=4", "--set budget=0.01 --set sampler=manual",
+        "--set ert=0 --set precision=fp64 --set step=0.3", "--set adapt=0.004 --set skip=bricks"}) {
     const Traced traced = trace(each);
     EXPECT_EQ(traced.code, 0) << each << "\n" << traced.output;
   }
@@ -60,7 +60,7 @@ TEST_P(PixelHistories, NameTheOperationWithAFault) {
       {"--inject coarse_filter", "interpolated value"},
       {"--inject uncorrected_opacity", "length that the sample covers"}};
   for (const auto& [fault, operation] : faults) {
-    const Traced traced = trace(fault + " --set sampler=manual");
+    const Traced traced = trace(fault + " --set sampler=manual --set step=0.5");
     EXPECT_EQ(traced.code, 1) << fault;
     EXPECT_EQ(traced.operation, operation) << traced.output;
   }
