@@ -100,13 +100,18 @@ std::vector<std::string> next_steps(const Overview& all, std::string_view store_
       plans.insert(core::shell_quoted(result.argument.empty() ? result.plan : result.argument));
     }
   }
-  const std::string drawn =
-      "next: for a bug report, use the command above with reduce instead of render";
-  return {plans.empty() ? drawn
-                        : fmt::format("next: if the change is intended, triptych accept {}{} "
-                                      "--reason TEXT",
-                                      fmt::join(plans, " "), store_option),
-          "      find the commit: gate --bisect; excuse a known bug: waivers.json"};
+  const bool drawn = std::ranges::any_of(all.open, [](const Cause& cause) {
+    return command_of(*cause.group.first, *cause.result).find("triptych render ") !=
+           std::string::npos;
+  });
+  std::string first = "next: see docs/gate.md";
+  if (!plans.empty()) {
+    first = fmt::format("next: if the change is intended, triptych accept {}{} --reason TEXT",
+                        fmt::join(plans, " "), store_option);
+  } else if (drawn) {
+    first = "next: for a bug report, use the command above with reduce instead of render";
+  }
+  return {first, "      find the commit: gate --bisect; excuse a known bug: waivers.json"};
 }
 
 std::string_view word_of(core::ExitCode code) {
