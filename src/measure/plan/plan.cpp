@@ -92,6 +92,7 @@ bool keep_values(const std::vector<std::string>& values, const Factor& factor, B
   }
   if (kept.empty()) return false;
   block.values[factor.name] = std::move(kept);
+  block.automatic.erase(factor.name);
   return true;
 }
 
