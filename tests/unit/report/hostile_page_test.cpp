@@ -22,13 +22,13 @@ using core::Json;
 // Tags and attributes that our pages contain. Anything else came from a string.
 const std::set<std::string>& known_tags() {
   static const std::set<std::string> tags{
-      "a",    "article",    "b",      "body",    "br",     "button", "details", "dialog",
-      "div",  "figcaption", "figure", "form",    "g",      "h1",     "h2",      "h3",
-      "h4",   "h5",         "head",   "header",  "html",   "img",    "input",   "label",
-      "li",   "link",       "main",   "meta",    "ol",     "option", "output",  "p",
-      "path", "pre",        "rect",   "section", "select", "span",   "style",   "summary",
-      "svg",  "code",       "mark",   "table",   "td",     "text",   "th",      "title",
-      "tr",   "wbr",        "script"};
+      "circle", "dd",     "dl",      "dt",      "a",    "article",    "b",      "body",
+      "br",     "button", "details", "dialog",  "div",  "figcaption", "figure", "form",
+      "g",      "h1",     "h2",      "h3",      "h4",   "h5",         "head",   "header",
+      "html",   "img",    "input",   "label",   "li",   "link",       "main",   "meta",
+      "ol",     "option", "output",  "p",       "path", "pre",        "rect",   "section",
+      "select", "span",   "style",   "summary", "svg",  "code",       "mark",   "table",
+      "td",     "text",   "th",      "title",   "tr",   "wbr",        "script"};
   return tags;
 }
 bool is_known_attribute(const std::string& name) {
@@ -36,6 +36,8 @@ bool is_known_attribute(const std::string& name) {
                                            "charset",
                                            "class",
                                            "content",
+                                           "cx",
+                                           "cy",
                                            "d",
                                            "height",
                                            "hidden",
@@ -49,6 +51,7 @@ bool is_known_attribute(const std::string& name) {
                                            "name",
                                            "opacity",
                                            "placeholder",
+                                           "r",
                                            "rel",
                                            "role",
                                            "scope",
