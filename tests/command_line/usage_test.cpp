@@ -78,9 +78,9 @@ TEST(Usage, AnOverrideThatIsWrong) {
 
 TEST(Usage, ASuiteHasNothingToOverride) {
   const Program program;
-  for (const char* choice : {"--set nonsense=1", "--shard 9/2"}) {
+  for (const char* choice : {"--set nonsense=1", "--shard 9/2", "--filter x"}) {
     expect_refused(program.run(std::string("list volume ") + choice), 3,
-                   "volume is a suite: --set and --shard need a plan");
+                   "volume is a suite: options that choose configurations need a plan");
   }
 }
 
