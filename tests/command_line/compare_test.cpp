@@ -121,7 +121,7 @@ TEST_F(Compare, TheGateJudgesByABase) {
 
 TEST_F(Compare, AClockThatCannotBeBelievedIsNotUsed) {
   const Result result = compare(b_as(1, R"(, "noise": 0.01, "device_over_wall": 0.1)"));
-  expect_verdict(result, 0, "the device clock of side b cannot be believed here");
+  expect_verdict(result, 0, "the device clock of b did not pass its calibration");
 }
 
 TEST_F(Compare, JsonSaysTheSame) {
