@@ -114,9 +114,7 @@ std::string contradiction_in(const fs::path& folder, const Manifest& manifest) {
   };
   const Counted counted = counted_in(folder);
   look(unknown_device(manifest, counted.devices, Layout::counters));
-  for (const char* each : {Layout::memory, Layout::errors}) {
-    look(unknown_device(manifest, devices_of(folder / each), each));
-  }
+  look(unknown_device(manifest, devices_of(folder / Layout::memory), Layout::memory));
   look(lost_check(folder, manifest));
   if (counted.configurations != manifest.configurations) {
     look(fmt::format("{} states {} configurations, and {} has {}", Layout::manifest,

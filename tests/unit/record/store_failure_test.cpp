@@ -107,7 +107,7 @@ TEST_F(StoreTest, ObjectsThatOthersMadeAreRefused) {
       {"DROP INDEX run_of_plan", "index run_of_plan is missing"},
       {"DROP TABLE device_fault; CREATE TABLE device_fault (seq INTEGER PRIMARY KEY, device, kind "
        "DEFAULT 'x', subject, detail, last_words)",
-       "table device_fault is not the one"}};
+       "measure again, into another file"}};
   int number = 0;
   for (const auto& [attack, expected] : attacks) {
     const auto file = folder_ / ("s" + std::to_string(number++));
