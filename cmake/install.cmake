@@ -7,8 +7,11 @@ set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS ${folder_for_all})
 install(TARGETS triptych RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY baselines analysis DESTINATION ${TRIPTYCH_DATA_FOLDER} FILE_PERMISSIONS ${for_all}
         DIRECTORY_PERMISSIONS ${folder_for_all} PATTERN __pycache__ EXCLUDE)
-foreach(script analyze notebook python)
-  install(PROGRAMS analysis/${script} DESTINATION ${TRIPTYCH_DATA_FOLDER}/analysis)
+file(GLOB scripts RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS analysis/*)
+foreach(script IN LISTS scripts)
+  if(NOT IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${script} AND NOT script MATCHES "\\.")
+    install(PROGRAMS ${script} DESTINATION ${TRIPTYCH_DATA_FOLDER}/analysis)
+  endif()
 endforeach()
 # Everything to which README.md links.
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
