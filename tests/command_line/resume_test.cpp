@@ -55,7 +55,7 @@ Result validate_one(const Program& program, const std::string& options) {
 for i in $(seq 600); do grep -qs 'null:scripted .*: ' out && break; sleep 0.1; done
 kill -INT $!; wait $!; code=$?; cat out; exit $code
 )");
-  return program.run("validate --device null:scripted " + options,
+  return program.run("validate --verbose --device null:scripted " + options,
                      R"({"base_ns": 20000000, "sleep": true})", "bash until_one_is_told.sh");
 }
 
@@ -64,7 +64,7 @@ TEST_F(Resume, AValidationGoesOn) {
   const auto first_told = [&](const std::string& options) {
     const Result ended = validate_one(program, options);
     EXPECT_THAT(ended.output, HasSubstr("the records so far are in the store; --resume continues"));
-    const std::string from = ended.output.substr(ended.output.find("camera="));
+    const std::string from = ended.output.substr(ended.output.find("null:scripted "));
     return from.substr(0, from.find(": "));
   };
   const std::string first = first_told("");
