@@ -95,7 +95,7 @@ bool holds_a_run(const std::string& file) {
 core::ExitCode merge(const MergeArguments& arguments) {
   if (arguments.check) {
     const std::string gaps = all_gaps(arguments);
-    put("{}", gaps);
+    put_lines(gaps);
     return gaps.empty() ? core::ExitCode::pass : core::ExitCode::cannot_judge;
   }
   if (arguments.out.empty())
@@ -125,7 +125,7 @@ core::ExitCode merge(const MergeArguments& arguments) {
   }
   // A configuration that no device of a shard has is no gap in the whole run.
   if (!gaps.empty()) {
-    put("{}", gaps);
+    put_lines(gaps);
     put("These records are missing in {} unless another store has them\n", arguments.out);
   }
   return core::ExitCode::pass;
