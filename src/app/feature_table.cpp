@@ -48,8 +48,8 @@ std::string feature_text(const FeatureTable& table) {
                           row.probed.size, row.probed.size.empty() || detail.empty() ? "" : ": ",
                           detail);
       if (row.probed.verdict != FeatureVerdict::wrong) continue;
-      text +=
-          fmt::format("  {:<27}triptych features --device {} --only {}\n", "", device, row.name);
+      text += fmt::format("  {:<27}triptych features --device {}{}\n", "", device,
+                          row.name.empty() ? "" : " --only " + row.name);
     }
   }
   return text;

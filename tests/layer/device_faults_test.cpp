@@ -70,7 +70,7 @@ TEST_F(DeviceFaults, MemoryThatGrowsWithEveryConfigurationIsAFinding) {
         change,
         "run volume/quick --device vulkan:lavapipe --untimed --set technique=raycast --set "
         "data=generate:marschner_lobb:8 --set viewport=16 --set sampler=manual,packed --set "
-        "voxel=u8,u16,f32 --set shading=none,headlight --store " +
+        "voxel=u8,u16,f32 --set shading=none,gradient --set transfer_function=haze --store " +
             store);
     EXPECT_THAT(drawn.output, HasSubstr(" 0 failed"));
     const test::Result result =
