@@ -93,7 +93,9 @@ SourcePlace FindingPlaces::of(const judge::Finding& finding,
     if (line > 0) return {file, line};
   }
   for (const fs::path& whole : {folder / Layout::manifest, fs::path(result.argument)}) {
-    const std::string file = fs::is_regular_file(whole) ? in_repository(whole) : std::string();
+    std::error_code unreadable;  // a name may be too long for a file
+    const std::string file =
+        fs::is_regular_file(whole, unreadable) ? in_repository(whole) : std::string();
     if (!file.empty()) return {file, 1};
   }
   return {sources_.job, 1};

@@ -119,7 +119,7 @@ std::string ProgressLog::next(const Step& step) {
   if (plan_ != step.plan) {
     text = summaries();
     plan_ = step.plan;
-    last_ = options_.now();
+    if (step.record == nullptr) last_ = options_.now();
   }
   if (step.record != nullptr) count(*step.record);
   text += line_for(step);
