@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ["TRIPTYCH_PROGRAM"]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
 PLANS = {
-    "volume": "suite: volume\ntechnique: [raycast]\ndata: ['generate:gaussian_blob:8']\nviewport: [8]\n",
+    "volume": "suite: volume\ntechnique: [raycast]\ndata: ['generate:gaussian_blob:8']\ntransfer_function: [surfaces]\nviewport: [8]\n",
     "particles": "suite: particles\ntechnique: [quad_ray]\nculling: [none]\ndata: ['generate:uniform:10']\nviewport: [8]\n",
 }
 # Commands that another test or CI runs.
