@@ -18,6 +18,7 @@ struct Fault {
   const char* plan;
   const char* told;  // the first cause that is reported
   int causes = 1;
+  bool undrawn = false;  // some configurations get no pixel, which fails before images are compared
 };
 
 const std::vector<Fault>& faults() {
@@ -27,7 +28,7 @@ const std::vector<Fault>& faults() {
       {"no_depth_write", particles, "image: vulkan:lavapipe", 2},
       {"culled_front", particles,
        "image: vulkan:lavapipe, culling=occlusion, viewport=64 (4 configurations)"},
-      {"culled_back", volume, "image: vulkan:lavapipe, technique=raycast_fragment"},
+      {"culled_back", volume, "image: vulkan:lavapipe, technique=raycast_fragment", 1, true},
       {"lost_alpha", particles, "image: vulkan:lavapipe"},
       {"lost_alpha", volume, "image: vulkan:lavapipe, technique=raycast_fragment"},
       {"unspecialized", volume, "counters: vulkan:lavapipe", 2},
@@ -35,7 +36,7 @@ const std::vector<Fault>& faults() {
       {"repeated_edge", volume,
        "image: vulkan:lavapipe, data=generate:marschner_lobb:16, sampler=hardware", 2},
       {"short_draw", particles, "counters: vulkan:lavapipe, culling=none", 2},
-      {"short_draw", volume, "image: vulkan:lavapipe, technique=raycast_fragment"},
+      {"short_draw", volume, "image: vulkan:lavapipe, technique=raycast_fragment", 1, true},
       {"short_indirect", particles, "image: vulkan:lavapipe, culling=occlusion"},
       {"short_dispatch", volume, "image: vulkan:lavapipe, technique=raycast"},
       {"short_scissor", volume, "image: vulkan:lavapipe, technique=raycast_fragment"},
@@ -43,7 +44,7 @@ const std::vector<Fault>& faults() {
       {"push_off_by_one", particles, "image: vulkan:lavapipe, culling=occlusion, technique=tiles"},
       {"clear_colour", particles, "image: vulkan:lavapipe"},
       {"clear_depth", particles, "image: vulkan:lavapipe"},
-      {"short_copy", volume, "image: vulkan:lavapipe", 2},
+      {"short_copy", volume, "image: vulkan:lavapipe", 3, true},
       {"image_row", particles, "image: vulkan:lavapipe"},
       {"volume_slice", volume, "image: vulkan:lavapipe"},
   };
@@ -78,7 +79,8 @@ class DriverFaults : public LayerTest {
     for (const Fault& each : faults()) {
       if (each.plan != plan) continue;
       SCOPED_TRACE(each.name);
-      EXPECT_THAT(layered.draw(each.name, plan).output, HasSubstr(" 0 failed"));
+      const test::Result drawn = layered.draw(each.name, plan);
+      EXPECT_THAT(drawn.output, HasSubstr(each.undrawn ? "got a value" : " 0 failed"));
       const test::Result judged = layered.judge(plan);
       EXPECT_EQ(judged.code, 1);
       EXPECT_THAT(judged.output, HasSubstr(fmt::format("\n  ✗ {}", each.told)));
