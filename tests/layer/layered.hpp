@@ -39,8 +39,8 @@ class Layered {
   [[nodiscard]] test::Result draw(std::string_view change, std::string_view plan,
                                   const std::string& choice = "--device 'vulkan:*'") const {
     std::filesystem::remove(folder_.path() / fmt::format("{}.sqlite", plan));
-    return run(change,
-               fmt::format("run {} {} --untimed --store {}.sqlite", file_of(plan), choice, plan));
+    return run(change, fmt::format("run {} {} --untimed --verbose --store {}.sqlite", file_of(plan),
+                                   choice, plan));
   }
 
   [[nodiscard]] test::Result judge(std::string_view plan) const {
@@ -61,7 +61,7 @@ class Layered {
   // Also measures times and statistics, for the part that `choice` selects.
   [[nodiscard]] test::Result time(std::string_view change, std::string_view plan,
                                   std::string_view choice) const {
-    return run(change, fmt::format("run {} --device 'vulkan:*' --store timed.sqlite {}",
+    return run(change, fmt::format("run {} --device 'vulkan:*' --verbose --store timed.sqlite {}",
                                    file_of(plan), choice));
   }
 
