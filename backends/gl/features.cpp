@@ -16,6 +16,7 @@
 namespace triptych::gl_backend {
 namespace {
 
+using measure::count_right;
 using measure::judged_feature;
 using measure::ProbedFeature;
 using Words = std::vector<GLuint>;
@@ -61,13 +62,6 @@ std::vector<Value> read_back(const Api& gl, const Buffer& buffer, std::uint64_t 
                       static_cast<GLsizeiptr>(count * sizeof(Value)), values.data());
   gl.check("glGetBufferSubData");
   return values;
-}
-
-template <class Value, class Expected>
-std::uint64_t count_right(const std::vector<Value>& values, const Expected& expected) {
-  std::uint64_t right = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) right += values[i] == expected(i) ? 1U : 0U;
-  return right;
 }
 
 ProbedFeature probe_groups(const Api& gl) {

@@ -22,10 +22,6 @@ constexpr std::size_t tree_word = sizeof(GLuint);
 
 }  // namespace
 
-Buffer device_words(const Api& gl, std::size_t count) {
-  return device_buffer(gl, tree_word * std::max<std::size_t>(count, 4));
-}
-
 Texture texels_of(const Api& gl, const Buffer& buffer, std::size_t words, GLenum format) {
   const std::size_t texels = words / (format == GL_R32UI ? 1 : 4);
   const auto most = static_cast<std::size_t>(gl.limit(GL_MAX_TEXTURE_BUFFER_SIZE));
@@ -47,8 +43,8 @@ HierarchyData::HierarchyData(const Api& gl, const technique::Hierarchy& hierarch
       tree_spheres_(device_words(gl, hierarchy.sphere_words())),
       tree_order_(device_words(gl, hierarchy.order_words())),
       sorted_(device_words(gl, hierarchy.sorted_words())),
-      scratch_(device_words(gl, std::max<std::size_t>(hierarchy.scratch_words(),
-                                                      2 * std::size_t{beams}))),
+      scratch_(device_words(
+          gl, std::max<std::size_t>(hierarchy.scratch_words(), 2 * std::size_t{beams}))),
       texels_{texels_of(gl, boxes_, hierarchy.box_words(), GL_RGBA32F),
               texels_of(gl, tree_spheres_, hierarchy.sphere_words(), GL_RGBA32F),
               texels_of(gl, tree_order_, hierarchy.order_words(), GL_R32UI)} {}

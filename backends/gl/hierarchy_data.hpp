@@ -8,9 +8,6 @@
 
 namespace triptych::gl_backend {
 
-// A buffer of `count` 32-bit words that the device writes, at least 4.
-[[nodiscard]] Buffer device_words(const Api& gl, std::size_t count);
-
 // A buffer texture of the format GL_R32UI or GL_RGBA32F over the buffer. Throws core::NotSupported
 // if the buffer has more texels than the device allows.
 [[nodiscard]] Texture texels_of(const Api& gl, const Buffer& buffer, std::size_t words, GLenum format);

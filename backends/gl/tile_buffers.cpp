@@ -48,12 +48,8 @@ Buffer filled(const Api& gl, std::size_t words, GLuint value) {
   return constant_buffer(gl, std::as_bytes(std::span(values)));
 }
 
-Buffer words(const Api& gl, std::size_t count) {
-  return device_buffer(gl, word * std::max<std::size_t>(count, 4));
-}
-
 Buffer cell_buffer(const Api& gl, std::span<const technique::Cell> cells) {
-  return cells.empty() ? words(gl, 0) : constant_buffer(gl, std::as_bytes(cells));
+  return cells.empty() ? device_words(gl, 0) : constant_buffer(gl, std::as_bytes(cells));
 }
 
 void copy(const Api& gl, const Buffer& from, const Buffer& to, std::size_t at, std::size_t size) {
@@ -124,17 +120,17 @@ TileBuffers::TileBuffers(const Api& gl, const scene::ParticleScene& scene,
       tiles_{parts(width_, technique::tile_edge), parts(height_, technique::tile_edge)},
       cells_(cell_buffer(gl, arrangement.cells)),
       small_(rounds.small),
-      camera_spheres_(words(gl, 4 * arrangement.count())),
+      camera_spheres_(device_words(gl, 4 * arrangement.count())),
       tile_states_(device_buffer(gl, tile_bytes())),
       pixels_(device_buffer(gl, planes * pixel_bytes())),
-      cell_ends_(words(gl, arrangement.cells.size())),
+      cell_ends_(device_words(gl, arrangement.cells.size())),
       large_pixels_(pair_texture(gl, width_, height_, rounds.resolved())),
       zeros_(filled(gl, std::max(pixel_bytes(), tile_bytes()) / word, 0)),
       no_particles_(filled(gl, pixel_bytes() / word, core::Image::no_particle)) {
   const std::size_t times = extra_work_stride == 0 ? 1 : 2;
   const std::size_t count = std::max<std::size_t>(arrangement.count(), 1);
-  kept_ = words(gl, times * count);
-  entries_ = words(gl, times * rounds.entries);
+  kept_ = device_words(gl, times * count);
+  entries_ = device_words(gl, times * rounds.entries);
   if (extra_work_stride != 0) {
     thinned_ = cell_buffer(gl, thinned(arrangement.cells, extra_work_stride));
   }

@@ -132,6 +132,10 @@ Buffer device_buffer(const Api& gl, std::size_t size) {
   return buffer;
 }
 
+Buffer device_words(const Api& gl, std::size_t count) {
+  return device_buffer(gl, sizeof(GLuint) * std::max<std::size_t>(count, 4));
+}
+
 void poison_buffer(const Api& gl, const Buffer& buffer) {
   refill_buffer(gl, buffer, measure::poison_word);
 }

@@ -30,6 +30,8 @@ struct TexelFormat {
 // that the device writes.
 [[nodiscard]] Buffer constant_buffer(const Api& gl, std::span<const std::byte> bytes);
 [[nodiscard]] Buffer device_buffer(const Api& gl, std::size_t size);
+// The same for 32-bit words; it has at least four.
+[[nodiscard]] Buffer device_words(const Api& gl, std::size_t count);
 
 // Fills the whole buffer with measure::poison_word.
 void poison_buffer(const Api& gl, const Buffer& buffer);

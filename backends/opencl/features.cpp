@@ -14,6 +14,7 @@
 namespace triptych::opencl_backend {
 namespace {
 
+using measure::count_right;
 using measure::judged_feature;
 using measure::ProbedFeature;
 
@@ -48,13 +49,6 @@ std::vector<Value> read_back(const Bench& bench, const cl::Buffer& buffer, std::
   std::vector<Value> values(count);
   read_buffer(bench.session, buffer, count * sizeof(Value), values.data());
   return values;
-}
-
-template <class Value, class Expected>
-std::uint64_t count_right(const std::vector<Value>& values, const Expected& expected) {
-  std::uint64_t right = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) right += values[i] == expected(i) ? 1U : 0U;
-  return right;
 }
 
 ProbedFeature probe_groups(const Bench& bench) {

@@ -64,8 +64,8 @@ measure::ProbedFeature probe_points(const Gpu& gpu, PointGrid grid, std::uint32_
   std::vector<std::uint32_t> found(std::size_t{grid.width} * grid.height);
   download(gpu, target, std::as_writable_bytes(std::span(found)));
   return measure::judged_feature(
-      count_right(found, [&](std::size_t i) { return i < count ? i + 1 : 0; }), found.size(),
-      std::move(size));
+      measure::count_right(found, [&](std::size_t i) { return i < count ? i + 1 : 0; }),
+      found.size(), std::move(size));
 }
 
 }  // namespace

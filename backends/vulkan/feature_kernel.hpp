@@ -114,15 +114,6 @@ template <class Value>
   return values;
 }
 
-// The number of values for which `expected(i)` is right.
-template <class Value, class Expected>
-[[nodiscard]] std::uint64_t count_right(const std::vector<Value>& values,
-                                        const Expected& expected) {
-  std::uint64_t right = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) right += values[i] == expected(i) ? 1U : 0U;
-  return right;
-}
-
 // Probes that draw (feature_draws.cpp).
 [[nodiscard]] measure::ProbedFeature probe_indirect_draws(const Gpu& gpu);
 [[nodiscard]] measure::ProbedFeature probe_instances(const Gpu& gpu);

@@ -16,6 +16,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
+using measure::count_right;
 using measure::judged_feature;
 using measure::ProbedFeature;
 using Words = std::vector<std::uint32_t>;

@@ -24,6 +24,22 @@ auto find_optional(const Table& table, const std::string& name) {
                               : std::optional(found->second);
 }
 
+// Reads the files of a folder that has one for each driver.
+template <typename Value, typename Read>
+ByName<Value> read_drivers(const fs::path& folder, const Read& read) {
+  ByName<Value> drivers;
+  for (const auto& [driver, path] : files_in(folder)) {
+    if (const auto file = core::JsonFile::read(path)) drivers.emplace(driver, read(file->root()));
+  }
+  return drivers;
+}
+
+template <typename Value>
+const Value* find_driver(const ByName<Value>& drivers, const record::Device& device) {
+  const auto found = drivers.find(device.statistics_key());
+  return found == drivers.end() ? nullptr : &found->second;
+}
+
 }  // namespace
 
 // What was read so far, by file.
@@ -163,36 +179,24 @@ std::map<std::string, std::uint64_t> Baselines::scores(const std::string& config
 
 const std::map<std::string, DriverCost>& Baselines::cost_of_all_drivers() const {
   if (!cache_->cost) {
-    cache_->cost.emplace();
-    for (const auto& [driver, path] : files_in(folder_ / Layout::cost_folder)) {
-      if (const auto file = core::JsonFile::read(path)) {
-        cache_->cost->emplace(driver, read_cost(file->root()));
-      }
-    }
+    cache_->cost = read_drivers<DriverCost>(folder_ / Layout::cost_folder, read_cost);
   }
   return *cache_->cost;
 }
 
 const DriverCost* Baselines::cost(const record::Device& device) const {
-  const auto found = cost_of_all_drivers().find(device.statistics_key());
-  return found == cost_of_all_drivers().end() ? nullptr : &found->second;
+  return find_driver(cost_of_all_drivers(), device);
 }
 
 const std::map<std::string, DriverCode>& Baselines::code_of_all_drivers() const {
   if (!cache_->code) {
-    cache_->code.emplace();
-    for (const auto& [driver, path] : files_in(folder_ / Layout::code_folder)) {
-      if (const auto file = core::JsonFile::read(path)) {
-        cache_->code->emplace(driver, read_code(file->root()));
-      }
-    }
+    cache_->code = read_drivers<DriverCode>(folder_ / Layout::code_folder, read_code);
   }
   return *cache_->code;
 }
 
 const DriverCode* Baselines::code(const record::Device& device) const {
-  const auto found = code_of_all_drivers().find(device.statistics_key());
-  return found == code_of_all_drivers().end() ? nullptr : &found->second;
+  return find_driver(code_of_all_drivers(), device);
 }
 
 bool Baselines::has_statistics(const record::Device& device) const {

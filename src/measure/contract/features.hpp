@@ -2,6 +2,7 @@
 // Probes of features that visualization programs use and that no scene needs. Each is one small
 // computation or draw with a known result.
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -20,6 +21,15 @@ struct ProbedFeature {
 // The verdict on a result of which `right` of `expected` values are right.
 [[nodiscard]] ProbedFeature judged_feature(std::uint64_t right, std::uint64_t expected,
                                            std::string size);
+
+// The number of values that are equal to `expected(i)`.
+template <class Value, class Expected>
+[[nodiscard]] std::uint64_t count_right(const std::vector<Value>& values,
+                                        const Expected& expected) {
+  std::uint64_t right = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) right += values[i] == expected(i) ? 1U : 0U;
+  return right;
+}
 
 struct FeatureProbe {
   std::string name;
