@@ -170,6 +170,7 @@ std::vector<std::string> accept(const record::Store& store, const std::string& r
   update_images(accepted, request, next);
   update_values(store, accepted, request, next);
   drop_skipped(accepted.skipped, accepted.devices, next);
+  update_lacking(accepted, manifest, next);
   Json next_one = next_manifest(accepted, manifest, next);
   append_history(accepted, request, next_one, next);
   write_manifest(std::move(next_one), next);

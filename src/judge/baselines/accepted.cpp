@@ -36,6 +36,20 @@ std::string plan_in_a_command(const AcceptRequest& request) {
                                                      : request.argument);
 }
 
+// A device that measured nothing at all is no part of the baselines.
+std::set<std::string> devices_that_measured(const std::vector<record::Record>& records) {
+  std::set<std::string> devices;
+  for (const record::Record& record : records) {
+    if (record.outcome == record::Outcome::measured) devices.insert(record.device);
+  }
+  return devices;
+}
+
+bool lacks_support(const record::Record& record) {
+  return record.outcome == record::Outcome::skipped &&
+         record.reason.cause == record::Cause::not_supported;
+}
+
 }  // namespace
 
 Accepted select_accepted(const record::Store& store, const std::string& run,
@@ -48,6 +62,7 @@ Accepted select_accepted(const record::Store& store, const std::string& run,
   }
   accepted.checks = checked_in(accepted.run);
   accepted.replaces_all = request.only.empty();
+  const std::set<std::string> measuring = devices_that_measured(records);
   for (const record::Record& record : records) {
     accepted.configurations.insert(record.configuration);
     accepted.scenes.insert(record.scene);
@@ -58,8 +73,11 @@ Accepted select_accepted(const record::Store& store, const std::string& run,
     if (wanted && drops && record.outcome == record::Outcome::skipped) {
       accepted.skipped.push_back(record);
     }
+    if (wanted && lacks_support(record) && measuring.contains(record.device)) {
+      accepted.unsupported.push_back(record);
+    }
   }
-  if (accepted.measured.empty() && accepted.skipped.empty()) {
+  if (accepted.measured.empty() && accepted.skipped.empty() && accepted.unsupported.empty()) {
     throw core::InputError(
         fmt::format("run {} measured nothing{}", run,
                     request.only.empty() ? "" : " that matches " + request.only));
@@ -67,6 +85,7 @@ Accepted select_accepted(const record::Store& store, const std::string& run,
   std::set<std::string> told_of;
   for (const record::Record& record : accepted.measured) told_of.insert(record.device);
   for (const record::Record& record : accepted.skipped) told_of.insert(record.device);
+  for (const record::Record& record : accepted.unsupported) told_of.insert(record.device);
   for (const auto& entry : store.devices(run)) {
     if (told_of.contains(entry.device.id)) accepted.devices.emplace(entry.device.id, entry.device);
   }

@@ -16,7 +16,9 @@ struct Accepted {
   record::Run run;
   record::Checks checks;
   std::vector<record::Record> measured;
-  std::vector<record::Record> skipped;            // to be dropped from the baselines
+  std::vector<record::Record> skipped;  // to be dropped from the baselines
+  // Skipped because the driver version lacks the feature; other versions may have it.
+  std::vector<record::Record> unsupported;
   std::map<std::string, record::Device> devices;  // by id
   // The configurations and scenes of which the run has a record; used only if everything is
   // replaced.

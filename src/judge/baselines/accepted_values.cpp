@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "accuracy/cases.hpp"
@@ -49,6 +52,43 @@ void update_memory(const Accepted& accepted, Update& update) {
   for (const record::Record& record : accepted.measured) {
     erase_from(table, record.configuration, record.device);
     if (!record.memory.empty()) table[record.configuration][record.device] = record.memory;
+  }
+}
+
+bool has_counters(const Json& table, const record::Record& record) {
+  const auto counters = table.find(record.configuration);
+  return counters != table.end() && std::ranges::any_of(*counters, [&](const Json& values) {
+           return values.contains(record.device);
+         });
+}
+
+// Counters belong to a device, whichever its driver version is. If the accepted version lacks a
+// feature that another version has, the counters stay, and the version is noted as lacking it.
+void note_lacking(const Accepted& accepted, const Manifest& stored, const Json& counters,
+                  Update& update) {
+  Json& table = update.object();
+  std::map<std::string, std::set<std::string>> lacking;
+  for (const auto& [driver, configurations] : table.items()) {
+    lacking[driver] = configurations.get<std::set<std::string>>();
+  }
+  const auto driver_of = [&](const record::Record& record) {
+    return accepted.devices.at(record.device).statistics_key();
+  };
+  for (const record::Record& record : accepted.measured) {
+    lacking[driver_of(record)].erase(record.configuration);
+  }
+  for (const record::Record& record : accepted.unsupported) {
+    const auto known = stored.devices.find(record.device);
+    const bool others = known != stored.devices.end() &&
+                        known->second.size() > known->second.count(driver_of(record));
+    if (others && has_counters(counters, record)) {
+      lacking[driver_of(record)].insert(record.configuration);
+    }
+  }
+  table = Json::object();
+  for (auto& [driver, configurations] : lacking) {
+    std::erase_if(configurations, [&](const auto& each) { return !counters.contains(each); });
+    if (!configurations.empty()) table[driver] = configurations;
   }
 }
 
@@ -183,6 +223,17 @@ void update_timings(const Accepted& accepted, const record::Device& device, Next
 }
 
 }  // namespace
+
+void update_lacking(const Accepted& accepted, const Manifest& stored, NextFolder& next) {
+  const Update counters(next, Layout::counters);
+  Update update(next, Layout::lacking);
+  note_lacking(accepted, stored, counters.value(), update);
+  if (update.value().empty()) {
+    next.files.erase(Layout::lacking);
+  } else {
+    update.write(2);
+  }
+}
 
 void update_values(const record::Store& store, const Accepted& accepted,
                    const AcceptRequest& request, NextFolder& next) {

@@ -51,20 +51,23 @@ record::Counts read_counts(const core::JsonNode& node) {
                                      [](const core::JsonNode& n) { return n.whole_number(); });
 }
 
+std::set<std::string> read_names(const core::JsonNode& node) {
+  std::set<std::string> names;
+  for (const core::JsonNode& name : node.elements()) names.insert(name.text());
+  return names;
+}
+
 Manifest read_manifest(const core::JsonNode& node) {
   Manifest manifest{.plan_hash = node.at("plan_hash").text(),
                     .configurations = node.at("configurations").whole_number(),
                     .files = read_members<std::string>(node.at("files"), read_text)};
   for (const auto& [device, drivers] : node.at("devices").members()) {
-    for (const core::JsonNode& driver : drivers.elements()) {
-      manifest.devices[device].insert(driver.text());
-    }
+    manifest.devices[device] = read_names(drivers);
   }
   manifest.checks = record::checks_of(node.at("checks").text());
   if (!node.has("machines")) return manifest;
   for (const core::JsonNode& machine : node.at("machines").elements()) {
-    std::set<std::string>& drivers = manifest.machines.emplace_back();
-    for (const core::JsonNode& driver : machine.elements()) drivers.insert(driver.text());
+    manifest.machines.push_back(read_names(machine));
   }
   return manifest;
 }

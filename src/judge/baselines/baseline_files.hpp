@@ -50,6 +50,7 @@ ByName<Value> read_device_table(const std::filesystem::path& path, std::string_v
 
 [[nodiscard]] record::StatisticWorth read_worth(const core::JsonNode& node);
 [[nodiscard]] record::Counts read_counts(const core::JsonNode& node);
+[[nodiscard]] std::set<std::string> read_names(const core::JsonNode& node);
 [[nodiscard]] Manifest read_manifest(const core::JsonNode& node);
 [[nodiscard]] StoredImage read_stored_image(const core::JsonNode& node);
 [[nodiscard]] StoredCounters read_counters(const core::JsonNode& node);

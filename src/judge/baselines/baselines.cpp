@@ -52,6 +52,7 @@ struct Baselines::Cache {
   std::optional<ByName<ByName<record::Counts>>> memory;
   std::optional<ByName<ByName<StoredError>>> errors;
   std::optional<ByName<ByName<std::uint64_t>>> scores;
+  std::optional<ByName<std::set<std::string>>> lacking;
   std::optional<ByName<DriverCost>> cost;
   std::optional<ByName<DriverCode>> code;
   std::map<fs::path, ByName<record::Counts>> statistics;
@@ -159,6 +160,12 @@ bool Baselines::was_measured(const std::string& device, const std::string& confi
   const auto stored = counters(configuration).value_or(StoredCounters{});
   return std::ranges::any_of(stored,
                              [&](const auto& each) { return each.second.contains(device); });
+}
+
+bool Baselines::lacks(const record::Device& device, const std::string& configuration) const {
+  const auto lacking = find_optional(cache_->table(cache_->lacking, Layout::lacking, read_names),
+                                     device.statistics_key());
+  return lacking && lacking->contains(configuration);
 }
 
 std::map<std::string, record::Counts> Baselines::memory(const std::string& configuration) const {

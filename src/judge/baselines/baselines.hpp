@@ -18,6 +18,8 @@
 //   images/<scene hash>.exr   the reference itself, of plans that check images and times
 //   accuracy.json             {configuration: {device id: {rmse, arithmetic}}}
 //   score.json                {configuration: {device id: 0…3}}
+//   lacking.json              {driver: [configurations]}: what this driver version does not support
+//                             and another version of the same device does
 //   history.json              every accept: date, reason, devices, and the hash of the manifest
 //                             without its files
 // <driver> is Device::statistics_key(): no machine is in it. And baselines/waivers.json
@@ -116,6 +118,9 @@ class Baselines {
   // Whether this device has accepted counters for the configuration.
   [[nodiscard]] bool was_measured(const std::string& device,
                                   const std::string& configuration) const;
+  // Whether this driver version was accepted without the configuration, because it does not support
+  // it, although another version of the device does.
+  [[nodiscard]] bool lacks(const record::Device& device, const std::string& configuration) const;
   // By device id.
   [[nodiscard]] std::map<std::string, record::Counts> memory(
       const std::string& configuration) const;

@@ -72,6 +72,13 @@ std::string unknown_driver(const fs::path& folder, const Manifest& manifest) {
       if (!drivers.contains(driver)) return lacks("a driver of a machine, " + driver);
     }
   }
+  if (const auto lacking = core::JsonFile::read(folder / Layout::lacking)) {
+    for (const auto& [driver, configurations] : lacking->root().members()) {
+      if (!drivers.contains(driver)) {
+        return lacks(fmt::format("the driver {}, which {} has", driver, Layout::lacking));
+      }
+    }
+  }
   return {};
 }
 

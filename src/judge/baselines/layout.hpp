@@ -17,6 +17,7 @@ struct Layout {
   static constexpr const char* errors = "accuracy.json";
   static constexpr const char* scores = "score.json";
   static constexpr const char* history = "history.json";
+  static constexpr const char* lacking = "lacking.json";
   static constexpr const char* cost_folder = "cost/";
   static constexpr const char* code_folder = "code/";
   static constexpr const char* statistics_folder = "statistics/";

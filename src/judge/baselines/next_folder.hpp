@@ -31,6 +31,7 @@ class Update {
   Update(NextFolder& next, std::string name);
 
   core::Json& value() { return after_; }
+  [[nodiscard]] const core::Json& value() const { return after_; }
   core::Json& object() {
     if (!after_.is_object()) after_ = core::Json::object();
     return after_;

@@ -81,7 +81,9 @@ bool measured_before(const RunView& view, const record::Record& record) {
       view.device(record).environment,
       [](const auto& setting) { return setting.first.find("OVERRIDE") != std::string::npos; });
   if (overridden || !view.baselines.present()) return false;
-  if (view.baselines.was_measured(record.device, record.configuration)) return true;
+  if (view.baselines.was_measured(record.device, record.configuration)) {
+    return !view.baselines.lacks(view.device(record), record.configuration);
+  }
   const DriverCode* code = view.baselines.code(view.device(record));
   return code != nullptr && code->configurations.contains(record.configuration);
 }

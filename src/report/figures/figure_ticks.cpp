@@ -19,6 +19,9 @@ double nice_step(double step) {
   return 10 * power;
 }
 
+// One tick alone does not show the scale of an axis.
+constexpr std::size_t least_ticks = 2;
+
 std::vector<double> linear_ticks(double low, double high, int wanted) {
   const double step = nice_step((high - low) / wanted);
   std::vector<double> all;
@@ -26,7 +29,7 @@ std::vector<double> linear_ticks(double low, double high, int wanted) {
   for (double i = std::ceil((low - edge) / step); i * step <= high + edge; ++i) {
     all.push_back(i == 0 ? 0 : i * step);
   }
-  return all;
+  return all.size() < least_ticks ? linear_ticks(low, high, 2 * wanted) : all;
 }
 
 std::vector<double> powers(double low, double high, std::span<const double> factors, int every) {
@@ -52,7 +55,11 @@ std::vector<double> ticks(double low, double high, bool logarithmic, int wanted)
   static constexpr std::array<double, 1> ones{1};
   static constexpr std::array<double, 3> some{1, 2, 5};
   if (decades > wanted) {
-    return powers(low, high, ones, static_cast<int>(std::ceil(decades / wanted)));
+    // Multiples of `every` may all lie outside of the axis but for one.
+    for (int every = static_cast<int>(std::ceil(decades / wanted)); every > 0; --every) {
+      std::vector<double> all = powers(low, high, ones, every);
+      if (all.size() >= least_ticks) return all;
+    }
   }
   std::vector<double> all = powers(low, high, ones, 1);
   if (all.size() < 3) all = powers(low, high, some, 1);

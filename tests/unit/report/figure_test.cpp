@@ -6,6 +6,7 @@
 #include <cmath>
 #include <regex>
 
+#include "core/random.hpp"
 #include "support/well_formed.hpp"
 
 namespace triptych::report {
@@ -26,6 +27,20 @@ TEST(Ticks, AreWholeStepsWithinTheAxis) {
   EXPECT_THAT(ticks(1e-9, 1e9, true, 4).size(), testing::Le(5U));
   // Within a decade as on a linear axis.
   EXPECT_THAT(ticks(100, 102, true, 4).size(), testing::Ge(2U));
+}
+
+// A narrow figure asks for few ticks, and its range may begin and end anywhere.
+TEST(Ticks, AreAtLeastTwo) {
+  core::Random random(11);
+  for (int i = 0; i < 2000; ++i) {
+    const double low = std::pow(10, 6 * random.uniform() - 3);
+    const double high = low * (1 + std::pow(10, 8 * random.uniform() - 4));
+    for (const bool logarithmic : {false, true}) {
+      for (const int wanted : {1, 2, 5}) {
+        EXPECT_GE(ticks(low, high, logarithmic, wanted).size(), 2U) << low << " to " << high;
+      }
+    }
+  }
 }
 
 TEST(Ticks, OfNoRangeAreOne) {
