@@ -9,6 +9,7 @@
 #include <map>
 #include <thread>
 #include <utility>
+#include <variant>
 
 #include "backends/null/invented.hpp"
 #include "core/error.hpp"
@@ -20,6 +21,10 @@
 
 namespace triptych::null_backend {
 namespace {
+
+// Scripted frames do not last longer for a larger image, so calibrating a clock would go on to the
+// largest one that a device can have, and take seconds to read it.
+constexpr int largest_image = 2048;
 
 // A nearly normal distribution with mean 0 and variance 1 from twelve uniform numbers. It needs no
 // function whose bits may differ.
@@ -155,6 +160,12 @@ class NullDevice final : public measure::Device {
       return reason.what();
     } catch (const core::InputError& unknown) {
       return unknown.what();
+    }
+    const int side = std::visit(
+        [](const auto& each) { return std::max(each.scene.width, each.scene.height); }, work.scene);
+    if (side > largest_image) {
+      return fmt::format("the image is {} pixels wide or high, at most {} here", side,
+                         largest_image);
     }
     return std::nullopt;
   }

@@ -83,7 +83,7 @@ struct DevicesArguments {
 core::ExitCode devices(const DevicesArguments& arguments) {
   const Registry registry = make_registry();
   measure::Listing listing =
-      arguments.compilers ? registry.devices_and_compilers({}) : registry.devices();
+      arguments.compilers ? registry.devices_and_compilers({}) : registry.devices({});
   const std::string suite(registry.suites.front()->name());
   Devices found{.greeted = {}, .broken = std::move(listing.broken), .compilers = {}};
   for (const record::Device& device : listing.devices) {

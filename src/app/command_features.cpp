@@ -18,7 +18,7 @@ struct FeatureArguments {
 };
 
 core::ExitCode features(const FeatureArguments& arguments) {
-  const measure::Listing listing = make_registry().devices();
+  const measure::Listing listing = make_registry().devices(arguments.devices);
   const FeatureTable table = probe_devices(measure::choose_devices(listing, arguments.devices),
                                            arguments.only, arguments.limit_s);
   if (arguments.json) {

@@ -131,7 +131,7 @@ core::ExitCode judge_by_base(const GateArguments& arguments) {
   const Registry registry = make_registry();
   const measure::Listing listing = measure::name_a_compiler(arguments.devices)
                                        ? registry.devices_and_compilers(arguments.devices)
-                                       : registry.devices();
+                                       : registry.devices(arguments.devices);
   std::vector<Comparing> comparisons =
       against_base(arguments.base, measure::choose_devices(listing, arguments.devices));
   for (Comparing& each : comparisons) {

@@ -154,10 +154,10 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   const core::TemporaryFolder folder;
   record::Store store(folder.path() / "reduce.sqlite", record::Store::Mode::append);
   measure::Truths truths(registry.find_suite(), store);
-  const std::string other =
-      arguments.against.empty()
-          ? std::string()
-          : measure::choose_device(registry.devices(), "--against", arguments.against);
+  const std::string other = arguments.against.empty()
+                                ? std::string()
+                                : measure::choose_device(registry.devices({arguments.against}),
+                                                         "--against", arguments.against);
   const measure::Configuration& start = frame.plan.configurations.front();
   measure::RunOptions options = options_of(arguments);
   if (arguments.limit_s == 0) {

@@ -28,7 +28,7 @@ struct TestsArguments {
 
 core::ExitCode list_tests(const TestsArguments& arguments) {
   const Registry registry = make_registry();
-  const measure::Listing listing = registry.devices();
+  const measure::Listing listing = registry.devices({});
   std::vector<report::PlanTests> tests;
   for (const std::string& plan : arguments.plans) {
     const measure::Plan loaded = measure::load_plan(plan, {}, registry.find_suite());

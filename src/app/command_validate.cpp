@@ -280,7 +280,7 @@ void tell_repeats(const ValidateArguments& arguments,
 FeatureTable features_of(const ValidateArguments& arguments) {
   const std::string& shard = arguments.choice.shard;
   if (!shard.empty() && !shard.starts_with("1/")) return {};
-  const measure::Listing listing = make_registry().devices();
+  const measure::Listing listing = make_registry().devices(arguments.devices);
   return probe_devices(measure::choose_devices(listing, arguments.devices), "", arguments.limit_s);
 }
 

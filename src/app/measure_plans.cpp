@@ -209,7 +209,7 @@ measure::Listing listing_for(const Measuring& measuring, const Registry& registr
   const bool compiled = std::ranges::any_of(plans, &measure::Plan::compiled);
   return compiled || measure::name_a_compiler(measuring.devices)
              ? registry.devices_and_compilers(measuring.devices)
-             : registry.devices();
+             : registry.devices(measuring.devices);
 }
 
 // Plans that only compile have other devices than plans that draw.

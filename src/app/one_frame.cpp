@@ -33,8 +33,9 @@ ChosenData choose_data(const Registry& registry, const FrameArguments& arguments
 OneFrame choose_frame(const Registry& registry, const FrameArguments& arguments) {
   core::require_writable(arguments.out);
   auto [suite, plan] = choose_data(registry, arguments);
-  return {suite, std::move(plan),
-          measure::choose_device(registry.devices(), "--device", arguments.device)};
+  return {
+      suite, std::move(plan),
+      measure::choose_device(registry.devices({arguments.device}), "--device", arguments.device)};
 }
 
 }  // namespace triptych::app

@@ -131,6 +131,20 @@ void list_compiler(const std::string& id, Listing& listing) {
 
 }  // namespace
 
+std::vector<std::string> apis_of(const std::vector<std::string>& globs,
+                                 const std::vector<std::string>& apis) {
+  std::vector<std::string> fit;
+  for (const std::string& api : apis) {
+    const std::string prefix = api + ":";
+    const bool may_match = std::ranges::any_of(globs, [&](const std::string& glob) {
+      const std::string literal = glob.substr(0, glob.find_first_of("*?[\\"));
+      return literal.starts_with(prefix) || prefix.starts_with(literal);
+    });
+    if (may_match) fit.push_back(api);
+  }
+  return fit.empty() ? apis : fit;
+}
+
 Listing list_devices(const std::vector<std::string>& apis) {
   Listing all;
   for (const std::string& api : apis) {

@@ -11,6 +11,11 @@
 
 namespace triptych::measure {
 
+// The APIs in which a glob may match a device. All if there are no globs, or if no API fits: then
+// the error that follows can name all devices.
+[[nodiscard]] std::vector<std::string> apis_of(const std::vector<std::string>& globs,
+                                               const std::vector<std::string>& apis);
+
 [[nodiscard]] Listing list_devices(const std::vector<std::string>& apis);
 
 // The ids of the usual devices that only compile and whose driver is installed. No driver is

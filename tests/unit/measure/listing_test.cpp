@@ -28,6 +28,18 @@ std::string refusal(const Listing& listing, const std::string& glob) {
   return "none";
 }
 
+TEST(ApisOf, OpensOnlyThoseThatAGlobMayMatch) {
+  const std::vector<std::string> all{"gl", "opencl", "vulkan"};
+  EXPECT_EQ(apis_of({}, all), all);
+  EXPECT_EQ(apis_of({"*"}, all), all);
+  EXPECT_EQ(apis_of({"*:llvmpipe*"}, all), all);
+  EXPECT_THAT(apis_of({"gl:llvmpipe-egl"}, all), ElementsAre("gl"));
+  EXPECT_THAT(apis_of({"vulkan:*", "o*"}, all), ElementsAre("opencl", "vulkan"));
+  EXPECT_EQ(apis_of({"[gv]*"}, all), all);
+  // An error that no device matches then names all devices.
+  EXPECT_EQ(apis_of({"metal:*"}, all), all);
+}
+
 TEST(ChooseDevices, InTheOrderOfTheListing) {
   EXPECT_EQ(choose_devices(some_listing(), {}).size(), 3U);
   EXPECT_THAT(choose_devices(some_listing(), {"*softpipe", "opencl:*", "gl:s*"}),
