@@ -1,13 +1,18 @@
 # CTest reads this file when tests are run. It asks the program for the devices of this machine and registers, for every plan and
 # device, one test that measures and one test for each check of the results.
-# Variables set by the caller: TRIPTYCH_PROGRAM, TRIPTYCH_PLANS, TRIPTYCH_TEST_FOLDER.
+# Variables set by the caller: TRIPTYCH_PROGRAM, TRIPTYCH_PLANS, TRIPTYCH_LARGE_PLANS, TRIPTYCH_TEST_FOLDER.
+# The large plans are measured on one device of each driver, and on every device if TRIPTYCH_EVERY_DEVICE is set in the environment.
 if(NOT EXISTS "${TRIPTYCH_PROGRAM}")
   add_test(triptych.not_built "${TRIPTYCH_PROGRAM}")
   return()
 endif()
 set(triptych_tests "${TRIPTYCH_TEST_FOLDER}/tests.cmake")
+set(triptych_large --one-per-driver)
+if(NOT "$ENV{TRIPTYCH_EVERY_DEVICE}" STREQUAL "")
+  set(triptych_large "")
+endif()
 execute_process(
-  COMMAND "${TRIPTYCH_PROGRAM}" ctest ${TRIPTYCH_PLANS}
+  COMMAND "${TRIPTYCH_PROGRAM}" ctest ${TRIPTYCH_PLANS} ${triptych_large} ${TRIPTYCH_LARGE_PLANS}
           --out "${triptych_tests}" --folder "${TRIPTYCH_TEST_FOLDER}"
   RESULT_VARIABLE triptych_result ERROR_VARIABLE triptych_error)
 if(triptych_result EQUAL 0)

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "app/arguments.hpp"
 #include "app/registry.hpp"
@@ -75,15 +78,24 @@ void print_json(const Devices& found) {
   print(json);
 }
 
+void keep_only(const std::vector<std::string>& ids, measure::Listing& listing) {
+  std::erase_if(listing.devices, [&](const record::Device& device) {
+    return std::ranges::find(ids, device.id) == ids.end();
+  });
+}
+
 struct DevicesArguments {
+  std::vector<std::string> devices;
   bool json = false;
   bool compilers = false;
 };
 
 core::ExitCode devices(const DevicesArguments& arguments) {
   const Registry registry = make_registry();
-  measure::Listing listing =
-      arguments.compilers ? registry.devices_and_compilers({}) : registry.devices({});
+  measure::Listing listing = arguments.compilers ? registry.devices_and_compilers(arguments.devices)
+                                                 : registry.devices(arguments.devices);
+  if (!arguments.devices.empty())
+    keep_only(measure::choose_devices(listing, arguments.devices), listing);
   const std::string suite(registry.suites.front()->name());
   Devices found{.greeted = {}, .broken = std::move(listing.broken), .compilers = {}};
   for (const record::Device& device : listing.devices) {
@@ -104,6 +116,8 @@ void add_devices_command(Commands& commands) {
   auto [command, arguments] = commands.add(
       "devices", "List the devices, what they can do, and which of their timers are trustworthy",
       devices);
+  command.add_option("--device", arguments.devices,
+                     "Only devices that match this glob (repeatable; default: all)");
   command.add_flag("--compilers", arguments.compilers,
                    "Also open the compilers for GPUs that this machine does not have");
   command.add_flag("--json", arguments.json, "Print machine-readable JSON");

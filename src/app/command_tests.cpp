@@ -22,6 +22,8 @@ namespace fs = std::filesystem;
 
 struct TestsArguments {
   std::vector<std::string> plans;
+  std::vector<std::string>
+      large;  // plans that one of several devices with the same driver measures
   std::string out;
   std::string folder;
 };
@@ -30,7 +32,7 @@ core::ExitCode list_tests(const TestsArguments& arguments) {
   const Registry registry = make_registry();
   const measure::Listing listing = registry.devices({});
   std::vector<report::PlanTests> tests;
-  for (const std::string& plan : arguments.plans) {
+  const auto add = [&](const std::string& plan, bool one_per_driver) {
     const measure::Plan loaded = measure::load_plan(plan, {}, registry.find_suite());
     const std::string stem = report::ctest_stem(loaded.suite, loaded.name);
     // CTest works in another folder.
@@ -39,8 +41,11 @@ core::ExitCode list_tests(const TestsArguments& arguments) {
                      .plan = named ? plan : fs::absolute(plan).string(),
                      .stem = stem,
                      .store = (fs::path(arguments.folder) / (stem + ".sqlite")).string(),
-                     .checks = loaded.checks});
-  }
+                     .checks = loaded.checks,
+                     .one_per_driver = one_per_driver});
+  };
+  for (const std::string& plan : arguments.plans) add(plan, false);
+  for (const std::string& plan : arguments.large) add(plan, true);
   core::write_text(arguments.out,
                    report::ctest_list(measure::own_program(), tests, listing.devices));
   return core::ExitCode::pass;
@@ -97,6 +102,8 @@ void add_test_commands(Commands& commands) {
   auto [tests, listed] = commands.add(
       "ctest", "Write a CTest file with the tests of this machine's devices", list_tests);
   tests.add_option("PLAN", listed.plans, "Plans: YAML files, or SUITE/PLAN")->required();
+  tests.add_option("--one-per-driver", listed.large,
+                   "Plans that are measured on only one of several devices with the same driver");
   tests.add_option("--out", listed.out, "The CTest file to write")->required();
   tests.add_option("--folder", listed.folder, "The folder in which the tests keep their stores")
       ->required();

@@ -44,7 +44,7 @@ core::Image bound_without_budget(const measure::Device& device, const measure::W
 }
 
 TEST(Adapt, PicturesStayWithinTheBudget) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
       for (const std::string_view function : scene::transfer_function_presets()) {
         for (const bool shaded : {false, true}) {
@@ -65,7 +65,7 @@ TEST(Adapt, PicturesStayWithinTheBudget) {
 
 // Two images of one device, each exact within its rounding, differ by the budget.
 TEST(Adapt, MovesADevicesOwnPictureByItsBudget) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
       for (const double adapt : {1.0 / 255, 1.0 / 8}) {
         SCOPED_TRACE(std::string(generator.name) + " " + std::to_string(adapt));
@@ -85,7 +85,7 @@ TEST(Adapt, MovesADevicesOwnPictureByItsBudget) {
 }
 
 TEST(Adapt, TakesFewerSamplesAndSavesTheRest) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const std::string_view name : {"uniform_box", "mandelbulb"}) {
       SCOPED_TRACE(name);
       measure::Work work = generated(device, name, small_scene("haze"));
@@ -104,7 +104,7 @@ TEST(Adapt, TakesFewerSamplesAndSavesTheRest) {
 
 // Whatever the budget is, a homogeneous box adds no error, so the bound is that of rounding only.
 TEST(Adapt, V1IsExactWithOneSampleARay) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const double step : {0.125, 0.3, 1.0, 7.7}) {
       SCOPED_TRACE(step);
       reference::AnalyticOptions size;
@@ -126,7 +126,7 @@ TEST(Adapt, V1IsExactWithOneSampleARay) {
 }
 
 TEST(Adapt, OtherWaysOfSkippingAreRefusedWithTheReason) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     measure::Work work = generated(device, "uniform_box", small_scene("haze"));
     options_of(work).adapt = 1e-3;
     EXPECT_FALSE(device.unsupported(work));
@@ -138,7 +138,7 @@ TEST(Adapt, OtherWaysOfSkippingAreRefusedWithTheReason) {
 TEST(Adapt, RealVolumesStayWithinTheBudget) {
   const auto files = real_volumes();
   if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with volumes/";
-  on_every_device([&](measure::Device& device) {
+  on_every_driver([&](measure::Device& device) {
     for (const auto& file : files) {
       SCOPED_TRACE(file.filename().string());
       measure::Work work =

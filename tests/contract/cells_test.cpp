@@ -41,7 +41,7 @@ double rms_from(const core::Image& image, const reference::Truth& limit) {
 }
 
 TEST(Cells, StayWithinTheirBound) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const char* data : {"mandelbulb", "marschner_lobb", "sparse_field", "uniform_box"}) {
       for (const std::string_view function : scene::transfer_function_presets()) {
         for (const bool shaded : {false, true}) {
@@ -61,7 +61,7 @@ TEST(Cells, StayWithinTheirBound) {
 
 // A table with an opacity of 1, jumps, and a peak of one entry.
 TEST(Cells, SteepTransferFunctionsStayWithinTheBound) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = cells_scene("haze");
     auto& entries = scene.transfer_function.entries;
     entries[60] = {1, 0, 0, 0.9F};
@@ -72,7 +72,7 @@ TEST(Cells, SteepTransferFunctionsStayWithinTheBound) {
 }
 
 TEST(Cells, SkippingChangesNoBit) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
       for (const std::string_view function : scene::transfer_function_presets()) {
         for (const char* technique : {"raycast", "raycast_fragment"}) {
@@ -97,7 +97,7 @@ TEST(Cells, SkippingChangesNoBit) {
 TEST(Cells, RealVolumesStayWithinTheBoundAndKeepTheirBits) {
   const auto files = real_volumes();
   if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with volumes/";
-  on_every_device([&](measure::Device& device) {
+  on_every_driver([&](measure::Device& device) {
     for (const auto& file : files) {
       SCOPED_TRACE(file.filename().string());
       measure::Work work = cells_work(scene::load_volume(file.string()), cells_scene("surfaces"));
@@ -112,7 +112,7 @@ TEST(Cells, RealVolumesStayWithinTheBoundAndKeepTheirBits) {
 
 // V1 has one value, one piece in each cell and a constant integrand, so only rounding remains.
 TEST(Cells, V1IsExact) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     reference::AnalyticOptions options;
     options.size = {16, 16, 16};
     reference::AnalyticScene analytic = analytic_scene(AnalyticProblem::v1_constant, options);
@@ -128,7 +128,7 @@ TEST(Cells, V1IsExact) {
 
 // A rule of second order would need steps of a hundredth.
 TEST(Cells, AreNearerToTheLimitThanManySamples) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = cells_scene("surfaces");
     measure::Work work = cells_work(scene::generate_volume("mandelbulb", {40, 40, 40}), scene);
     auto& volume = std::get<VolumeWork>(work.scene);
@@ -150,7 +150,7 @@ TEST(Cells, AreNearerToTheLimitThanManySamples) {
 // passes for each point. The bound with shading is too wide to show that, so the image is compared
 // with the reference image itself.
 TEST(Cells, ManyShadedPiecesAreAllTaken) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = cells_scene("haze");
     scene.shading.enabled = true;
     scene.width = scene.height = 4;
@@ -168,7 +168,7 @@ TEST(Cells, ManyShadedPiecesAreAllTaken) {
 }
 
 TEST(Cells, AreRefusedWhereTheyCannotBeDrawn) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const measure::Work work =
         cells_work(scene::generate_volume("uniform_box", {8, 8, 8}), cells_scene("haze"));
     const auto refused = [&](auto change) {

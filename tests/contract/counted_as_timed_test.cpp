@@ -43,7 +43,7 @@ void expect_sum_as_counted(measure::Device& device, measure::Work work) {
 }
 
 TEST(CountedAsTimed, SpeedOfLightSumsAsManySamplesAsItCounts) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
       for (const std::string_view function : scene::transfer_function_presets()) {
         SCOPED_TRACE(std::string(generator.name) + " " + std::string(function));
@@ -75,7 +75,7 @@ scene::Volume walls() {
 // For a walk, a sample on a face of a brick belongs to the brick ahead; for a leap, to the upper
 // one. So in the negative direction of an axis they take different samples.
 TEST(CountedAsTimed, SamplesOnFacesOfBricks) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = small_scene("surfaces");
     scene.transfer_function = reddened("surfaces");
     for (std::size_t k = 0; k < 256; ++k) scene.transfer_function.entries.at(k)[3] = k < 8 ? 0 : 1;
@@ -127,7 +127,7 @@ Tally tally_of(const core::Image& image, double alpha, double step_voxels, doubl
 TEST(CountedAsTimed, RaysEndWhereTheCountingBuildEndsThem) {
   constexpr double alpha = 0.03125;
   constexpr double ert = 0.6;
-  on_every_device([&](measure::Device& device) {
+  on_every_driver([&](measure::Device& device) {
     scene::VolumeScene scene = small_scene("haze");
     for (auto& entry : scene.transfer_function.entries) entry = {1, 1, 1, alpha};
     measure::Work work =
@@ -170,7 +170,7 @@ void expect_one_picture(measure::Device& device, const measure::Work& work) {
 }
 
 TEST(CountedAsTimed, VolumesHaveOnePicture) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     measure::Work work = default_work(device, scene::generate_volume("mandelbulb", {37, 41, 23}),
                                       small_scene("surfaces"));
     for (const char* technique : {"raycast", "raycast_fragment"}) {
@@ -194,7 +194,7 @@ TEST(CountedAsTimed, VolumesHaveOnePicture) {
 // If the promise of conservative depth is broken, the image shows what was rejected early. The
 // counting build has to reject it too.
 TEST(CountedAsTimed, SpheresHaveOnePictureThoughTheyAreRejectedEarly) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     ParticleWork work = studded_wall();
     for (const bool conservative : {false, true}) {
       work.options.conservative_depth = conservative;
@@ -210,7 +210,7 @@ TEST(CountedAsTimed, SpheresHaveOnePictureThoughTheyAreRejectedEarly) {
 
 // Where this program rejects fragments early itself, they are not counted.
 TEST(CountedAsTimed, FragmentsRejectedEarlyAreNotCounted) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     // The rasterizer of the other APIs belongs to the driver.
     if (device.info().api != "opencl") return;
     ParticleWork work = generated_work("uniform", 20000, "orbit_y:1/8", 96);

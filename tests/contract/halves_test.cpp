@@ -40,7 +40,7 @@ double share_of_bound(const core::Image& image, const reference::Truth& truth) {
 
 // Floats and 16-bit integers, with both techniques and each way to read voxels.
 TEST(Halves, StayWithinTheBoundOfTheDataThatTheyRound) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     double unpaid = 0;
     for (const char* data : {"marschner_lobb", "nested_shells"}) {
       for (const Sampler sampler : {Sampler::hardware, Sampler::manual, Sampler::packed}) {
@@ -81,7 +81,7 @@ TEST(Halves, StayWithinTheBoundOfTheDataThatTheyRound) {
 // formats reach the kernel as the same integers, so the counts are equal. On OpenCL, whose
 // compilers do not change arithmetic, the bits are equal too.
 TEST(Halves, OfBytesAreTheSamePictureAndWork) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const bool opencl = device.info().api == "opencl";
     for (const Sampler sampler : {Sampler::manual, Sampler::packed}) {
       for (const bool shading : {false, true}) {
@@ -110,7 +110,7 @@ TEST(Halves, OfBytesAreTheSamePictureAndWork) {
 }
 
 TEST(Halves, TakeHalfTheMemoryOfFloats) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const auto bytes_held = [&](VoxelFormat format) {
       const auto prepared = device.prepare(work_of("marschner_lobb", format, Sampler::manual));
       std::uint64_t held = 0;

@@ -57,7 +57,7 @@ double order_on(measure::Device& device, AnalyticProblem problem, int size) {
 }
 
 TEST(Orders, V1IsExactForEveryStep) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const double step : {0.125, 0.3, 1.0, 2.0, 7.7, 100.0}) {
       SCOPED_TRACE(step);
       const reference::AnalyticScene analytic = scene_of(AnalyticProblem::v1_constant, 16, step);
@@ -67,7 +67,7 @@ TEST(Orders, V1IsExactForEveryStep) {
 }
 
 TEST(Orders, SmoothProblemsAreOfSecondOrder) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const AnalyticProblem problem :
          {AnalyticProblem::v2_ramp, AnalyticProblem::v3_segment, AnalyticProblem::v5_atmosphere}) {
       EXPECT_GE(order_on(device, problem, 10), 1.9) << reference::name_of(problem);
@@ -89,13 +89,13 @@ double order_against_limit(measure::Device& device, AnalyticProblem problem, int
 }
 
 TEST(Orders, V4IsOfSecondOrder) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     EXPECT_GE(order_against_limit(device, AnalyticProblem::v4_gaussian, 24), 1.9);
   });
 }
 
 TEST(Orders, V7IsLimitedByItsFaces) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const double order = order_against_limit(device, AnalyticProblem::v7_shell, 24);
     EXPECT_GT(order, 0.4);
     EXPECT_LT(order, 1.8);
@@ -131,7 +131,7 @@ double wave_error_on(measure::Device& device, int size) {
 }
 
 TEST(Orders, V9GradientIsOfSecondOrderInTheVoxelSize) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     std::vector<double> spacings;
     std::vector<double> errors;
     for (const int size : {8, 16, 32}) {
@@ -143,7 +143,7 @@ TEST(Orders, V9GradientIsOfSecondOrderInTheVoxelSize) {
 }
 
 TEST(Orders, V6IsLimitedByItsEdge) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const double order = order_on(device, AnalyticProblem::v6_layers, 12);
     EXPECT_GT(order, 0.4);
     EXPECT_LT(order, 1.8);

@@ -22,7 +22,7 @@ std::uint64_t visible_ids(const core::Image& image) {
 }
 
 TEST(ParticleCounters, AddUp) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const Culling culling : {Culling::none, Culling::frustum}) {
       SCOPED_TRACE(technique::name_of(culling));
       ParticleWork work = generated_work("uniform", 20000, "path_z:7/8", 64);
@@ -51,7 +51,7 @@ TEST(ParticleCounters, AddUp) {
 // Sprites of every shape cover the disc of a sphere, so that all keep the same fragments; a polygon
 // with more corners wastes fewer (S6). Tiles take no fragment that is behind.
 TEST(ParticleCounters, SpritesOfEveryShapeKeepTheSameFragments) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     ParticleWork work = generated_work("uniform", 100, "orbit_y:1/8", 256);
     work.scene.radius_scale = 2;  // large enough for more than four corners
     work.options.corners = 8;
@@ -101,7 +101,7 @@ TEST(ParticleCounters, RaysVisitOnlyWhatTheyMayHit) {
   constexpr std::uint64_t levels = 11;
   constexpr std::uint64_t most_beams = 64 * 64 / 8;
   constexpr std::uint64_t most_nodes = most_beams * 4 * levels;
-  on_every_device([&](measure::Device& device) {
+  on_every_driver([&](measure::Device& device) {
     const auto counts_with = [&](technique::ParticleFault fault) {
       ParticleWork work = covered_crowd((4 << levels) - 1);
       work.options.fault = fault;
@@ -131,7 +131,7 @@ std::uint64_t fragments_of(measure::Device& device, std::string technique, Parti
 // fragments. With the camera among the spheres, the screen-aligned quad has ten times as many,
 // because spheres that reach the plane of the eye have no bounded projection.
 TEST(ParticleCounters, ScreenAlignedQuadsAreCostlyAmongTheSpheres) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const auto ratio = [&](const char* camera) {
       const ParticleWork work = generated_work("uniform", 3000, camera, 96);
       const double ray = static_cast<double>(fragments_of(device, "quad_instanced", work));

@@ -27,7 +27,7 @@ std::vector<Injected> faults() {
 }
 
 TEST(ParticleFaults, EveryOneIsCaughtByThePicture) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const Injected& injected : faults()) {
       SCOPED_TRACE(injected.name);
       const reference::SphereTruth truth = truth_of(injected.work);
@@ -46,7 +46,7 @@ TEST(ParticleFaults, EveryOneIsCaughtByThePicture) {
 // Early rejection that takes the back of a sphere for its front. If a driver rejects nothing early,
 // the image cannot show it; then each backend's own tests examine the shader.
 TEST(ParticleFaults, TheWrongSenseIsCaughtWhereFragmentsAreRejectedEarly) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     ParticleWork work = studded_wall();
     work.options.conservative_depth = true;
     const reference::SphereTruth truth = truth_of(work);
@@ -66,7 +66,7 @@ TEST(ParticleFaults, TheWrongSenseIsCaughtWhereFragmentsAreRejectedEarly) {
 
 // More work gives the same image.
 TEST(ParticleFaults, AnInjectedSlowdownChangesNoPixel) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const ParticleWork work = generated_work("uniform", 3000, "orbit_y:1/8", 96);
     with_every_technique(device, work, [&](const measure::Work& whole) {
       measure::Work slowed = whole;

@@ -56,7 +56,7 @@ std::vector<View> difficult_views() {
 }
 
 TEST(Particles, NoViewLosesAPixel) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const View& view : difficult_views()) {
       SCOPED_TRACE(view.name);
       expect_all_true(device, particle_work(particles_of(view.spheres), view.camera, 97, 83));
@@ -65,7 +65,7 @@ TEST(Particles, NoViewLosesAPixel) {
 }
 
 TEST(Particles, EveryStructureIsTrue) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const scene::GeneratorInfo& generator : scene::particle_generators()) {
       for (const char* camera : {"orbit_y:1/8", "path_z:7/8", "random:3"}) {
         SCOPED_TRACE(std::string(generator.name) + " " + camera);
@@ -76,7 +76,7 @@ TEST(Particles, EveryStructureIsTrue) {
 }
 
 TEST(Particles, EveryColourIsTrueWhereverItIsLookedUp) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const auto colour :
          {scene::ColourKind::rgba8, scene::ColourKind::rgba32, scene::ColourKind::intensity}) {
       for (const auto stage : {technique::ComputedAt::vertex, technique::ComputedAt::pixel}) {
@@ -91,7 +91,7 @@ TEST(Particles, EveryColourIsTrueWhereverItIsLookedUp) {
 }
 
 TEST(Particles, ARayMadeAtTheVerticesIsTrue) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const View& view : difficult_views()) {
       SCOPED_TRACE(view.name);
       ParticleWork work = particle_work(particles_of(view.spheres), view.camera, 97, 83);
@@ -109,7 +109,7 @@ TEST(Particles, ARayMadeAtTheVerticesIsTrue) {
 
 // Ties, culling, conservative depth and corners change how the image is made, but not the image.
 TEST(Particles, AllTechniquesAndOptionsDrawTheSameBits) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const char* camera : {"orbit_y:1/8", "path_z:7/8"}) {
       SCOPED_TRACE(camera);
       const ParticleWork plain = generated_work("coincident", 8000, camera, 96);
@@ -144,7 +144,7 @@ TEST(Particles, AllTechniquesAndOptionsDrawTheSameBits) {
 // A hierarchy that is built or fitted again in every frame finds the same spheres.
 TEST(Particles, StructuresBuiltInEveryFrameDrawTheSameBits) {
   using technique::Structure;
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const ParticleWork plain = generated_work("coincident", 8000, "path_z:7/8", 96);
     std::optional<core::Image> first;
     for (const Structure structure :
@@ -167,7 +167,7 @@ TEST(Particles, StructuresBuiltInEveryFrameDrawTheSameBits) {
 // So many spheres have the same depth on one pixel that none excludes the others: more nodes than
 // one dispatch may visit on Mesa's software devices.
 TEST(Particles, ABeamThroughManyEqualSpheresFindsTheFirst) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     std::vector<std::array<double, 4>> spheres(60000, {0, 0, 0, 1});
     const ParticleWork work =
         particle_work(particles_of(spheres), looking({0, 0, 5}, {0, 0, 0}, 60), 8, 8);
@@ -184,7 +184,7 @@ TEST(Particles, ABeamThroughManyEqualSpheresFindsTheFirst) {
 }
 
 TEST(Particles, TheOrderInTheFileChangesNothing) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const ParticleWork work = generated_work("coincident", 3000, "orbit_y:1/8", 64);
     scene::ParticleSet shuffled = *work.scene.particles;
     core::Random random(5);
@@ -203,7 +203,7 @@ TEST(Particles, TheOrderInTheFileChangesNothing) {
 }
 
 TEST(Particles, AnyNumberOfThemIsDrawn) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const std::uint64_t count : {1U, 63U, 64U, 65U, 511U, 513U}) {
       SCOPED_TRACE(count);
       expect_all_true(device, generated_work("uniform", count, "orbit_y:1/8", 33));
@@ -214,7 +214,7 @@ TEST(Particles, AnyNumberOfThemIsDrawn) {
 }
 
 TEST(Particles, EveryShapeOfAPictureIsDrawn) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const auto& [width, height] :
          std::vector<std::pair<int, int>>{{1, 1}, {1, 40}, {40, 1}, {17, 13}, {130, 65}}) {
       SCOPED_TRACE(fmt::format("{}x{}", width, height));
@@ -227,7 +227,7 @@ TEST(Particles, EveryShapeOfAPictureIsDrawn) {
 }
 
 TEST(Particles, RepeatsAreTheSameBits) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const ParticleWork work = generated_work("plume", 5000, "orbit_y:1/8", 64);
     with_every_technique(device, work, [&](const measure::Work& whole) {
       const auto prepared = device.prepare(whole);
@@ -254,13 +254,13 @@ ParticleWork jump_of_the_eye() {
 // The first frame from another position, when everything that is known about hidden cells is wrong.
 TEST(Particles, AfterAJumpOfTheEyeNothingIsStale) {
   const ParticleWork work = jump_of_the_eye();
-  on_every_device([&](measure::Device& device) { expect_all_true(device, work); });
+  on_every_driver([&](measure::Device& device) { expect_all_true(device, work); });
 }
 
 // The counts are those of the state that frames reach, however many were drawn before.
 TEST(Particles, AfterAJumpOfTheEyeCountsAreThoseOfLaterFrames) {
   const ParticleWork work = jump_of_the_eye();
-  on_every_device([&](measure::Device& device) {
+  on_every_driver([&](measure::Device& device) {
     with_every_technique(device, work, [&](const measure::Work& whole) {
       const auto counted_after = [&](int frames) {
         const auto prepared = device.prepare(whole);
@@ -277,7 +277,7 @@ TEST(Particles, AfterAJumpOfTheEyeCountsAreThoseOfLaterFrames) {
 // Wider than textures and points may be: it is drawn, or refused with the requested size by every
 // device that draws a narrow one.
 TEST(Particles, APictureOverADevicesLimitIsRefusedOrDrawn) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const scene::Camera camera = looking({0, 0, 3}, {0, 0, 0}, 0.005);
     const auto work_of_width = [&](int width) {
       return particle_work(particles_of({{0, 0, 0, 1}, {1.1, 0, 0.1, 0.3}}), camera, width, 8);
@@ -311,7 +311,7 @@ TEST(Particles, WhatIsNoSphereIsDropped) {
                                                {1, 0, 0.5, 0.7}});
   EXPECT_EQ(set.dropped, 5U);
   EXPECT_EQ(set.ids, (std::vector<std::uint32_t>{0, 6}));
-  on_every_device([&](measure::Device& device) {
+  on_every_driver([&](measure::Device& device) {
     expect_all_true(device, particle_work(set, looking({0, 0, 4}, {0, 0, 0}, 60), 48, 48));
   });
 }
@@ -319,7 +319,7 @@ TEST(Particles, WhatIsNoSphereIsDropped) {
 TEST(Particles, RealFilesAreTrue) {
   const auto files = real_particles();
   if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with particles/";
-  on_every_device([&](measure::Device& device) {
+  on_every_driver([&](measure::Device& device) {
     for (const auto& file : files) {
       SCOPED_TRACE(file.filename().string());
       scene::ParticleSet set = scene::load_particles(file.string(), scene::ColourKind::rgba8);

@@ -111,7 +111,7 @@ void expect_the_whole_by_every_skip(measure::Device& device, measure::Work& work
 
 // Every way to draw, from every side.
 TEST(Parts, HaveTheBitsAndTheCountsOfTheWhole) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const Quadrature quadrature :
          {Quadrature::midpoint, Quadrature::preintegrated, Quadrature::cells}) {
       for (const bool shaded : {false, true}) {
@@ -134,7 +134,7 @@ TEST(Parts, HaveTheBitsAndTheCountsOfTheWhole) {
 
 // Every voxel format, rays that end early or never, and steps longer than the cells of a part.
 TEST(Parts, OfEveryFormatAndStep) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const std::string_view generator : {"sparse_field", "frequency_box"}) {
       for (const Quadrature quadrature : {Quadrature::midpoint, Quadrature::preintegrated}) {
         scene::VolumeScene scene = small_scene("haze");
@@ -159,7 +159,7 @@ TEST(Parts, OfEveryFormatAndStep) {
 }
 
 TEST(Parts, WithMergedBricksOrInDoublePrecision) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     measure::Work work = work_of("nested_shells", small_scene("haze"));
     const measure::Work plain = work;
     for (const Sampler sampler : samplers(device, work)) {
@@ -179,7 +179,7 @@ TEST(Parts, WithMergedBricksOrInDoublePrecision) {
 // For a last sample behind the exit, a walk knows no brick. It is read, from data that no part has
 // moved.
 TEST(Parts, ThatShowNothingAreReadWhereAWalkReadsThem) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     scene::Volume volume{.size = {16, 16, 64}, .type = scene::ScalarType::u8, .range_hi = 255};
     for (int i = 0; i < 16 * 16 * 64; ++i) {
       volume.voxels.push_back(std::byte(i / 256 > 2 && i / 256 < 14 ? 200 : 0));
@@ -202,7 +202,7 @@ TEST(Parts, ThatShowNothingAreReadWhereAWalkReadsThem) {
 }
 
 TEST(Parts, AreWithinTheTruthsBound) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     measure::Work work = work_of("mandelbulb", small_scene("surfaces"));
     for (const Sampler sampler : samplers(device, work)) {
       volume_of(work).options.sampler = sampler;
@@ -214,7 +214,7 @@ TEST(Parts, AreWithinTheTruthsBound) {
 
 // Without a budget, for volumes that are deeper than the images of many devices can be.
 TEST(Parts, OfWhatNoImageHoldsAreWithinTheTruthsBound) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     scene::Volume volume{.size = {5, 4, 5000}, .type = scene::ScalarType::u8, .range_hi = 100};
     for (int i = 0; i < 5 * 4 * 5000; ++i) volume.voxels.push_back(std::byte(i * 37 % 101));
     measure::Work work = default_work(device, std::move(volume), small_scene("haze"));
@@ -233,7 +233,7 @@ TEST(Parts, OfWhatNoImageHoldsAreWithinTheTruthsBound) {
 
 // The reason contains both numbers, and what would help.
 TEST(Parts, ThatCannotBeAreRefused) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     measure::Work work = work_of("mandelbulb", small_scene("surfaces"));
     auto& options = volume_of(work).options;
     options.sampler = samplers(device, work).front();

@@ -27,7 +27,7 @@ measure::Work fp64_work(const char* data, scene::VolumeScene scene) {
 // Voxels of all three types, both techniques, and both ways of skipping or none.
 TEST(Precision, DoubleStaysWithinItsOwnBound) {
   int drawn = 0;
-  on_every_device([&](measure::Device& device) {
+  on_every_driver([&](measure::Device& device) {
     for (const char* data : {"mandelbulb", "marschner_lobb", "sparse_field"}) {
       for (const technique::Skip skip :
            {technique::Skip::none, technique::Skip::bricks, technique::Skip::distance}) {
@@ -63,7 +63,7 @@ double share_of_bound(const core::Image& image, const reference::Truth& truth) {
 
 // A bound that single precision also keeps would prove nothing.
 TEST(Precision, SingleIsNotWithinTheBoundOfDouble) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = small_scene("haze");
     scene.step_voxels = 0.0625;
     measure::Work work = fp64_work("marschner_lobb", std::move(scene));
@@ -80,7 +80,7 @@ TEST(Precision, SingleIsNotWithinTheBoundOfDouble) {
 }
 
 TEST(Precision, IsRefusedWithTheReasonWhereAPartIsInSinglePrecision) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const auto reason = [&](const auto& change) {
       measure::Work work = fp64_work("marschner_lobb", small_scene("haze"));
       change(work, std::get<VolumeWork>(work.scene));

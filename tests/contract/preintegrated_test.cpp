@@ -47,7 +47,7 @@ double rms_error(const core::Image& image, const reference::AnalyticScene& analy
 // table_error in the header of the problems, 1e-6 for the worst pixel. A midpoint with the same
 // step has an error of 1e-4 or more.
 TEST(Preintegrated, V3IsExactForEveryStepUpToItsPlateaus) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const double step : {0.125, 0.3, 0.5, 1.0}) {
       const reference::AnalyticScene analytic = scene_of(AnalyticProblem::v3_plateaus, 8, step);
       const double error = rms_error(draw(device, work_of(device, analytic.scene)), analytic);
@@ -60,7 +60,7 @@ TEST(Preintegrated, V3IsExactForEveryStepUpToItsPlateaus) {
 }
 
 TEST(Preintegrated, V1IsExactForEveryStep) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const double step : {0.125, 0.3, 1.0, 7.7, 100.0}) {
       const reference::AnalyticScene analytic = scene_of(AnalyticProblem::v1_constant, 16, step);
       EXPECT_LT(rms_error(draw(device, work_of(device, analytic.scene)), analytic), 3e-7)
@@ -70,7 +70,7 @@ TEST(Preintegrated, V1IsExactForEveryStep) {
 }
 
 TEST(Preintegrated, SmoothProblemsAreOfSecondOrder) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const AnalyticProblem problem :
          {AnalyticProblem::v2_ramp, AnalyticProblem::v3_segment, AnalyticProblem::v5_atmosphere}) {
       const auto error = [&](double step) {
@@ -83,7 +83,7 @@ TEST(Preintegrated, SmoothProblemsAreOfSecondOrder) {
 }
 
 TEST(Preintegrated, StaysWithinItsBound) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const char* data : {"mandelbulb", "marschner_lobb", "sparse_field"}) {
       for (const std::string_view function : scene::transfer_function_presets()) {
         for (const bool shaded : {false, true}) {
@@ -106,7 +106,7 @@ TEST(Preintegrated, StaysWithinItsBound) {
 // Whole cells of the table are taken in pieces. Without that, these steps had errors of up to 0.3,
 // which exceeded their bound.
 TEST(Preintegrated, OpaqueStepsAreExact) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const double step : {2.0, 64.0}) {
       scene::VolumeScene scene = small_scene("surfaces");
       scene.quadrature = scene::Quadrature::preintegrated;
@@ -129,7 +129,7 @@ TEST(Preintegrated, OpaqueStepsAreExact) {
 
 // A table with an opacity of 1, jumps, and a peak of one entry.
 TEST(Preintegrated, SteepTransferFunctionsStayWithinTheBound) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = small_scene("haze");
     scene.quadrature = scene::Quadrature::preintegrated;
     auto& entries = scene.transfer_function.entries;
@@ -142,7 +142,7 @@ TEST(Preintegrated, SteepTransferFunctionsStayWithinTheBound) {
 }
 
 TEST(Preintegrated, SpeedOfLightRefusesIt) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     measure::Work work = work_of(device, scene_of(AnalyticProblem::v1_constant, 8, 1).scene);
     work.technique = "speed_of_light";
     EXPECT_NE(device.unsupported(work), std::nullopt);

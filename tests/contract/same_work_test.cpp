@@ -26,7 +26,7 @@ void expect_same_work(measure::Device& device, const measure::Work& a, const mea
 }
 
 TEST(SameWork, LeapsOverAFullVolume) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const measure::Work without = [&] {
       measure::Work work = full_volume(device);
       std::get<measure::VolumeWork>(work.scene).options.skip = technique::Skip::none;
@@ -43,7 +43,7 @@ TEST(SameWork, LeapsOverAFullVolume) {
 }
 
 TEST(SameWork, EndingRaysThatNeverGetSoDark) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const measure::Work never = full_volume(device);
     const core::Image picture = draw(device, never);
     const double least = measure::least_transmittance(never, picture);
@@ -59,7 +59,7 @@ TEST(SameWork, EndingRaysThatNeverGetSoDark) {
 }
 
 TEST(SameWork, ConservativeDepthOfSpheresApart) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const ParticleWork work =
         particle_work(particles_of({{-1.5, 0, 0, 0.4}, {1.5, 0.3, 0.5, 0.3}, {0, -1.2, -1, 0.2}}),
                       looking({0, 0, 6}, {0, 0, 0}, 50), 96, 96);

@@ -22,7 +22,7 @@ void expect_same_bits(measure::Device& device, measure::Work work) {
 }
 
 TEST(Skipping, GeneratedVolumesHaveTheSameBits) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
       for (const std::string_view function : scene::transfer_function_presets()) {
         for (const bool shaded : {false, true}) {
@@ -45,7 +45,7 @@ TEST(Skipping, GeneratedVolumesHaveTheSameBits) {
 TEST(Skipping, RealVolumesHaveTheSameBits) {
   const auto files = real_volumes();
   if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with volumes/";
-  on_every_device([&](measure::Device& device) {
+  on_every_driver([&](measure::Device& device) {
     for (const auto& file : files) {
       for (const std::string_view function : scene::transfer_function_presets()) {
         SCOPED_TRACE(file.filename().string() + " " + std::string(function));
@@ -63,7 +63,7 @@ TEST(Skipping, RealVolumesHaveTheSameBits) {
 TEST(Skipping, TakesWhatAnOracleDoesAndLittleMore) {
   const auto files = real_volumes();
   if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with volumes/";
-  on_every_device([&](measure::Device& device) {
+  on_every_driver([&](measure::Device& device) {
     for (const auto& file : files) {
       for (const std::string_view function : scene::transfer_function_presets()) {
         SCOPED_TRACE(file.filename().string() + " " + std::string(function));

@@ -38,7 +38,7 @@ double lattice_error(double length) {
 }
 
 TEST(SphereForms, S1TheSilhouetteIsTheEllipse) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const double focal = 0.5 * side / std::tan(80 * pi / 360);  // in pixels
     for (const double theta : {0.0, 0.25, 0.5}) {
       SCOPED_TRACE(theta);
@@ -60,7 +60,7 @@ TEST(SphereForms, S1TheSilhouetteIsTheEllipse) {
 // root at the rim: pixels there, over which the value changes by R^½, have an error below R^−3/2 of
 // the mean.
 TEST(SphereForms, S3TheMeanCosineOfADiscIsTwoThirds) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const double radius_px = 60;
     const double fov = 2 * std::atan(side / (2 * radius_px) / 2e5) * 180 / pi;
     const ParticleWork work = white_spheres({{0, 0, 0, 1}}, looking({0, 0, 2e5}, {0, 0, 0}, fov));
@@ -80,7 +80,7 @@ TEST(SphereForms, S3TheMeanCosineOfADiscIsTwoThirds) {
 // The boundary of two equal spheres: a pixel that shows one of them is on its side of the bisecting
 // plane, except within the error of depth.
 TEST(SphereForms, S4EqualSpheresMeetInTheBisectingPlane) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const std::array<glm::dvec3, 2> centres{glm::dvec3{-0.3, 0.1, 0.2}, glm::dvec3{0.4, 0, -0.1}};
     const scene::Camera camera = looking({1, 2, 5}, {0, 0, 0}, 30);
     const ParticleWork work = white_spheres({{centres[0].x, centres[0].y, centres[0].z, 0.8},
@@ -110,7 +110,7 @@ TEST(SphereForms, S4EqualSpheresMeetInTheBisectingPlane) {
 // outside as they would on a torus. The share that remains free has a standard deviation of less
 // than √(s·(1−s)·4πr²/A), because points within 2r of each other are free together.
 TEST(SphereForms, S5RandomDiscsLeaveTheirShare) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     constexpr int discs = 400;
     constexpr double distance = 1e4;
     constexpr double radius = 0.05;
@@ -134,7 +134,7 @@ TEST(SphereForms, S5RandomDiscsLeaveTheirShare) {
 // vertical or at 45°, so that a whole edge may be on one side of the pixel centres: half a pixel
 // for each pixel of its outline, 8R at most.
 TEST(SphereForms, S6PolygonsWasteWhatTheirTightnessSays) {
-  on_every_device([](measure::Device& device) {
+  on_every_driver([](measure::Device& device) {
     const double radius_px = 60;
     const double fov = 2 * std::atan(side / (2 * radius_px) / 1e3) * 180 / pi;
     ParticleWork work = white_spheres({{0, 0, 0, 1}}, looking({0, 0, 1e3}, {0, 0, 0}, fov));

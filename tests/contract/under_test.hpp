@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <functional>
 #include <memory>
 
 #include "measure/contract/backend.hpp"
+#include "record/one_per_driver.hpp"
 #include "scene/generators.hpp"
 
 namespace triptych::contract {
@@ -16,20 +18,32 @@ namespace triptych::contract {
 
 // Runs `body` on every device. If there is none, the test is skipped with the reasons of the
 // backend.
-inline void on_every_device(const std::function<void(measure::Device&)>& body) {
+inline void on_devices(const std::function<void(measure::Device&)>& body, bool one_per_driver) {
   const auto backend = backend_under_test();
-  const measure::Listing listing = backend->list();
+  measure::Listing listing = backend->list();
   if (listing.devices.empty()) {
     std::string reasons;
     for (const measure::Broken& each : listing.broken)
       reasons += each.what + ": " + each.reason + "; ";
     GTEST_SKIP() << "no device: " << reasons;
   }
+  if (one_per_driver) listing.devices = record::one_per_driver(listing.devices);
   for (const record::Device& info : listing.devices) {
     SCOPED_TRACE(info.id);
     const auto device = backend->open(info.id);
     body(*device);
   }
+}
+
+inline void on_every_device(const std::function<void(measure::Device&)>& body) {
+  on_devices(body, false);
+}
+
+// For what only the driver and the backend decide, not how a device is opened: one device of each
+// driver, unless TRIPTYCH_EVERY_DEVICE is set.
+inline void on_every_driver(const std::function<void(measure::Device&)>& body) {
+  const char* const every = std::getenv("TRIPTYCH_EVERY_DEVICE");
+  on_devices(body, every == nullptr || *every == '\0');
 }
 
 // The scene on the default path of the device.

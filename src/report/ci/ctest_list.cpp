@@ -7,6 +7,8 @@
 #include <functional>
 #include <vector>
 
+#include "record/one_per_driver.hpp"
+
 namespace triptych::report {
 namespace {
 
@@ -57,8 +59,11 @@ bool is_of_all(record::Check check) {
   return check == record::Check::stress || check == record::Check::correlation;
 }
 
-std::vector<Test> tests_of(const PlanTests& plan, std::span<const record::Device> devices) {
-  const auto& [suite, argument, stem, store, checks] = plan;
+std::vector<Test> tests_of(const PlanTests& plan, std::span<const record::Device> all) {
+  const auto& [suite, argument, stem, store, checks, one_per_driver] = plan;
+  const std::vector<record::Device> devices =
+      one_per_driver ? record::one_per_driver(all)
+                     : std::vector<record::Device>(all.begin(), all.end());
   std::vector<Test> tests{{.name = stem + ".start",
                            .command = {"test-start", "--store", store},
                            .labels = {suite, "device"},

@@ -43,6 +43,28 @@ TEST(CTestList, AScoreWaitsForEveryDevice) {
   EXPECT_THAT(list, Not(HasSubstr("agreement")));
 }
 
+TEST(CTestList, OneDeviceOfADriverMeasuresALargePlan) {
+  const record::Device egl{.id = "gl:a-egl", .api = "gl", .driver = "a", .driver_version = "1"};
+  const record::Device osmesa{.id = "gl:a-os", .api = "gl", .driver = "a", .driver_version = "1"};
+  const record::Device newer{.id = "gl:a-2", .api = "gl", .driver = "a", .driver_version = "2"};
+  const record::Device vulkan{
+      .id = "vulkan:a", .api = "vulkan", .driver = "a", .driver_version = "1"};
+  const std::vector devices{egl, osmesa, newer, vulkan};
+  PlanTests plan{.suite = "volume",
+                 .plan = "volume/cost",
+                 .stem = "volume.cost",
+                 .store = "s",
+                 .checks = {Check::cost}};
+  const auto measures = [&](const record::Device& device) {
+    const std::string list = ctest_list("triptych", std::vector{plan}, devices);
+    return list.find("volume.cost.measure." + device.id) != std::string::npos;
+  };
+  EXPECT_TRUE(measures(osmesa));
+  plan.one_per_driver = true;
+  EXPECT_FALSE(measures(osmesa));
+  EXPECT_TRUE(measures(egl) && measures(newer) && measures(vulkan));
+}
+
 class CTestAnswer : public testing::Test {
  protected:
   core::TemporaryFolder folder_;
