@@ -7,12 +7,12 @@ if(NOT EXISTS "${TRIPTYCH_PROGRAM}")
   return()
 endif()
 set(triptych_tests "${TRIPTYCH_TEST_FOLDER}/tests.cmake")
-set(triptych_large --one-per-driver)
-if(NOT "$ENV{TRIPTYCH_EVERY_DEVICE}" STREQUAL "")
-  set(triptych_large "")
+set(triptych_large ${TRIPTYCH_LARGE_PLANS})
+if("$ENV{TRIPTYCH_EVERY_DEVICE}" STREQUAL "")
+  list(TRANSFORM triptych_large PREPEND "--one-per-driver=")
 endif()
 execute_process(
-  COMMAND "${TRIPTYCH_PROGRAM}" ctest ${TRIPTYCH_PLANS} ${triptych_large} ${TRIPTYCH_LARGE_PLANS}
+  COMMAND "${TRIPTYCH_PROGRAM}" ctest ${TRIPTYCH_PLANS} ${triptych_large}
           --out "${triptych_tests}" --folder "${TRIPTYCH_TEST_FOLDER}"
   RESULT_VARIABLE triptych_result ERROR_VARIABLE triptych_error)
 if(triptych_result EQUAL 0)

@@ -103,7 +103,8 @@ void add_test_commands(Commands& commands) {
       "ctest", "Write a CTest file with the tests of this machine's devices", list_tests);
   tests.add_option("PLAN", listed.plans, "Plans: YAML files, or SUITE/PLAN")->required();
   tests.add_option("--one-per-driver", listed.large,
-                   "Plans that are measured on only one of several devices with the same driver");
+                   "Plans that are measured on only one of several devices with the same driver "
+                   "(repeatable)");
   tests.add_option("--out", listed.out, "The CTest file to write")->required();
   tests.add_option("--folder", listed.folder, "The folder in which the tests keep their stores")
       ->required();
