@@ -11,7 +11,8 @@
 namespace triptych::gl_backend {
 namespace {
 
-constexpr GLenum context_lost = 0x0507;  // GL_CONTEXT_LOST: of GL 4.5, absent from older headers
+// GL_CONTEXT_LOST exists since GL 4.5 and is missing in older headers.
+constexpr GLenum context_lost = 0x0507;
 
 std::string code_name(GLenum code) {
   static constexpr std::array<std::pair<GLenum, const char*>, 9> names{{
@@ -90,7 +91,7 @@ void Api::begin_link(std::vector<LinkedStage> stages) const {
 }
 
 void Api::check(std::string_view call, core::CodePlace place) const {
-  // A lost context may answer every call with an error of its own, so this is asked first.
+  // A lost context may return an error for every call, so this is queried first.
   const GLenum reset = GetGraphicsResetStatus != nullptr ? GetGraphicsResetStatus() : GL_NO_ERROR;
   const GLenum error = GetError();
   if (reset == GL_NO_ERROR && error == GL_NO_ERROR && (!messages_ || messages_->lines.empty())) {
@@ -107,8 +108,7 @@ void Api::check(std::string_view call, core::CodePlace place) const {
                            detail, place);
   }
   throw core::ApiError(std::string(call),
-                       error != GL_NO_ERROR ? code_name(error) : "a message of the driver", detail,
-                       place);
+                       error != GL_NO_ERROR ? code_name(error) : "a driver message", detail, place);
 }
 
 std::string Api::text(GLenum name) const {

@@ -1,5 +1,5 @@
 #pragma once
-// The functions of one context, and how their errors are reported.
+// The functions of one GL context, and the reporting of their errors.
 
 #include <glad/gl.h>
 
@@ -47,7 +47,7 @@ struct Api : GladGLContext {
   void keep_reports() const;
   [[nodiscard]] bool can_keep_reports() const { return messages_ != nullptr; }
   [[nodiscard]] std::vector<Report> take_reports() const;
-  // The reports that follow belong to a program with these stages.
+  // The following reports belong to a program with these stages.
   void begin_link(std::vector<LinkedStage> stages) const;
 
   // Throws core::DeviceLost or core::ApiError if any call since the last check failed. `call` names
@@ -62,7 +62,7 @@ struct Api : GladGLContext {
   [[nodiscard]] std::string text(GLenum name) const;  // glGetString; empty for null
   [[nodiscard]] std::int64_t limit(GLenum name) const;
   [[nodiscard]] std::int64_t limit(GLenum name, GLuint index) const;
-  // The rasterizer moves vertices to a grid of 2⁻ᵇ pixel; this is b.
+  // The rasterizer rounds vertices to a grid of 2⁻ᵇ pixel; this is b.
   [[nodiscard]] int sub_pixel_bits() const { return static_cast<int>(limit(GL_SUBPIXEL_BITS)); }
   [[nodiscard]] bool at_least(int major, int minor) const;
 

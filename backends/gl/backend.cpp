@@ -80,7 +80,7 @@ class Walk {
   std::map<std::string, int> count_;     // by id
 };
 
-// A listing as text that one process sends to another.
+// The text form of a listing, which one process sends to another.
 std::string list_as_text(const WindowSystem& system) {
   nlohmann::json devices = nlohmann::json::array();
   nlohmann::json reasons = nlohmann::json::array();
@@ -114,8 +114,8 @@ class GlBackend final : public measure::Backend {
  public:
   [[nodiscard]] std::string_view api() const override { return "gl"; }
 
-  // Each window system is asked in a process of its own. So a driver that crashes or hangs affects
-  // nothing else, and EGL's Mesa and OSMesa are not loaded into this process together.
+  // Each window system is listed in a separate process. A driver that crashes or hangs therefore
+  // affects nothing else, and EGL's Mesa and OSMesa are never loaded into the same process.
   [[nodiscard]] measure::Listing list() const override {
     measure::Listing listing;
     for (const WindowSystem& system : window_systems) {
@@ -130,7 +130,7 @@ class GlBackend final : public measure::Backend {
                .reason = {},
                .ended = record::Reason{.cause = record::Cause::error, .detail = answer.failure}});
         }
-      } catch (const std::exception& error) {  // also an answer that makes no sense
+      } catch (const std::exception& error) {  // This also handles an answer that cannot be parsed.
         listing.broken.push_back(
             {.what = fmt::format("gl ({})", system.name),
              .reason = {},
@@ -146,7 +146,7 @@ class GlBackend final : public measure::Backend {
       if (!may_have(system, device_id)) continue;
       try {
         Walk walk(system);
-        // A compiler reports what it generated in debug messages.
+        // A compiler reports its generated code in debug messages.
         const bool debug = debug_wanted() || measure::compile_only(device_id).has_value();
         while (auto opened = walk.next(debug, broken)) {
           if (opened->info.id != device_id) continue;

@@ -1,4 +1,4 @@
-// Rays through a hierarchy of boxes, which compute passes build and traverse
+// Traces rays through a hierarchy of boxes, which compute passes build and traverse
 // (technique/particles/hierarchy.glsl, bvh.comp.glsl).
 #include <fmt/format.h>
 
@@ -137,7 +137,7 @@ class BvhDrawing final : public Drawing {
   Program trace_;
   Program show_;
   std::string kernel_hash_;
-  std::uint32_t rounds_ = 1;  // dispatches until every beam has ended
+  std::uint32_t rounds_ = 1;  // dispatches are repeated until every beam has ended
   std::optional<Counting> counting_;
 };
 
@@ -272,15 +272,15 @@ std::optional<std::string> bvh_unsupported(const Api& gl, const measure::Particl
   constexpr std::int64_t blocks = 10;
   const std::int64_t most_blocks = gl.limit(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS);
   if (most_blocks < blocks) {
-    return fmt::format("{} storage blocks, GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS is {}", blocks,
-                       most_blocks);
+    return fmt::format("needs {} storage blocks, but GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS is {}",
+                       blocks, most_blocks);
   }
   const auto needed = static_cast<std::int64_t>(
       sizeof(GLuint) * std::max(traced_words(work.scene), 4 * work.scene.particles->count()));
   const std::int64_t most = gl.limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
   if (needed > most) {
     return fmt::format(
-        "{} particles and {}x{} pixels need a storage block of {} bytes, "
+        "{} particles and {}x{} pixels need a storage block of {} bytes, but "
         "GL_MAX_SHADER_STORAGE_BLOCK_SIZE is {}",
         work.scene.particles->count(), work.scene.width, work.scene.height, needed, most);
   }

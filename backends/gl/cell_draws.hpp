@@ -11,7 +11,8 @@ namespace triptych::gl_backend {
 // cell, unless cull.comp.glsl has removed those of cells that are out of sight.
 class CellDraws {
  public:
-  // `instanced`: the particles of a cell are instances of four vertices, otherwise vertices.
+  // `instanced`: each particle of a cell is an instance of four vertices; otherwise it is one
+  // vertex.
   CellDraws(const Api& gl, std::span<const technique::Cell> cells, bool instanced);
 
   // Binds cells and commands to bindings 6 and 7, and runs the current program, which does the

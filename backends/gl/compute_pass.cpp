@@ -46,8 +46,9 @@ std::optional<std::string> ComputePass::unsupported(const Api& gl, int width, in
     const std::int64_t needed = groups(size[axis]);
     const std::int64_t most = gl.limit(GL_MAX_COMPUTE_WORK_GROUP_COUNT, axis);
     if (needed > most) {
-      return fmt::format("{}x{} pixels need {} work groups, GL_MAX_COMPUTE_WORK_GROUP_COUNT is {}",
-                         width, height, needed, most);
+      return fmt::format(
+          "{}x{} pixels need {} work groups, but GL_MAX_COMPUTE_WORK_GROUP_COUNT is {}", width,
+          height, needed, most);
     }
   }
   return std::nullopt;

@@ -1,5 +1,5 @@
 #pragma once
-// Contexts without a window, and how they are found.
+// Creates and finds GL contexts without a window.
 
 #include <functional>
 #include <memory>
@@ -20,7 +20,7 @@ class Context {
   [[nodiscard]] const Api& gl() const { return *gl_; }
   // Calls Api::only_compile().
   void only_compile() { gl_->only_compile(); }
-  // Whether its window system says that it does.
+  // Whether its window system reports that it does.
   [[nodiscard]] virtual bool computes_on_the_processor() const = 0;
 
  protected:
@@ -60,7 +60,7 @@ struct Candidate {
 
 struct WindowSystem {
   std::string_view name;    // "EGL"
-  std::string_view suffix;  // of device ids: "-egl"
+  std::string_view suffix;  // the end of device ids: "-egl"
   // The devices of this machine, in a fixed order; throws core::NotSupported if the library is
   // missing. The same device may be offered twice, by platform and by enumeration.
   std::vector<Candidate> (*candidates)();

@@ -77,7 +77,7 @@ class EglContext final : public Context {
   EglContext(EGLenum platform, EGLDeviceEXT device, bool debug) {
     open_display(platform, device);
     if (egl_.bind_api(EGL_OPENGL_API) == EGL_FALSE) throw egl_.error("eglBindAPI");
-    // A lost context is to be reported as such, but not every driver can do that.
+    // Ask for reset notification, so that a lost context is reported. Not every driver supports it.
     handle_ = create_newest(debug, true);
     if (handle_ == EGL_NO_CONTEXT) handle_ = create_newest(debug, false);
     if (handle_ == EGL_NO_CONTEXT) refuse_context();
@@ -116,7 +116,8 @@ class EglContext final : public Context {
     }
   }
 
-  // When asked for 3.3, Mesa creates the newest version that it has; NVIDIA's driver creates 3.3.
+  // For a request of version 3.3, Mesa creates the newest version that it has; NVIDIA's driver
+  // creates 3.3.
   EGLContext create_newest(bool debug, bool robust) {
     static constexpr std::array<std::array<EGLint, 2>, 8> versions{
         {{4, 6}, {4, 5}, {4, 4}, {4, 3}, {4, 2}, {4, 1}, {4, 0}, {3, 3}}};

@@ -72,7 +72,7 @@ class OsmesaContext final : public Context {
   static constexpr int window_edge = 4;
   Osmesa osmesa_;
   OsmesaHandle handle_ = nullptr;
-  // The window on which OSMesa insists. Every technique draws into objects of its own.
+  // OSMesa requires a window buffer, although every technique draws into its own framebuffer.
   std::array<std::uint8_t, std::size_t{4} * window_edge * window_edge> window_{};
 };
 

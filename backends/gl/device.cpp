@@ -71,21 +71,20 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
     const Entry* entry = find(work.technique);
     if (entry == nullptr) return fmt::format("OpenGL has no technique '{}'", work.technique);
     if (is_software(info_) && std::getenv("LP_PERF") != nullptr) {
-      return "LP_PERF is set: the driver leaves work out";
+      return "LP_PERF is set, which makes the driver skip work";
     }
     const Current current(*context_);
     const Api& gl = context_->gl();
     const auto* volume = std::get_if<measure::VolumeWork>(&work.scene);
     const auto* particles = std::get_if<measure::ParticleWork>(&work.scene);
     if (const auto* raycaster = std::get_if<VolumeTechnique>(&entry->technique)) {
-      if (volume == nullptr) return fmt::format("{} draws volumes, nothing else", work.technique);
+      if (volume == nullptr) return fmt::format("{} draws only volumes", work.technique);
       auto reason = technique::raycast_reason(work.technique, volume->scene, volume->options);
       if (!reason) reason = volume_unsupported(gl, work.technique, *volume);
       if (!reason) reason = raycaster->unsupported(gl, *volume);
       return reason;
     }
-    if (particles == nullptr)
-      return fmt::format("{} draws particles, nothing else", work.technique);
+    if (particles == nullptr) return fmt::format("{} draws only particles", work.technique);
     auto reason = technique::option_reason(work.technique, particles->options,
                                            technique::SpriteRasterizer::of_the_api);
     if (!reason) {
@@ -171,7 +170,7 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
   std::unique_ptr<Context> context_;
   Stamps stamps_;
   measure::Rasterizer rasterizer_;
-  // By voxel format; 1, the worst possible value, if it cannot be probed.
+  // One entry per voxel format; 1, the worst possible value, if the filter cannot be probed.
   std::uint64_t most_texels_ = 0;
   std::array<double, 4> filter_error_{1, 1, 1, 1};
 };

@@ -152,7 +152,7 @@ record::Device device_info(const Api& gl, std::string_view suffix) {
   if (is_software(info)) {
     info.cpu_features = measure::cpu_features();
   } else if (std::string family = measure::compiled_family(driver); !family.empty()) {
-    // The id contains what the variables selected.
+    // The id contains the driver that the variables selected.
     info.id = measure::compile_only_id("gl", driver, family);
     info.compiles_for = std::move(family);
     info.name = measure::without_kernel_version(std::move(info.name));

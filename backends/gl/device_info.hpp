@@ -8,7 +8,7 @@ namespace triptych::gl_backend {
 
 struct Api;
 
-// What the current context says about itself. The id is "gl:<driver><suffix>", without a number.
+// The driver information of the current context. The id is "gl:<driver><suffix>", without a number.
 // `suffix` names the window system ("-egl"); only softpipe through EGL is called plain
 // "gl:softpipe".
 [[nodiscard]] record::Device device_info(const Api& gl, std::string_view suffix);

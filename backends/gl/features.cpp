@@ -171,9 +171,9 @@ ProbedFeature probe_addressing(const Api& gl, GLint mode, GLuint levels) {
     right += right_in_level(gl, program, mode, level);
     expected += std::uint64_t{16} * (image_edge >> level) * (image_edge >> level);
   }
-  return judged_feature(
-      right, expected,
-      levels > 1 ? fmt::format("{} levels", levels) : std::string("from -1 to 3 in both axes"));
+  return judged_feature(right, expected,
+                        levels > 1 ? fmt::format("{} levels", levels)
+                                   : std::string("coordinates from -1 to 3 in both axes"));
 }
 
 ProbedFeature probe_wide_image(const Api& gl) {
@@ -211,8 +211,8 @@ Buffer filled(const Api& gl, GLenum target, std::span<const GLuint> words) {
   return buffer;
 }
 
-// Draws a point on each of the first `count` pixels, by calls that number them. `instances` numbers
-// are read once for each instance.
+// Draws one point on each of the first `count` pixels. Each draw computes its pixel from its
+// number. `instances` numbers are read once for each instance.
 template <class Draw>
 ProbedFeature probe_points(const Api& gl, PointGrid grid, GLuint count, std::size_t instances,
                            std::string size, const Draw& draw) {

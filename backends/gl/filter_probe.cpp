@@ -20,11 +20,12 @@ constexpr GLuint unit_volume = 1;
 constexpr GLuint binding_probe = 4;
 constexpr int probe_group_size = 64;
 
-// A power of two, so that dividing a position by it is exact and only the filter's error is seen;
-// more than the tiles that renderers cut volumes into, whose seams are a place to err (softpipe).
+// The size is a power of two, so that dividing a position by it is exact and only the filter's
+// error is measured. It is larger than the tiles into which renderers cut volumes, because errors
+// may occur at the seams of these tiles (softpipe).
 constexpr int edge = 64;
 constexpr int point_count = 512 * probe_group_size;
-using Point = std::array<float, 4>;  // position in voxels; the value found there
+using Point = std::array<float, 4>;  // position in voxels, and the value sampled there
 
 scene::VoxelGrid random_bits(scene::VoxelFormat format, core::Random& random) {
   const std::size_t bytes = scene::bytes_of(format);
@@ -74,7 +75,7 @@ double interpolated(const scene::VoxelGrid& grid, const Point& point) {
   return value;
 }
 
-// Leaves the fetched value in each point.
+// Draws points, each of which stores the fetched value.
 void fetch(const Api& gl, const scene::VoxelGrid& grid, std::vector<Point>& points) {
   const Stage stage = plain_stage(gl, GL_COMPUTE_SHADER, "filter_probe.comp");
   const Program program = link(gl, std::span(&stage, 1));

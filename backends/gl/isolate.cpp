@@ -30,7 +30,7 @@ bool write_all(int fd, std::string_view text) {
   return true;
 }
 
-// Everything that the child does. It leaves by _exit, because it must not run the exit handlers of
+// Everything that the child does. It exits by _exit, because it must not run the exit handlers of
 // the parent.
 [[noreturn]] void answer(const std::function<std::string()>& ask, int fd) {
   // The parent reports a crash. Handlers that it may have installed would report it a second time.

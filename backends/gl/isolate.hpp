@@ -6,9 +6,9 @@
 namespace triptych::gl_backend {
 
 struct Answer {
-  std::string text;  // what the child returned
+  std::string text;  // the text that the child returned
   std::string
-      failure;  // why there is no text: "crashed: Segmentation fault"; empty if there is one
+      failure;  // the reason if there is no text: "crashed: Segmentation fault"; otherwise empty
 };
 
 // Runs `ask` in a child of this process, so that a library that it loads can neither crash the

@@ -13,8 +13,8 @@ namespace triptych::gl_backend {
 // The largest point that the device draws, in pixels.
 [[nodiscard]] double largest_point(const Api& gl);
 
-// The cells of the arrangement, where those are empty that have no sphere that may need a larger
-// point. With the fixed camera, these are what remains for the second draw of `point`.
+// The cells of the arrangement with empty cells wherever no sphere may need a larger point. The
+// second draw of `point` uses these, because the camera does not move.
 [[nodiscard]] std::vector<technique::Cell> cells_with_large_points(
     const Api& gl, const scene::ParticleScene& scene, const technique::Arrangement& arrangement);
 

@@ -14,15 +14,15 @@ class Occlusion {
  public:
   Occlusion(const Api& gl, const measure::ParticleWork& work, std::size_t cells);
 
-  // Before the first draw of a frame: what the previous frame showed becomes "before".
+  // Call before the first draw of a frame: what the previous frame showed becomes "before".
   void start_frame(const Api& gl);
-  // Between the two draws: computes the farthest depths of the picture so far.
+  // Call between the two draws: computes the farthest depths of the image so far.
   void find_farthest(const Api& gl, GLuint depth_texture) const;
   [[nodiscard]] const std::string& source() const { return source_; }
 
  private:
   std::array<GLuint, 2> blocks_;
-  std::array<Buffer, 2> visible_;  // of the last frame, of this one
+  std::array<Buffer, 2> visible_;  // visible cells of the last frame, and of this one
   Buffer farthest_;
   std::string source_;
   Program program_;

@@ -45,7 +45,7 @@ class ParticleCounters {
   explicit ParticleCounters(const Api& gl);
   // Sets all counters to zero and binds them to binding 2.
   void start(const Api& gl) const;
-  // All rows. The device must have finished counting.
+  // The counters of all rows. The device must have finished counting.
   [[nodiscard]] std::vector<std::uint32_t> read(const Api& gl) const;
 
  private:

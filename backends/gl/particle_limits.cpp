@@ -20,7 +20,8 @@ std::optional<std::string> particles_unsupported(const Api& gl, const measure::P
       std::min(gl.limit(GL_MAX_RENDERBUFFER_SIZE), gl.limit(GL_MAX_TEXTURE_SIZE));
   if (std::max(scene.width, scene.height) > edge) {
     return fmt::format(
-        "{}x{} pixels, the lower of GL_MAX_RENDERBUFFER_SIZE and GL_MAX_TEXTURE_SIZE is {}",
+        "the image has {}x{} pixels, but the lower of GL_MAX_RENDERBUFFER_SIZE and "
+        "GL_MAX_TEXTURE_SIZE is {}",
         scene.width, scene.height, edge);
   }
   if (storage) {
@@ -28,8 +29,8 @@ std::optional<std::string> particles_unsupported(const Api& gl, const measure::P
     const std::int64_t most = gl.limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
     if (needed > most) {
       return fmt::format(
-          "{} particles need a storage block of {} bytes, "
-          "GL_MAX_SHADER_STORAGE_BLOCK_SIZE is {}",
+          "{} particles need a storage block of {} bytes, but GL_MAX_SHADER_STORAGE_BLOCK_SIZE is "
+          "{}",
           scene.particles->count(), needed, most);
     }
   }

@@ -7,8 +7,8 @@
 
 namespace triptych::gl_backend {
 
-// Why these particles and this picture exceed what every particle technique needs; empty if they do
-// not. `storage`: the particles are read from storage blocks.
+// The reason why these particles and this image exceed the limits that every particle technique
+// needs; empty if they do not. `storage`: the particles are read from storage blocks.
 [[nodiscard]] std::optional<std::string> particles_unsupported(const Api& gl,
                                                                const measure::ParticleWork& work,
                                                                bool storage);

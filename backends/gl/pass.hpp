@@ -1,6 +1,6 @@
 #pragma once
-// How the program of a volume technique is run, and where its image is: the part in which raycast
-// and raycast_fragment differ.
+// How a volume technique runs its program, and where its image is stored. Only this differs between
+// raycast and raycast_fragment.
 
 #include <memory>
 #include <span>
@@ -25,7 +25,7 @@ class Pass {
   // The stages of the program around the shared raycasting source.
   [[nodiscard]] virtual std::vector<Stage> stages(const Api& gl,
                                                   const Constants& constants) const = 0;
-  // The statistics of the stages that it uses.
+  // The pipeline statistics of the stages that it uses.
   [[nodiscard]] virtual std::span<const Statistic> statistics() const = 0;
   // Overwrites the image with NaN.
   virtual void poison(const Api& gl) = 0;
@@ -33,9 +33,9 @@ class Pass {
   virtual void dump(const measure::VolumeWork& /*work*/, const std::string& /*source*/) const {}
   // Makes its target the current one; called before the clock starts.
   virtual void bind(const Api& gl) = 0;
-  // The calls that are timed: the image and, except when counting, the injected extra work.
+  // The timed calls: those that draw the image and, except when counting, the injected extra work.
   virtual void submit(const Api& gl, measure::Purpose purpose) = 0;
-  // The image, which the device must have finished.
+  // The image. The device must have finished it.
   [[nodiscard]] virtual core::Image read(const Api& gl) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// Polygons with corners by the projected radius, made by a tessellation shader.
+// Polygons whose number of corners depends on the projected radius, made by a tessellation shader.
 #include "backends/gl/sprites.hpp"
 #include "backends/gl/techniques.hpp"
 

@@ -15,11 +15,12 @@ Sprites polygon_tess_sprites(const Api& /*gl*/) {
 std::optional<std::string> polygon_tess_unsupported(const Api& gl,
                                                     const measure::ParticleWork& work) {
   const int corners = work.options.corners;
-  // Of the outline's four edges the longest has a quarter of the corners, rounded up.
+  // The longest of the outline's four edges has a quarter of the corners, rounded up.
   const std::int64_t most =
       has_tessellation(gl) ? 4 * gl.limit(GL_MAX_TESS_GEN_LEVEL) : std::int64_t{corners};
   if (corners > most) {
-    return fmt::format("polygons of {} corners, GL_MAX_TESS_GEN_LEVEL allows {}", corners, most);
+    return fmt::format("polygons have {} corners, but GL_MAX_TESS_GEN_LEVEL allows {}", corners,
+                       most);
   }
   return sprites_unsupported(gl, work, polygon_tess_sprites(gl));
 }

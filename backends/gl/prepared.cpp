@@ -21,8 +21,7 @@ class DrawingPrepared final : public measure::Prepared, public measure::TracesPi
       const Current current(context_);
       owned_.reset();
     } catch (const core::Error&) {
-      // The context is gone, and so are its objects: nothing is left with which they could be
-      // deleted.
+      // The context is lost, and its objects with it, so there is nothing to delete.
       static_cast<void>(owned_.release());
     }
   }

@@ -1,5 +1,5 @@
 #pragma once
-// What both suites' techniques have in common: frames made of a drawing.
+// The common parts of both suites' techniques: frames that consist of drawing calls.
 
 #include <memory>
 #include <span>
@@ -13,8 +13,8 @@
 
 namespace triptych::gl_backend {
 
-// A technique with its scene on the device: data uploaded, programs linked. Made, called and
-// destroyed with its context current.
+// A technique with its scene on the device: the data are uploaded and the programs are linked. Its
+// context must be current when it is created, used and destroyed.
 class Drawing {
  public:
   Drawing() = default;
@@ -22,17 +22,18 @@ class Drawing {
   Drawing& operator=(const Drawing&) = delete;
   virtual ~Drawing() = default;
 
-  // Statistics of the stages it uses.
+  // The statistics of the stages that it uses.
   [[nodiscard]] virtual std::span<const Statistic> statistics() const = 0;
-  // Overwrites everything that a frame leaves behind, as measure::Prepared::poison() has it.
+  // Overwrites all results of a frame, as measure::Prepared::poison() describes.
   virtual void poison(const Api& gl) = 0;
-  // What a frame needs before its clock starts: state, and the counting build where it counts.
+  // Everything that a frame needs before its clock starts: GL state and, for a counting frame, the
+  // counting build.
   virtual void bind(const Api& gl, measure::Purpose purpose) = 0;
   // The calls that are timed.
   virtual void submit(const Api& gl, measure::Purpose purpose) = 0;
-  // Behind a frame that counted, finished by the device.
+  // Called after a frame that counted. The device has finished the frame.
   [[nodiscard]] virtual record::Counts counters(const Api& gl) const = 0;
-  // The picture; the device has finished it.
+  // The image. The device has finished it.
   [[nodiscard]] virtual core::Image read(const Api& gl) const = 0;
   [[nodiscard]] virtual std::string kernel_hash() const = 0;
 
@@ -46,7 +47,7 @@ class Drawing {
 [[nodiscard]] std::unique_ptr<measure::Prepared> make_prepared(Context& context, Stamps stamps,
                                                                std::unique_ptr<Drawing> drawing);
 
-// Hash of a driver's version and the sources that it is given.
+// The hash of a driver version and of the sources that the driver compiles.
 [[nodiscard]] std::string hash_of(const Api& gl, std::span<const std::string> sources);
 
 }  // namespace triptych::gl_backend

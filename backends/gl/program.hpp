@@ -19,11 +19,11 @@ struct Constants {
   int fault = 0;
   int opacity_form = 0;   // technique::opacity_form for the step
   int preintegrated = 0;  // technique::preintegration_form
-  bool cells = false;     // has a source of its own
+  bool cells = false;     // the technique has its own source
   bool leaps = false;
   bool adapt = false;
   bool parts = false;      // the volume is drawn one technique::Part at a time
-  int precision = 32;      // bits of a number: 32 or 64
+  int precision = 32;      // bits of a floating-point number: 32 or 64
   bool long_rays = false;  // technique::has_long_rays
 };
 

@@ -1,4 +1,4 @@
-// Quads across the ray to the centre, an instance each, made by the vertex shader from storage
+// Ray-aligned quads, one instance for each particle, which the vertex shader computes from storage
 // blocks.
 #include "backends/gl/sprites.hpp"
 #include "backends/gl/techniques.hpp"

@@ -1,4 +1,4 @@
-// Quads across the ray to the centre, made by a tessellation shader.
+// Ray-aligned quads, made by a tessellation shader.
 #include "backends/gl/sprites.hpp"
 #include "backends/gl/techniques.hpp"
 

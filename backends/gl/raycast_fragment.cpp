@@ -68,7 +68,8 @@ class FragmentPass final : public Pass {
     gl.Viewport(0, 0, width_, height_);
   }
 
-  // After the image and not before it, because a driver may leave out what will be covered.
+  // This is drawn after the image and not before it, because a driver may skip drawing that is
+  // covered later.
   void submit(const Api& gl, measure::Purpose purpose) override {
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     if (extra_tiles_.empty() || purpose == measure::Purpose::counters) return;
@@ -93,7 +94,7 @@ class FragmentPass final : public Pass {
   int width_;
   int height_;
   std::vector<technique::ExtraTile> extra_tiles_;
-  VertexArray no_vertices_;  // the core profile draws nothing without one
+  VertexArray no_vertices_;  // the core profile draws nothing without a vertex array object
   Target target_;
 };
 
@@ -101,14 +102,14 @@ std::optional<std::string> raycast_fragment_unsupported(const Api& gl,
                                                         const measure::VolumeWork& work) {
   const std::int64_t edge = gl.limit(GL_MAX_RENDERBUFFER_SIZE);
   if (std::max(work.scene.width, work.scene.height) > edge) {
-    return fmt::format("{}x{} pixels, GL_MAX_RENDERBUFFER_SIZE is {}", work.scene.width,
-                       work.scene.height, edge);
+    return fmt::format("the image has {}x{} pixels, but GL_MAX_RENDERBUFFER_SIZE is {}",
+                       work.scene.width, work.scene.height, edge);
   }
   constexpr std::int64_t needed = 3;  // bricks, counters, quadrature
   const std::int64_t blocks = gl.limit(GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS);
   if (blocks < needed) {
-    return fmt::format("{} storage blocks, GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS is {}", needed,
-                       blocks);
+    return fmt::format("needs {} storage blocks, but GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS is {}",
+                       needed, blocks);
   }
   return std::nullopt;
 }

@@ -1,4 +1,4 @@
-// What a device needs for sprites.
+// The device features and limits that sprites need.
 #include <fmt/format.h>
 
 #include <algorithm>

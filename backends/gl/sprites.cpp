@@ -140,7 +140,7 @@ class SpriteDrawing final : public Drawing {
       occlusion_->find_farthest(gl, target_.depth_texture());
       draw(gl, programs, draws_, 1);
     }
-    // After the image, where nothing passes the depth test any more; never counted.
+    // Drawn after the image, when no fragment passes the depth test any more. It is never counted.
     if (!counting && !extra_.empty()) draw(gl, programs, extra_, 0);
   }
 
@@ -167,8 +167,9 @@ class SpriteDrawing final : public Drawing {
     if (work.camera_before) data_.look_from(gl, work, arrangement);
   }
 
-  // What is hidden depends on the previous frames. The first frame after a jump draws everything
-  // that is visible, the second one knows what that hides, and all later ones are like the second.
+  // The hidden cells depend on the previous frames. The first frame after a jump draws everything
+  // that is visible, the second one knows which cells that hides, and all later ones are like the
+  // second.
   void settle(const Api& gl) {
     prepare_state(gl);
     for (int frame = 0; frame < 2; ++frame) submit(gl, Purpose::statistics);
@@ -205,7 +206,7 @@ class SpriteDrawing final : public Drawing {
     return programs;
   }
 
-  // `pass`: 0, or 1 for what occlusion culling finds in sight after the first pass.
+  // `pass`: 0, or 1 for the cells that occlusion culling finds visible after the first pass.
   void draw(const Api& gl, const Programs& programs, const std::vector<CellDraws>& draws,
             std::size_t pass) const {
     if (options_.culling != Culling::none) {

@@ -1,6 +1,6 @@
 #pragma once
-// Techniques that draw spheres on sprites. They differ in the stages before the fragment stage; the
-// rest is common.
+// Techniques that draw spheres as sprites. They differ only in the stages before the fragment
+// stage.
 
 #include <memory>
 #include <optional>
@@ -13,10 +13,11 @@
 
 namespace triptych::gl_backend {
 
-// One way to turn particles into sprites.
+// A way to turn particles into sprites.
 struct SpriteDraw {
   GLenum mode = GL_POINTS;
-  bool instanced = false;   // a particle is an instance of four vertices, otherwise a vertex
+  // True: a particle is an instance of four vertices; false: a particle is one vertex.
+  bool instanced = false;
   bool large_only = false;  // for cells that may contain spheres larger than the largest point
   std::vector<ParticleStage> stages;  // the stages before the fragment stage
 };
@@ -30,7 +31,7 @@ using Sprites = std::vector<SpriteDraw>;
 [[nodiscard]] Sprites tessellated(std::string_view define);
 [[nodiscard]] Sprites from_geometry_stage(bool screen_aligned);
 
-// Why these stages cannot draw the work on this device; empty if they can.
+// The reason why these stages cannot draw the work on this device; empty if they can.
 [[nodiscard]] std::optional<std::string> sprites_unsupported(const Api& gl,
                                                              const measure::ParticleWork& work,
                                                              const Sprites& sprites);
@@ -38,7 +39,7 @@ using Sprites = std::vector<SpriteDraw>;
                                                     const measure::ParticleWork& work,
                                                     const Sprites& sprites);
 
-// A technique whose sprites depend on nothing but the context.
+// A technique whose sprites depend only on the context.
 template <Sprites (*describe)(const Api& gl)>
 [[nodiscard]] ParticleTechnique sprite_technique() {
   return {[](const Api& gl, const measure::ParticleWork& work) {

@@ -15,7 +15,7 @@
 namespace triptych::gl_backend {
 
 struct VolumeTechnique {
-  // What this technique needs in addition to volume_unsupported().
+  // The requirements of this technique in addition to volume_unsupported().
   std::optional<std::string> (*unsupported)(const Api& gl, const measure::VolumeWork& work);
   std::unique_ptr<measure::Prepared> (*prepare)(Context& context, Stamps stamps,
                                                 const measure::VolumeWork& work);

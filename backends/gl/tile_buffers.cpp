@@ -84,17 +84,17 @@ Texture pair_texture(const Api& gl, int width, int height, bool any) {
 
 std::optional<std::string> TileBuffers::unsupported(const Api& gl,
                                                     const scene::ParticleScene& scene) {
-  constexpr std::int64_t blocks = 9;  // of tiles_bin, with counters
+  constexpr std::int64_t blocks = 9;  // of tiles_bin, including the counters
   const std::int64_t most_blocks = gl.limit(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS);
   if (most_blocks < blocks) {
-    return fmt::format("{} storage blocks, GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS is {}", blocks,
-                       most_blocks);
+    return fmt::format("needs {} storage blocks, but GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS is {}",
+                       blocks, most_blocks);
   }
   const std::int64_t pixels = std::int64_t{scene.width} * scene.height;
   const std::int64_t most = gl.limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
   if (static_cast<std::int64_t>(planes * word) * pixels > most) {
     return fmt::format(
-        "{}x{} pixels need a storage block of {} bytes, GL_MAX_SHADER_STORAGE_BLOCK_SIZE is {}",
+        "{}x{} pixels need a storage block of {} bytes, but GL_MAX_SHADER_STORAGE_BLOCK_SIZE is {}",
         scene.width, scene.height, static_cast<std::int64_t>(planes * word) * pixels, most);
   }
   // The largest single cell, if every sphere is in every tile.
@@ -104,7 +104,7 @@ std::optional<std::string> TileBuffers::unsupported(const Api& gl,
                                             static_cast<std::int64_t>(scene.particles->count()));
   if (static_cast<std::int64_t>(word) * tiles * crowd > most) {
     return fmt::format(
-        "{} spheres before {} tiles may need a storage block of {} bytes, "
+        "{} spheres in front of {} tiles may need a storage block of {} bytes, but "
         "GL_MAX_SHADER_STORAGE_BLOCK_SIZE is {}",
         crowd, tiles, static_cast<std::int64_t>(word) * tiles * crowd, most);
   }

@@ -21,8 +21,8 @@ class TileBuffers {
   static constexpr std::uint64_t wanted_entries = std::uint64_t{1} << 24U;
   enum class Cells : std::uint8_t { all, thinned };
 
-  // Why an image of this size, or one of its cells, exceeds what the device can do; empty if it
-  // does not.
+  // The reason why an image of this size, or one of its cells, exceeds the device's limits; empty
+  // if it does not.
   [[nodiscard]] static std::optional<std::string> unsupported(const Api& gl,
                                                               const scene::ParticleScene& scene);
 
@@ -35,7 +35,7 @@ class TileBuffers {
   // Binds bindings 6…20 of the shared sources.
   void bind(const Api& gl) const;
   void choose(const Api& gl, Cells cells) const;
-  // Overwrites everything that a frame writes before it reads it.
+  // Overwrites all data that a frame writes before it reads them.
   void poison(const Api& gl) const;
   // Empties tiles and lists, and also pixels if any round draws into them.
   void clear(const Api& gl) const;

@@ -32,7 +32,7 @@ struct Programs {
   std::vector<std::string> sources;
 };
 
-// GL numbers image units separately, and there are few.
+// GL counts image units separately, and there are only a few of them.
 std::string tile_defines(Culling culling, int spheres) {
   return fmt::format("#define TRI_SPHERES {}\n#define TRI_CULLING {}\n#define TRI_LARGE_PIXELS 0\n",
                      spheres, static_cast<int>(culling));
@@ -197,7 +197,8 @@ class TilesDrawing final : public Drawing {
     }
   }
 
-  // Draws the round's large spheres, unless the last pass does that, and records what is hidden.
+  // Draws the round's large spheres, unless the last pass does that, and records which parts are
+  // hidden.
   void resolve_tiles(const Api& gl, const Programs& programs,
                      const technique::TileRound& round) const {
     run(gl, programs, place, buffers_.groups_for_tiles());

@@ -14,11 +14,11 @@ struct Elapsed {
   std::optional<double> device_ns;
 };
 
-// When the device takes its time stamps.
+// When the device takes its time stamps:
 enum class Stamps : std::uint8_t {
-  in_stream,  // right before and after the work, as GPUs execute them
-  finished    // the work is finished before the second is asked for: software renderers run compute
-              // and their stamps on different threads, and stamps in stream read about nothing
+  in_stream,  // immediately before and after the work, as on GPUs
+  finished    // the second one after the work has finished: software renderers run compute work and
+            // take stamps on different threads, so that stamps in the stream measure almost nothing
 };
 
 // Measures work by the wall clock and by the device's clock.

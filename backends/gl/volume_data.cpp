@@ -76,7 +76,7 @@ Texture texture_of(const Api& gl, const scene::VoxelGrid& grid, bool linear, int
 
 // If the volume is drawn in parts, there is space for the parameters of a part at the end.
 Buffer parameter_buffer(const Api& gl, const measure::VolumeWork& work, bool in_parts) {
-  // The shader reads a texel of an image divided by the largest value of its format.
+  // The shader reads a texel of an image as a fraction of the format's largest value.
   const double stored_maximum =
       is_packed(work) ? 1 : scene::largest_stored(work.scene.grid->format);
   std::vector<std::byte> bytes =
@@ -153,7 +153,7 @@ void refill_buffer(const Api& gl, const Buffer& buffer, GLuint word) {
               });
 }
 
-// Through a small part of it, so that the host never has a second copy.
+// Uploads through a small staging buffer, so that the host never has a second copy of the data.
 void fill_buffer(const Api& gl, const Buffer& buffer, std::size_t size, const Fill& fill) {
   constexpr std::size_t piece = std::size_t{1} << 24U;
   std::vector<std::byte> bytes(std::min(piece, size));

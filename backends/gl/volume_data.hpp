@@ -12,7 +12,7 @@
 
 namespace triptych::gl_backend {
 
-// How a voxel format is stored in a texture.
+// The storage of a voxel format in a texture.
 struct TexelFormat {
   GLenum internal = GL_R32F;
   GLenum type = GL_FLOAT;
@@ -35,7 +35,7 @@ struct TexelFormat {
 
 // Fills the whole buffer with measure::poison_word.
 void poison_buffer(const Api& gl, const Buffer& buffer);
-// The same with any other word.
+// The same for words of another type.
 void refill_buffer(const Api& gl, const Buffer& buffer, GLuint word);
 
 // Writes the part of a buffer that begins at byte `begin`.
@@ -65,8 +65,8 @@ class VolumeData {
   Buffer parameters_;
   std::optional<VolumeParts> parts_;
   Buffer pauses_;  // the states of rays between two parts
-  // Textures of the voxels and the transfer function. For sampler packed, the buffers whose texels
-  // the shader sees through textures; the same then holds for bricks and the quadrature.
+  // Textures of the voxels and the transfer function. For sampler packed, these are buffers that
+  // the shader reads as texture buffers, and the same holds for the bricks and the quadrature.
   Buffer cells_;
   Buffer table_;
   struct Seen {

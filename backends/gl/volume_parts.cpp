@@ -20,16 +20,16 @@ bool holds(const Api& gl, const std::array<int, 3>& size, scene::VoxelFormat for
   return accepted != 0;
 }
 
-// How much memory the voxels may take on a device.
+// The limits on the memory for the voxels on a device.
 technique::Room room_of(const Api& gl, const measure::VolumeWork& work) {
   const scene::VoxelGrid& grid = *work.scene.grid;
   if (is_packed(work)) {
     const auto texels = static_cast<std::uint64_t>(gl.limit(GL_MAX_TEXTURE_BUFFER_SIZE));
     return {texels * technique::packed_texel_bytes(grid.format),
-            "the reach of GL_MAX_TEXTURE_BUFFER_SIZE"};
+            "the limit from GL_MAX_TEXTURE_BUFFER_SIZE"};
   }
   const auto edge = static_cast<int>(gl.limit(GL_MAX_3D_TEXTURE_SIZE));
-  std::string limit = "the reach of GL_MAX_3D_TEXTURE_SIZE";
+  std::string limit = "the limit from GL_MAX_3D_TEXTURE_SIZE";
   if (std::max(grid.size[0], grid.size[1]) > edge) return {0, limit};
   int depth = std::min(grid.size[2], edge);
   while (depth > 0 && !holds(gl, {grid.size[0], grid.size[1], depth}, grid.format)) {

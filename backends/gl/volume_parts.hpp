@@ -12,7 +12,7 @@
 
 namespace triptych::gl_backend {
 
-// For the technique raycast.
+// These are for the technique raycast.
 [[nodiscard]] technique::Cut cut_of(const Api& gl, std::string_view technique,
                                     const measure::VolumeWork& work);
 
@@ -28,7 +28,7 @@ class VolumeParts {
               const std::vector<technique::Part>& parts, std::span<const std::int32_t> map);
 
   [[nodiscard]] int count() const noexcept { return static_cast<int>(passes_.size()); }
-  // Moves the parameters of the n-th part behind the others and, if voxels are read, its voxels:
+  // Moves the parameters of the n-th part after the others and, if voxels are read, its voxels:
   // into the bound texture, or as cells.
   void move(const Api& gl, int n, const Buffer& parameters, const Buffer* cells) const;
 
@@ -38,7 +38,7 @@ class VolumeParts {
   std::shared_ptr<const scene::VoxelGrid> grid_;
   technique::Layers layers_;
   std::vector<technique::PartPass> passes_;
-  std::size_t place_;  // where the parameters of a part are among the parameters
+  std::size_t place_;  // the offset of a part's parameters within the parameters
   measure::MemoryLedger::Entry moved_;
 };
 

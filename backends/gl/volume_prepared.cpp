@@ -125,7 +125,7 @@ class VolumeDrawing final : public Drawing {
     gl.BindBuffer(GL_COPY_READ_BUFFER, counting_->counters.get());
     gl.GetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(counters_size(pixels_)),
                         static_cast<GLsizeiptr>(records.size() * sizeof(GLuint)), records.data());
-    counting_.reset();  // its buffer is not one for counters
+    counting_.reset();  // this build's buffer does not contain counters
     return technique::read_ray_trace(records);
   }
 
@@ -151,16 +151,18 @@ std::optional<std::string> texture_reason(const Api& gl, const scene::VoxelGrid&
   const auto [nx, ny, nz] = grid.size;
   const std::int64_t edge = gl.limit(GL_MAX_3D_TEXTURE_SIZE);
   if ((in_parts ? std::max(nx, ny) : std::max({nx, ny, nz})) > edge) {
-    return fmt::format("a volume of {}x{}x{}, GL_MAX_3D_TEXTURE_SIZE is {}", nx, ny, nz, edge);
+    return fmt::format("the volume has {}x{}x{} voxels, but GL_MAX_3D_TEXTURE_SIZE is {}", nx, ny,
+                       nz, edge);
   }
   if (!in_parts && !holds_whole(gl, grid.size, grid.format)) {
-    return fmt::format("no texture of {}x{}x{} {} ({} bytes) by GL_PROXY_TEXTURE_3D", nx, ny, nz,
-                       scene::name_of(grid.format), grid.data.size());
+    return fmt::format(
+        "the driver refuses a texture of {}x{}x{} {} ({} bytes), according to GL_PROXY_TEXTURE_3D",
+        nx, ny, nz, scene::name_of(grid.format), grid.data.size());
   }
   return std::nullopt;
 }
 
-// Why the volume fits neither as a whole nor in parts.
+// The reason why the volume fits neither as a whole nor in parts.
 std::optional<std::string> voxels_reason(const Api& gl, const measure::VolumeWork& work,
                                          const technique::RaycastBuffers& buffers,
                                          const technique::Cut& cut) {

@@ -13,8 +13,8 @@ namespace triptych::gl_backend {
 // The constants of every volume technique are made here.
 [[nodiscard]] Constants constants_of(const measure::VolumeWork& work);
 
-// Why this volume and picture exceed what every volume technique needs (storage blocks, sizes of
-// textures and buffers); empty if they do not.
+// The reason why this volume and image exceed the limits that every volume technique needs (storage
+// blocks, sizes of textures and buffers); empty if they do not.
 [[nodiscard]] std::optional<std::string> volume_unsupported(const Api& gl,
                                                             std::string_view technique,
                                                             const measure::VolumeWork& work);

@@ -1,12 +1,12 @@
 #pragma once
 // A backend without an API: devices that play a script. Measuring, supervising and judging are
-// tested with it, because here the true answer is known. Nothing is rendered: pictures are patterns
-// that depend on what decides a picture (data, camera, step, …) and on nothing else, or images
-// given in the script; times and counts are computed from the work and a seed.
+// tested with it, because its correct results are known. Nothing is rendered: images are patterns
+// that depend only on the factors that determine an image (data, camera, step, …), or images given
+// in the script; times and counts are computed from the work and a seed.
 //
 // Its devices "null:scripted", "null:scripted#2", … are listed only when the environment variable
-// TRIPTYCH_NULL_SCRIPT holds a script ("{}" will do), or when a Script is given: an ordinary run
-// does not show them, and a worker process inherits the script of its parent.
+// TRIPTYCH_NULL_SCRIPT contains a script ("{}" is enough), or when a Script is given: an ordinary
+// run does not list them, and a worker process inherits the script of its parent.
 //
 // TRIPTYCH_NULL_SCRIPT is a JSON object; every key is optional, an unknown one is an error:
 //   {
@@ -104,7 +104,7 @@ struct Script {
   std::function<core::Image(const measure::Work&)> draw;  // instead of the pattern
 };
 
-// Throws InputError with the key and what was expected.
+// Throws InputError with the key and the expected value.
 [[nodiscard]] Script parse_script(std::string_view json);
 
 // One line, "technique=raycast,data=…,step=0.5,ert=0,sampler=manual,skip=none,shading=0,width=64,

@@ -120,7 +120,7 @@ class NullPrepared final : public measure::Prepared {
     return image;
   }
 
-  // A failure that happens once is of all frames of one preparation.
+  // A failure that happens once applies to all frames of one preparation.
   [[nodiscard]] core::Image drawn_image() {
     core::Image image = picture(*script_, work_, subject_);
     failure_ = image_failure(*script_, subject_);

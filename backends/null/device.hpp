@@ -15,9 +15,9 @@ namespace triptych::null_backend {
 [[nodiscard]] std::unique_ptr<measure::Device> make_device(std::shared_ptr<const Script> script,
                                                            std::size_t index);
 
-// Does what the script's first failure for this place asks for, if there is one: throws, ends the
-// process or never returns. Globs are matched against `subject`. `number` is that of the frame or,
-// at prepare, that of the work's preparation.
+// Performs the script's first failure for this place, if there is one: it throws, ends the process
+// or never returns. Globs are matched against `subject`. `number` is the number of the frame or, at
+// prepare, of the work's preparation.
 void play_failure(const Script& script, Place at, const std::string& subject, int number = 0);
 
 // The first failure that concerns the picture: Place::image, wrong_image or nan_image.

@@ -79,7 +79,7 @@ int stride_of(const ParticleWork& work) {
   return work.options.extra_work_stride;
 }
 
-// Everything that determines a picture, and nothing about how it is computed.
+// Everything that determines an image, without the way in which it is computed.
 std::string camera_key(const scene::Camera& c) {
   return fmt::format("{} {} {} {} {} {} {} {}", c.eye.x, c.eye.y, c.eye.z, c.forward.x, c.forward.y,
                      c.forward.z, c.up.x, c.fov_y_deg);

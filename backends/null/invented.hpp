@@ -1,6 +1,6 @@
 #pragma once
-// What a scripted device claims to have done: numbers and pictures that follow from the work alone
-// and are the same every time.
+// The invented results of a scripted device: numbers and images that depend only on the work and
+// are the same every time.
 
 #include <cstdint>
 #include <string>

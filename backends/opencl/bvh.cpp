@@ -1,5 +1,5 @@
-// Rays through a hierarchy of boxes, which kernels build and traverse (particle_hierarchy.cl,
-// particle_rays.cl).
+// Traces rays through a hierarchy of boxes, which kernels build and traverse
+// (particle_hierarchy.cl, particle_rays.cl).
 #include <array>
 #include <string_view>
 
@@ -84,7 +84,7 @@ class BvhFrames final : public measure::Prepared {
   cl::Buffer image_;
   cl::Buffer ids_;
   cl::Buffer unused_;
-  cl::Buffer counters_;  // a row of 8 per tile
+  cl::Buffer counters_;  // one row of 8 counters per tile
   std::vector<Launch> timed_;
   std::vector<Launch> counting_;
   FrameRun run_;

@@ -66,7 +66,8 @@ class Device final : public measure::Device, public measure::ProbesFeatures {
   }
 
  private:
-  [[nodiscard]] double sampler_error(scene::VoxelFormat format) const;  // as the probe measured it
+  // The error that the probe measured.
+  [[nodiscard]] double sampler_error(scene::VoxelFormat format) const;
   [[nodiscard]] std::optional<std::string> half_defect(scene::VoxelFormat format) const;
   [[nodiscard]] std::optional<std::string> image_defect(const scene::VoxelGrid& grid) const;
   [[nodiscard]] std::optional<std::string> size_defect(std::string_view technique,
@@ -88,12 +89,12 @@ std::optional<std::string> Device::half_defect(scene::VoxelFormat format) const 
   const double allowed = technique::allowed_filter_error(technique::least_weight_bits, format);
   if (error <= allowed) return std::nullopt;
   return fmt::format(
-      "sampler hardware: images of half floats are read wrong by {:.3g} of 1, a filter may be by "
-      "{:.3g}",
+      "sampler hardware: the device reads images of half floats with an error of {:.3g}; at most "
+      "{:.3g} is allowed",
       error, allowed);
 }
 
-// Why the hardware sampler cannot be used for the grid.
+// The reason why the hardware sampler cannot be used for the grid.
 std::optional<std::string> Device::image_defect(const scene::VoxelGrid& grid) const {
   return checked([&]() -> std::optional<std::string> {
     const cl::Device& device = session_.device;
@@ -110,7 +111,7 @@ std::optional<std::string> Device::image_defect(const scene::VoxelGrid& grid) co
                                             device.getInfo<CL_DEVICE_IMAGE3D_MAX_DEPTH>()};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (static_cast<std::size_t>(grid.size.at(axis)) > limits.at(axis)) {
-        return fmt::format("the volume is {}x{}x{} voxels, 3D images have at most {}x{}x{}",
+        return fmt::format("the volume has {}x{}x{} voxels, but 3D images have at most {}x{}x{}",
                            grid.size[0], grid.size[1], grid.size[2], limits[0], limits[1],
                            limits[2]);
       }
@@ -119,7 +120,7 @@ std::optional<std::string> Device::image_defect(const scene::VoxelGrid& grid) co
   });
 }
 
-// Why one of the buffers does not fit.
+// The reason why one of the buffers does not fit.
 std::optional<std::string> Device::size_defect(std::string_view technique,
                                                const measure::VolumeWork& work) const {
   const technique::Cut cut = cut_of(session_, technique, work);
@@ -127,7 +128,7 @@ std::optional<std::string> Device::size_defect(std::string_view technique,
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(work.scene.width) * static_cast<std::uint64_t>(work.scene.height);
   if (pixels * technique::raycast_counter_stride > most_indices) {
-    return fmt::format("{} pixels, the kernel's index reaches {}", pixels,
+    return fmt::format("the image has {} pixels, but the kernel's index can count only {}", pixels,
                        most_indices / technique::raycast_counter_stride);
   }
   technique::RaycastBuffers buffers = technique::raycast_buffers(work.scene, work.options);
@@ -140,7 +141,7 @@ std::optional<std::string> Device::size_defect(std::string_view technique,
   const std::uint64_t all = bordered_layers(*work.scene.grid).room_for(cut.parts) + buffers.all();
   const auto total = checked([&] { return session_.device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>(); });
   if (all > total) {
-    return fmt::format("{} bytes are needed, CL_DEVICE_GLOBAL_MEM_SIZE is {}", all, total);
+    return fmt::format("{} bytes are needed, but CL_DEVICE_GLOBAL_MEM_SIZE is {}", all, total);
   }
   return std::nullopt;
 }
@@ -154,7 +155,7 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
   const auto* volume = std::get_if<measure::VolumeWork>(&work.scene);
   const bool draws_particles = particle_techniques.contains(work.technique);
   if (draws_particles ? particles == nullptr : volume == nullptr) {
-    return fmt::format("'{}' draws {}, the scene holds none", work.technique,
+    return fmt::format("'{}' draws {}, but the scene has none", work.technique,
                        draws_particles ? "particles" : "volumes");
   }
   if (particles != nullptr) return particle_defect(session_, work.technique, *particles);
@@ -165,9 +166,8 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
     return "precision fp64 needs cl_khr_fp64, which the device lacks";
   }
   if (volume->options.sampler == Sampler::packed) {
-    return "sampler packed reads texels of buffers, which OpenCL C has not: sampler manual reads "
-           "the "
-           "volume's own voxels in pairs";
+    return "sampler packed needs texel buffers, which OpenCL C does not have: use sampler manual, "
+           "which reads voxels in pairs";
   }
   if (volume->options.sampler == Sampler::hardware) {
     if (auto defect = image_defect(*volume->scene.grid)) return defect;
@@ -198,7 +198,8 @@ double Device::filter_weight_error(const measure::VolumePath& path) const {
 }
 
 double Device::sampler_error(scene::VoxelFormat format) const {
-  if (!session_.queue.executes()) return 1;  // the worst value, because nothing can be sampled
+  // The worst possible error, because nothing can be sampled.
+  if (!session_.queue.executes()) return 1;
   const auto known = filter_errors_.find(format);
   if (known != filter_errors_.end()) return known->second;
   return filter_errors_.emplace(format, probe_filter(session_, programs_, format)).first->second;
@@ -207,7 +208,7 @@ double Device::sampler_error(scene::VoxelFormat format) const {
 std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
   if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
   if (const auto* particles = std::get_if<measure::ParticleWork>(&work.scene)) {
-    // A volume such as the one for calibrating statistics does not belong to the frame.
+    // Another volume, such as the one for calibrating statistics, is not a part of the frame.
     volumes_ = {};
     return particle_techniques.at(work.technique)(session_, programs_, *particles);
   }

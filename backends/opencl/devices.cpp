@@ -66,7 +66,7 @@ bool is_layered(std::string_view driver) {
   return driver == "rusticl" || driver == "clvk" || driver == "clon12";
 }
 
-// "22.3.6 on llvmpipe (LLVM 15.0.6, 256 bits)".
+// An example is "22.3.6 on llvmpipe (LLVM 15.0.6, 256 bits)".
 std::string version_of(const cl::Device& device, const std::string& driver) {
   std::string version = one_line(device.getInfo<CL_DRIVER_VERSION>());
   if (is_layered(driver)) version += " on " + one_line(device.getInfo<CL_DEVICE_NAME>());
@@ -89,7 +89,7 @@ record::Device describe(const cl::Device& device, const std::string& driver) {
   });
 }
 
-// The id of a device that only compiles contains the family, which is what the variables selected.
+// The id of a device that only compiles contains the family that the variables selected.
 void only_compile(const std::string& driver, record::Device& info) {
   if (!info.cpu_features.empty()) return;
   std::string family = measure::compiled_family(driver);
@@ -101,7 +101,7 @@ void only_compile(const std::string& driver, record::Device& info) {
   info.environment.clear();
 }
 
-// Why the device cannot be used; empty if it can.
+// The reason why the device cannot be used; empty if it can.
 std::string defect_of(const cl::Device& device) {
   return checked([&]() -> std::string {
     if (device.getInfo<CL_DEVICE_AVAILABLE>() == CL_FALSE) return "CL_DEVICE_AVAILABLE is false";
@@ -118,8 +118,8 @@ std::string defect_of(const cl::Device& device) {
 
 void add_device(Search& search, const cl::Device& device, const std::string& driver,
                 std::map<std::string, int>& seen) {
-  // Devices are numbered before anything can fail, so that an id does not depend on whether another
-  // device works.
+  // Devices are numbered before any of them is tested, so that an id does not depend on whether
+  // another device works.
   const std::string id = record::numbered_id("opencl:" + driver, ++seen[driver]);
   try {
     if (const std::string defect = defect_of(device); !defect.empty()) {

@@ -18,7 +18,7 @@ using measure::count_right;
 using measure::judged_feature;
 using measure::ProbedFeature;
 
-// What a probe needs.
+// The objects that a probe needs.
 struct Bench {
   const Session& session;
   Programs& programs;
@@ -73,7 +73,7 @@ ProbedFeature probe_offset(const Bench& bench, std::uint64_t offset) {
       [](const cl::Device& device) { return device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(); });
   if (needed > most) {
     throw core::NotSupported(fmt::format(
-        "needs a buffer of {} bytes, CL_DEVICE_MAX_MEM_ALLOC_SIZE is {}", needed, most));
+        "needs a buffer of {} bytes, but CL_DEVICE_MAX_MEM_ALLOC_SIZE is {}", needed, most));
   }
   const cl::Buffer buffer = make_buffer(bench.session, CL_MEM_READ_WRITE, needed);
   const cl::Program program = bench.program();
@@ -174,7 +174,8 @@ ProbedFeature probe_addressing(const Bench& bench, const char* kernel) {
     const std::size_t y = addressed(place(i / side), kernel);
     return x == image_edge || y == image_edge ? 0.0F : texels[x + image_edge * y];
   };
-  return judged_feature(count_right(found, expected), count, "from -1 to 3 in both axes");
+  return judged_feature(count_right(found, expected), count,
+                        "coordinates from -1 to 3 in both axes");
 }
 
 ProbedFeature probe_wide_image(const Bench& bench) {

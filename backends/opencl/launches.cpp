@@ -40,7 +40,7 @@ std::size_t round_up(std::size_t n, std::size_t multiple) {
 }
 
 cl::Buffer upload_bytes(const Session& session, std::span<const std::byte> bytes) {
-  constexpr std::size_t smallest = 16;  // a buffer of no bytes is an error
+  constexpr std::size_t smallest = 16;  // OpenCL does not allow an empty buffer
   const cl::Buffer buffer =
       make_buffer(session, CL_MEM_READ_ONLY, std::max(bytes.size(), smallest));
   if (!bytes.empty()) {

@@ -1,5 +1,5 @@
 #pragma once
-// Kernels with their arguments and sizes, and the time that a sequence of them took.
+// Kernel launches with their arguments and sizes, and the time that a sequence of them takes.
 
 #include <fmt/format.h>
 
@@ -55,7 +55,7 @@ template <typename... Arguments>
 void run_checked(const Session& session, const std::vector<Launch>& launches,
                  core::CodePlace place = core::CodePlace::current());
 
-// The commands of the last frame, which it times.
+// The commands of the last frame, which is the frame that is timed.
 class FrameRun {
  public:
   // Runs the launches in their order and waits without spinning. The launches have to exist until

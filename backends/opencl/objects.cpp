@@ -149,8 +149,8 @@ void check_executed(const cl::Event& event, const std::string& call, const std::
   }
   throw core::ApiError(
       call, fmt::format("execution status {}", status),
-      fmt::format("{}{}the command is not complete although the queue was waited for", detail,
-                  detail.empty() ? "" : ": "),
+      fmt::format("{}{}the command has not completed although the program waited for the queue",
+                  detail, detail.empty() ? "" : ": "),
       place);
 }
 

@@ -26,7 +26,7 @@ namespace triptych::opencl_backend {
 [[noreturn]] void throw_api_error(const cl::Error& error, core::CodePlace place,
                                   const std::string& detail = {});
 
-// Runs a call of the API and turns its exception into ours.
+// Calls the API and converts its exception to core::ApiError or core::DeviceLost.
 template <typename Call>
 decltype(auto) checked(Call&& call, core::CodePlace place = core::CodePlace::current()) {
   try {
@@ -41,7 +41,7 @@ decltype(auto) checked(Call&& call, core::CodePlace place = core::CodePlace::cur
 // backend go through it; they have the names of cl::CommandQueue.
 class Queue {
  public:
-  Queue(cl::CommandQueue queue, bool executes = true)  // NOLINT: a queue that executes is the rule
+  Queue(cl::CommandQueue queue, bool executes = true)  // NOLINT: implicit
       : queue_(std::move(queue)), executes_(executes) {}
   [[nodiscard]] bool executes() const noexcept { return executes_; }
 
@@ -98,10 +98,10 @@ struct Session {
   Queue queue;  // in order, with profiling
   // The number of samples in a batch of the kernels (volume.cl).
   int batch = 1;
-  measure::MemoryLedger held = {};  // of the objects made by make_buffer and make_image
+  measure::MemoryLedger held = {};  // memory of the objects that make_buffer and make_image created
 };
 
-// Both record what they make in the ledger of the session. They throw core::ApiError.
+// Both record the new object in the ledger of the session. They throw core::ApiError.
 [[nodiscard]] cl::Buffer make_buffer(const Session& session, cl_mem_flags flags, std::size_t bytes,
                                      core::CodePlace place = core::CodePlace::current());
 [[nodiscard]] cl::Image3D make_image(const Session& session, const cl::ImageFormat& format,

@@ -14,7 +14,7 @@ namespace {
 // Uses a small piece of memory, because mapping the whole buffer may make the driver copy it.
 cl::Buffer upload_property(const Session& session, const technique::Arrangement& arrangement,
                            technique::Property property) {
-  constexpr std::size_t smallest = 16;                         // a buffer of no bytes is an error
+  constexpr std::size_t smallest = 16;  // OpenCL does not allow an empty buffer
   constexpr std::size_t most_at_once = std::size_t{4} << 20U;  // whole elements of any property
   const std::size_t size = arrangement.bytes(property);
   const cl::Buffer buffer = make_buffer(session, CL_MEM_READ_ONLY, std::max(size, smallest));

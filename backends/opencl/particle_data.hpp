@@ -14,7 +14,7 @@ struct ParticleData {
   std::size_t cell_count = 0;
   cl::Buffer parameters;  // technique::ParticleParameters
   cl::Buffer spheres;     // float4
-  cl::Buffer colours;     // one or four words each, depending on the kind
+  cl::Buffer colours;     // one or four words for each particle, depending on the kind
   cl::Buffer ids;
   cl::Buffer cells;  // technique::Cell
   cl::Buffer table;  // the table of the transfer function

@@ -8,7 +8,7 @@
 namespace triptych::opencl_backend {
 namespace {
 
-// In the order of the kernels' counters (particles.cl).
+// The names are in the order of the kernels' counters (particles.cl).
 constexpr std::array<std::string_view, 7> counter_names{"sprites",     "vertices",
                                                         "fragments",   "fragments_discarded",
                                                         "bin_entries", "particles_submitted",
@@ -38,7 +38,7 @@ ParticleFrames::ParticleFrames(const Session& session, Programs& programs,
   });
 }
 
-// A separate pass draws it, because there may be more to draw from that camera.
+// The frame is drawn by a separate pass, because more cells may be visible from that camera.
 void ParticleFrames::draw_before(const ParticlePrograms& programs,
                                  const measure::ParticleWork& work) {
   look_from(session_, stages_.data(), work.before());
@@ -57,8 +57,8 @@ measure::Frame ParticleFrames::frame(measure::Purpose purpose) {
   });
 }
 
-// What is hidden depends on the previous frames. The frame that is counted is the second one after
-// a fresh start, which is like all that follow it.
+// The hidden cells depend on the previous frames. The counted frame is the second one after a fresh
+// start, because all later frames are like it.
 void ParticleFrames::prepare_counting() {
   if (counting_.empty()) {
     ParticleConstants constants = constants_;

@@ -29,7 +29,8 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
                                              technique::SpriteRasterizer::in_tiles)) {
     return defect;
   }
-  constexpr int most_pixels = 32768;  // an edge: pixel rectangles have 16 bits for a place
+  // The longest side: pixel rectangles have 16 bits for a coordinate.
+  constexpr int most_pixels = 32768;
   if (work.scene.width > most_pixels || work.scene.height > most_pixels) {
     return fmt::format("the image has {}x{} pixels, and this rasterizer supports at most {}x{}",
                        work.scene.width, work.scene.height, most_pixels, most_pixels);
@@ -38,8 +39,7 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
       checked([&] { return session.device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>(); });
   if (items < scan_items) {
     return fmt::format(
-        "sprites are binned by groups of {} work items, "
-        "CL_DEVICE_MAX_WORK_GROUP_SIZE is {}",
+        "sprites are binned by groups of {} work items, but CL_DEVICE_MAX_WORK_GROUP_SIZE is {}",
         scan_items, items);
   }
   const auto most = checked([&] { return session.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(); });
@@ -52,18 +52,18 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
   const std::uint64_t largest = std::max(16 * std::max(count, pixels), table);
   if (largest > most) {
     return fmt::format(
-        "{} particles and {} pixels take {} bytes in one buffer, CL_DEVICE_MAX_MEM_ALLOC_SIZE is "
-        "{}",
+        "{} particles and {} pixels take {} bytes in one buffer, but CL_DEVICE_MAX_MEM_ALLOC_SIZE "
+        "is {}",
         count, pixels, largest, most);
   }
-  // The passes of quad_tess store the most of each particle: 28 words.
-  // Sphere, the same in camera space, rectangle, colour, id; picture, id, and for each pass its
-  // depths, winners and counts of entries.
+  // The passes of quad_tess store most words for each particle, 28: the sphere in world and in
+  // camera space, the rectangle, the colour and the id. For each pixel they store the image, the id
+  // and, for each pass, depths, winners and numbers of entries.
   const std::uint64_t passes = work.options.extra_work_stride > 0 ? 2 : 1;
   const std::uint64_t all =
       (16 + 16 + 8 + 16 + 4 + 4 * 28) * count + 20 * pixels + passes * (8 * pixels + table);
   if (all > total) {
-    return fmt::format("{} bytes are needed, CL_DEVICE_GLOBAL_MEM_SIZE is {}", all, total);
+    return fmt::format("{} bytes are needed, but CL_DEVICE_GLOBAL_MEM_SIZE is {}", all, total);
   }
   return std::nullopt;
 }

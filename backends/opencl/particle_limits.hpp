@@ -9,10 +9,10 @@
 
 namespace triptych::opencl_backend {
 
-// The table that counts the entries of bins: for each work item, which takes a chunk of the cells,
-// and for each bin.
+// The table that counts the entries of bins. It has a number for each work item, which processes a
+// chunk of the cells, and each bin.
 struct BinTable {
-  std::size_t bins = 0;  // a picture's tiles and the coarse tiles
+  std::size_t bins = 0;  // the number of tiles and coarse tiles of an image
   std::size_t chunks = 0;
 
   [[nodiscard]] std::size_t words() const { return bins * chunks; }
@@ -24,7 +24,7 @@ struct BinTable {
 // stress:pile:200000 take 24,304 bytes more than 16 would.
 [[nodiscard]] BinTable bin_table(int width, int height, std::size_t particles);
 
-// Why the device cannot draw these particles with this technique; empty if it can.
+// The reason why the device cannot draw these particles with this technique; empty if it can.
 [[nodiscard]] std::optional<std::string> particle_defect(const Session& session,
                                                          std::string_view technique,
                                                          const measure::ParticleWork& work);

@@ -50,7 +50,7 @@ Part sprites_part(const ParticleConstants& constants) {
 }
 
 Part shading_part(ParticleConstants constants) {
-  constants.count = false;  // it has nothing to count
+  constants.count = false;  // this program has nothing to count
   return {program_source({"sphere_math.h", "particles.cl", "particle_shade.cl"}),
           fmt::format("{} -DTRI_COLOUR={} -DTRI_TRANSFER_AT_PIXEL={:d} -DTRI_RAY_AT_VERTEX={:d}{}",
                       common_options(constants, {}), static_cast<int>(constants.colour),
@@ -80,7 +80,7 @@ ParticleConstants constants_of(const measure::ParticleWork& work, Sprite sprite)
           .transfer_at_pixel = no_vertices || options.transfer == technique::ComputedAt::pixel ||
                                work.scene.particles->colour != scene::ColourKind::intensity,
           .ray_at_vertex = options.ray == technique::ComputedAt::vertex,
-          // Without a depth unit, tiles reject early in any case.
+          // Without a depth unit, tiles always reject early.
           .conservative_depth = no_vertices || options.conservative_depth,
           .fault = options.fault};
 }

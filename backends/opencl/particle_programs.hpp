@@ -1,6 +1,6 @@
 #pragma once
-// Device code of the particle techniques, in three programs, so that none is compiled again for an
-// option that it does not know.
+// The device code of the particle techniques. It is divided into three programs, so that a program
+// is not compiled again for an option that it does not use.
 
 #include <cstdint>
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace triptych::opencl_backend {
 
-// How a particle's pixels are found (TRI_SPRITE of particle_sprite.cl).
+// How the pixels of a particle are found (TRI_SPRITE of particle_sprite.cl).
 enum class Sprite : std::uint8_t {
   rectangle,  // none: the pixels around the silhouette
   screen_quad,
   ray_quad,
   polygon,
   adaptive_polygon,
-  // Vertices from passes of their own (particle_expand.cl):
+  // Vertices that separate passes compute (particle_expand.cl):
   expanded_quad,   // a geometry stage's
   evaluated_quad,  // those of tessellation stages
   point
@@ -31,8 +31,8 @@ enum class Sprite : std::uint8_t {
   return sprite == Sprite::evaluated_quad ? 12 : 0;
 }
 
-// The compile-time constants of particles.cl and what follows it. A build that does not count or
-// inject a fault holds no trace of it.
+// The compile-time constants of particles.cl and the files that follow it. A build that neither
+// counts nor injects a fault contains no code for that.
 struct ParticleConstants {
   Sprite sprite = Sprite::rectangle;
   scene::ColourKind colour = scene::ColourKind::rgba8;
@@ -47,8 +47,8 @@ struct ParticleConstants {
 // Constants of the timed build.
 [[nodiscard]] ParticleConstants constants_of(const measure::ParticleWork& work, Sprite sprite);
 
-// Edge of a tile in pixels, of a coarse one in tiles; a particle that reaches more tiles than
-// `most_tiles` is put into coarse ones.
+// The edge of a tile in pixels, and of a coarse tile in tiles. A particle that covers more than
+// `most_tiles` tiles is put into coarse tiles.
 inline constexpr int tile_edge = 16;
 inline constexpr int coarse_edge = 8;
 inline constexpr int most_tiles = 16;
@@ -70,7 +70,7 @@ struct RayPrograms {
 [[nodiscard]] RayPrograms ray_programs(Programs& programs, const ParticleConstants& constants);
 [[nodiscard]] std::string ray_hash(const ParticleConstants& constants);
 
-// Content hash of the three, their options included.
+// The content hash of the three programs, including their options.
 [[nodiscard]] std::string particle_hash(const ParticleConstants& constants);
 
 }  // namespace triptych::opencl_backend

@@ -57,7 +57,7 @@ ParticleStages::ParticleStages(const Session& session, ParticleData data,
 }
 
 cl::Buffer ParticleStages::make_buffer(std::size_t words) const {
-  constexpr std::size_t fewest = 4;  // a buffer of no bytes is an error
+  constexpr std::size_t fewest = 4;  // OpenCL does not allow an empty buffer
   return checked([&] {
     return opencl_backend::make_buffer(session_, CL_MEM_READ_WRITE,
                                        std::max(words, fewest) * sizeof(cl_uint));
@@ -95,8 +95,9 @@ Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride)
   const std::uint64_t bytes = entries * sizeof(cl_uint);
   const auto most = session_.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
   if (bytes > most) {
-    throw core::NotSupported(fmt::format(
-        "{} bin entries take {} bytes, CL_DEVICE_MAX_MEM_ALLOC_SIZE is {}", entries, bytes, most));
+    throw core::NotSupported(
+        fmt::format("{} bin entries take {} bytes, but CL_DEVICE_MAX_MEM_ALLOC_SIZE is {}", entries,
+                    bytes, most));
   }
   pass.entries = make_buffer(entries);
   return pass;
@@ -109,7 +110,7 @@ void ParticleStages::poison(const Pass& pass) const {
   for (const cl::Buffer* each : {&image_, &ids_, &pass.depths, &camera_}) {
     fill(*each, measure::poison_word);
   }
-  // Numbers by which kernels count or index. If they are 0, nothing is drawn.
+  // Numbers by which kernels count or index. If one of them is 0, nothing is drawn.
   for (const cl::Buffer* each : {&pass.list, &pass.begins, &pass.totals, &rectangles_}) {
     fill(*each, 0);
   }

@@ -23,7 +23,7 @@ inline constexpr std::size_t particle_counter_stride = 8;
 
 // Sorts the listed cells into bins and draws the bins.
 struct Pass {
-  cl_uint stride = 1;  // only every stride-th cell is drawn
+  cl_uint stride = 1;  // draws only every stride-th cell
   cl::Buffer list;
   cl::Buffer counts;
   cl::Buffer totals;
@@ -47,9 +47,9 @@ class ParticleStages {
                                             const Pass& pass) const;
   // The launches that draw the cells of a pass again.
   [[nodiscard]] std::vector<Launch> again(const ParticlePrograms& programs, const Pass& pass) const;
-  // Overwrites what the frames of a pass write: the image, and the data that kernels exchange.
+  // Overwrites the outputs of the frames of a pass: the image, and the data that kernels exchange.
   void poison(const Pass& pass) const;
-  // Forgets which cells were found hidden.
+  // Resets the record of hidden cells, so that all cells count as visible.
   void forget_hidden() const;
 
   [[nodiscard]] const ParticleData& data() const { return data_; }
@@ -65,7 +65,7 @@ class ParticleStages {
   [[nodiscard]] Launch test(const ParticlePrograms& programs) const;
   void add_expansion(const ParticlePrograms& programs, const Pass& pass,
                      std::vector<Launch>& to) const;
-  // Adds the last argument of kernels that read what the expansion has stored.
+  // Adds the last argument of kernels that read the results of the expansion.
   void add_stored(Launch& launch) const;
   [[nodiscard]] Launch shade(const ParticlePrograms& programs, const Pass& pass) const;
   void add_binning(const ParticlePrograms& programs, const Pass& pass, cl_uint state,
@@ -90,7 +90,7 @@ class ParticleStages {
   cl::Buffer sprite_colours_;  // if the transfer function is evaluated for each sprite
   cl::Buffer cosines_;         // if rays are those of sprites
   cl::Buffer shown_;           // for each cell: 1 if it was visible in the last frame
-  cl::Buffer states_;          // for each cell: what happens to it
+  cl::Buffer states_;          // for each cell: its state in this frame
   cl::Buffer farthest_;        // for each tile
   cl::Buffer image_;
   cl::Buffer ids_;

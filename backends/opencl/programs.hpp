@@ -22,7 +22,7 @@ struct Constants {
   bool trace = false;  // with `count`: the history of one pixel (technique/volume/ray_trace.hpp)
   bool speed_of_light = false;
   int preintegrated = 0;  // technique::preintegration_form
-  bool cells = false;     // has a source of its own
+  bool cells = false;     // the technique has its own source
   bool leaps = false;     // technique::Skip::distance
   bool adapt = false;
   bool parts = false;  // the volume is drawn one technique::Part at a time
@@ -30,7 +30,7 @@ struct Constants {
   technique::Fault fault = technique::Fault::none;
   int batch = 1;
 
-  [[nodiscard]] std::string options() const;  // in the form that the compiler takes
+  [[nodiscard]] std::string options() const;  // the options in the form that the compiler takes
 };
 
 // The beginning of every program (the prelude, volume_math.h), followed by the given files: those
@@ -43,7 +43,8 @@ struct Constants {
 
 struct CapturedProgram {
   cl::Program program;
-  std::string printed;  // to standard error while it was built; empty if nothing was captured then
+  std::string printed;  // the text that the driver wrote to standard error during the build; empty
+                        // if it was not captured
 };
 
 // Programs that have been compiled, by source and options.

@@ -1,5 +1,5 @@
-// Ray-aligned quads. Without the stages of a rasterizer, all techniques that draw such quads are
-// this one.
+// Ray-aligned quads. OpenCL has no rasterizer stages, so several techniques that draw such quads
+// use this implementation.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"
 

@@ -1,5 +1,5 @@
-// Quads across the ray to the centre, whose vertices a pass of its own writes: what a geometry shader
-// does elsewhere.
+// Ray-aligned quads whose vertices a separate pass writes, as a geometry shader does on the other
+// APIs.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"
 

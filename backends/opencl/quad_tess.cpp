@@ -1,4 +1,5 @@
-// The same quads, evaluated from the domain coordinates of patches: what tessellation shaders do elsewhere.
+// Ray-aligned quads, evaluated from the domain coordinates of patches, as tessellation shaders do
+// on the other APIs.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"
 

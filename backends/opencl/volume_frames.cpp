@@ -30,7 +30,8 @@ std::vector<std::string_view> source_files(const Constants& constants) {
   return files;
 }
 
-// The pixels of a work group: wide enough for a GPU's waves; it makes no difference on a processor.
+// The number of pixels of a work group: wide enough for a GPU's waves, and without influence on a
+// processor.
 constexpr std::size_t group_width = 16;
 constexpr std::size_t group_height = 4;
 

@@ -40,7 +40,7 @@ class VolumeFrames final : public measure::Prepared, public measure::TracesPixel
 
   Session session_;
   Programs& programs_;
-  Constants constants_;  // of the timed build
+  Constants constants_;  // constants of the timed build
   int width_;
   int height_;
   std::string hash_;

@@ -40,7 +40,7 @@ class VolumeParts {
   std::vector<technique::PartPass> passes_;
   cl::Buffer voxels_;
   cl::Buffer parameters_;
-  std::size_t place_;  // where the parameters of a part are among the parameters
+  std::size_t place_;  // the offset of a part's parameters within the parameters
   measure::MemoryLedger::Entry moved_;
 };
 

@@ -42,7 +42,7 @@ class Backend final : public measure::Backend {
       if (each.info.id != device_id) continue;
       if (!each.reason.empty()) throw core::NotSupported(each.reason);
       if (std::getenv("LP_PERF") != nullptr && each.info.driver == "llvmpipe") {
-        throw core::NotSupported("LP_PERF is set: it turns parts of the driver's work off");
+        throw core::NotSupported("LP_PERF is set, which makes the driver skip work");
       }
       return translated(
           [&] { return std::make_unique<Device>(std::move(instance), std::move(each)); });

@@ -9,8 +9,8 @@ namespace triptych::vulkan_backend {
 
 inline constexpr std::uint32_t commands_binding = first_free_binding;
 
-// What decides which cells are left out: only the view or, in the two passes of a frame with
-// occlusion culling, also what the last frame showed and what the first pass has drawn
+// Selects the criterion for leaving out cells: only the view, or also the visibility in the last
+// frame and the result of the first pass, for the two passes of occlusion culling
 // (technique/particles/cull.glsl: TRI_OCCLUSION).
 enum class CullPass : std::uint8_t { view, seen_before, seen_now };
 
@@ -42,7 +42,7 @@ class CellCulling {
   std::vector<Build> builds_;
 };
 
-// Why the device cannot draw what CellCulling leaves; nullopt if it can.
+// The reason why the device cannot draw the commands of CellCulling; nullopt if it can.
 [[nodiscard]] std::optional<std::string> cannot_cull(const Gpu& gpu, bool instanced);
 
 }  // namespace triptych::vulkan_backend

@@ -37,7 +37,7 @@ class ComputeFrames final : public measure::Prepared, public measure::TracesPixe
   VolumeResources resources_;
   std::string_view timed_code_;
   std::string_view counting_code_;
-  std::string_view tracing_code_;  // empty if there is none for this work
+  std::string_view tracing_code_;  // empty if this work cannot be traced
   vk::Pipeline pipeline_;
   vk::Pipeline counting_pipeline_;  // null until a counting frame is requested
   Frames frames_;

@@ -40,7 +40,8 @@ vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets,
       {.type = vk::DescriptorType::eUniformTexelBuffer, .descriptorCount = texel_buffers * sets},
       {.type = vk::DescriptorType::eAccelerationStructureKHR, .descriptorCount = structures * sets},
   }};
-  // None of a kind may not be asked for. Whoever has structures has texels.
+  // Vulkan does not allow a pool size of 0 for a kind of descriptor. Layouts with acceleration
+  // structures always have texel buffers.
   const std::uint32_t kinds = structures > 0 ? 6 : (texel_buffers > 0 ? 5 : 3);
   return {gpu.device, vk::DescriptorPoolCreateInfo{
                           .maxSets = sets, .poolSizeCount = kinds, .pPoolSizes = sizes.data()}};

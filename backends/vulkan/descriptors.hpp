@@ -1,5 +1,5 @@
 #pragma once
-// Descriptors: what device code finds at its bindings. One set per pipeline everywhere.
+// Descriptors, which connect resources to the bindings of device code. Every pipeline has one set.
 
 #include <string>
 #include <vector>
@@ -13,15 +13,15 @@ struct Layout {
   vk::raii::PipelineLayout pipeline;
   std::string definition;  // the same text for layouts that are defined in the same way
 };
-// `push_bytes`: size of a push constant block, of these stages.
+// `push_bytes`: the size of a push constant block for these stages.
 [[nodiscard]] Layout make_layout(const Gpu& gpu,
                                  vk::ArrayProxy<const vk::DescriptorSetLayoutBinding> bindings,
                                  std::uint32_t push_bytes = 0,
                                  vk::ShaderStageFlags push_stages =
                                      vk::ShaderStageFlagBits::eCompute);
 
-// Room for this many sets, each with up to two uniform buffers, two textures, `storage_buffers`, a
-// storage image, `texel_buffers` and `structures`, where there are any of those.
+// Space for this many sets. Each set has up to two uniform buffers, two textures,
+// `storage_buffers`, a storage image, `texel_buffers` and `structures`.
 [[nodiscard]] vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets,
                                                  std::uint32_t storage_buffers = 3,
                                                  std::uint32_t texel_buffers = 0,
@@ -32,11 +32,10 @@ struct Layout {
                                                            const Layout& layout,
                                                            std::uint32_t count);
 
-// The whole buffer. Throws core::NotSupported where that is more than maxStorageBufferRange.
+// Binds the whole buffer. Throws core::NotSupported if it exceeds maxStorageBufferRange.
 void bind_buffer(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                  vk::DescriptorType type, const Buffer& buffer);
-// The whole buffer as texels. Throws core::NotSupported where those are more than
-// maxTexelBufferElements.
+// Binds the whole buffer as texels. Throws core::NotSupported if it exceeds maxTexelBufferElements.
 [[nodiscard]] vk::raii::BufferView texel_view(const Gpu& gpu, const Buffer& buffer,
                                               vk::Format format);
 // A view of a buffer that was made for uniform texels.

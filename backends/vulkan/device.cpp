@@ -27,7 +27,7 @@ using Prepare = std::unique_ptr<measure::Prepared> (*)(const Gpu&, const Instanc
 
 struct Entry {
   std::string_view technique;
-  // In the order of measure::Work.
+  // The order is that of measure::Work.
   std::variant<Prepare<measure::VolumeWork>, Prepare<measure::ParticleWork>> prepare;
   Needs needs;
 };

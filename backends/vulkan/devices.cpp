@@ -15,7 +15,8 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-// Layers may change what is drawn; TRIPTYCH_LAYER is the variable of our own layer in tests/layer.
+// Layers may change the image. TRIPTYCH_LAYER is the variable of Triptych's own test layer
+// (tests/layer).
 constexpr std::array<std::string_view, 11> code_variables{"LP_NUM_THREADS",
                                                           "LP_NATIVE_VECTOR_WIDTH",
                                                           "GALLIVM_PERF",
@@ -143,8 +144,8 @@ bool tells_driver(const vk::raii::PhysicalDevice& device, std::uint32_t api_vers
   });
 }
 
-// The id of a device that only compiles says what the environment variables chose, except for the
-// folder of the driver, which does not change the generated code.
+// The id of a device that only compiles contains the values of the environment variables that
+// selected it, except for the driver's folder, which does not change the generated code.
 void compile_only_for(const std::string& family, std::string_view driver, record::Device& info) {
   info.compiles_for = family;
   info.id = measure::compile_only_id("vulkan", driver, family);

@@ -12,7 +12,7 @@ namespace triptych::vulkan_backend {
 struct Candidate {
   vk::raii::PhysicalDevice physical;
   record::Device info;
-  std::string reason;  // why it cannot be used; empty if it can
+  std::string reason;  // the reason why it cannot be used; empty if it can
 };
 
 // All physical devices in the order of the loader, with ids "vulkan:<driver>". If a driver lists

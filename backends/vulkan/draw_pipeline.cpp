@@ -44,7 +44,7 @@ vk::PipelineDepthStencilStateCreateInfo depth_state(std::optional<vk::CompareOp>
           .depthCompareOp = compare.value_or(vk::CompareOp::eAlways)};
 }
 
-// The complete key: everything that is not part of it is the same for every pipeline.
+// The complete key. Everything that is not part of the key is the same for every pipeline.
 std::string key_of(const DrawState& state, const Layout& layout, const Specialization& constants) {
   std::vector<std::string_view> codes;
   std::string text;

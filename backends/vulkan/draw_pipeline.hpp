@@ -24,7 +24,7 @@ struct DrawState {
   std::uint32_t colour_targets = 1;
   std::optional<vk::CompareOp> depth;  // depth is tested and written if this is given
   vk::Extent3D extent;
-  std::vector<vk::Format> formats;  // of the attachments of the render pass, in its order
+  std::vector<vk::Format> formats;  // formats of the attachments of the render pass, in its order
 };
 
 // All stages get the same specialization constants. The Gpu owns the pipeline (Pipelines); it is

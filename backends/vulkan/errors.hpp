@@ -11,8 +11,8 @@ namespace triptych::vulkan_backend {
 [[noreturn]] void rethrow(const vk::SystemError& error, core::CodePlace place,
                           const std::string& detail = {});
 
-// Runs `work` and turns Vulkan's errors into ours. Every function of the backend's interface is
-// wrapped in it.
+// Runs `work` and converts Vulkan's errors to core::ApiError or core::DeviceLost. Every function of
+// the backend's interface is wrapped in it.
 template <class Work>
 decltype(auto) translated(Work&& work, core::CodePlace place = core::CodePlace::current()) {
   try {

@@ -25,10 +25,10 @@ struct PointGrid {
 template <class Draw>
 measure::ProbedFeature probe_points(const Gpu& gpu, PointGrid grid, std::uint32_t count,
                                     std::string size, const Draw& draw) {
-  if (!gpu.draws) throw core::NotSupported("the device has no queue for drawing");
+  if (!gpu.draws) throw core::NotSupported("the device has no graphics queue");
   const std::uint32_t most = gpu.properties.limits.maxImageDimension2D;
   if (std::max(grid.width, grid.height) > most) {
-    throw core::NotSupported(fmt::format("needs an image of {} x {}, maxImageDimension2D = {}",
+    throw core::NotSupported(fmt::format("needs an image of {} x {}, but maxImageDimension2D = {}",
                                          grid.width, grid.height, most));
   }
   constexpr vk::Format format = vk::Format::eR32Uint;

@@ -1,5 +1,5 @@
 #pragma once
-// What the feature probes have in common.
+// The common parts of the feature probes.
 
 #include <array>
 #include <cstdint>

@@ -79,8 +79,8 @@ ProbedFeature probe_offset(const Gpu& gpu, std::uint64_t offset) {
   constexpr std::uint64_t bytes = count * sizeof(std::uint32_t);
   const std::uint64_t needed = offset + bytes;
   if (const std::uint64_t most = largest_allocation(gpu); needed > most) {
-    throw core::NotSupported(
-        fmt::format("needs a buffer of {} bytes, the device allocates {}", needed, most));
+    throw core::NotSupported(fmt::format(
+        "needs a buffer of {} bytes, but the device allocates at most {}", needed, most));
   }
   const Buffer buffer(gpu, needed, storage_usage, Place::device);
   const Kernel kernel(gpu, "features_write.comp.spv", {storage_type}, sizeof(Line));
@@ -212,7 +212,8 @@ ProbedFeature probe_addressing(const Gpu& gpu, vk::SamplerAddressMode mode) {
     const std::uint32_t y = addressed(place(i / side), mode);
     return x == image_edge || y == image_edge ? border_value : texel_value(x, y);
   };
-  return judged_feature(count_right(found, expected), count, "from -1 to 3 in both axes");
+  return judged_feature(count_right(found, expected), count,
+                        "coordinates from -1 to 3 in both axes");
 }
 
 ProbedFeature probe_wide_image(const Gpu& gpu) {

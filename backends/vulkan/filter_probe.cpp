@@ -26,7 +26,7 @@ vk::FormatFeatureFlags features(const Gpu& gpu, scene::VoxelFormat format) {
   return gpu.physical.getFormatProperties(texture_format(format)).optimalTilingFeatures;
 }
 
-// Voxels that are the 0 or the 1 of the format's range.
+// Each voxel has either the value 0 or the value 1 of the format's range.
 scene::VoxelGrid random_voxels(scene::VoxelFormat format) {
   scene::VoxelGrid grid{.format = format, .size = {edge, edge, edge}};
   grid.data.resize(std::size_t{edge} * edge * edge * scene::bytes_of(format));

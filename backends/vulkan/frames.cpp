@@ -16,7 +16,7 @@ struct Statistic {
   std::string_view name;  // as in record::Counts
 };
 
-// In the order of their bits, which is the order in which a query returns them.
+// The statistics in the order of their bits, in which a query returns them.
 constexpr std::array<Statistic, 11> statistics_in_order{{
     {vk::QueryPipelineStatisticFlagBits::eInputAssemblyVertices, "input_assembly_vertices"},
     {vk::QueryPipelineStatisticFlagBits::eInputAssemblyPrimitives, "input_assembly_primitives"},
@@ -34,7 +34,7 @@ constexpr std::array<Statistic, 11> statistics_in_order{{
 }};
 
 constexpr std::uint32_t timestamps = 2;
-// A value that no clock shows by chance: bits beyond the width of a counter are 0.
+// A clock never has this value by chance, because the bits beyond the width of a counter are 0.
 constexpr std::uint64_t unwritten_ticks = 0xFEEDFACE0BADF00D;
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace triptych::vulkan_backend {
 // The work of a technique, which is recorded once for each purpose and submitted repeatedly.
 class Frames {
  public:
-  // `statistics` are the pipeline statistics that mean something for this kind of work. The
+  // `statistics` are the pipeline statistics that are meaningful for this kind of work. The
   // constructor makes both recordings.
   Frames(const Gpu& gpu, vk::QueryPipelineStatisticFlags statistics, const Recording& timed);
 

@@ -26,10 +26,10 @@ std::uint32_t choose_family(const std::vector<vk::QueueFamilyProperties>& famili
       if ((families[family].queueFlags & wanted) == wanted) return family;
     }
   }
-  throw core::NotSupported(fmt::format("{} has no queue for compute work", device_name));
+  throw core::NotSupported(fmt::format("{} has no compute queue", device_name));
 }
 
-// Whether the driver reports what it compiles. The feature must be queried as well, because a
+// Whether the driver reports its compiled code. The feature must be queried as well, because a
 // driver may list the extension and not have the feature.
 bool reports_code(const vk::raii::PhysicalDevice& physical) {
   const auto extensions = physical.enumerateDeviceExtensionProperties();
@@ -44,8 +44,8 @@ bool reports_code(const vk::raii::PhysicalDevice& physical) {
              .pipelineExecutableInfo == VK_TRUE;
 }
 
-// A GPU that is not here has heaps of 0 bytes. They are given a size, so that what the GPU itself
-// would hold is compiled; nothing is ever written to them.
+// A GPU that is not present has heaps of 0 bytes. They are given a size, so that its pipelines can
+// be compiled. Nothing is ever written to the heaps.
 vk::PhysicalDeviceMemoryProperties memory_of(const vk::raii::PhysicalDevice& physical,
                                              bool executes) {
   vk::PhysicalDeviceMemoryProperties memory = physical.getMemoryProperties();

@@ -28,8 +28,8 @@ struct Extensions {
   std::uint32_t task_groups = 0;            // maxTaskWorkGroupCount along one axis
 };
 
-// An open device and the only queue, through which all work goes. It outlives everything that is
-// made from it.
+// An open device and its only queue, which does all work. It must outlive all objects that are made
+// from it.
 struct Gpu {
   vk::raii::PhysicalDevice physical;
   vk::PhysicalDeviceProperties properties;
@@ -39,7 +39,7 @@ struct Gpu {
   std::uint32_t family = 0;
   bool draws = false;                // the queue takes draw calls
   bool labelled = false;             // objects and commands are named for tools
-  std::uint32_t timestamp_bits = 0;  // 0: the queue has no clock
+  std::uint32_t timestamp_bits = 0;  // 0 if the queue has no clock
   std::uint64_t most_allocated = 0;  // at once: maxMemoryAllocationSize
   vk::raii::Device device;
   vk::raii::Queue queue;
@@ -91,12 +91,12 @@ void submit_and_wait(const Gpu& gpu, const vk::raii::CommandBuffer& commands,
                      const vk::raii::Fence& fence,
                      core::CodePlace place = core::CodePlace::current());
 
-// Everything that is recorded after it waits for all work that was submitted before, including its
+// Records a barrier: all later commands wait for all work that was submitted before, including its
 // memory accesses.
 void barrier(const vk::raii::CommandBuffer& commands);
 
 // Records between two barriers, submits once, and waits. On a device that only compiles it does
-// nothing, because nobody would read what is moved.
+// nothing, because nobody would read the data.
 void run_once(const Gpu& gpu, const Recording& record,
               core::CodePlace place = core::CodePlace::current());
 

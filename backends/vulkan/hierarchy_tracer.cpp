@@ -12,7 +12,7 @@ namespace {
 
 using technique::Structure;
 
-// The bindings of hierarchy.glsl and bvh.comp.glsl.
+// The bindings of the shaders hierarchy.glsl and bvh.comp.glsl.
 constexpr std::uint32_t boxes_binding = 7;
 constexpr std::uint32_t tree_spheres_binding = 8;
 constexpr std::uint32_t tree_order_binding = 9;
@@ -22,7 +22,7 @@ constexpr std::uint32_t box_texels_binding = 13;
 constexpr std::uint32_t tree_sphere_texels_binding = 14;
 constexpr std::uint32_t tree_order_texels_binding = 15;
 
-// In the order of `build_passes`.
+// The order is that of `build_passes`.
 enum class BuildPass : std::uint8_t { keys, count, rows, totals, scatter, leaves, level };
 constexpr std::array<std::string_view, 7> build_passes{
     "hierarchy_keys.comp.spv",    "hierarchy_count.comp.spv",   "hierarchy_rows.comp.spv",
@@ -103,7 +103,7 @@ class HierarchyTracer final : public Tracer {
   std::vector<vk::Pipeline> build_;
   vk::Pipeline timed_;
   vk::Pipeline counting_;
-  std::uint32_t rounds_ = 1;  // dispatches until every beam has ended
+  std::uint32_t rounds_ = 1;  // dispatches are repeated until every beam has ended
 };
 
 std::vector<vk::DescriptorSetLayoutBinding> HierarchyTracer::bindings() const {

@@ -1,6 +1,6 @@
 #pragma once
-// The hierarchy of technique/particles/hierarchy.glsl: built by compute passes, and gone through by
-// one.
+// The hierarchy of technique/particles/hierarchy.glsl, which compute passes build, and one pass
+// traverses.
 
 #include <memory>
 

@@ -21,12 +21,12 @@ vk::DeviceSize heap_size(const Gpu& gpu, std::uint32_t type) {
   return gpu.memory.memoryHeaps[gpu.memory.memoryTypes[type].heapIndex].size;
 }
 
-// Never from a heap that is too small, such as one of 0 bytes, whatever its flags are.
+// Never uses a heap that is too small, such as one of 0 bytes, whatever its flags are.
 std::uint32_t memory_type(const Gpu& gpu, const vk::MemoryRequirements& needed, Place place) {
-  if (!gpu.executes) return 0;  // RADV lists no types without a GPU, and takes the first
+  if (!gpu.executes) return 0;  // without a GPU, RADV lists no memory types and uses the first
   using enum vk::MemoryPropertyFlagBits;
   const vk::MemoryPropertyFlags host = eHostVisible | eHostCoherent;
-  // In order of preference. The specification guarantees the last one of each.
+  // The types in order of preference. The specification guarantees the last one of each.
   std::array<vk::MemoryPropertyFlags, 2> wishes{};
   if (place == Place::device) wishes = {eDeviceLocal, {}};
   if (place == Place::upload) wishes = {host, host};
@@ -41,9 +41,9 @@ std::uint32_t memory_type(const Gpu& gpu, const vk::MemoryRequirements& needed, 
       largest = std::max(largest, heap_size(gpu, type));
     }
   }
-  throw core::NotSupported(fmt::format(
-      "needs {} bytes of device memory; the largest heap that this resource may be in has {}",
-      needed.size, largest));
+  throw core::NotSupported(
+      fmt::format("needs {} bytes of device memory; the largest heap for this resource has {}",
+                  needed.size, largest));
 }
 
 vk::raii::DeviceMemory allocate(const Gpu& gpu, const vk::MemoryRequirements& needed, Place place,
@@ -58,7 +58,7 @@ vk::raii::DeviceMemory allocate(const Gpu& gpu, const vk::MemoryRequirements& ne
     // Larger allocations may succeed, but a device need not allow them.
     if (needed.size > gpu.most_allocated) {
       throw core::NotSupported(
-          fmt::format("needs {} bytes in one piece, which the device refused; "
+          fmt::format("needs {} bytes in one allocation, which the device refused; "
                       "maxMemoryAllocationSize = {}",
                       needed.size, gpu.most_allocated));
     }

@@ -93,7 +93,7 @@ void upload(const Gpu& gpu, const Buffer& to, std::size_t size, const Fill& fill
 void upload(const Gpu& gpu, const Buffer& to, std::span<const std::byte> bytes);
 
 // Fills a buffer of usage eTransferDst with a value that no image and no count contains: NaN as a
-// float, 2³²−1 as an integer. Fresh memory may contain what was right before.
+// float, 2³²−1 as an integer. Fresh memory may contain correct results of an earlier frame.
 void mark_unwritten(const Gpu& gpu, const Buffer& buffer);
 
 // Copies the first bytes of the buffer to the host. Bytes that the device does not copy read as

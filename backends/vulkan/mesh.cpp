@@ -1,4 +1,4 @@
-// Quads across the ray to the centre, made by mesh shaders for the cells that task shaders leave
+// Ray-aligned quads, made by mesh shaders for the cells that task shaders do not cull
 // (technique/particles/mesh.task.glsl, mesh.mesh.glsl).
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-constexpr std::uint32_t mesh_vertices = 128;  // of a mesh group of mesh.mesh.glsl
+constexpr std::uint32_t mesh_vertices = 128;  // the sizes of a mesh group in mesh.mesh.glsl
 constexpr std::uint32_t mesh_primitives = 64;
 constexpr std::uint32_t mesh_invocations = 32;
 constexpr std::uint32_t cells_per_task_group = 32;
@@ -45,11 +45,11 @@ void check_mesh_limits(const Gpu& gpu, std::size_t cells) {
   const Extensions& has = gpu.extensions;
   if (has.mesh_vertices < mesh_vertices || has.mesh_primitives < mesh_primitives ||
       has.mesh_invocations < mesh_invocations) {
-    throw core::NotSupported(fmt::format(
-        "a mesh group makes {} vertices and {} primitives with {} invocations; the device takes {}, "
-        "{} and {}",
-        mesh_vertices, mesh_primitives, mesh_invocations, has.mesh_vertices, has.mesh_primitives,
-        has.mesh_invocations));
+    throw core::NotSupported(
+        fmt::format("a mesh group makes {} vertices and {} primitives with {} invocations; the "
+                    "device supports {}, {} and {}",
+                    mesh_vertices, mesh_primitives, mesh_invocations, has.mesh_vertices,
+                    has.mesh_primitives, has.mesh_invocations));
   }
   const std::size_t groups = (cells + cells_per_task_group - 1) / cells_per_task_group;
   if (groups > has.task_groups) {

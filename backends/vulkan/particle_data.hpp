@@ -1,6 +1,6 @@
 #pragma once
-// What every particle technique needs on the device: the arrangement, its parameters and the
-// counters.
+// The data that every particle technique needs on the device: the arrangement, its parameters and
+// the counters.
 
 #include <cstdint>
 #include <vector>
@@ -41,17 +41,17 @@ struct ParticleConstants {
 
 // The number of pixels to add to the size of a point on this device.
 [[nodiscard]] float point_margin(const Gpu& gpu);
-// The largest square that a point can stand for; with the margin, it is the largest point.
+// The largest square that a point can replace. With the margin, it is the largest point.
 [[nodiscard]] float largest_point(const Gpu& gpu);
 
-// How a particle's colour is stored for the vertex fetch.
+// The format of a particle's colour for the vertex fetch.
 [[nodiscard]] vk::Format colour_format(scene::ColourKind kind);
 [[nodiscard]] std::uint32_t colour_bytes(scene::ColourKind kind);
 
 // How shaders read particles: as attributes of vertices, or from storage buffers.
 enum class Fetch : std::uint8_t { attributes, by_index };
 
-// Buffers in device memory. They contain no reference to data of the host.
+// Buffers in device memory. They do not refer to data of the host.
 class ParticleData {
  public:
   ParticleData(const Gpu& gpu, const measure::ParticleWork& work,

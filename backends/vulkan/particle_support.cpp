@@ -20,7 +20,7 @@ std::uint64_t particle_bytes(const scene::ParticleSet& set) {
 
 std::optional<std::string> storage_reason(const Gpu& gpu, const scene::ParticleSet& set,
                                           const technique::Technique& drawn) {
-  constexpr std::uint32_t buffers = 12;  // the most that a technique binds
+  constexpr std::uint32_t buffers = 12;  // the largest number that a technique binds
   const vk::PhysicalDeviceLimits& limits = gpu.properties.limits;
   if (limits.maxPerStageDescriptorStorageBuffers < buffers) {
     return fmt::format("needs {} storage buffers; maxPerStageDescriptorStorageBuffers = {}",
@@ -38,15 +38,15 @@ std::optional<std::string> storage_reason(const Gpu& gpu, const scene::ParticleS
 std::optional<std::string> corners_reason(const Gpu& gpu, int corners) {
   const std::uint32_t most = 4 * gpu.properties.limits.maxTessellationGenerationLevel;
   if (static_cast<std::uint32_t>(corners) <= most) return std::nullopt;
-  return fmt::format("polygons of {} corners; maxTessellationGenerationLevel allows {}", corners,
-                     most);
+  return fmt::format("polygons have {} corners, but maxTessellationGenerationLevel allows {}",
+                     corners, most);
 }
 
 }  // namespace
 
 std::optional<std::string> feature_reason(const Gpu& gpu, Needs needs) {
   if (needs == Needs::nothing) return std::nullopt;
-  if (!gpu.draws) return "the device has no queue that draws";
+  if (!gpu.draws) return "the device has no graphics queue";
   if (gpu.features.fragmentStoresAndAtomics == VK_FALSE) {
     return "the device lacks fragmentStoresAndAtomics, which counting needs";
   }
@@ -57,17 +57,15 @@ std::optional<std::string> feature_reason(const Gpu& gpu, Needs needs) {
     return "the device lacks tessellationShader";
   }
   if (needs == Needs::ray_query && !gpu.extensions.ray_query) {
-    return "the device lacks VK_KHR_ray_query or what it depends on: Mesa's lavapipe has it from "
-           "25.0 "
-           "(Debian 13)";
+    return "the device lacks VK_KHR_ray_query or an extension that it depends on; lavapipe has "
+           "them from Mesa 25.0 (Debian 13)";
   }
   if (needs == Needs::ray_pipeline && !gpu.extensions.ray_pipeline) {
-    return "the device lacks VK_KHR_ray_tracing_pipeline or what it depends on: Mesa's lavapipe "
-           "has it "
-           "from 25.0 (Debian 13)";
+    return "the device lacks VK_KHR_ray_tracing_pipeline or an extension that it depends on; "
+           "lavapipe has them from Mesa 25.0 (Debian 13)";
   }
   if (needs == Needs::mesh && !gpu.extensions.mesh_shader) {
-    return "the device lacks VK_EXT_mesh_shader: Mesa's lavapipe has it from 25.0 (Debian 13)";
+    return "the device lacks VK_EXT_mesh_shader; lavapipe has it from Mesa 25.0 (Debian 13)";
   }
   return std::nullopt;
 }
@@ -92,13 +90,13 @@ std::optional<std::string> picture_reason(const Gpu& gpu, int width, int height,
 }
 
 std::optional<std::string> memory_reason(const Gpu& gpu, std::uint64_t needed) {
-  if (!gpu.executes) return std::nullopt;  // the GPU is not here, and neither is its memory
+  if (!gpu.executes) return std::nullopt;  // the GPU is not present, and neither is its memory
   std::uint64_t largest = 0;
   for (std::uint32_t heap = 0; heap < gpu.memory.memoryHeapCount; ++heap) {
     const vk::MemoryHeap& each = gpu.memory.memoryHeaps[heap];
     if (each.flags & vk::MemoryHeapFlagBits::eDeviceLocal) largest = std::max(largest, each.size);
   }
-  // If the heaps that are marked as the device's are empty, the others are used.
+  // If all heaps that are marked as device-local are empty, the other heaps are used.
   for (std::uint32_t heap = 0; heap < gpu.memory.memoryHeapCount && largest == 0; ++heap) {
     largest = gpu.memory.memoryHeaps[heap].size;
   }
@@ -131,7 +129,7 @@ std::optional<std::string> particle_reason(const Gpu& gpu, const measure::Partic
   const bool reads_depths = work.options.culling == technique::Culling::occlusion;
   std::uint64_t pixel_bytes = reads_depths ? depth : 0;
   const bool draws_sprites = drawn.method == technique::Method::sprites;
-  if (!draws_sprites) pixel_bytes = depth + sizeof(std::uint32_t);  // and the id of a particle
+  if (!draws_sprites) pixel_bytes = depth + sizeof(std::uint32_t);  // plus the id of a particle
   if (auto reason = picture_reason(gpu, scene.width, scene.height, needs, pixel_bytes)) {
     return reason;
   }

@@ -111,7 +111,7 @@ std::optional<std::string> ParticleTarget::format_reason(const Gpu& gpu) {
   constexpr vk::FormatFeatureFlags needed = eDepthStencilAttachment | eSampledImage;
   const auto offered = gpu.physical.getFormatProperties(depth_format).optimalTilingFeatures;
   if ((offered & needed) == needed) return std::nullopt;
-  return "the device has no depth of format " + vk::to_string(depth_format);
+  return "the device has no depth buffer of format " + vk::to_string(depth_format);
 }
 
 void ParticleTarget::begin(const vk::raii::CommandBuffer& commands, bool continued) const {
@@ -125,8 +125,8 @@ void ParticleTarget::begin(const vk::raii::CommandBuffer& commands, bool continu
   commands.setScissor(0, everything);
 }
 
-// The depth is one that no frame leaves in any pixel: a frame clears it, and what it draws writes
-// its own.
+// A frame never leaves this depth in any pixel: it clears the depth to another value and then draws
+// its own depths.
 void ParticleTarget::poison(const Gpu& gpu) const {
   constexpr float none = std::numeric_limits<float>::quiet_NaN();
   const std::array<vk::ClearValue, 3> values{

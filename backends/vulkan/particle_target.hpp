@@ -10,8 +10,8 @@
 
 namespace triptych::vulkan_backend {
 
-// Depth is reversed: the nearest has the greatest value, and if two are equal, the one that was
-// drawn first stays.
+// Depth is reversed: the nearest surface has the greatest value. Of two equal depths, the one drawn
+// first is kept.
 [[nodiscard]] vk::CompareOp depth_compare(technique::ParticleFault fault);
 
 // Converts depth as it was drawn, near/Z, into the distance along the view axis; +inf if there is
@@ -21,7 +21,7 @@ void resolve_depth(core::Image& image, double near);
 // The target for drawing sprites: colour, ids and reversed depth.
 class ParticleTarget {
  public:
-  // `cleared_depth`: 0, which is the farthest, or 1 if the farthest is to be kept.
+  // `cleared_depth`: 0, which is the farthest depth, or 1 if the pass keeps the farthest depth.
   ParticleTarget(const Gpu& gpu, const scene::ParticleScene& scene, float cleared_depth);
 
   [[nodiscard]] vk::Extent3D extent() const noexcept { return colour_.extent(); }
@@ -39,7 +39,7 @@ class ParticleTarget {
   static constexpr std::uint32_t colour_targets = 2;
   // The formats of the attachments of the passes.
   [[nodiscard]] static std::vector<vk::Format> formats();
-  // Why the device cannot draw to it. Of its formats, only that of depth is optional.
+  // The reason why the device cannot draw to it. Only the depth format is optional in Vulkan.
   [[nodiscard]] static std::optional<std::string> format_reason(const Gpu& gpu);
 
  private:

@@ -18,7 +18,7 @@ namespace triptych::vulkan_backend {
 // Specialization constants: word n has constant_id n.
 class Specialization {
  public:
-  // From a structure of four-byte scalars.
+  // Constants from a structure of four-byte scalars.
   template <class Constants>
   explicit Specialization(const Constants& constants) {
     const auto words =
@@ -29,7 +29,7 @@ class Specialization {
       entries_.push_back({.constantID = i, .offset = 4 * i, .size = 4});
     }
   }
-  // Valid as long as this object.
+  // Valid as long as this object exists.
   [[nodiscard]] vk::SpecializationInfo info() const;
   [[nodiscard]] std::span<const std::int32_t> words() const noexcept { return words_; }
 
@@ -68,8 +68,8 @@ static_assert(sizeof(Constants) == 9 * 4);
   return compute_pipeline(gpu, layout, code, Specialization(constants));
 }
 
-// If device code is to be dumped: writes the SPIR-V of one stage with its constants, and how long
-// making its pipeline has taken since `begin`.
+// If device code is to be dumped, writes the SPIR-V of one stage with its constants and the time
+// for creating its pipeline, which began at `begin`.
 void dump_shader(vk::ShaderStageFlagBits stage, std::string_view code,
                  const Specialization& constants, std::chrono::steady_clock::time_point begin);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Reads what a driver reports about pipelines (VK_KHR_pipeline_executable_properties).
+// Reads a driver's report about pipelines (VK_KHR_pipeline_executable_properties).
 
 #include <vector>
 

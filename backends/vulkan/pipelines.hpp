@@ -21,8 +21,8 @@ class Pipelines {
   using Make = std::function<vk::raii::Pipeline(vk::PipelineCreateFlags)>;
 
   // The pipeline that was made for this key before; otherwise the result of `make`, which then
-  // lives as long as the device. The key must contain everything that a pipeline is made of,
-  // including its layout: a pipeline can be used with every layout that has the same definition.
+  // lives as long as the device. The key must contain all properties of the pipeline, including its
+  // layout: a pipeline can be used with every layout that has the same definition.
   [[nodiscard]] vk::Pipeline get(const std::string& key, const StageNames& stages,
                                  const Make& make);
 
@@ -31,10 +31,10 @@ class Pipelines {
     vk::Pipeline pipeline;
     bool operator==(const Captured&) const = default;
   };
-  // From now on, pipelines are made so that the driver reports what it compiled, and those that are
-  // requested are recorded once each.
+  // From now on, pipelines are created so that the driver reports their compiled code, and every
+  // requested pipeline is recorded once.
   void start_capture();
-  // Ends it, and returns what was requested, in that order.
+  // Ends this, and returns the recorded pipelines in the order of the requests.
   [[nodiscard]] std::vector<Captured> end_capture();
 
  private:

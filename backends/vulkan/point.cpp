@@ -32,7 +32,7 @@ bool may_be_large(const scene::ParticleScene& scene, const std::array<float, 4>&
   if (phi - alpha > corner + 0.01) return false;  // outside the view
   const double far = std::cos(phi + alpha);
   const double wide = std::sin(2 * alpha) / (far * std::cos(phi - alpha));
-  constexpr double safety = 0.98;  // for margins and the rounding of floats
+  constexpr double safety = 0.98;  // allows for margins and for rounding to float
   return phi + alpha > 1.5 || wide / pixel > safety * largest - 1;
 }
 

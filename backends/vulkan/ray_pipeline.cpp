@@ -1,5 +1,5 @@
-// Rays through the device's acceleration structure by a ray tracing pipeline: ray generation,
-// intersection, any hit, closest hit and miss (technique/particles/ray_pipeline.*).
+// Traces rays through the device's acceleration structure with a ray tracing pipeline: ray
+// generation, intersection, any hit, closest hit and miss (technique/particles/ray_pipeline.*).
 #include <array>
 #include <cstring>
 #include <optional>
@@ -65,8 +65,8 @@ vk::raii::Pipeline make_ray_pipeline(const Gpu& gpu, const Layout& layout,
               .layout = *layout.pipeline}};
 }
 
-// A pipeline with its shader binding table: a record per group, each at the alignment that tables
-// begin at.
+// A pipeline with its shader binding table. The table has one record per group, each at the
+// alignment that the device requires.
 class RayPipeline {
  public:
   RayPipeline(const Gpu& gpu, const Layout& layout, const Specialization& constants, bool counting)

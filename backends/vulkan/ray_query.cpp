@@ -1,4 +1,4 @@
-// Rays through the device's acceleration structure, asked for by a compute kernel
+// Traces rays through the device's acceleration structure with ray queries in a compute kernel
 // (technique/particles/ray_query.comp.glsl).
 #include "backends/vulkan/structure_tracer.hpp"
 #include "backends/vulkan/techniques.hpp"

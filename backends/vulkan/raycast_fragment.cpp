@@ -54,7 +54,7 @@ class FragmentFrames final : public measure::Prepared, public measure::TracesPix
   Constants constants_;
   std::string_view timed_code_;
   std::string_view counting_code_;
-  std::string_view tracing_code_;  // empty if there is none for this work
+  std::string_view tracing_code_;  // empty if this work cannot be traced
   std::vector<technique::ExtraTile> extra_tiles_;
   Image target_;
   VolumeResources resources_;

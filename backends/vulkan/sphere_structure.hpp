@@ -1,6 +1,6 @@
 #pragma once
-// An acceleration structure over the particles: one box each in a structure of the bottom level, and one of the top level
-// that holds it.
+// An acceleration structure over the particles. The bottom level has one box for each particle, and
+// the top level has one instance of it.
 
 #include "backends/vulkan/particle_data.hpp"
 #include "technique/particles/particle_options.hpp"
@@ -9,7 +9,7 @@ namespace triptych::vulkan_backend {
 
 class SphereStructure {
  public:
-  // Bindings of ray_boxes.comp.glsl and of the passes that send rays.
+  // The bindings of ray_boxes.comp.glsl and of the passes that trace rays.
   static constexpr std::uint32_t boxes_binding = 7;
   static constexpr std::uint32_t structure_binding = 20;
 
@@ -18,7 +18,8 @@ class SphereStructure {
 
   void bind(vk::DescriptorSet set) const;
   void prepare(const Layout& layout, const Specialization& constants);
-  // Boxes and both levels anew; `refit`: their shape stays. The set is bound.
+  // Builds the boxes and both levels again. `refit`: keeps the topology of both levels. The
+  // descriptor set must be bound.
   void record_build(const vk::raii::CommandBuffer& commands, bool refit) const;
 
   [[nodiscard]] static std::string_view code();

@@ -82,8 +82,9 @@ void SpriteFrames::draw_before(const measure::ParticleWork& work) const {
   if (work.camera_before) data_.look_from(work);
 }
 
-// What is hidden depends on the previous frames. The first frame after a jump draws everything that
-// is visible, the second one knows what that hides, and all later ones are like the second.
+// The hidden cells depend on the previous frames. The first frame after a jump draws everything
+// that is visible, the second one knows which cells that hides, and all later ones are like the
+// second.
 void SpriteFrames::settle() const {
   for (int frame = 0; frame < 2; ++frame) {
     static_cast<void>(frames_.submit(measure::Purpose::timing));
@@ -218,8 +219,8 @@ void SpriteFrames::draw_run(const vk::raii::CommandBuffer& commands, bool instan
   }
 }
 
-// Draws 1/stride of the particles again: whole cells if there are enough of them, so that what is
-// culled stays culled. No fragment passes the depth test, which keeps the first.
+// Draws 1/stride of the particles again: whole cells if there are enough of them, so that culled
+// cells stay culled. No fragment passes the depth test, which keeps the first of equal depths.
 void SpriteFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
   const auto stride = static_cast<std::uint32_t>(options_.extra_work_stride);
   if (technique_.draw.meshes) {
@@ -231,7 +232,7 @@ void SpriteFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
     culling_.draw(commands, stride);
     return;
   }
-  // Few, because a draw costs lavapipe some microseconds, whatever it draws.
+  // Only a few draws are used, because every draw costs lavapipe some microseconds.
   constexpr std::uint32_t most_runs = 4;
   const std::uint32_t particles = data_.particles();
   const std::uint32_t length = std::max(particles / stride / most_runs, 1U);

@@ -43,10 +43,11 @@ struct ParticleRun {
 
 struct SpriteTechnique {
   SpriteDraw draw;
-  vk::QueryPipelineStatisticFlags statistics;  // of its own stages, in addition to the common ones
+  // Statistics of its own stages, in addition to the common ones.
+  vk::QueryPipelineStatisticFlags statistics;
   // The draw of occlusion culling's second pass, if its stages differ from those of the first.
   std::optional<SpriteDraw> later;
-  // A second draw, only for these particles.
+  // Draws only these particles a second time.
   std::optional<SpriteDraw> rest;
   std::vector<ParticleRun> rest_runs;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Why a device cannot draw a volume, or particles, by a technique.
+// The reasons why a device cannot draw a volume or particles with a technique.
 
 #include <cstdint>
 #include <optional>
@@ -22,10 +22,10 @@ enum class Needs : std::uint8_t {
   mesh
 };
 
-// The feature that is lacking, if one is.
+// The missing feature, if any.
 [[nodiscard]] std::optional<std::string> feature_reason(const Gpu& gpu, Needs needs);
-// The limit that a picture of this size exceeds: of a frame buffer where it is drawn, and of a
-// storage buffer with `pixel_bytes` per pixel, the largest that a technique has.
+// The limit that an image of this size exceeds: of a framebuffer if it is drawn into one, and of a
+// storage buffer with `pixel_bytes` per pixel, the largest number that a technique uses.
 [[nodiscard]] std::optional<std::string> picture_reason(const Gpu& gpu, int width, int height,
                                                         Needs needs, std::uint64_t pixel_bytes);
 [[nodiscard]] std::optional<std::string> memory_reason(const Gpu& gpu, std::uint64_t needed);

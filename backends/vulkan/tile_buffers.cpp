@@ -29,7 +29,8 @@ Buffer words(const Gpu& gpu, vk::DeviceSize count) {
           eStorageBuffer | eUniformTexelBuffer | eIndirectBuffer | eTransferDst, Place::device};
 }
 
-// Pairs of pixels, one above the other. Almost empty if no large spheres are resolved.
+// Pairs of pixels, one above the other. The buffer is almost empty if no large spheres are
+// resolved.
 vk::Extent3D pairs(const scene::ParticleScene& scene, const technique::TileRounds& rounds) {
   if (!rounds.resolved()) return {1, 1, 1};
   return {static_cast<std::uint32_t>(scene.width),

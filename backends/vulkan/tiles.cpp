@@ -154,7 +154,8 @@ void TilesFrames::bin(const vk::raii::CommandBuffer& commands, const TilePipelin
   barrier(commands);
 }
 
-// Draws the round's large spheres, unless the last pass does that, and records what is hidden.
+// Draws the round's large spheres, unless the last pass does that, and records which parts are
+// hidden.
 void TilesFrames::resolve(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
                           const technique::TileRound& round) const {
   const Label label(gpu_, commands, "tiles: list, fill and resolve");

@@ -31,7 +31,8 @@ class Tracer {
   Tracer& operator=(const Tracer&) = delete;
   virtual ~Tracer() = default;
 
-  // Its own bindings, and the number of bytes of push constants for its compute passes.
+  // The bindings of the structure itself, and the number of bytes of push constants for its compute
+  // passes.
   [[nodiscard]] virtual std::vector<vk::DescriptorSetLayoutBinding> bindings() const = 0;
   [[nodiscard]] virtual std::uint32_t push_bytes() const = 0;
   // The shader stages of its passes.
@@ -44,11 +45,12 @@ class Tracer {
   // True if Triptych's own kernels traverse the structure, so that every driver visits the same nodes.
   [[nodiscard]] virtual bool counts_nodes() const = 0;
   virtual void bind(vk::DescriptorSet set) const = 0;
-  // Called once after bind(): makes the pipelines of the timed build, and the structure.
+  // Called once after bind(): creates the pipelines of the timed build, and the structure.
   virtual void prepare(const Layout& layout, vk::DescriptorSet set) = 0;
   // Makes the pipelines of the counting build.
   virtual void prepare_counting(const Layout& layout) = 0;
-  // Records a frame up to the keys of every pixel. The descriptor set is bound.
+  // Records a frame up to the point where every pixel has its key. The descriptor set must be
+  // bound.
   virtual void record(const vk::raii::CommandBuffer& commands, const Layout& layout,
                       bool counting) const = 0;
   // The device code of the timed build.

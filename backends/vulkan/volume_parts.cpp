@@ -19,18 +19,19 @@ technique::Room image_room(const Gpu& gpu, const technique::Layers& slices,
       texture_format(format), vk::ImageType::e3D, vk::ImageTiling::eOptimal,
       vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
   const std::uint64_t deepest = slices.bytes * gpu.properties.limits.maxImageDimension3D;
-  if (deepest < image.maxResourceSize) return {deepest, "the reach of maxImageDimension3D"};
+  if (deepest < image.maxResourceSize) return {deepest, "the limit from maxImageDimension3D"};
   return {image.maxResourceSize, "maxResourceSize"};
 } catch (const vk::FormatNotSupportedError&) {
   return {0, "the largest image of this format"};
 }
 
-// How much memory the voxels may take on a device.
+// The limits on the memory for the voxels on a device.
 technique::Room room_of(const Gpu& gpu, const measure::VolumeWork& work) {
   const scene::VoxelFormat format = work.scene.grid->format;
   if (is_packed(work)) {
     const std::uint64_t texels = gpu.properties.limits.maxTexelBufferElements;
-    return {texels * technique::packed_texel_bytes(format), "the reach of maxTexelBufferElements"};
+    return {texels * technique::packed_texel_bytes(format),
+            "the limit from maxTexelBufferElements"};
   }
   return image_room(gpu, technique::slice_layers(work.scene.grid->size, format), format);
 }
@@ -56,7 +57,7 @@ technique::Cut cut_of(const Gpu& gpu, std::string_view technique, const measure:
   const std::uint32_t most = gpu.properties.limits.maxPerStageDescriptorStorageBuffers;
   if (needed > most) {
     return {.parts = {},
-            .reason = fmt::format("a volume in parts needs {} storage buffers, "
+            .reason = fmt::format("a volume in parts needs {} storage buffers, but "
                                   "maxPerStageDescriptorStorageBuffers is {}",
                                   needed, most)};
   }

@@ -13,7 +13,7 @@
 
 namespace triptych::vulkan_backend {
 
-// For the technique raycast and for compute shaders.
+// These are for the technique raycast and for compute shaders.
 [[nodiscard]] technique::Cut cut_of(const Gpu& gpu, std::string_view technique,
                                     const measure::VolumeWork& work);
 

@@ -1,6 +1,6 @@
 #pragma once
-// What every volume technique needs on the device: voxels, the transfer function, bricks and
-// parameters.
+// The data that every volume technique needs on the device: voxels, the transfer function, bricks
+// and parameters.
 
 #include <optional>
 #include <string_view>

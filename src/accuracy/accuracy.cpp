@@ -20,7 +20,7 @@ using Factors = std::map<std::string, std::string>;
 constexpr double coarsest_step = 1;
 constexpr double largest_arithmetic_share = 0.1;
 constexpr std::size_t least_points = 3;
-constexpr double tail = 0.025;  // on either side of a 95 % interval
+constexpr double tail = 0.025;  // the share of the distribution on either side of a 95 % interval
 
 // The factors that differ among the cases, except `step`.
 std::set<std::string> telling_factors(std::span<const AccuracyCase> cases) {

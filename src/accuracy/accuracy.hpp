@@ -19,7 +19,7 @@ namespace triptych::accuracy {
 struct AccuracyCase {
   std::string configuration;
   std::map<std::string, std::string> factors;
-  std::optional<double> time_ns;              // median of the timed frames, if there were any
+  std::optional<double> time_ns;              // median of the timed frames, if any were timed
   std::optional<std::uint64_t> samples;       // number of samples, if they were counted
   std::optional<std::uint64_t> instructions;  // per frame, if they were counted
   std::optional<std::uint64_t> fetched;       // bytes that missed a simulated cache
@@ -43,11 +43,11 @@ struct AccuracyCase {
 struct StepError {
   double step = 0;
   double error = 0;
-  double arithmetic = 0;  // the part of the error that no step removes
+  double arithmetic = 0;  // the part of the error that remains for any step
 };
 struct Order {
   double order = 0;
-  double half_width = 0;   // of the 95 % confidence interval
+  double half_width = 0;   // half the width of the 95 % confidence interval
   std::size_t points = 0;  // number of points in the fit
 };
 

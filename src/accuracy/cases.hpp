@@ -17,7 +17,7 @@ namespace triptych::accuracy {
 
 // The limit of the images of a scene.
 struct LimitPicture {
-  std::string key;  // the same for all records that share it
+  std::string key;  // this key is the same for all records that share the limit
   core::Image image;
   core::Image uncertainty;  // per pixel, the largest distance of the image from the exact limit
   std::optional<core::Image> closed_form;

@@ -36,7 +36,8 @@ StepError longest_step(double error, const StepLimits& limits, const ErrorOfStep
 
 StepError shortened_step(double step, double error, const StepLimits& limits,
                          const ErrorOfStep& error_of) {
-  // A little shorter than second order asks for, but always shorter by enough that the search ends.
+  // A step a little shorter than second order requires, but always so much shorter that the search
+  // ends.
   constexpr double margin = 0.97;
   constexpr double least_shortening = 0.84;  // a quarter of an octave
   constexpr double most_shortening = 1.0 / 16;

@@ -13,7 +13,7 @@ namespace triptych::accuracy {
 // finite, in either image, are counted separately and excluded from everything else.
 struct ImageComparison {
   struct Place {
-    int x = -1;  // -1: no pixel could be compared
+    int x = -1;  // -1 if no pixel could be compared
     int y = -1;
     double error = 0;
     double bound = 0;
@@ -22,7 +22,7 @@ struct ImageComparison {
 
   // A pixel that shows the wrong particle, or the right one at a wrong depth.
   struct Surface {
-    int x = -1;  // -1: there is none
+    int x = -1;  // -1 if there is none
     int y = -1;
     std::uint32_t id = core::Image::no_particle;
     std::uint32_t expected_id = core::Image::no_particle;
@@ -37,9 +37,9 @@ struct ImageComparison {
   std::size_t over_bound = 0;
   Place worst;          // place of the largest ratio
   Place largest;        // place of the largest error
-  double rmse = 0;      // over all channels of the pixels compared
+  double rmse = 0;      // over all channels of the compared pixels
   double error_99 = 0;  // 99th percentile of the pixels' errors
-  // For images of particles; 0 for others.
+  // Results for images of particles; 0 for other images.
   std::size_t wrong_ids = 0;
   std::size_t wrong_depths = 0;
   Surface first_wrong;

@@ -6,11 +6,11 @@
 namespace triptych::accuracy {
 namespace {
 
-// Recorded numbers are floats. In single precision they are exact; in double precision they were
-// rounded by half of this, relative.
+// Recorded numbers are floats. In single precision they are exact. In double precision they were
+// rounded, with a relative error of half of this.
 constexpr double recorded = 0x1.0p-23;
 
-// Nothing behind this transmittance is compared: the reference ends its rays there.
+// Samples behind this transmittance are not compared, because the reference ends its rays there.
 constexpr double invisible = 0x1.0p-60;
 
 bool is_within(double number, const Allowed& allowed) {
@@ -24,8 +24,8 @@ struct Light {
   std::array<double, 3> gathered{};
 };
 
-// One multiplication and one addition for each channel, which read recorded numbers: four roundings
-// of the largest number that takes part.
+// The rounding error of one multiplication and one addition for each channel, whose operands were
+// recorded: four roundings of the largest operand.
 bool is_composited(const Light& before, const TakenSample& taken) {
   const double weight = before.transmittance * taken.opacity;
   const double slack = 4 * recorded * before.transmittance;
@@ -47,7 +47,7 @@ std::optional<Operation> first_difference(const ExpectedSample& expected, const 
   if (expected.front && !is_within(taken.front, *expected.front)) return Operation::front;
   if (!is_within(taken.value, expected.value)) return Operation::value;
   if (expected.alpha && !is_within(taken.alpha, *expected.alpha)) return Operation::alpha;
-  // What has no opacity may have any colour, and is not shaded.
+  // A sample without opacity may have any colour, and is not shaded.
   for (std::size_t channel = 0; taken.opacity > 0 && channel < 3; ++channel) {
     if (!is_within(taken.colour[channel], expected.colour[channel])) return Operation::colour;
   }
@@ -68,7 +68,7 @@ std::int64_t index_of(const ExpectedRay& ray, const TakenSample& taken) {
   }
   const double steps = square > 0 ? along / square : 0.0;
   if (!std::isfinite(steps) || std::abs(steps) > 1e15) return -1;
-  // The middle of a very short last step is beside a whole number.
+  // The middle of a very short last step is close to a whole number.
   return static_cast<std::int64_t>(std::floor(steps + 1e-4));
 }
 
@@ -79,7 +79,7 @@ bool is_merged(const ExpectedRay& ray, const TakenSample& taken, std::int64_t in
   return at >= ray.samples.size() || !is_within(taken.length, ray.samples[at].length);
 }
 
-// Goes through the samples of a device, and through the expected ones beside them.
+// Goes through the samples of a device together with the expected samples.
 class Comparison {
  public:
   explicit Comparison(const ExpectedRay& ray) : ray_(ray) {}
@@ -104,7 +104,7 @@ class Comparison {
   }
 
   RayHistory finish() {
-    // A ray may have ended in the dark, or with a merged sample that covers the rest.
+    // A ray may have ended because it is dark, or with a merged sample that covers the rest.
     const bool ended = light_.transmittance < std::max(ray_.ends_below, invisible);
     pass_by(end(), ended || after_merged_);
     return std::move(history_);

@@ -1,7 +1,7 @@
 #pragma once
-// Compares what a device did along one ray of a volume with what the reference expects: sample by
-// sample, and within a sample in the order of the computation. The first difference is therefore
-// the first operation whose result is outside of its bound.
+// Compares a device's results along one ray of a volume with the expected results of the reference,
+// sample by sample, and within a sample in the order of the computation. The first difference is
+// therefore the first operation whose result is outside of its bound.
 
 #include <array>
 #include <cstddef>
@@ -24,7 +24,7 @@ struct ExpectedSample {
   std::int64_t index = 0;
   std::array<Allowed, 3> place{};   // in voxels
   std::optional<Allowed> front;     // normalised value at the beginning of a step
-  Allowed value;                    // of the sample, or at the end of the step
+  Allowed value;                    // at the sample, or at the end of the step
   std::array<Allowed, 3> colour{};  // straight, after shading
   std::optional<Allowed> alpha;     // opacity per voxel length; not for a step
   Allowed length;                   // in voxel lengths
@@ -33,14 +33,14 @@ struct ExpectedSample {
 
 struct ExpectedRay {
   std::array<double, 3> entry{};        // where the ray enters the volume, in voxels
-  std::array<double, 3> stride{};       // one step, in voxels
-  std::vector<ExpectedSample> samples;  // of every index from 0 on; empty if the ray misses
+  std::array<double, 3> stride{};       // length of one step, in voxels
+  std::vector<ExpectedSample> samples;  // samples of every index from 0 on; empty if the ray misses
   double ends_below = 0;                // a device may end the ray below this transmittance
   // Samples may be merged: a merged one has no counterpart and is not compared.
   bool merges = false;
 };
 
-// A sample as the device took it.
+// A sample of the device.
 struct TakenSample {
   std::array<double, 3> place{};
   double front = 0;
@@ -55,13 +55,13 @@ struct TakenSample {
 
 // The operations of one sample, in their order.
 enum class Operation : std::uint8_t {
-  take,        // whether it is taken: once, in its order, and not beyond the end of the ray
+  take,        // the sample is taken: once, in its order, and not beyond the end of the ray
   place,       // where it is
-  front,       // the value at the beginning of a step
+  front,       // the value at the beginning of the step
   value,       // the interpolated value
   alpha,       // the opacity that the transfer function returns
   colour,      // the colour that it returns, and shading
-  length,      // how much of a step it covers
+  length,      // the length of the step that the sample covers
   opacity,     // the opacity of that length
   compositing  // the light after it, from the light before it as the device recorded that
 };

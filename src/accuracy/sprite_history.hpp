@@ -1,6 +1,6 @@
 #pragma once
-// Compares what a device shows in one pixel of a particle scene with what the reference expects:
-// for each sphere alone, and for the smallest set of spheres with which the pixel is wrong.
+// Compares one pixel of a device's particle image with the expectation of the reference: for each
+// sphere alone, and for the smallest set of spheres with which the pixel is wrong.
 
 #include <array>
 #include <cstddef>
@@ -12,14 +12,14 @@
 
 namespace triptych::accuracy {
 
-// What a device shows in a pixel. The id is core::Image::no_particle if it shows none.
+// The result of a device in a pixel. The id is core::Image::no_particle if no particle is visible.
 struct ShownSurface {
   std::uint32_t id = 0;
   double depth = 0;  // along the view axis
   std::array<double, 4> colour{};
 };
 
-// What the reference shows there, and how far a device may be from it. If the pixel is not certain,
+// The result of the reference, and the allowed difference of a device. If the pixel is not certain,
 // another id and depth are allowed, and the bound of the colour covers them.
 struct ExpectedSurface {
   std::uint32_t id = 0;
@@ -33,9 +33,9 @@ struct ExpectedSurface {
 enum class SurfaceDifference : std::uint8_t {
   none,
   missing,     // the device shows no particle
-  unexpected,  // it shows one where there is none
+  unexpected,  // the device shows a particle where there is none
   particle,    // another one
-  depth,       // the right one at another depth
+  depth,       // the right particle at another depth
   colour       // the right one at the right depth in another colour
 };
 [[nodiscard]] std::string_view name_of(SurfaceDifference difference);

@@ -31,9 +31,9 @@ void add_selection_options(CLI::App& command, PlanChoice& choice) {
                      "Only configurations whose name or key matches this glob (repeatable); "
                      "`triptych list PLAN` prints both");
   command.add_option("--caselist", choice.caselist,
-                     "Only configurations that this file lists, one name or key a line");
+                     "Only configurations that this file lists, one name or key on each line");
   command.add_option("--fraction", choice.fraction,
-                     "1/n: only an n-th of the configurations, the same ones every time");
+                     "1/n: only one n-th of the configurations, the same ones every time");
 }
 
 core::InputError nothing_selected(const PlanChoice& choice) {
@@ -68,8 +68,8 @@ void add_limit_option(CLI::App& command, int& seconds, const std::string& what) 
 
 void add_without_data_option(CLI::App& command, bool& without) {
   command.add_flag("--without-data", without,
-                   "This machine is meant to lack data files: configurations that need them are "
-                   "skipped, whatever was accepted");
+                   "Do not expect data files on this machine: configurations that need them are "
+                   "skipped, even if they have baselines");
 }
 
 void add_verbose_option(CLI::App& command, bool& verbose) {

@@ -24,7 +24,7 @@ struct Commands {
   CLI::App& add(const std::string& name, const std::string& summary,
                 std::function<core::ExitCode()> run);
 
-  // A command whose options are written to the arguments that `run` is called with.
+  // A command whose options are stored in the arguments that `run` gets.
   template <typename Arguments>
   struct Added {
     CLI::App& command;
@@ -66,7 +66,7 @@ inline constexpr auto bisect_skips = static_cast<core::ExitCode>(125);
 void add_baselines_option(
     CLI::App& command, std::string& folder,
     const std::string& help =
-        "Folder with the baselines (default: ./baselines, else those that were installed)");
+        "Folder with the baselines (default: ./baselines, or the installed ones)");
 
 // Adds --device, for devices that have been measured already.
 void add_devices_option(CLI::App& command, std::vector<std::string>& globs);

@@ -31,10 +31,10 @@ void write_control(const std::string& text) {
 
 void add_ci_option(CLI::App& command, std::string& name) {
   command
-      .add_option("--ci", name,
-                  "Also write what this CI system shows: github (annotations, job summary, folded "
-                  "log), gitlab (codequality.json in --out, folded log), none, or auto, by the "
-                  "environment")
+      .add_option(
+          "--ci", name,
+          "Also write the output for a CI system: github (annotations, job summary, folded log), "
+          "gitlab (codequality.json in --out, folded log), none, or auto (by the environment)")
       ->capture_default_str();
 }
 

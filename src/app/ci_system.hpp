@@ -1,5 +1,5 @@
 #pragma once
-// The CI system in whose job the program runs, and what only such a system reads.
+// The CI system in whose job the program runs, and the output for that system.
 
 #include <cstdint>
 #include <filesystem>
@@ -14,10 +14,10 @@ enum class CiSystem : std::uint8_t { none, github, gitlab };
 // Adds --ci. Its value is given to ci_system().
 void add_ci_option(CLI::App& command, std::string& name);
 inline constexpr const char* standard_ci = "auto";
-// "auto": by the variables that the systems set. Throws InputError for an unknown name.
+// "auto" selects the system by its environment variables. Throws InputError for an unknown name.
 [[nodiscard]] CiSystem ci_system(const std::string& name);
 
-// The top folder of the repository whose job this is: the system's variable, else the working
+// The top folder of the repository to which this job belongs: the system's variable, or the working
 // directory.
 [[nodiscard]] std::filesystem::path ci_repository(CiSystem system);
 // The file that defines the job, relative to that folder; empty if it is not known.

@@ -1,7 +1,7 @@
 #pragma once
-// The plans of the check `code` among those that the gate judges if the user names none. There they
-// are judged only on devices whose driver version has stored code, so that a machine without a
-// GPU's compiler, or with another version of one, passes all the same.
+// The plans of the check `code` among the plans that the gate judges by default. By default they
+// are judged only on devices whose driver version has stored code, so that a machine without a GPU
+// compiler, or with another version of it, still passes.
 
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ extern const std::vector<std::string> code_plans;
 // The devices on which a plan of the check `code` is judged by default.
 struct JudgedCompilers {
   std::vector<std::string> devices;     // ids, sorted
-  std::vector<std::string> not_stored;  // "ID (DRIVER VERSION)": there is no stored code
+  std::vector<std::string> not_stored;  // "ID (DRIVER VERSION)" of the devices without stored code
 };
 
 // Selects from `found`, the devices that the machine has or that a run describes. Also in `devices`

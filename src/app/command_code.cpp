@@ -29,7 +29,7 @@ struct CodeArguments {
   int limit_s = standard_limit_s;
 };
 
-// "  Inverse Throughput    6486", those first that people want to read first. `samples`: the
+// Lines such as " Inverse Throughput 6486", with the most important ones first. `samples`: the
 // executable may have a loop that samples a volume.
 void print_statistics(const record::Executable& executable, bool samples) {
   std::vector<std::pair<std::string, double>> statistics(executable.statistics.begin(),
@@ -42,7 +42,7 @@ void print_statistics(const record::Executable& executable, bool samples) {
   }
   const bool disassembled = !executable.assembly.empty();
   if (samples && disassembled && !executable.statistics.contains("Loop instructions")) {
-    put("  the loop that samples the volume was not found for certain, so the instructions of one "
+    put("  the loop that samples the volume could not be identified, so the instructions of one "
         "iteration are not reported\n");
   }
 }
@@ -110,8 +110,7 @@ core::ExitCode code(const CodeArguments& arguments) {
 
 void add_code_command(Commands& commands) {
   auto [command, arguments] = commands.add(
-      "code", "Print what a device's compiler makes of one configuration, with its disassembly",
-      code);
+      "code", "Print a compiler's statistics and disassembly of one configuration", code);
   add_example(command, "triptych code volume --device vulkan:radv-navi31 --set shading=gradient");
   arguments.frame.add_to(command);
   command.add_flag("--brief", arguments.brief, "Print the statistics without the disassembly");

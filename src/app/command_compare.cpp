@@ -134,7 +134,7 @@ core::ExitCode diff(const DiffArguments& arguments) {
   measure::Truths truths(registry.find_suite(), b);
   const comparison::StoreDiff found = comparison::diff_stores(a, b, arguments.devices, truths);
   if (found.devices.empty() && found.only_one.empty()) {
-    throw core::NotSupported(fmt::format("{} and {} hold no run{}", arguments.a, arguments.b,
+    throw core::NotSupported(fmt::format("{} and {} have no run{}", arguments.a, arguments.b,
                                          arguments.devices.empty() ? "" : " of such a device"));
   }
   if (arguments.json) {
@@ -179,8 +179,9 @@ void add_compare_commands(Commands& commands) {
                      "Another build of triptych that measures side b");
   command.add_flag("--no-times", arguments.no_times,
                    "Compare only deterministic measurements; measure no times");
-  command.add_flag("--apis", arguments.apis,
-                   "Measure nothing; print a table of the devices in --store by technique");
+  command.add_flag(
+      "--apis", arguments.apis,
+      "Measure nothing; print a table of the devices in --store, with one row for each technique");
   command
       .add_option("--budget", comparing.budget_s,
                   "Seconds after which no further times are measured (default: no limit)")

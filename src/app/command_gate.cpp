@@ -29,7 +29,7 @@ namespace triptych::app {
 namespace {
 
 struct GateArguments {
-  std::vector<std::string> plans;  // as they were typed
+  std::vector<std::string> plans;  // as typed by the user
   PlanChoice choice;
   std::string store = standard_store;
   std::string baselines = default_baselines().string();
@@ -53,7 +53,7 @@ struct GateArguments {
 };
 
 struct AcceptArguments {
-  std::vector<std::string> plans;  // as they were typed
+  std::vector<std::string> plans;  // as typed by the user
   PlanChoice choice;
   std::string store = standard_store;
   std::string baselines;  // empty: the user's own
@@ -66,7 +66,7 @@ struct JudgedPlan {
   std::string typed;
   measure::Plan plan;
   record::Checks checks;
-  std::vector<std::string> devices = {};  // globs; empty: those that the user named
+  std::vector<std::string> devices = {};  // globs; empty: the devices that the user named
 };
 
 // The gate judges these plans if none is named.
@@ -76,8 +76,8 @@ std::vector<std::string> gate_job() {
   return plans;
 }
 
-// The plans as they are now. A plan that cannot be read is not judged. A plan that has lost the
-// check for which it is made is left out.
+// The current plans. A plan that cannot be read is not judged. If `--without` removes cost or code,
+// the plans for counting or compiling are left out.
 std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry& registry) {
   record::Checks asked;
   for (const std::string& name : arguments.checks) asked.insert(record::check(name));
@@ -92,7 +92,7 @@ std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry&
     if (is_default && std::ranges::none_of(each.plan.checks, is_asked)) continue;
     if (each.plan.configurations.empty()) {
       throw core::NotSupported(
-          fmt::format("{}: shard {} holds no configuration, so there is nothing to judge",
+          fmt::format("{}: shard {} contains no configuration, so there is nothing to judge",
                       each.plan.name, arguments.choice.shard));
     }
     if (without.contains(record::Check::cost) && each.plan.counted()) continue;
@@ -103,7 +103,8 @@ std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry&
   }
   if (plans.empty() && arguments.choice.selects()) throw nothing_selected(arguments.choice);
   if (plans.empty()) {
-    throw core::InputError("--check and --without leave out every check of the plans: name others");
+    throw core::InputError(
+        "--check and --without leave out every check of the plans: choose other checks");
   }
   return plans;
 }
@@ -125,8 +126,7 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
   return request;
 }
 
-// Nothing is stored, and nothing is compared with baselines: each device is compared with itself as
-// the base draws.
+// No baselines are used: each device is compared with itself under the base build or driver.
 core::ExitCode judge_by_base(const GateArguments& arguments) {
   const Registry registry = make_registry();
   const measure::Listing listing = measure::name_a_compiler(arguments.devices)
@@ -145,7 +145,8 @@ core::ExitCode judge_by_base(const GateArguments& arguments) {
   return compare_and_tell(comparisons, arguments.json);
 }
 
-// The devices that were found: those of the machine, or if the gate does not measure, of the run.
+// The devices that were found: those of the machine if the gate measures, otherwise those of the
+// run.
 std::vector<record::Device> found_devices(const GateArguments& arguments, const Registry& registry,
                                           const JudgedPlan& judged) {
   if (arguments.measure) return registry.devices_and_compilers(arguments.devices).devices;
@@ -274,7 +275,7 @@ std::vector<std::string> plans_to_accept(const AcceptArguments& arguments,
   std::vector<std::string> plans;
   for (const record::Run& run : latest_runs(store)) plans.push_back(run.plan);
   if (plans.empty()) {
-    throw core::NotSupported(fmt::format("{} holds no run: measure first", arguments.store));
+    throw core::NotSupported(fmt::format("{} has no run: measure first", arguments.store));
   }
   return plans;
 }
@@ -333,19 +334,19 @@ void add_gate_commands(Commands& commands) {
   add_baselines_option(command, arguments.baselines);
   command
       .add_option("--check", arguments.checks,
-                  fmt::format("Judge only these of {} (default: those of the plan)",
+                  fmt::format("Judge only these checks, of {} (default: those of the plan)",
                               record::text_of(record::every_check())))
       ->delimiter(',');
   command
       .add_option("--without", arguments.without,
                   "Leave out these checks; cost also leaves out the plans that count instructions, "
-                  "code those that ask compilers")
+                  "and code the plans that only compile")
       ->delimiter(',');
   add_devices_option(command, arguments.devices);
   command.add_option("--require", arguments.required,
                      "A device that matches this glob must have measured something (repeatable)");
   command.add_option("--without-device", arguments.without_devices,
-                     "This machine is meant to lack devices that match this glob, or an API whose "
+                     "Do not expect devices that match this glob on this machine, or an API whose "
                      "devices cannot be listed (repeatable; see docs/gate.md)");
   add_without_data_option(command, arguments.without_data);
   command.add_flag("--times", arguments.times,
@@ -353,7 +354,7 @@ void add_gate_commands(Commands& commands) {
   CLI::Option* base = command.add_option(
       "--base", arguments.base,
       "Another build of triptych, or NAME=VALUE,… that select another driver: compare each device "
-      "with itself under these, as compare does, instead of with the baselines");
+      "with itself under that build or driver instead of with the baselines");
   command.add_option(
       "--out", arguments.out,
       "Folder for report.html, gate.log, summary.md, benchmark.json and a JUnit XML file for "
@@ -369,7 +370,7 @@ void add_gate_commands(Commands& commands) {
                             "--require", "--without-device", "--out", "--junit", "--markdown"}) {
     base->excludes(other);
   }
-  add_inject_option(command, arguments.faults, "As of run, with --measure or --base");
+  add_inject_option(command, arguments.faults, "Same as for run; needs --measure or --base");
   add_accept_command(commands);
 }
 

@@ -1,4 +1,4 @@
-// history: compares the stores of many days or commits in their order.
+// The command history: compares the stores of many days or commits in their order.
 
 #include <fmt/format.h>
 
@@ -45,7 +45,8 @@ core::ExitCode history(const HistoryArguments& arguments) {
     builder.add(*store, truths);
   }
   if (builder.devices().empty()) {
-    throw core::NotSupported("the stores hold no run of such a device: see `triptych devices`");
+    throw core::NotSupported(
+        "the stores have no run of a device that matches; `triptych devices` lists devices");
   }
   const core::Json json = report::to_json(builder.devices());
   if (!arguments.out.empty()) core::write_text(arguments.out, report::history_page(json));
@@ -63,7 +64,7 @@ core::ExitCode history(const HistoryArguments& arguments) {
 void add_history_command(Commands& commands) {
   auto [command, arguments] = commands.add(
       "history",
-      "Follow cost and time over the stores of many days, and name the first that is worse",
+      "Follow cost and time over the stores of many days, and name the first store that is worse",
       history);
   command.add_option("STORE", arguments.stores, "Stores of the same plans, in any order")
       ->required();

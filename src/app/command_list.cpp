@@ -16,7 +16,7 @@ namespace triptych::app {
 namespace {
 
 struct ListArguments {
-  std::string plan;  // or the name of a suite
+  std::string plan;  // a plan or the name of a suite
   PlanChoice choice;
   bool json = false;
 };
@@ -95,7 +95,7 @@ core::Json json_of(const measure::Suite& suite, const std::vector<CountedPlan>& 
   return json;
 }
 
-// What a plan of the suite may contain, and the plans that come with the suite.
+// The possible contents of a plan of the suite, and the plans that come with the suite.
 core::ExitCode list_suite(const measure::Suite& suite, const Registry& registry, bool as_json) {
   const std::vector<CountedPlan> plans = plans_of(suite, registry);
   if (as_json) {

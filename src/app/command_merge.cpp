@@ -1,4 +1,4 @@
-// merge: combines what several machines measured, as if one machine had measured it.
+// The command merge: combines the measurements of several machines as if one machine had made them.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,7 +20,7 @@ struct MergeArguments {
   std::vector<std::string> stores;
   std::string out;
   bool check = false;
-  std::vector<std::string> plans;  // that each store must contain
+  std::vector<std::string> plans;  // plans that each store must contain
 };
 
 void tell_left_out(const record::RecordCounts& counts) {
@@ -63,7 +63,7 @@ std::vector<std::string> gaps_in(const record::Store& store,
   }
   for (const record::Gap& gap : record::gaps_of(store)) {
     if (gap.configurations == 0) {
-      told.push_back(gap.plan + ": was to measure no configuration, as an empty shard is");
+      told.push_back(gap.plan + ": is an empty shard, which contains no configuration");
       continue;
     }
     told.push_back(fmt::format(
@@ -76,7 +76,7 @@ std::vector<std::string> gaps_in(const record::Store& store,
   return told;
 }
 
-// The gaps of all stores, one a line.
+// The gaps of all stores, one on each line.
 std::string all_gaps(const MergeArguments& arguments) {
   std::string lines;
   for (const std::string& file : arguments.stores) {
@@ -123,7 +123,7 @@ core::ExitCode merge(const MergeArguments& arguments) {
     put("{} older runs were left out: each store contributes the latest run of a plan\n",
         result.older_runs);
   }
-  // A configuration that no device of a shard has is no gap in the whole run.
+  // A configuration that no device of a shard has is not a gap in the whole run.
   if (!gaps.empty()) {
     put_lines(gaps);
     put("These records are missing in {} unless another store has them\n", arguments.out);

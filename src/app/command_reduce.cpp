@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 struct ReduceArguments {
   FrameArguments frame = {.out = "reduced"};
   std::string against;
-  int limit_s = 0;  // 0: as the first frame needs
+  int limit_s = 0;  // 0: determined by the first frame
   int frames = 500;
   bool truth = true;  // an option of `render` that `reduce` always uses
 };
@@ -61,8 +61,8 @@ std::string command_for(const OneFrame& frame, const ReduceArguments& arguments,
   return report::text_of(command);
 }
 
-// Writes the right image, the image that was drawn (if there is one), and what another program
-// needs to draw it.
+// Writes the reference image, the device's image (if there is one), and the data that another
+// program needs to draw it.
 std::vector<std::string> write_frame(const OneFrame& frame, const reduction::Trial& trial,
                                      measure::Truths& truths, const fs::path& out) {
   const record::Record& record = trial.last();
@@ -82,10 +82,10 @@ std::vector<std::string> write_frame(const OneFrame& frame, const reduction::Tri
   return files;
 }
 
-// Draws the frame once more, in one process, and writes what the driver is given into the folder
+// Draws the frame once more, in one process, and writes all input of the driver into the folder
 // "dump": device code, options, buffers and a program in C. For a wrong image, pixel.txt contains
-// the history of its worst pixel. Nothing is written where the driver crashes before.
-// `limit` is that of a frame that hangs: what the driver is given is written before it.
+// the history of its worst pixel. If the driver crashes earlier, nothing is written. `limit` is the
+// time limit of the frame: if it hangs, the input has been written before.
 std::vector<std::string> write_dump_of(const OneFrame& frame, const ReduceArguments& arguments,
                                        const reduction::Trial& trial, measure::Truths& truths,
                                        std::optional<std::chrono::seconds> limit,
@@ -148,7 +148,7 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   const Registry registry = make_registry();
   const OneFrame frame = choose_frame(registry, arguments.frame);
   const fs::path out(arguments.frame.out);
-  // A README without frame.json beside it belongs to somebody else.
+  // A README without frame.json next to it belongs to somebody else.
   if (fs::exists(out / "frame.json")) fs::remove(out / "README.md");
   report::remove_frame(out);
   const core::TemporaryFolder folder;
@@ -206,7 +206,7 @@ void add_reduce_command(Commands& commands) {
   arguments.frame.add_to(command);
   command.add_option("--out", arguments.frame.out, "Folder to write into")->capture_default_str();
   command.add_option("--against", arguments.against,
-                     "A device whose counters are right: other counters are a failure, too");
+                     "A device whose counters are right: different counters are a failure, too");
   command
       .add_option("--limit", arguments.limit_s,
                   "Seconds after which a frame is regarded as hung (default: 20, or three times "

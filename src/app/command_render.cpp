@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 struct RenderArguments {
   FrameArguments frame;
-  std::optional<std::string> error;  // as it was typed
+  std::optional<std::string> error;  // as typed by the user
   int limit_s = standard_limit_s;
   bool truth = false;
   bool describe = false;
@@ -39,7 +39,7 @@ struct RenderArguments {
   std::string pixel;  // "X,Y"; empty: none
 };
 
-// Writes the reference image and the difference beside the image, and says whether the image is
+// Writes the reference image and the difference next to the image, and states whether the image is
 // right.
 core::ExitCode hold_against_truth(const core::Image& image, const judge::TruthPair& pair,
                                   const fs::path& out) {
@@ -134,7 +134,8 @@ void require_option(const std::string& value, std::string_view name) {
   if (value.empty()) throw core::InputError(fmt::format("{} is required", name));
 }
 
-// Gives names to objects and passes for tools, and makes drivers' inputs be written to the folder.
+// Names objects and passes for tools, and makes the backends write the drivers' input to the
+// folder.
 void prepare_process(const RenderArguments& arguments) {
   ::setenv("TRIPTYCH_LABELS", "1", 1);
   if (arguments.dump.empty()) return;
@@ -224,21 +225,20 @@ void add_render_command(Commands& commands) {
                      "image is at most E");
   add_limit_option(command, arguments.limit_s, "the frame");
   command.add_flag("--in-process", arguments.in_process,
-                   "Draw one frame in this process, with nothing before it: for debuggers and for "
-                   "RenderDoc, apitrace, gfxreconstruct, whose capture holds this frame alone. "
-                   "Objects and passes are named");
+                   "Draw one frame in this process and nothing else, for debuggers and capture "
+                   "tools (RenderDoc, apitrace, gfxreconstruct). Objects and passes have names");
   command.add_option("--dump", arguments.dump,
-                     "Folder for what the driver was given: device code, options, parameters, "
-                     "buffers. Implies --in-process");
+                     "Write all input of the driver to this folder: device code, options, "
+                     "parameters, buffers. Implies --in-process");
   command.add_option("--pixel", arguments.pixel,
-                     "X,Y: print what the device did for this pixel, sample by sample of a volume "
+                     "X,Y: print the device's results for this pixel, sample by sample (volumes) "
                      "or sphere by sphere, and mark the first difference from the reference (exit "
-                     "code 1). Further frames find it. Implies --in-process");
+                     "code 1). Draws further frames. Implies --in-process");
   command.add_flag("--truth", arguments.truth,
                    "Compare with the reference image: write truth.exr, truth.png and "
                    "difference.png, and exit with code 1 if the image is wrong");
   command.add_flag("--describe", arguments.describe,
-                   "Draw nothing: print what the data are (format, sizes, spacing, orientation, "
+                   "Draw nothing, but describe the data (format, sizes, spacing, orientation, "
                    "elements, range, a small picture). Needs neither --device nor --out");
   add_example(command,
               "triptych render volume --device vulkan:lavapipe --set viewport=256 --out frame");

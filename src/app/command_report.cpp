@@ -37,7 +37,7 @@ core::ExitCode write_report(const ReportArguments& arguments) {
   record::Store store = open_to_judge(arguments.store);
   measure::Truths truths(registry.find_suite(), store);
   if (store.runs().empty()) {
-    throw core::NotSupported(arguments.store + " holds no run: measure first with `triptych run`");
+    throw core::NotSupported(arguments.store + " has no run: measure first with `triptych run`");
   }
   core::write_text(arguments.out, page_of(store, truths, arguments.baselines));
   if (!arguments.benchmark_json.empty()) {

@@ -25,8 +25,8 @@ core::ExitCode run(const Measuring& measuring) {
   return measured && error_kept ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
-// As a CTest fixture: a failed configuration fails the test (except for a stress case, whose score
-// reports it), and a run with nothing but skips is skipped.
+// Result for a CTest fixture: a failed configuration fails the test (except for a stress case,
+// whose score reports it), and a run with nothing but skips is skipped.
 core::ExitCode run_as_test(const Measuring& measuring) {
   const auto [scored, results, error_kept] = measure_and_tell(measuring);
   const bool failed =
@@ -100,9 +100,9 @@ void add_run_options(CLI::App& command, Measuring& measuring) {
       .add_flag("--timed", measuring.timed,
                 "Also measure times for plans without the check timing, such as SUITE/accuracy")
       ->excludes("--untimed");
-  command.add_flag("--measure-every", measuring.measure_every,
-                   "Also measure configurations that are exactly the same work as another one in "
-                   "their scene");
+  command.add_flag(
+      "--measure-every", measuring.measure_every,
+      "Also measure configurations that do exactly the same work as another one in their scene");
   add_inject_option(
       command, measuring.faults,
       "Inject a fault to prove that the gate finds it: " + measure::fault_names() +

@@ -144,8 +144,8 @@ class Validation {
     judge::add_flakes(cases, results_);
   }
 
-  // Prints and writes what was drawn, and which other features were probed, so that a pass states
-  // what it covers.
+  // Prints and writes the coverage of the images and the features that were probed, so that a pass
+  // states what it covers.
   void tell_coverage(const FeatureTable& features) {
     std::vector<record::Record> records;
     for (const judge::GateResult& result : results_) {
@@ -153,9 +153,8 @@ class Validation {
       records.insert(records.end(), of_plan.begin(), of_plan.end());
     }
     const auto coverage = report::coverage_of(records);
-    const std::string text = report::coverage_text(coverage) +
-                             "features that no scene needs, by themselves\n" +
-                             feature_text(features);
+    const std::string text =
+        report::coverage_text(coverage) + "features that no scene needs\n" + feature_text(features);
     const std::filesystem::path folder(arguments_.out);
     core::write_text(folder / "coverage.txt", text + report::bounds_text(wide_bounds(records)));
     core::write_text(
@@ -230,7 +229,7 @@ class Validation {
 
   // Returns false if it was interrupted.
   bool draw_again(const std::string& plan, const judge::Places& places) {
-    say("{}: {} that failed are drawn again\n", plan, places.size());
+    say("{}: drawing {} failed configurations again\n", plan, places.size());
     Measuring measuring = measuring_of(arguments_, store_.file().string());
     measuring.plans = {plan};
     measuring.resume = true;
@@ -286,7 +285,8 @@ FeatureTable features_of(const ValidateArguments& arguments) {
 
 core::ExitCode validate(const ValidateArguments& arguments) {
   const measure::Stopwatch since;
-  static_cast<void>(ci_system(arguments.ci));  // refuses an unknown name before measuring
+  // Throws for an unknown name before anything is measured.
+  static_cast<void>(ci_system(arguments.ci));
   core::refuse_overwriting({{"--expect", arguments.expect}},
                            {{"--junit", arguments.junit},
                             {"--json", arguments.json},
@@ -337,7 +337,7 @@ void add_validate_command(Commands& commands) {
       ->check(CLI::Range(1, 64));
   command
       .add_option("--repeat", arguments.repeat,
-                  "Draw everything this many times. A case that fails in some repetitions only is "
+                  "Draw everything this many times. A case that fails in only some repetitions is "
                   "a flake, which is a failure. repeats.jsonl in the folder has one line for each "
                   "case")
       ->check(CLI::Range(1, 1000));

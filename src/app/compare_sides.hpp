@@ -14,7 +14,7 @@ namespace triptych::app {
 extern const std::vector<std::string> main_job;
 
 struct Comparing {
-  std::vector<std::string> plans;  // as they were typed; empty: the default plans
+  std::vector<std::string> plans;  // as typed by the user; empty: the default plans
   PlanChoice choice = {};
   measure::SideOptions a;
   measure::SideOptions b;

@@ -17,7 +17,7 @@ using FeatureTable = std::map<std::string, std::vector<measure::FeatureRow>>;  /
 [[nodiscard]] FeatureTable probe_devices(const std::vector<std::string>& devices,
                                          const std::string& only, int limit_s);
 
-// One line for each probe: its size, and what is wrong or why it was skipped.
+// One line for each probe: its size, and the error or the reason for a skip.
 [[nodiscard]] std::string feature_text(const FeatureTable& table);
 [[nodiscard]] core::Json feature_json(const FeatureTable& table);
 

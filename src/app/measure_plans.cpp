@@ -104,7 +104,7 @@ measure::RunOptions options_of(const Measuring& measuring, const record::Beginni
           .program = version()};
 }
 
-// Where plans are measured, and with what.
+// The devices and the store with which plans are measured.
 struct Bench {
   const Measuring& measuring;
   const Registry& registry;
@@ -147,8 +147,8 @@ std::vector<measure::RunResult> measure_on(const Bench& bench,
     throw;
   }
   for (const auto& [fault, only] : measure::faults_that_hit_nothing(runs, bench.devices)) {
-    say("triptych: --inject {}@{} hits nothing: no configuration or device matches; `triptych list "
-        "PLAN` prints the names of configurations, in which defaults are left out\n",
+    say("triptych: --inject {}@{} affects nothing: no configuration or device matches; `triptych "
+        "list PLAN` prints the names of configurations, which leave out default levels\n",
         fault, only);
   }
   for (std::size_t i = 0; i < plans.size(); ++i) {
@@ -157,7 +157,8 @@ std::vector<measure::RunResult> measure_on(const Bench& bench,
   return results;
 }
 
-// Measures what keeps the requested error, and the fastest of that for each scene and device.
+// Measures the configurations that meet the requested error, and finds the fastest for each scene
+// and device.
 Measured measure_within_error(const Bench& bench, const measure::Plan& plan) {
   const auto wanted = accuracy::parse_requested_error(*bench.measuring.error);
   measure::SuiteWithTruth& suite = bench.registry.suite(plan.suite);
@@ -236,7 +237,7 @@ std::vector<measure::RunResult> measure_each(const Measuring& measuring, const R
           missing += fmt::format("; {}: {}", each.what, each.reason);
         }
       }
-      throw core::NotSupported(fmt::format("{}: no device with a GPU's compiler is here{}",
+      throw core::NotSupported(fmt::format("{}: this machine has no device with a GPU compiler{}",
                                            group.front().name, missing));
     }
     std::vector<measure::RunResult> measured = measure_on(bench, group);

@@ -16,7 +16,7 @@
 namespace triptych::app {
 
 struct Measuring {
-  std::vector<std::string> plans = {};    // as they were typed
+  std::vector<std::string> plans = {};    // as typed by the user
   PlanChoice choice = {};                 // --set for a single plan, --shard for each plan
   std::vector<std::string> devices = {};  // globs
   std::string store = standard_store;
@@ -31,10 +31,10 @@ struct Measuring {
   bool untimed = false;                   // one frame each for the image and the counters
   bool statistics = false;                // and one for the statistics
   bool timed = false;                     // also measure times for plans without the check timing
-  std::optional<std::string> error = {};  // requested error, as it was typed
-  bool chooses = false;                   // report the fastest of the levels that "auto" stands for
+  std::optional<std::string> error = {};  // requested error, as typed by the user
+  bool chooses = false;                   // report the fastest of the levels that `auto` stands for
   bool verbose = false;                   // a line for each configuration
-  CiSystem ci = CiSystem::none;           // whose log it is
+  CiSystem ci = CiSystem::none;           // the CI system whose log it is
   std::FILE* told_to = stdout;
 };
 

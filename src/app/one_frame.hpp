@@ -24,7 +24,7 @@ struct FrameArguments {
 
 struct OneFrame {
   measure::SuiteWithTruth& suite;
-  measure::Plan plan;  // with that configuration, or with those that "auto" stands for
+  measure::Plan plan;  // a plan with that configuration, or with those that `auto` stands for
   std::string device;  // device id
 };
 

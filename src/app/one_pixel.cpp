@@ -44,7 +44,7 @@ accuracy::TakenSample taken_sample(const technique::TracedSample& traced) {
   return taken;
 }
 
-// Adds a part of a step to the parts before it, by what they add to the light together.
+// Joins a part of a step with the parts before it, weighted by their contributions to the light.
 void add_part_of_step(accuracy::TakenSample& step, const accuracy::TakenSample& part) {
   const double added = (1 - step.opacity) * part.opacity;
   const double sum = step.opacity + added;

@@ -1,5 +1,5 @@
 #pragma once
-// `render --pixel X,Y`: what the device did to draw one pixel, beside what the reference expects.
+// `render --pixel X,Y`: a device's results for one pixel, next to those of the reference.
 
 #include <filesystem>
 #include <string_view>

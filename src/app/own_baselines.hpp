@@ -22,7 +22,7 @@ class OwnBaselines {
   [[nodiscard]] const std::filesystem::path& folder() const { return working_; }
   // The name that it has when everything was accepted.
   [[nodiscard]] const std::filesystem::path& name() const { return name_; }
-  // The folder from which it was copied; empty if it was not.
+  // The folder that it was copied from; empty if it was not copied.
   [[nodiscard]] const std::filesystem::path& copied_from() const { return copied_from_; }
   // Everything was accepted.
   void keep();

@@ -36,7 +36,7 @@ std::size_t columns() {
 void show_line(std::string_view text) {
   if (!watched()) return say("{}\n", text);
   clear_line();
-  // A wrapped line could not be removed.
+  // A line that wraps could not be removed.
   const std::size_t room = columns();
   say("{}", core::printable(text, room > 1 ? room - 1 : 1));
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What commands write to a terminal: answers on stdout; progress, notes and errors on stderr. If
-// stderr cannot be written, the run continues.
+// Output of commands on a terminal: answers go to stdout; progress, notes and errors go to stderr.
+// If stderr cannot be written, the run continues.
 
 #include <fmt/format.h>
 
@@ -72,8 +72,8 @@ template <typename... Args>
 void show(fmt::format_string<Args...> format, Args&&... args) {
   show_line(shown_text(format, std::forward<Args>(args)...));
 }
-// Something that had to be guessed about the data. A note is printed once, although each process
-// that reads the data sends it.
+// Reports something that had to be guessed about the data. A note is printed once, although each
+// process that reads the data sends it.
 void show_note(const measure::Loading& loading);
 // The line disappears when loading has ended.
 void show_loading(const measure::Loading& loading);

@@ -84,7 +84,7 @@ std::string latest_run_of(const record::Store& store, const std::string& plan,
   const std::optional<record::Run> run = store.latest_run(name);
   if (run) return run->id;
   throw core::NotSupported(
-      fmt::format("{} holds no run of {}: measure first with `triptych run {} --store {}`", file,
+      fmt::format("{} has no run of {}: measure first with `triptych run {} --store {}`", file,
                   name, core::shell_quoted(plan), core::shell_quoted(file)));
 }
 
@@ -192,7 +192,7 @@ report::JunitFacts junit_facts(const record::Store& store,
   return facts;
 }
 
-// Writes what a CI system reads apart from files in the folder.
+// Writes the output for a CI system that is not a file in the folder.
 void tell_ci(const std::vector<judge::GateResult>& results, const report::FindingPlaces& places,
              CiSystem ci) {
   if (ci != CiSystem::github) return;

@@ -1,5 +1,5 @@
 #pragma once
-// Shared by the commands that judge.
+// Functions that all judging commands share.
 
 #include <string>
 #include <vector>
@@ -37,7 +37,7 @@ void require_store(const std::filesystem::path& file);
 // A request to judge a plan on all devices with every check of the plan, with these reference
 // images, as of today.
 [[nodiscard]] judge::GateRequest request_of(measure::Truths& truths, const std::string& plan);
-// The same for a plan as it is now, with its configurations.
+// The same for the current version of a plan, with its configurations.
 [[nodiscard]] judge::GateRequest request_of(measure::Truths& truths, const measure::Plan& plan,
                                             const measure::Suite& suite);
 
@@ -51,12 +51,12 @@ struct VerdictFiles {
   std::string junit;
   std::string markdown;
   std::string json;       // "-": printed instead of the last screen
-  std::string baselines;  // the folder that was judged by
+  std::string baselines;  // the folder of the baselines that were used
   CiSystem ci = CiSystem::none;
 };
 
-// Writes the files and what the CI system reads, and prints the last screen, which lists the files
-// in the folder. `seconds` is the total time. Returns the exit code over all results.
+// Writes the files and the output for the CI system, and prints the last screen, which lists the
+// files in the folder. `seconds` is the total time. Returns the exit code over all results.
 core::ExitCode tell_verdict(const record::Store& store, measure::Truths& truths,
                             const std::vector<judge::GateResult>& results, double seconds,
                             const VerdictFiles& files);

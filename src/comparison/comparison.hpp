@@ -1,6 +1,6 @@
 #pragma once
-// Compares two sides over a plan: first what repeats exactly (images, counters, statistics, cost,
-// memory), then times, interleaved.
+// Compares two sides over a plan. Measurements that repeat exactly (images, counters, statistics,
+// cost, memory) come first, and then interleaved times.
 
 #include <array>
 #include <chrono>
@@ -23,9 +23,9 @@ struct ComparisonOptions {
   measure::SideOptions a;
   measure::SideOptions b;
   std::vector<measure::InjectedFault> faults;  // injected into side b
-  // The time budget from the start on. After it no configuration is continued. The time that the
-  // confirmation of suspects needs is kept back from it. What repeats, the first looks and the
-  // confirmation are always made, because without them there is no result.
+  // The time budget, which begins with the comparison. After it, no further configuration is
+  // measured. A part of the budget is reserved for confirming suspects. Exact measurements, the
+  // first looks and the confirmation are always made, because there is no result without them.
   std::optional<std::chrono::seconds> budget;
   std::chrono::seconds limit{60};
   std::uint64_t seed = 1;
@@ -34,25 +34,25 @@ struct ComparisonOptions {
   ConfirmationDesign confirmation;
 };
 
-// Frame times of one side: the median and the quartiles over the blocks of the first process run.
+// Frame times of one side: the median and the quartiles over all blocks of the first process run.
 using SideTime = record::Summary;
 
 // The results of one configuration.
 struct Compared {
   std::string key;
   measure::Configuration configuration;
-  // The outcome of the side that did not finish, with the reason; skipped: it cannot draw this.
+  // The outcome and reason of the side that did not finish. Skipped means that it cannot draw this.
   std::optional<record::Outcome> ended;
   PairVerdict verdict = PairVerdict::undecided;
-  TimeReason reason;     // why there is no verdict, or why the confirmation withdrew it
-  Shift shift;           // of ln t, b relative to a; meaningless if a side did not finish
-  int blocks = 0;        // of the first process run
+  TimeReason reason;     // the reason why there is no verdict, or why the confirmation withdrew it
+  Shift shift;           // shift of ln t, b relative to a; meaningless if a side did not finish
+  int blocks = 0;        // number of blocks of the first process run
   int process_runs = 0;  // new process runs that confirmed the result or did not
   int frames_per_batch = 1;
   measure::SideClock clock = measure::SideClock::wall;
   WallClockCause why_wall = WallClockCause::none;
   double seconds = 0;  // time spent on it
-  std::optional<std::array<SideTime, 2>> times = {};  // of sides a and b, in nanoseconds
+  std::optional<std::array<SideTime, 2>> times = {};  // of frames of a and b, in nanoseconds
   std::optional<judge::WorkChange> work;
   std::vector<Difference> differences;
 
@@ -85,7 +85,7 @@ enum class ComparisonStage : std::uint8_t {
 
 struct ComparisonProgress {
   ComparisonStage stage = ComparisonStage::deterministic;
-  std::size_t process_run = 0;   // of fresh_process_runs: the current one
+  std::size_t process_run = 0;   // number of the current one of fresh_process_runs
   std::size_t process_runs = 0;  // of how many
   std::string configuration;
   int done = 0;

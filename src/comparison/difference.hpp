@@ -21,7 +21,7 @@ namespace triptych::comparison {
 
 enum class DifferenceKind : std::uint8_t {
   regression,   // b is wrong, does more, or changed something that must not change
-  unjudged,     // no reference image, or b can no longer draw what a can
+  unjudged,     // no reference image, or b can no longer draw a configuration that a can draw
   fixed,        // a is wrong or cannot draw it, and b is right
   calibration,  // a statistic that at least one of the drivers counts in its own way
   changed       // an allowed difference between two devices, or b does less
@@ -43,13 +43,13 @@ enum class Subject : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(Subject subject);
 
-// There is one cause for each sentence. The comments list what comes with it: numbers in quotes,
-// facts in <angles>.
+// Each cause has one sentence. The comments list the data of each cause: numbers in quotes, facts
+// in <angles>.
 enum class DifferenceCause : std::uint8_t {
   ended,                   // sides: how each side ended that did not measure the configuration
   only_one_side,           // side: the other one does not have the configuration
   no_reference,            // sides: why there is no reference image
-  wrong_image,             // sides: what is wrong with each wrong image
+  wrong_image,             // sides: the errors of each wrong image
   other_bits,              // "pixels" of "total", "x" "y" "error" "rmse" "particles"
   other_bits_of_one_code,  // the same, but device, settings and device code are equal
   two_counters,            // <a> <b>: what counted the instructions
@@ -69,7 +69,7 @@ enum class DifferenceCause : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(DifferenceCause cause);
 
-// What belongs to side a, and what belongs to side b.
+// The observations of side a, and those of side b.
 template <typename T>
 using BySide = std::array<std::optional<T>, 2>;
 
@@ -77,7 +77,7 @@ struct Difference {
   DifferenceKind kind = DifferenceKind::changed;
   Subject subject = Subject::outcome;
   DifferenceCause cause = DifferenceCause::values_changed;
-  std::string name = {};                   // of the counter, statistic, limit or total
+  std::string name = {};                   // name of the counter, statistic, limit or total
   std::optional<double> ratio = {};        // b divided by a, if both report it and it is not zero
   std::optional<measure::Side> side = {};  // the only side that has it
   std::map<std::string, double> numbers = {};
@@ -94,7 +94,7 @@ struct Difference {
 
 // Differences of one kind about one measurement, which are reported once.
 struct DifferenceGroup {
-  Difference difference;  // the one that changed most, otherwise the first
+  Difference difference;  // the one with the largest change, otherwise the first
   std::string where;      // its configuration; empty: the device
   int count = 0;
   std::optional<std::pair<double, double>> ratios;  // smallest and largest

@@ -22,7 +22,8 @@ using measure::Side;
 // same driver with other settings. It is the same share by which a time must grow to be called
 // slower.
 constexpr double frame_across_setups = 0.01;
-// The change from which preparation alone is reported, because it varies from run to run.
+// The smallest change of preparation alone that is reported, because preparation varies from run to
+// run.
 constexpr double of_preparing = 0.05;
 
 template <typename Map>
@@ -38,7 +39,7 @@ std::optional<std::uint64_t> value_in(const record::Counts& counts, const std::s
   return found == counts.end() ? std::nullopt : std::optional(found->second);
 }
 
-// Where and how much two images differ: in how many pixels, and at which one most.
+// The differences of two images: the number of pixels, and the pixel with the largest difference.
 std::map<std::string, double> image_change(const core::Image& a, const core::Image& b) {
   core::Image no_bound(a.width, a.height);
   core::Image colours_a = a;
@@ -103,7 +104,7 @@ class Finder {
     return result_.differences.back();
   }
 
-  // How a side ended; empty if it measured the configuration.
+  // The outcome of a side; empty if it measured the configuration.
   static std::optional<judge::Observation> end_of(const record::Record& record) {
     if (record.outcome == record::Outcome::measured) return std::nullopt;
     return judge::Observation{

@@ -12,7 +12,7 @@
 
 namespace triptych::comparison {
 
-// One side of a comparison: what was measured, and on which device.
+// One side of a comparison: the record, and its device.
 struct ComparedSide {
   const record::Record& record;
   const record::Device& device;

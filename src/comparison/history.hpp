@@ -1,6 +1,6 @@
 #pragma once
-// Stores of many days or commits in their order: what changed in each except times, and how cost
-// and time developed since the first one.
+// The changes from store to store over many days or commits, except in times, and the development
+// of cost and time since the first store.
 
 #include <map>
 #include <optional>

@@ -85,7 +85,8 @@ struct Suspect {
 };
 inline constexpr std::size_t least_process_runs = 2;  // with fewer there is no scatter
 
-// Two looks, the second for what the first leaves open, each with an equal share of `q`.
+// The number of looks. The second look is for suspects that the first one leaves open. Each look
+// has an equal share of `q`.
 struct ConfirmationDesign {
   std::array<std::size_t, 2> looks{5, 10};  // numbers of new process runs
   std::size_t blocks_per_process_run = 24;
@@ -110,9 +111,9 @@ struct Confirmation {
 [[nodiscard]] std::vector<Confirmation> confirm(std::span<const Suspect> suspects, double q,
                                                 const SequentialDesign& design);
 
-// Adds one fresh process run to each of the suspects `open`, the `number`-th, towards the look
-// after `until`; false where none can be had any more.
-// All looks of a confirmation; what one of them settles is measured no more.
+// Measures one more fresh process run, the `number`-th, for each of the suspects `open`, for the
+// look after `until`. Returns false if no more runs are possible. A suspect that a look has settled
+// is not measured any more.
 using RunAgain =
     std::function<bool(std::span<const std::size_t> open, std::size_t number, std::size_t until)>;
 [[nodiscard]] std::vector<Confirmation> confirm_in_looks(std::vector<Suspect>& suspects,

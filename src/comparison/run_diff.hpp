@@ -23,7 +23,8 @@ struct RunSide {
 struct ConfigurationDiff {
   std::string key;
   std::vector<Difference> differences;  // worst first
-  // Why its times are meaningless, and the outcome of the side that is to blame, if there is one.
+  // The reason why its times are meaningless, and the outcome of the side that causes this, if
+  // there is one.
   TimeReason no_time;
   std::optional<record::Outcome> ended;
   std::optional<judge::WorkChange> work;       // b relative to a
@@ -32,7 +33,8 @@ struct ConfigurationDiff {
 
 struct RunDiff {
   std::vector<Difference> device;                 // between the two devices themselves
-  std::vector<ConfigurationDiff> configurations;  // in a's order, followed by those that only b has
+  // In the order of a, followed by those that only b has.
+  std::vector<ConfigurationDiff> configurations;
 };
 
 // `same_setup`: see find_differences.

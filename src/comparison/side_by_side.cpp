@@ -11,10 +11,10 @@
 namespace triptych::comparison {
 namespace {
 
-using Value = double (*)(const record::Record&);  // 0: there is none
+using Value = double (*)(const record::Record&);  // 0 if there is none
 using ByDevice = std::map<std::string, const record::Record*>;
 
-// The work of a frame, which every API counts in the same way.
+// Counters for the work of a frame, which every API counts in the same way.
 constexpr std::array<const char*, 3> telling_work{"samples", "fragments", "primitives"};
 
 double instructions_of(const record::Record& record) {

@@ -145,7 +145,7 @@ class Timer {
     return options_.budget && since_begin_.elapsed() >= *options_.budget;
   }
 
-  // The time that the confirmation of the present suspects takes at least.
+  // The minimal time for confirming the current suspects.
   [[nodiscard]] double confirmation_s() const {
     double seconds = 0;
     for (const Entry& entry : entries_) {
@@ -202,7 +202,7 @@ class Timer {
       const int total = static_cast<int>(entries_.size());
       show({.stage = ComparisonStage::more_blocks}, *widest, total - open, total, most_left_s());
       about(*widest, [&] {
-        // When the budget is over, the look is one of the planned ones.
+        // Even when the budget has ended, the result is taken at one of the planned looks.
         draw_until(*widest, options_.design.next_look(widest->compared.blocks));
         judge_blocks(*widest);
       });
@@ -320,7 +320,7 @@ class Timer {
 
   const ComparisonOptions& options_;
   const Tell& tell_;
-  const measure::Stopwatch& since_begin_;  // of the whole comparison
+  const measure::Stopwatch& since_begin_;  // start of the whole comparison
   measure::Stopwatch since_start_;         // of measuring times
   measure::Interleaved interleaved_;
   std::vector<Entry> entries_;

@@ -8,8 +8,8 @@
 
 namespace triptych::comparison {
 
-// Sets the verdict on the time of each configuration that has no reason against it. `since` began
-// with the comparison, whose budget includes what was done before. Throws what
+// Sets the verdict on the time of each configuration that has no reason against one. `since` is the
+// start of the comparison, because the budget includes everything since then. Throws what
 // measure::Interleaved throws.
 void measure_times(const ComparisonOptions& options, const measure::Stopwatch& since,
                    const Tell& tell, std::vector<Compared>& compared);

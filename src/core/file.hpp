@@ -14,10 +14,10 @@ namespace triptych::core {
 // throws for a pipe or a device, which might never end.
 [[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& file);
 
-// The limit for files that people write: plans, tables, descriptions. Larger ones are refused
-// before they are read.
+// The limit for files that people write, such as plans, tables and descriptions. Larger files are
+// refused before they are read.
 inline constexpr std::size_t most_text_bytes = std::size_t{1} << 20;
-// The limit for files that accept writes and people merge, with one value per line.
+// The limit for files that `accept` writes and people merge, with one value per line.
 inline constexpr std::size_t most_json_bytes = std::size_t{64} << 20;
 
 // Like read_file, but throws InputError for a file of more than `most` bytes.

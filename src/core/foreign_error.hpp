@@ -1,6 +1,6 @@
 #pragma once
-// Converts exceptions of libraries to the errors of this project, with a text that says what they
-// are about.
+// Converts exceptions of libraries to the errors of this project, with the name of the affected
+// file or place.
 
 #include <string>
 #include <utility>

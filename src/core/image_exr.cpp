@@ -108,7 +108,8 @@ void require_consistent(const Image& image) {
                          (image.ids.empty() || image.ids.size() == n);
   if (!plausible) {
     throw InputError(fmt::format(
-        "an image of {}x{} pixels with {} colour values, {} depths and {} ids cannot become an EXR",
+        "an image of {}x{} pixels with {} colour values, {} depths and {} ids cannot be written as "
+        "EXR",
         image.width, image.height, image.rgba.size(), image.depth.size(), image.ids.size()));
   }
 }
@@ -201,7 +202,7 @@ Image decode(std::span<const std::byte> bytes) {
   require_attributes_inside(bytes);
   MemoryIn stream(bytes);
   Imf::InputFile file(stream, 0);
-  if (!file.isComplete()) throw std::runtime_error("was not written to its end");
+  if (!file.isComplete()) throw std::runtime_error("was not written completely");
   require_channels(file.header().channels());
   Image image = allocate(file.header(), bytes.size());
   const Imath::Box2i window = file.header().dataWindow();

@@ -9,8 +9,8 @@
 
 namespace triptych::core {
 
-// Throws IoError if no file can be created in the folder, which is made if it is missing. Called
-// before measuring, so that nothing is measured that cannot be stored.
+// Throws IoError if no file can be created in the folder, which is created if it is missing. Call
+// this before measuring, so that nothing is measured that cannot be stored.
 void require_writable(const std::filesystem::path& folder);
 
 // A file and the option or argument that named it.

@@ -66,7 +66,9 @@ int open_root(const fs::path& root) {
   if (fd.get() < 0) refuse(root, errno);
   const struct stat status = status_of(fd.get(), root);
   if ((status.st_mode & others_write) != 0 && (status.st_mode & S_ISVTX) == 0) {
-    refuse(root, "other users can write to it, and rename what others made there (not sticky)");
+    refuse(root,
+           "other users can write to it and rename files of others in it, because it has no sticky "
+           "bit");
   }
   return fd.release();
 }

@@ -1,7 +1,7 @@
 #pragma once
-// Folders for compiled code and other files that must be nobody else's. In a place that every user
-// may write to, such as /tmp, somebody else can make a folder of the expected name first and fill
-// it with code of his own.
+// Folders that only this user can access, for compiled code and similar files. In a folder that
+// everybody can write to, such as /tmp, another user could otherwise create a folder with the
+// expected name first and fill it with malicious code.
 
 #include <filesystem>
 #include <span>
@@ -39,7 +39,7 @@ class PrivateFolder {
 // "triptych-UID" in the folder for temporary files, with the folder `name` in it: for files that
 // have to outlive the process.
 [[nodiscard]] PrivateFolder private_temporary_folder(const std::string& name);
-// Its first part: a name of this user's own.
+// The first part of that path: a name that is unique to this user.
 [[nodiscard]] std::string name_of_this_user();
 
 }  // namespace triptych::core

@@ -15,7 +15,7 @@ bool means_nothing(char c) {
   return letter || std::string_view("_@%+=:,./-").find(c) != std::string_view::npos;
 }
 
-// A word that begins with '=' names a program to zsh.
+// zsh replaces a word that begins with '=' by the path of a program.
 bool needs_no_quotes(std::string_view word) {
   return !word.empty() && word.front() != '=' && std::ranges::all_of(word, means_nothing);
 }
@@ -32,7 +32,8 @@ std::string within_quotes(std::string_view word) {
   return text + "'";
 }
 
-// As a format of printf(1) within double quotes: '!' is history to an interactive bash there.
+// A format of printf(1) within double quotes. There, '!' is history expansion in an interactive
+// bash.
 std::string within_printf(std::string_view word) {
   std::string text = "\"$(printf '";
   for (std::string_view rest = word; !rest.empty();) {
@@ -95,7 +96,7 @@ std::string visible(std::string_view character) {
 
 namespace {
 
-// Takes the first character off the text, as a terminal may have it.
+// Removes the first character from the text and returns it in the form for a terminal.
 std::string take_printable(std::string_view& text) {
   const std::size_t length = utf8_length(text);
   const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));

@@ -1,6 +1,6 @@
 #pragma once
-// SHA-256 (FIPS 180-4), for formats that name it: a page's Content-Security-Policy names its script
-// by it. Contents of our own files are told apart by core/hash.hpp, which is faster.
+// SHA-256 (FIPS 180-4), for formats that require it: the Content-Security-Policy of a page
+// identifies its script by this hash. For comparing contents, core/hash.hpp is faster.
 
 #include <array>
 #include <cstdint>

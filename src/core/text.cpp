@@ -30,8 +30,8 @@ struct Range {
   char32_t first;
   char32_t last;
 };
-// Sorted. Unicode 15: general categories Cc, Zl, Zp and Cf without the joiners, variation selectors
-// aside, and the noncharacters that XML forbids.
+// Sorted ranges of Unicode 15: the general categories Cc, Zl, Zp and Cf without the joiners, the
+// invisible variation selectors, and the noncharacters that XML forbids.
 constexpr std::array<Range, 15> hidden{{
     {0x00, 0x1F},        // C0
     {0x7F, 0x9F},        // DEL, C1

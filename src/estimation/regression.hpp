@@ -51,7 +51,7 @@ struct RobustLine {
   double slope_error = 0;
   double slope_intercept_covariance = 0;
   std::vector<double> residuals;
-  std::vector<double> weights;  // of the last iteration, in [0, 1]; 0 for an outlier
+  std::vector<double> weights;  // weights of the last iteration, in [0, 1]; 0 for an outlier
   // The leverage h of each point: the variance that the error of the fit adds to its residual, in
   // units of ŝ². With the weights of the points it is 1/Σw + (x − x̄)²/Σw(x − x̄)².
   std::vector<double> leverages;

@@ -1,5 +1,5 @@
 #pragma once
-// What two devices must agree on, both for the gate and for comparisons in pairs.
+// The agreement that is required of two devices, for the gate and for comparisons.
 
 #include <array>
 #include <map>
@@ -18,8 +18,8 @@ inline constexpr double device_agreement = 1e-4;
 // differently on another device.
 inline constexpr double counters_across_devices = 1e-4;
 
-// Counters of how a technique works, where one API works in its own way: OpenCL bins spheres that
-// Vulkan and GL draw all at once.
+// Counters of techniques that work differently on one API: OpenCL bins spheres that Vulkan and GL
+// draw at once.
 [[nodiscard]] constexpr bool is_of_the_api(std::string_view counter) {
   return counter == "bin_entries";
 }
@@ -29,8 +29,9 @@ inline constexpr std::array<std::string_view, 5> portable_statistics{
     "input_assembly_vertices", "input_assembly_primitives", "geometry_primitives",
     "tessellation_control_patches", "compute_invocations"};
 
-// What a statistic is worth according to Device::statistics_calibration. Only exact ones are
-// compared with those of other drivers. Without a calibration, the numbers are taken as they are.
+// How exactly a driver counts a statistic, from Device::statistics_calibration. Only exact
+// statistics are compared with those of other drivers. Without a calibration, the numbers are used
+// as they are.
 [[nodiscard]] record::StatisticWorth worth_of(
     const std::map<std::string, record::StatisticWorth>& calibration, const std::string& statistic);
 

@@ -23,16 +23,16 @@ using record::name_of;
 enum class Verdict : std::uint8_t {
   pass,
   improved,      // passes, and is better than the baseline beyond doubt
-  advisory,      // worth knowing but decides nothing: times, another driver version
-  skipped,       // the device cannot do this; the cause says why
+  advisory,      // information that does not affect the verdict: times, another driver version
+  skipped,       // the device cannot do this; the cause has the reason
   waived,        // a known regression, listed in waivers.json or in a file of expectations
   cannot_judge,  // no baseline, nothing measured, other data; never a pass
   regression
 };
 [[nodiscard]] std::string_view name_of(Verdict verdict);
 
-// There is one cause for each sentence. The comments list what comes with it: numbers in quotes,
-// facts in <angles>.
+// Each cause has one sentence. The comments list the data of each cause: numbers in quotes, facts
+// in <angles>.
 enum class Cause : std::uint8_t {
   none,
   // Of any check.
@@ -41,10 +41,10 @@ enum class Cause : std::uint8_t {
   unknown_values,      // names: values without a stored counterpart
   not_stored,          // names: configurations without stored values
   no_stored_device,    // nothing is stored for this device or driver version
-  not_reported,        // the device or the technique reports nothing of the kind
+  not_reported,        // the device or the technique does not report this kind of value
   no_longer_reported,  // names: configurations that reported it when they were accepted
-  untimed,             // the run was not timed, so this was not read
-  // Of a run as a whole.
+  untimed,             // the run was not timed, so these values were not read
+  // Causes about a run as a whole.
   ended,               // a record that was not measured: outcome, reason
   no_run,              // no run was begun
   nothing_measured,    // <run> <plan> "records"
@@ -60,9 +60,9 @@ enum class Cause : std::uint8_t {
   data_changed,        // <hash> <now>: the data differ from those that were measured
   no_baselines,        // <folder>
   nothing_decided,     // of a device
-  device_fault,        // found apart from any configuration: <kind> <subject> <last_words>; detail
-  unused_waiver,       // expired, and excuses nothing: <test> <device> <expiry> <reason>
-  waiver_of_no_test,   // <test>
+  device_fault,   // observed outside of any configuration: <kind> <subject> <last_words>; detail
+  unused_waiver,  // expired, and excuses nothing: <test> <device> <expiry> <reason>
+  waiver_of_no_test,  // <test>
   // Of images.
   within_bound,
   pixels_over_bound,
@@ -79,23 +79,23 @@ enum class Cause : std::uint8_t {
   devices_disagree,  // as for devices_agree
   // Of statistics.
   other_driver_statistics,  // <driver_version> changes names
-  // Of cost and memory.
+  // Causes about cost and memory.
   two_counters,       // <counted_by> <other>
   other_counter,      // <counted_by> <other> <driver_version> <other_version>
   frame_allocations,  // changed; "configurations", <configuration>, changes: the largest
   preparing,          // likewise
-  injected_memory,    // an injected slowdown takes memory itself
+  injected_memory,    // an injected slowdown allocates memory itself
   // Code of GPUs.
   other_executables,  // names: those that only one of the two was compiled in
   other_disassembly,  // names: configurations whose statistics did not change
-  other_compiler,     // <driver_version> <other_version> "configurations" "changed"; changes: totals
+  other_compiler,  // <driver_version> <other_version> "configurations" "changed"; changes: totals
   // Of times.
   time,         // "median_ns" "baseline_ns" "ratio" "half_width"
   times,        // over all configurations of a device
   other_clock,  // names
   no_time,
   same_frames,  // reason
-  wrong_image,  // because: what is wrong with it
+  wrong_image,  // because: the errors in the image
   // Of correlations.
   residuals_as_stored,  // names: devices
   residual_moved,       // names: devices
@@ -130,7 +130,7 @@ enum class Against : std::uint8_t {
   stored_image,   // the image that was accepted
   baseline,       // accepted values of the same driver version
   other_devices,  // accepted values of other devices or driver versions
-  expectation,    // what a stress case expects
+  expectation,    // the expectation of a stress case
 };
 [[nodiscard]] std::string_view name_of(Against against);
 
@@ -178,7 +178,7 @@ struct Observation {
   std::vector<Change> changes = {};
   std::vector<std::string> names = {};            // names of configurations, values or devices
   std::map<std::string, std::string> facts = {};  // identifiers
-  std::string detail = {};                        // what a library or an exception said
+  std::string detail = {};                        // the message of a library or an exception
   record::Outcome outcome = record::Outcome::measured;
   record::Reason reason = {};
   std::vector<Observation> because = {};
@@ -191,7 +191,7 @@ struct Observation {
 // Infinities and NaN are left out: JSON cannot express them, and missing is not zero.
 void set_number(Observation& what, const std::string& name, double value);
 
-// How a waiver or a file of expectations changed a finding.
+// The effect of a waiver or a file of expectations on a finding.
 struct Excuse {
   enum class Of : std::uint8_t {
     nothing,
@@ -207,11 +207,11 @@ struct Excuse {
 };
 [[nodiscard]] std::string_view name_of(Excuse::Of of);
 
-// The result of drawing a regression again.
+// The result of a second attempt after a regression.
 enum class Again : std::uint8_t {
   not_drawn,
   flake,  // right the second time
-  slow,   // a timeout that was right the second time: slow, or it hangs at times
+  slow,   // a timeout that passed the second time: the device is slow, or hangs at times
   other   // see Finding::again
 };
 [[nodiscard]] std::string_view name_of(Again again);
@@ -235,7 +235,7 @@ struct Finding : Observation {
   bool measured_before = false;  // for a skip: the device measured it when it was accepted
   Excuse excuse = {};
   Again drawn_again = Again::not_drawn;
-  // What was found the second time, if the cause is another one.
+  // The finding of the second attempt, if its cause is another one.
   std::vector<Observation> again = {};
 };
 // The same, with the excuse and the injected faults.

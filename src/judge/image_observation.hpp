@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with an image, as data.
+// The errors in an image, as data.
 
 #include "accuracy/image_metrics.hpp"
 #include "judge/finding.hpp"

@@ -1,6 +1,7 @@
 #pragma once
-// What a run set out to measure. It is stored before the first configuration is measured, so that a
-// reader of the store can distinguish a complete run from one that was cut short or lost rows.
+// The planned devices and configurations of a run. They are stored before the first configuration
+// is measured, so that a reader of the store can distinguish a complete run from one that was cut
+// short or lost rows.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -17,18 +18,18 @@ struct Unusable {
   // "OpenCL platform Clover". If the process that listed devices ended, its API, "vulkan", with the
   // part of it in parentheses if there are several, "gl (EGL)".
   std::string what;
-  std::string reason = {};  // what the loader or driver said
-  // How the process that listed devices crashed, hung or answered nonsense. Nobody knows which
-  // devices it would have listed.
+  std::string reason = {};  // the message of the loader or driver
+  // How the process that listed devices crashed, hung or returned garbage. The devices that it
+  // would have listed are not known.
   std::optional<Reason> ended = {};
   bool operator==(const Unusable&) const = default;
 
-  // For a process that ended.
+  // The API whose listing process ended.
   [[nodiscard]] std::string api() const { return what.substr(0, what.find(' ')); }
 };
 
-// One command's part of a run: what it was asked for and what it found. A run that was resumed or
-// merged has several parts.
+// One command's part of a run: the requested devices and the devices that were found. A run that
+// was resumed or merged has several parts.
 struct Beginning {
   std::string host = {};
   std::string program = {};               // the version of Triptych that measured; may be unknown
@@ -52,7 +53,7 @@ void from_json(const nlohmann::json& json, Beginning& beginning);
 // The parts without duplicates, in an order that does not depend on the order of the argument.
 [[nodiscard]] std::vector<Beginning> joined(std::vector<Beginning> parts);
 
-// The ids of the devices that all parts together set out to measure, or found.
+// The ids of the devices that all parts together planned to measure, or found.
 [[nodiscard]] std::vector<std::string> devices_of(const std::vector<Beginning>& parts);
 [[nodiscard]] std::vector<std::string> found_in(const std::vector<Beginning>& parts);
 

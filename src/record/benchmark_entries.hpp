@@ -8,9 +8,9 @@
 
 namespace triptych::record {
 
-// {"merge_patches": […]}: the first entry, then for each further one the merge patch (RFC 7396)
-// that turns the entry before into it. `entries` is an array of flat objects without nulls. The
-// result is empty if there are no entries.
+// {"merge_patches": […]}: the first entry, followed for each further entry by the merge patch (RFC
+// 7396) that converts the previous entry to it. `entries` is an array of flat objects without
+// nulls. The result is empty if there are no entries.
 [[nodiscard]] std::string pack_benchmark_entries(const nlohmann::json& entries);
 
 // The inverse: returns the array of entries. It also reads the text of older stores, which is one

@@ -1,5 +1,6 @@
 #pragma once
-// What can be judged about a run. A plan lists its checks, and the judge has an answer for each.
+// The checks by which a run can be judged. A plan lists its checks, and the judge has a function
+// for each.
 
 #include <cstdint>
 #include <set>
@@ -13,7 +14,7 @@ enum class Check : std::uint8_t {
   counters,     // ours, exact
   statistics,   // the driver's pipeline statistics, exact by driver version
   cost,         // instructions per frame, by driver version
-  code,         // what a GPU's compiler reports of its output, exact by driver version
+  code,         // the report of a GPU's compiler, exact by driver version
   memory,       // bytes allocated on the device, exact
   timing,       // shown; affects the verdict only on request
   correlation,  // the cost on one device as a function of the cost on another

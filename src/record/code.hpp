@@ -13,7 +13,7 @@ struct Executable {
   // "Instructions", which Triptych counts in the disassembly. A statistic that a driver does not
   // report is absent, never zero.
   std::map<std::string, double> statistics;
-  // Content hash of its disassembly, the key of Store::listing(); empty where there is none.
+  // Content hash of its disassembly, the key of Store::listing(); empty if there is none.
   std::string assembly = {};
   bool operator==(const Executable&) const = default;
 };

@@ -10,8 +10,8 @@
 namespace triptych::record {
 
 enum class DeviceFaultKind : std::uint8_t {
-  clock_reads_zero,      // the device's timer gives 0 for work that takes time
-  clock_rate_wrong,      // its ticks are not of the length that the device reports
+  clock_reads_zero,      // the device's timer reads 0 for work that takes time
+  clock_rate_wrong,      // its ticks do not have the length that the device reports
   clock_not_written,     // a time stamp was never written
   statistics_all_zero,   // pipeline statistics of a frame that drew something are all 0
   statistics_crash,      // the driver crashes when it reads pipeline statistics
@@ -26,8 +26,8 @@ enum class DeviceFaultKind : std::uint8_t {
 struct DeviceFault {
   DeviceFaultKind kind = DeviceFaultKind::clock_reads_zero;
   std::string subject = {};     // an identifier: a kind of work, a statistic
-  std::string detail = {};      // what the driver, the library or the exception says
-  std::string last_words = {};  // what the worker printed last
+  std::string detail = {};      // the message of the driver, the library or the exception
+  std::string last_words = {};  // the worker's last output
   bool operator==(const DeviceFault&) const = default;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// What must hold of a stress case besides being right: relations between its picture and others,
-// and bounds on its counters. A suite states them as data, and the judge checks them.
+// The expectations of a stress case in addition to its error bound: relations between its image and
+// others, and limits of its counters. A suite states them as data, and the judge checks them.
 
 #include <array>
 #include <map>
@@ -19,20 +19,20 @@ struct SamePicture {
   Changed changed;
   bool mirrored_x = false;  // left and right exchanged
   bool mirrored_y = false;  // top and bottom exchanged
-  // Pixel (0, 0) shows what the other picture, which may be larger, shows at this position.
+  // Pixel (0, 0) equals the pixel at this position of the other image, which may be larger.
   std::array<int, 2> at{0, 0};
-  bool to_the_bit = true;  // otherwise within the sum of both pictures' bounds
+  bool to_the_bit = true;  // otherwise within the sum of both images' bounds
   bool same_ids = true;  // if not: the particles are numbered differently, and ids are not compared
   float depth_scale = 1;  // depths of the other picture over depths of this one; a power of two
 };
 
-// Every pixel has this colour, to the bit.
+// Every pixel has exactly this colour.
 struct OneColour {
   std::array<float, 4> rgba{};
 };
 
-// The counter `counter` is at most `factor` times the counter `of` (times 1 where `of` is empty).
-// `of` is read from the same record or, where `changed` names one, from another.
+// The counter `counter` is at most `factor` times the counter `of` (times 1 if `of` is empty). `of`
+// is read from the same record or, if `changed` names one, from another record.
 struct CountAtMost {
   std::string counter;
   double factor = 0;
@@ -40,12 +40,12 @@ struct CountAtMost {
   Changed changed = {};
 };
 
-// A device may skip the case with a reason, and that is right: the case exceeds limits that devices
-// may have. A device that does not skip it has to draw it.
+// A device may skip the case with a reason, because the case exceeds limits that devices may have.
+// A device that does not skip it has to draw it.
 struct MayBeRefused {};
 
 struct Expectation {
-  std::string what;  // one line for people: what is expected, and why
+  std::string what;  // one line for people: the expectation and its reason
   std::variant<SamePicture, OneColour, CountAtMost, MayBeRefused> rule;
 };
 

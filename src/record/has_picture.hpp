@@ -1,5 +1,5 @@
 #pragma once
-// Which records have an image that can be judged.
+// Distinguishes records that have an image to judge from others.
 
 #include "record/record.hpp"
 

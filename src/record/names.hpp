@@ -24,7 +24,7 @@ template <typename Enum, std::size_t N>
   return "unknown";
 }
 
-// Throws an InputError that lists the valid names. `what` says what is named: "outcome", "cause".
+// Throws an InputError that lists the valid names. `what` is the kind of name: "outcome", "cause".
 template <typename Enum, std::size_t N>
 [[nodiscard]] Enum named_in(const Names<Enum, N>& names, std::string_view what,
                             std::string_view name) {

@@ -16,7 +16,7 @@ namespace triptych::record {
 
 enum class Outcome : std::uint8_t {
   measured,
-  skipped,  // the device or technique cannot do this
+  skipped,  // the device or technique does not support this
   failed,   // an error of Triptych or of the API
   crashed,  // the worker died
   hung,     // the worker was stopped at its time limit
@@ -28,7 +28,8 @@ enum class Outcome : std::uint8_t {
 enum class Cause : std::uint8_t {
   none,           // it was measured
   same_frames,    // measured as another configuration, whose frames would be the same
-  not_supported,  // the device, driver or technique cannot do this; `detail` says what is lacking
+  not_supported,  // the device, driver or technique does not support this; `detail` has the missing
+                  // feature
   bad_input,      // a broken file, or factor levels that contradict each other
   no_emulator,    // instructions cannot be counted on this machine
   not_on_processor,  // instructions can be counted only on a processor
@@ -49,7 +50,7 @@ enum class Cause : std::uint8_t {
 [[nodiscard]] std::string_view name_of(Cause cause);
 [[nodiscard]] Cause cause(std::string_view name);  // throws InputError
 
-// What the worker was doing at that moment.
+// The activity of the worker at that moment.
 enum class Stage : std::uint8_t {
   working,   // on the configuration
   opening,   // the device
@@ -63,13 +64,13 @@ struct Reason {
   Stage stage = Stage::working;
   std::map<std::string, double> numbers = {};  // the unit is part of the name
   std::string subject = {};                    // an identifier: a call, a device, a data set
-  std::string code = {};                       // what an API call returned
-  // Not attempted, because configurations that share these levels ended like this. If the levels
-  // are empty, all did.
+  std::string code = {};                       // the error code of an API call
+  // Not attempted, because configurations that share these levels ended in this way. If there are
+  // no levels, all configurations did.
   bool not_tried = false;
   std::string shared_levels = {};  // "factor=value,…"
-  std::string detail = {};         // what a driver, a library or an exception said
-  std::string last_words = {};     // what the worker printed last
+  std::string detail = {};         // the message of a driver, a library or an exception
+  std::string last_words = {};     // the worker's last output
   bool operator==(const Reason&) const = default;
 
   [[nodiscard]] std::optional<double> number(const std::string& name) const;
@@ -77,19 +78,19 @@ struct Reason {
   [[nodiscard]] std::optional<std::chrono::seconds> limit() const;
 };
 
-// Whether two reasons are of one kind, whatever their texts and time limits are.
+// Whether two reasons are of the same kind, whatever their texts and time limits are.
 [[nodiscard]] bool is_same_kind(const Reason& a, const Reason& b);
-// This text is equal for two reasons exactly if they are of one kind.
+// This text is equal for two reasons if and only if they are of the same kind.
 [[nodiscard]] std::string kind_of(const Reason& reason);
 
-// Thrown where a configuration or a device that was not measured ends a command.
+// Thrown if a configuration or a device that was not measured ends a command.
 class NotMeasured : public core::Error {
  public:
   NotMeasured(Outcome outcome, Reason reason);
   [[nodiscard]] Outcome outcome() const noexcept { return outcome_; }
   [[nodiscard]] const Reason& reason() const noexcept { return reason_; }
-  // Where the device cannot do what is asked (skipped), the command ends with cannot_judge; in
-  // every other case with usage.
+  // If the device does not support the request (skipped), the command ends with cannot_judge,
+  // otherwise with usage.
   [[nodiscard]] core::ExitCode exit_code() const noexcept;
 
  private:

@@ -85,8 +85,8 @@ std::vector<double> sorted_numbers(std::vector<double> samples) {
 std::string Device::key() const {
   std::string key = fmt::format("{}; driver {}; API {}", one_line(id), one_line(driver_version),
                                 one_line(api_version));
-  // For a CPU device the features decide which code is generated; GPUs with the same driver are
-  // told apart by their names.
+  // For a CPU device the features determine the generated code. GPUs with the same driver are
+  // distinguished by their names.
   if (!cpu_features.empty()) {
     key += "; CPU " + one_line(cpu_features);
   } else if (!name.empty()) {

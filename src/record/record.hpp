@@ -1,5 +1,5 @@
 #pragma once
-// What was measured: one Record for each configuration, device and run. Everything above (judge,
+// The measurements: one Record for each configuration, device and run. Everything above (judge,
 // report) works from records only, on a machine without any of the devices.
 
 #include <cstddef>
@@ -41,19 +41,19 @@ struct Device {
   // hardware that is not here, and nothing is ever executed on it. Empty: the device executes.
   std::string compiles_for = {};
 
-  // What times and the bits of images depend on: id, driver version, API version, CPU features or
-  // otherwise the name of the hardware, and environment. It is one line of text; `key_hash` is a
-  // short file name that is made from it.
+  // Everything that times and the bits of images depend on: id, driver version, API version, CPU
+  // features or otherwise the name of the hardware, and environment. It is one line of text;
+  // `key_hash` is a short file name that is computed from it.
   [[nodiscard]] std::string key() const;
   [[nodiscard]] std::string key_hash() const;
-  // What pipeline statistics depend on: id and driver version. It is also a file name: a readable
-  // part and a hash.
+  // Everything that pipeline statistics depend on: id and driver version. It is also a file name: a
+  // readable part and a hash.
   [[nodiscard]] std::string statistics_key() const;
   bool operator==(const Device&) const = default;
 };
 
 // Whether the clock of a device is trusted, for each kind of work ("compute", "draw"): the device
-// time of a calibration workload over its wall-clock time, as the median and the range.
+// time of a calibration workload divided by its wall-clock time, as the median and the range.
 struct ClockTrust {
   std::string work;
   bool offered = false;  // the device reports a time at all
@@ -83,7 +83,7 @@ struct Record {
   std::map<std::string, std::string> factors;  // every factor; defaults are resolved
 
   Outcome outcome = Outcome::failed;
-  // For every outcome except measured, and for records that were not measured themselves.
+  // Set for every outcome except measured, and for records that copied their frames.
   Reason reason;
   // The configuration of the same run and device whose frames these are: in this scene both are the
   // same work, and the other one was measured. Empty: this one was measured.
@@ -96,12 +96,12 @@ struct Record {
   std::vector<double> device_ns;  // empty if the device reports no time
   bool device_clock_trusted = false;
   int warm_up_frames = 0;
-  int frames_per_100ms = 0;  // as the warm-up found it
+  int frames_per_100ms = 0;  // estimated during warm-up
   double loop_wall_ns = 0;   // the whole wall-clock loop at the end
   int loop_frames = 0;
   double prepare_ns = 0;   // data, pipelines, upload
   double overhead_ns = 0;  // wall clock of this configuration outside device work and warm-up
-  std::uint64_t peak_memory_bytes = 0;  // of the worker so far
+  std::uint64_t peak_memory_bytes = 0;  // peak of the worker process so far
 
   // Instructions that the worker executed during one frame of the timed build, by the memory in
   // which they were: "device_code", "driver", "libc", "program". Also "allocations", which are
@@ -110,10 +110,11 @@ struct Record {
   Counts cost;
   Counts prepare_cost;
   Code code;                // of plans that check `code`; empty where no compiler reported any
-  std::string counted_by;   // by what: emulator, its version, the processor it shows
+  std::string
+      counted_by;  // the counter: the emulator, its version, and the processor that it simulates
   Counts memory;            // bytes allocated on the device for this configuration, by kind
-  Counts energy;            // microjoules for each frame, by meter; empty without a meter
-  Counts counters;          // Triptych's own; empty unless a counting frame was drawn
+  Counts energy;            // microjoules per frame, by meter; empty if there are no meters
+  Counts counters;          // Triptych's own counters; empty if no counting frame was drawn
   Counts statistics;        // the driver's
   std::string image;        // content hash, the key for Store::image(); empty if there is none
   std::string data_hash;    // content hash of the scene's data
@@ -161,11 +162,11 @@ struct Run {
   // Processor, cores, memory, OS, kernel, compiler, version of Triptych.
   std::map<std::string, std::string> system;
   Checks checks = {};                // the checks of its plan
-  std::string plan_hash = {};        // of the text of the plan
+  std::string plan_hash = {};        // hash of the plan's text
   std::uint64_t configurations = 0;  // the number that it was to measure on each device
   // One for each command that measured for this run; empty in a store that no command wrote.
   std::vector<Beginning> begun = {};
-  std::string planned_hash = {};  // of the keys of those configurations, Store::planned()
+  std::string planned_hash = {};  // hash of the keys of those configurations, Store::planned()
 };
 
 // The argument PLAN of `triptych run` and `triptych compare` for a run's plan: SUITE/PLAN is used

@@ -1,5 +1,5 @@
 #pragma once
-// How exactly a driver counts a pipeline statistic, as scenes with known answers showed
+// How exactly a driver counts a pipeline statistic, determined with scenes whose numbers are known
 // (measure/protocol/statistics_calibration.hpp).
 
 #include <cstdint>

@@ -113,8 +113,9 @@ void Store::begin(const std::string& run, const Beginning& beginning,
       known.planned_hash = hash_of_planned(planned);
       insert_run(state_->database, known);
     });
-    // Whoever copies the file without its log, after a run was killed, still copies what the run
-    // set out to do. The copy would otherwise end with the run before it, which may have passed.
+    // A copy of the store's file without its log, after a run was killed, must still contain the
+    // beginning of the run. Otherwise the copy would end with the previous run, which may have
+    // passed.
     static_cast<void>(state_->database.tryExec("PRAGMA wal_checkpoint(PASSIVE)"));
   });
 }

@@ -66,7 +66,8 @@ class Store {
   // processes call this at once, one adds its run and the others find it.
   [[nodiscard]] Run latest_run_or_add(const Run& run);
   // A command begins to measure these configurations for the run, which must exist. This is written
-  // to the disk immediately, so that a run that is cut short afterwards shows what it lacks.
+  // to the disk immediately, so that a reader can see what is missing from a run that was cut
+  // short.
   void begin(const std::string& run, const Beginning& beginning,
              std::span<const std::string> configurations);
   void add_device(const std::string& run, const Device& device,
@@ -84,7 +85,7 @@ class Store {
   void unbegin_record(const std::string& run, const std::string& configuration,
                       const std::string& device);
   void set_truth(const TruthImage& truth);
-  // A disassembly, which records name by its content hash; known ones are left alone.
+  // A disassembly. Records refer to it by its content hash. An existing one is kept.
   void add_listing(std::string_view hash, std::string_view text);
 
   [[nodiscard]] std::vector<Run> runs() const;  // oldest first
@@ -117,7 +118,7 @@ class Store {
   [[nodiscard]] core::Image picture(std::string_view hash) const;
   [[nodiscard]] std::optional<TruthImage> truth(std::string_view scene,
                                                 std::string_view version) const;
-  // The disassembly with this hash; nullopt where the store has none.
+  // The disassembly with this hash; nullopt if the store has none.
   [[nodiscard]] std::optional<std::string> listing(std::string_view hash) const;
 
  private:

@@ -66,9 +66,9 @@ SQLite::Database open_to_read(const std::filesystem::path& file,
           file.string()));
     }
   }
-  // Reading a file in WAL mode needs two more files beside it. Where the folder cannot be written,
-  // SQLite opens the file only if it is promised that nobody else writes to it, and in such a
-  // folder that is true.
+  // Reading a file in WAL mode needs two more files next to it. If the folder is read-only, SQLite
+  // opens the file only if the caller guarantees that nobody else writes to it, which is true for
+  // such a folder.
   SQLite::Database database(immutable_uri(file),
                             SQLite::OPEN_READONLY | SQLite::OPEN_URI | one_thread,
                             milliseconds_of(busy_limit));
@@ -97,7 +97,7 @@ SQLite::Database open_to_append(const std::filesystem::path& file,
   SQLite::Database database(file_name(file),
                             SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE | one_thread,
                             milliseconds_of(busy_limit));
-  // SQLite opens a file that it may not write for reading, and says nothing.
+  // SQLite opens a read-only file for reading, without reporting it.
   if (sqlite3_db_readonly(database.getHandle(), "main") == 1) {
     throw core::IoError(fmt::format("{}: is read-only; nothing can be added", file.string()));
   }
@@ -105,8 +105,8 @@ SQLite::Database open_to_append(const std::filesystem::path& file,
   require_our_schema(database, file);
   write_ahead(database, busy_limit);
   // In WAL mode, NORMAL survives the death of any process. Only a loss of power can cost the last
-  // transactions, and even then the file stays whole. What has to survive that is flushed to the
-  // disk (Store::begin_record).
+  // transactions, and even then the file stays intact. Data that must survive a loss of power are
+  // flushed to the disk (Store::begin_record).
   database.exec("PRAGMA synchronous = NORMAL");
   database.exec("PRAGMA foreign_keys = ON");
   return database;

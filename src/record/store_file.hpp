@@ -37,8 +37,8 @@ void require_file(const std::filesystem::path& file, SQLite::Database& database)
 
 [[noreturn]] void throw_damaged(const std::filesystem::path& file, std::string_view what);
 
-// Runs `action` and translates SQLite's errors, and those of the code that reads the columns, into
-// ours.
+// Runs `action` and converts SQLite's errors, and errors of reading columns, to those of this
+// project.
 template <typename Action>
 decltype(auto) on_store(const std::filesystem::path& file, Action&& action) {
   try {

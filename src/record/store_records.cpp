@@ -63,7 +63,7 @@ std::int64_t insert_row(const SQLite::Database& database, const Record& r) {
   return database.getLastInsertRowid();
 }
 
-// A record as it is in its row, which does not contain all of it.
+// The columns of a record in its row, which does not contain all of the record.
 struct Row {
   std::int64_t seq = 0;
   std::string seal;

@@ -16,7 +16,8 @@ namespace {
 
 using core::Json;
 
-// As Json prints it, because text that is not UTF-8 must not stop a run (see record.hpp).
+// Text is stored as Json prints it, because text that is not UTF-8 must not stop a run (see
+// record.hpp).
 std::string text_of(const std::map<std::string, std::string>& map, const char* field,
                     const Json& owner) {
   return map.empty() ? "{}" : core::json_text(owner.at(field));

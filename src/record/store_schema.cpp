@@ -264,8 +264,8 @@ const Objects& our_objects() {
   return ours;
 }
 
-// A trigger could replace what is added, and a view or another form of a table what is read. Other
-// tables are left alone.
+// A trigger could replace new rows, and a view or another form of a table could replace the rows
+// that are read. Other tables are left alone.
 void require_our_objects(const SQLite::Database& database, const std::filesystem::path& file) {
   const Objects found = objects_of(database);
   for (const auto& [object, statement] : our_objects()) {

@@ -66,7 +66,7 @@ class Reader {
 
   Reader& operator>>(std::string& text) {
     const SQLite::Column column = row_.getColumn(index_++);
-    // Everything that is made of a text, its seal first, takes several times its size.
+    // An object that is made from a text, and its seal, take several times the text's size.
     constexpr int most = 64 << 20;
     if (column.getBytes() > most) {
       throw core::InputError(fmt::format("holds a text of {} bytes; the longest that is read has {}",

@@ -1,5 +1,5 @@
 #pragma once
-// How a frame fails, by the rules of the gate.
+// Determines how a frame fails, by the rules of the gate.
 
 #include <functional>
 #include <optional>

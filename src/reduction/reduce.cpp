@@ -56,7 +56,7 @@ class Search {
     return any;
   }
 
-  // Takes the simplest level that still fails.
+  // Chooses the simplest level that still fails.
   bool take_first(const measure::Factor& factor) {
     const std::string from = result_.smallest.at(factor.name);
     for (const std::string& level : plainer(factor, from)) {

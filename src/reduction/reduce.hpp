@@ -25,7 +25,7 @@ struct Step {
 
 struct Reduction {
   measure::Configuration smallest;
-  Failure failure;  // of the smallest configuration
+  Failure failure;  // failure of the smallest configuration
   std::vector<Step> steps;
   int frames = 0;        // number of frames drawn
   bool complete = true;  // no simpler level of any factor fails in this way; otherwise the search

@@ -51,7 +51,7 @@ namespace triptych::reference {
 
 // Points of one piece that a device looks at: two, and `open` more or fewer are possible.
 struct OpenPoints {
-  double begin = 0;  // of the piece, from the ray's entry
+  double begin = 0;  // distance of the piece from the ray's entry
   double end = 0;
   double most = 2;
   double open = 0;
@@ -138,9 +138,9 @@ class CellRule {
   struct Part {
     double begin = 0;
     double end = 0;
-    Cubic cubic;           // positions among the table's entries along the part
+    Cubic cubic;           // values as positions among the table's entries, along the part
     double error = 0;      // error of these positions
-    bool certain = false;  // every device sees something of it
+    bool certain = false;  // whether every device sees some of it
     bool touches_a_kink = false;
     std::array<double, 2> of_cell{};  // the ends of its cell
   };

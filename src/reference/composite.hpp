@@ -1,5 +1,5 @@
 #pragma once
-// Front-to-back compositing of one ray, with the bound on the result of a device.
+// Front-to-back compositing of one ray, with the error bound for a device's result.
 
 #include <array>
 #include <cstddef>

@@ -155,7 +155,8 @@ typename Field<Stored>::Read Field<Stored>::read(const glm::dvec3& p, const glm:
   return result;
 }
 
-// In stored units. For any weights, a device's value stays within the range of the voxels.
+// The bound is in stored units. For any weights, a device's value stays within the range of the
+// voxels.
 template <typename Stored>
 double Field<Stored>::error_of(const Read& read, const glm::dvec3& e) const {
   if (!read.local) return range_;

@@ -71,7 +71,7 @@ void Preintegration::add(const PathPiece& piece, int level, Light& light) {
                                                  0.3260725774312731, 0.1739274225687269};
   const double opacity = opacity_of(depth);
   const double front = std::exp(-light.depth);
-  if (!std::isfinite(depth)) {  // opaque throughout: nothing behind its front is visible
+  if (!std::isfinite(depth)) {  // opaque everywhere: nothing behind its front is visible
     for (std::size_t i = 0; i < 3; ++i) light.colour[i] += front * piece.a[i];
   } else if (opacity > 0.0) {
     std::array<double, 3> colour{};

@@ -27,8 +27,8 @@ struct HistorySample {
 
 struct RayHistory {
   glm::dvec3 entry{};                  // in voxels
-  glm::dvec3 stride{};                 // one step, in voxels
-  std::vector<HistorySample> samples;  // of every index, also those without opacity
+  glm::dvec3 stride{};                 // length of one step, in voxels
+  std::vector<HistorySample> samples;  // samples of every index, including those without opacity
 };
 
 // The ray of pixel (x, y) in render_volume with the same model. Quadrature midpoint and

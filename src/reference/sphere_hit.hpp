@@ -12,7 +12,7 @@ namespace triptych::reference {
 // How a ray from the origin passes a sphere. It computes the foot of the perpendicular first and
 // then r² − p², which does not cancel, however far away the sphere is.
 struct Passage {
-  double distance = 0;      // of the centre from the eye
+  double distance = 0;      // distance of the centre from the eye
   double along = 0;         // b: of the centre, measured along the ray
   double across = 0;        // p: of the centre from the ray
   double half_squared = 0;  // h² = r² − p², with h half the chord; negative if the ray misses

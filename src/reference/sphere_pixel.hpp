@@ -1,5 +1,6 @@
 #pragma once
-// One pixel of a particle scene: what its ray shows, and what nearby rays may show instead.
+// One pixel of a particle scene: the surface that its ray shows, and the surfaces that nearby rays
+// may show instead.
 
 #include <array>
 #include <cstddef>
@@ -24,7 +25,7 @@ struct SpherePixel {
   bool certain = false;
 };
 
-// Data shared by all pixels of an image. Scene and model must outlive it.
+// Data that all pixels of an image share. Scene and model must outlive it.
 class SpherePicture {
  public:
   SpherePicture(const scene::ParticleScene& scene, const SphereErrorModel& model);

@@ -1,5 +1,5 @@
 #pragma once
-// What a reader of a verdict has to know, whatever the verdict is.
+// Facts that a reader of any verdict has to know.
 
 #include <span>
 #include <string>

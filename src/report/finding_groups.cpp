@@ -98,7 +98,7 @@ bool is_smaller(const Finding* a, const Finding* b) {
   return key(a) < key(b);
 }
 
-// The distance of a finding from what it should be, for comparing findings of one kind.
+// The size of a finding's error, for comparing findings of one kind.
 double severity_of(const Finding& finding) {
   if (finding.cause == judge::Cause::pixels_over_bound) return finding.number("pixels_over");
   double largest = 0;
@@ -116,7 +116,7 @@ const Finding* worse_of(const Finding* a, const Finding* b) {
   return severity_of(*b) > severity_of(*a) ? b : a;
 }
 
-// What is known about all findings while groups are made.
+// Data about all findings that are needed to make groups.
 class Grouping {
  public:
   explicit Grouping(std::span<const Finding> findings) {
@@ -217,8 +217,8 @@ class Grouping {
     return {wrong.begin(), wrong.end()};
   }
 
-  // For each factor at most two levels that are affected, or one that is not. More than that would
-  // not help the reader.
+  // For each factor at most two affected levels, or one unaffected level. More would not help the
+  // reader.
   [[nodiscard]] std::string signature_of(const Members& members) const {
     Levels here;
     for (const Finding* each : members) {
@@ -254,8 +254,8 @@ bool is_told_by_a_picture(const Finding& finding) {
   return finding.check == Check::image || finding.check == Check::stress || finding.reason.limit();
 }
 
-// A finding that compares with stored values can only be shown by measuring and judging again, with
-// a store of its own.
+// A finding that compares with stored values can be reproduced only by measuring and judging again,
+// with a separate store.
 void judge_again(const Finding& finding, const judge::GateResult& result, Command& command) {
   command.command = "gate";
   command.object = result.argument.empty() ? result.plan : result.argument;
@@ -350,7 +350,7 @@ bool is_open(const Finding& finding) {
 }
 
 std::string command_of(const Finding& finding, const judge::GateResult& result) {
-  // A command could only show a skip again.
+  // A command would only repeat a skip.
   if (finding.device.empty() || finding.verdict == Verdict::skipped) return {};
   if (finding.configuration.empty() && finding.check != Check::correlation) return {};
   Command command{.command = "render",
@@ -360,13 +360,13 @@ std::string command_of(const Finding& finding, const judge::GateResult& result) 
                   .injected = finding.injected,
                   .limit = finding.reason.limit(),
                   .more = {"--truth", "--out", "repro"}};
-  // For the check of code nothing is drawn; the command prints what the compiler makes of the code.
+  // The check of code draws nothing; the command prints the compiled code and its statistics.
   if (finding.check == Check::code) {
     command.command = "code";
     command.more.clear();
     return text_of(command);
   }
-  // Counting has a time limit of its own.
+  // Counting has a separate time limit.
   if (finding.check == Check::cost) command.limit.reset();
   if (!is_told_by_a_picture(finding)) {
     if (!is_open(finding) || !is_known(result)) return {};

@@ -11,7 +11,7 @@
 
 namespace triptych::report {
 
-// The party at fault, as far as the other devices show it.
+// The component at fault, as far as the other devices show it.
 struct Blame {
   enum class Of : std::uint8_t {
     unknown,
@@ -40,7 +40,7 @@ struct FindingGroup {
   std::size_t changed_with_it = 0;
   std::vector<const judge::Finding*> members = {};
   std::string kind = {};  // judge::kind_of its findings
-  // The member that is farthest from what it should be: the most wrong pixels, the largest change.
+  // The member with the largest error: the most wrong pixels, the largest change.
   const judge::Finding* worst = nullptr;
   [[nodiscard]] Blame blame() const;
 };
@@ -62,10 +62,10 @@ struct FindingGroup {
 // group.
 bool take_in(FindingGroup& group, const FindingGroup& other);
 
-// Neither a pass nor advisory: somebody has to look at it.
+// Neither a pass nor advisory, so that somebody has to look at it.
 [[nodiscard]] bool is_open(const judge::Finding& finding);
 
-// A command, ready to be pasted, that shows a finding of the result again. It contains the settings
+// A command that reproduces a finding of the result, ready to be pasted. It contains the settings
 // that were made for the device. Empty if no such command is known.
 [[nodiscard]] std::string command_of(const judge::Finding& finding,
                                      const judge::GateResult& result);

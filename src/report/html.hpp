@@ -107,8 +107,8 @@ using Rows = std::vector<TableRow>;
 // `src` but `data-same`, with the number of that image among all `img` elements.
 [[nodiscard]] Html without_repeated_pictures(const Html& page);
 
-// A table whose first row is its head. Columns of quantities are aligned to the right by the class
-// "number" of the style sheet.
+// A table whose first row is its head. Columns of quantities get the class "number" of the style
+// sheet, which aligns them to the right.
 [[nodiscard]] Html table(const Rows& rows, std::string_view css_class = {});
 
 // "12.3 ms", "850 µs": three significant digits.

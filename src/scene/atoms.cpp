@@ -17,15 +17,15 @@
 namespace triptych::scene {
 namespace {
 
-// How one kind is drawn.
+// The radius and colour of one kind.
 struct Look {
   double radius = 0;
   Rgb rgb{};
   double intensity = 0;
 };
 
-// The ranks of the kinds in an order that does not depend on which comes first in the file:
-// elements by atomic number, types by number, whatever else there is after them by name.
+// The ranks of the kinds. They do not depend on the order in the file: elements are sorted by
+// atomic number, types by number, and all others after these by name.
 std::vector<std::size_t> ranks_of(const Atoms& atoms) {
   const auto key = [&atoms](std::size_t kind) {
     const std::string& name = atoms.kind_names[kind];
@@ -40,7 +40,7 @@ std::vector<std::size_t> ranks_of(const Atoms& atoms) {
   return ranks;
 }
 
-// Half the median distance to the nearest neighbour; a unit across where there is no other place.
+// Half the median distance to the nearest neighbour; ½ if there is only one position.
 double radius_without_elements(const Atoms& atoms) {
   constexpr double lonely_radius = 0.5;
   const auto distance = median_nearest_distance(atoms.places);
@@ -84,7 +84,7 @@ std::vector<std::uint32_t> sorted_by_number(const Atoms& atoms, const LineReader
   return sorted;
 }
 
-// How many atoms each kind has, in the order of the ranks.
+// The number of atoms of each kind, in the order of the ranks.
 std::vector<ReadFacts::Kind> counted_kinds(const Atoms& atoms) {
   const std::vector<std::size_t> ranks = ranks_of(atoms);
   std::vector<ReadFacts::Kind> kinds(ranks.size());
@@ -95,7 +95,7 @@ std::vector<ReadFacts::Kind> counted_kinds(const Atoms& atoms) {
   return kinds;
 }
 
-// "3 of Xx, 1 of Qq", or nothing where every kind is an element.
+// "3 of Xx, 1 of Qq"; empty if every kind is an element.
 std::string without_element(const std::vector<ReadFacts::Kind>& kinds) {
   std::string list;
   for (const auto& [name, count] : kinds) {

@@ -13,17 +13,17 @@
 
 namespace triptych::scene {
 
-// What the text formats have in common: places, and elements or types that decide radius and
-// colour. One entry per particle in `places` and `kinds`, as in the file.
+// The common data of the text formats: positions, and elements or types, which decide radius and
+// colour. `places` and `kinds` have one entry per particle, in the order of the file.
 struct Atoms {
   std::vector<std::array<double, 3>> places;  // in the file's unit
   std::vector<std::uint32_t> kinds;           // indices into kind_names
   std::vector<std::string> kind_names;
-  std::vector<double> radii;        // the file's own, one per particle, or none
-  std::vector<std::int64_t> order;  // the file's own numbers, one per particle, or none
-  bool elements = true;             // whether kinds are elements; else they are types
-  double angstrom = 1;              // how long an ångström is in the file's unit
-  std::vector<std::string> notes;   // what had to be guessed (ReadFacts::notes)
+  std::vector<double> radii;        // from the file, one per particle, or empty
+  std::vector<std::int64_t> order;  // numbers from the file, one per particle, or empty
+  bool elements = true;             // whether kinds are elements; otherwise they are types
+  double angstrom = 1;              // the length of an ångström in the file's unit
+  std::vector<std::string> notes;   // guesses that were made (ReadFacts::notes)
 
   // The index of a kind, which is new or known.
   [[nodiscard]] std::uint32_t kind(std::string_view name);
@@ -42,9 +42,10 @@ struct Atoms {
   std::map<std::string, std::uint32_t, std::less<>> index_;
 };
 
-// Spheres with radii and colours as load_particles documents them, in ascending `order` where there
-// is one: ids are then ranks in it, the same in each frame of a trajectory. Throws InputError for a
-// number given twice; `first_line` is where the first atom stands in the file, one on each line.
+// Converts to spheres, with radii and colours as load_particles documents them. If there is an
+// `order`, the spheres are sorted by it and ids are ranks in it, so that they are the same in each
+// frame of a trajectory. Throws InputError for a number that appears twice; `first_line` is the
+// line of the first atom in the file, which has one atom on each line.
 [[nodiscard]] ParticleSet to_particles(Atoms atoms, ColourKind colour, const LineReader& reader,
                                        int first_line = 0);
 

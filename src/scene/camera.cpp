@@ -26,13 +26,13 @@ constexpr std::array<std::string_view, 16> paths{
     "diagonal_xyz", "diagonal_-xyz", "diagonal_x-yz", "diagonal_xy-z", "path_x",   "path_y",
     "path_z",       "path_sin_x",    "path_sin_y",    "path_sin_z"};
 
-// The box around which every path of the camera is laid out.
+// The box around which all camera paths are laid out.
 struct Stage {
   dvec3 centre;
   dvec3 size;
   double largest = 0;
-  double tangent = 0;   // of half the field of view
-  double distance = 0;  // from which the largest extent just fills the view
+  double tangent = 0;   // the tangent of half the field of view
+  double distance = 0;  // the distance at which the largest extent just fills the view
 
   Stage(const Box& box, double fov_y_deg)
       : centre(0.5 * (box.lo + box.hi)),

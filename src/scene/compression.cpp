@@ -22,7 +22,7 @@ namespace {
 struct Magic {
   std::string_view bytes;
   std::string_view name;
-  std::string_view command;  // that unpacks a file of that kind
+  std::string_view command;  // a command that unpacks a file of that kind
 };
 constexpr std::array<Magic, 5> foreign{{{"\xFD"
                                          "7zXZ",
@@ -32,7 +32,7 @@ constexpr std::array<Magic, 5> foreign{{{"\xFD"
                                         {"7z\xBC\xAF", "7-Zip", "7z x"},
                                         {"\x1F\x9D", "compress", "uncompress"}}};
 
-// As Inflater, of bzip2: one stream or several after one another.
+// Like Inflater, for bzip2: one stream, or several one after the other.
 class Bunzipper {
  public:
   Bunzipper(ByteSource source, std::string name)
@@ -66,7 +66,7 @@ class Bunzipper {
 
  private:
   void open() {
-    // What is left of the input belongs to the next stream.
+    // The remaining input belongs to the next stream.
     char* const next = stream_.next_in;
     const unsigned left = stream_.avail_in;
     stream_ = {};

@@ -1,5 +1,6 @@
 #pragma once
-// Files that are compressed as a whole, known by their first bytes whatever their names are.
+// Files that are compressed as a whole. They are recognized by their first bytes, whatever their
+// names are.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,24 +14,24 @@ namespace triptych::scene {
 
 enum class Packing : std::uint8_t { none, gzip, bzip2 };
 
-// By the first bytes of a file. Throws InputError for a compression that is not supported, with the
-// command that undoes it.
+// Determines the compression from the first bytes of a file. Throws InputError for a compression
+// that is not supported, with the command that unpacks it.
 [[nodiscard]] Packing packing_of(std::span<const std::byte> start, const std::string& file);
 [[nodiscard]] std::string_view name_of(Packing packing);
 
-// What `source` holds, unpacked. Throws InputError while it is read where the stream is broken.
+// The unpacked content of `source`. Reading it throws InputError if the stream is broken.
 [[nodiscard]] ByteSource unpacked(ByteSource source, Packing packing, const std::string& file);
 
-// The bytes of a file from `start` on, as they are. Throws IoError.
+// The bytes of a file from `start` on, without unpacking. Throws IoError.
 [[nodiscard]] ByteSource file_bytes(const std::filesystem::path& file, std::uint64_t start = 0);
 
-// The packing of a file, `none` where its format is to judge it.
+// The compression of a file; `none` if its format decides that.
 [[nodiscard]] Packing packing_of_file(const std::filesystem::path& file);
 
-// What a file holds, unpacked where it is compressed.
+// The content of a file, unpacked if it is compressed.
 [[nodiscard]] ByteSource content_bytes(const std::filesystem::path& file);
 
-// Up to `most` bytes of what a file holds, unpacked, from the first one on.
+// Up to `most` bytes of a file's content, unpacked, from its beginning.
 [[nodiscard]] std::string content_start(const std::filesystem::path& file, std::size_t most);
 
 // Reads and drops so many bytes, or all where there are fewer; returns how many.

@@ -47,9 +47,10 @@ class Description {
 
  private:
   static constexpr std::array<std::string_view, 13> known{
-      "objectfilename", "resolution",     "format",  "slicethickness", "endianness",
-      "taggedfilename", "nbrtags",        "objecttype", "objectmodel", "gridtype",
-      "modality",       "timestep",       "endianess"};  // sic: some programs spell it so
+      "objectfilename", "resolution", "format", "slicethickness", "endianness",
+      // `endianess` is a misspelling of some programs.
+      "taggedfilename", "nbrtags", "objecttype", "objectmodel", "gridtype", "modality", "timestep",
+      "endianess"};
 
   void add(std::string_view line, const core::FilePlace& place) {
     const std::size_t colon = line.find(':');

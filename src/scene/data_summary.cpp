@@ -13,10 +13,10 @@
 namespace triptych::scene {
 namespace {
 
-// A picture of letters, from nothing to much. A letter is about twice as high as it is wide.
+// A picture of letters, from empty to dense. A letter is about twice as high as it is wide.
 class SmallPicture {
  public:
-  // No finer than so many columns and rows, so that each cell gets something of a coarse grid.
+  // The picture has no more columns and rows than the grid, so that no cell remains empty.
   SmallPicture(double width, double height, std::size_t most_columns, std::size_t most_rows) {
     constexpr double longest = 56;
     const double scale = longest / std::max({width, height, std::numeric_limits<double>::min()});
@@ -27,7 +27,7 @@ class SmallPicture {
     cells_.assign(columns_ * rows_, 0);
   }
 
-  // The cell at shares x and y of the picture's width and height, y up.
+  // The cell at a position in the picture, given as shares of its width and height, with y up.
   [[nodiscard]] double& at(double x, double y) {
     const auto place = [](double share, std::size_t count) {
       const double cell = std::clamp(share, 0.0, 1.0) * static_cast<double>(count);
@@ -65,8 +65,8 @@ std::string unit_text(const ReadFacts& facts) {
   return facts.unit.empty() ? " (the file states no unit)" : " " + facts.unit;
 }
 
-// Values counted in equal steps of their range: integers exactly if no more than 65536 differ, others
-// to a 65535th of the range.
+// A histogram with equal steps of the range: exact for integers with at most 65536 different
+// values, otherwise with steps of a 65535th of the range.
 struct Histogram {
   double step = 0;
   std::vector<std::uint64_t> counts = std::vector<std::uint64_t>(65536);
@@ -189,12 +189,11 @@ std::vector<std::string> summary_of(const ParticleSet& set) {
   std::vector<std::string> lines;
   lines.push_back(fmt::format("data: {}", set.name));
   lines.push_back(fmt::format("format: {}", facts.format.empty() ? "generated" : facts.format));
-  lines.push_back(fmt::format("particles: {}{}", set.count(),
-                              set.dropped == 0
-                                  ? ""
-                                  : fmt::format(", and {} dropped, whose place or radius cannot be "
-                                                "drawn",
-                                                set.dropped)));
+  lines.push_back(fmt::format(
+      "particles: {}{}", set.count(),
+      set.dropped == 0 ? ""
+                       : fmt::format(", and {} dropped, whose position or radius cannot be drawn",
+                                     set.dropped)));
   if (!facts.kinds.empty()) {
     std::string kinds = facts.elements ? "elements:" : "types:";
     for (const auto& [name, count] : facts.kinds) kinds += fmt::format(" {} {}", name, count);

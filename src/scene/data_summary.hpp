@@ -1,5 +1,5 @@
 #pragma once
-// What a data set is, at a glance: for `render --describe`.
+// A short description of a data set, for `render --describe`.
 
 #include <string>
 #include <vector>

@@ -1,6 +1,7 @@
 #pragma once
-// Processors either keep denormal floats, at a cost of a hundred cycles each, or take them for 0.
-// So they are set to 0 before data go to a device, which changes every value by less than 2⁻¹²⁶.
+// Processors either process denormal floats, at a cost of a hundred cycles each, or treat them as
+// 0. Therefore they are set to 0 before data are sent to a device, which changes every value by
+// less than 2⁻¹²⁶.
 
 #include <cmath>
 #include <limits>

@@ -18,8 +18,8 @@ namespace {
 
 using Names = std::set<std::string, std::less<>>;
 
-// Residues without any element but H, C, N, O, P and S: those of the PDB's standard, and those of
-// the force fields AMBER, CHARMM, GROMOS and OPLS as their programs write them.
+// Residues that contain only the elements H, C, N, O, P and S: the PDB's standard residues, and
+// those of the force fields AMBER, CHARMM, GROMOS and OPLS in the spelling of their programs.
 constexpr std::string_view organic_residues =
     // amino acids, their protonation states and caps
     "ALA ARG ASN ASP CYS GLN GLU GLY HIS ILE LEU LYS MET PHE PRO SER THR TRP TYR VAL ASX GLX PYL "
@@ -42,7 +42,7 @@ constexpr std::string_view organic_residues =
 constexpr std::string_view hemes = "HEM HEC HEA HEB HEO HAS HDD HEME HEMA";
 constexpr std::string_view chlorophylls = "CLA CHL BCL BCB PHO";
 
-// Names of ions other than the element's own.
+// Names of ions that differ from the element's symbol.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 18> ion_names{
     {{"SOD", "Na"},
      {"CLA", "Cl"},
@@ -63,9 +63,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 18> ion_name
      {"IP", "Na"},
      {"BRO", "Br"}}};
 
-// Symbols that begin like an organic element but are not names of carbon, nitrogen and so on: those
-// have a letter of the Greek alphabet (A, B, G, D, E, Z, H) or another one of the atom that they are
-// bound to.
+// Symbols that begin like an organic element but are not names of carbon, nitrogen and so on. Those
+// names continue with a Greek letter (A, B, G, D, E, Z, H) or with the letter of a bound atom.
 constexpr std::string_view clear_symbols = "CL BR SI SE FE CU NI PT PB CR IR";
 constexpr std::string_view one_letter_symbols = "HBCNOFPSKVYIWUD";
 
@@ -112,18 +111,18 @@ std::string_view ion_of(std::string_view letters) {
   return found == ion_names.end() ? std::string_view{} : found->second;
 }
 
-// The element that a word names as an ion: in its own right, or in a force field's spelling.
+// The element that a word names as an ion, by its symbol or in a force field's spelling.
 std::string ion_symbol(std::string_view letters) {
   if (const std::string_view ion = ion_of(letters); !ion.empty()) return std::string(ion);
   return atomic_number(letters) ? proper_symbol(letters) : std::string{};
 }
 
-// An ion is its residue's only atom, and has its name.
+// An ion is the only atom of its residue and has its name.
 std::string element_of_ion(std::string_view atom, std::string_view residue) {
   const std::string symbol = ion_symbol(atom);
   if (symbol.empty()) return {};
   if (atom == residue || residue == "ION" || residue == "IONS") return symbol;
-  // One in the force field's spelling, the other one as an element.
+  // One of them may be in the force field's spelling and the other an element's symbol.
   const bool spelled = !ion_of(residue).empty() || !ion_of(atom).empty();
   return spelled && ion_symbol(residue) == symbol ? symbol : std::string{};
 }
@@ -146,7 +145,7 @@ std::string guessed_element(std::string_view letters) {
   return atomic_number(two) ? proper_symbol(two) : std::string(unknown_element);
 }
 
-// What the residue settles; nothing where it is not a known one.
+// The element that follows from the residue; unknown if the residue is not known.
 std::string element_of_residue(std::string_view letters, const std::string& residue) {
   static const Names heme_names = split_names(hemes);
   static const Names chlorophyll_names = split_names(chlorophylls);
@@ -159,7 +158,7 @@ std::string element_of_residue(std::string_view letters, const std::string& resi
   return is_organic(residue) ? organic_element(letters) : std::string{};
 }
 
-// "\x01NAME\x01RESIDUE", which no symbol of a file can be.
+// "\x01NAME\x01RESIDUE", which cannot be a symbol in a file.
 constexpr char unnamed_mark = '\x01';
 
 struct Unnamed {
@@ -174,8 +173,8 @@ std::optional<Unnamed> as_unnamed(std::string_view kind) {
   return Unnamed{kind.substr(0, end), kind.substr(end + 1)};
 }
 
-// Whether the names of known residues are adjusted so that symbols end in the second column: some
-// programs adjust all names to the left.
+// Whether the names of known residues are aligned so that symbols end in the second column. Some
+// programs align all names to the left.
 bool are_aligned(const Atoms& atoms) {
   bool any = false;
   for (const std::string& kind : atoms.kind_names) {
@@ -227,7 +226,7 @@ NamedElement element_of_columns(std::string_view columns, std::string_view resid
       atomic_number(letters.substr(0, 2))) {
     return {proper_symbol(letters.substr(0, 2))};
   }
-  // Bromine in column 14 is a mistake that programs make; boron is not named so.
+  // Some programs write bromine in column 14 by mistake. No boron atom has such a name.
   if (letters == "BR") return {"Br", true};
   const bool one_letter =
       !letters.empty() && one_letter_symbols.find(letters.front()) != std::string_view::npos;
@@ -236,7 +235,7 @@ NamedElement element_of_columns(std::string_view columns, std::string_view resid
 }
 
 std::uint32_t unnamed_kind(Atoms& atoms, std::string_view columns, std::string_view residue) {
-  // Short enough to need no memory of its own.
+  // Short enough for the small-string optimization.
   std::string key(1, unnamed_mark);
   key += columns.empty() ? std::string_view(" ") : columns;
   key += unnamed_mark;

@@ -10,7 +10,7 @@
 namespace triptych::scene {
 namespace {
 
-// In the order of their atomic numbers.
+// The symbols in the order of their atomic numbers.
 constexpr std::array<std::string_view, 118> symbols{
     "H",  "He", "Li", "Be", "B",  "C",  "N",  "O",  "F",  "Ne", "Na", "Mg", "Al", "Si", "P",
     "S",  "Cl", "Ar", "K",  "Ca", "Sc", "Ti", "V",  "Cr", "Mn", "Fe", "Co", "Ni", "Cu", "Zn",

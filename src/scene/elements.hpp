@@ -1,5 +1,5 @@
 #pragma once
-// Chemical elements: what a particle file's symbols mean for the picture.
+// Chemical elements, with the radii and colours of their atoms.
 
 #include <optional>
 #include <string>
@@ -14,15 +14,15 @@ namespace triptych::scene {
 // 1 … 118, else nothing.
 [[nodiscard]] std::optional<std::string_view> symbol_of(int atomic_number);
 
-// Van der Waals radius in ångström (Bondi 1964); 2.0 for what is not listed there, an unknown
-// symbol among them.
+// Van der Waals radius in ångström (Bondi 1964); 2.0 for elements that are not listed there and for
+// unknown symbols.
 [[nodiscard]] double van_der_waals_radius(std::string_view symbol);
 
-// In the tradition of Corey, Pauling and Koltun: carbon grey, nitrogen blue, oxygen red and so on.
+// The colours of Corey, Pauling and Koltun: carbon grey, nitrogen blue, oxygen red and so on.
 // Elements without such a colour, and unknown symbols, have one of many hues.
 [[nodiscard]] Rgb element_colour(std::string_view symbol);
 
-// A symbol in its proper case: "CL" as "Cl".
+// A symbol in its usual case: "Cl" for "CL".
 [[nodiscard]] std::string proper_symbol(std::string_view symbol);
 
 }  // namespace triptych::scene

@@ -17,11 +17,11 @@ namespace triptych::scene {
 
 namespace {
 
-// Calls `take` with each piece of what the compressed stream holds.
+// Calls `take` with each piece of the unpacked stream.
 template <typename Take>
 void unpack(const std::vector<std::byte>& packed, Packing packing, const std::string& name,
             ProgressSteps& steps, Take&& take) {
-  // Small enough that the progress moves in steps of a hundredth.
+  // Small enough that the progress is reported in steps of at most one per cent.
   const std::size_t sip = std::max<std::size_t>(packed.size() / 200, 1);
   std::size_t taken = 0;
   const ByteSource source = unpacked(
@@ -41,7 +41,7 @@ void unpack(const std::vector<std::byte>& packed, Packing packing, const std::st
   }
 }
 
-// The stream is read twice: what it holds is counted before memory is taken for it.
+// The stream is read twice: its unpacked size is determined before memory is allocated.
 std::uint64_t count_unpacked(const std::vector<std::byte>& packed, Packing packing,
                              const std::string& name, ProgressSteps& steps, std::uint64_t most) {
   std::uint64_t count = 0;

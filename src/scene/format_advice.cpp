@@ -13,7 +13,8 @@
 namespace triptych::scene {
 namespace {
 
-// A format that is not read, the nearest one that is, and the command of a common program.
+// A format that is not supported, the nearest supported one, and the conversion command of a common
+// program.
 struct Conversion {
   std::string_view endings;
   std::string_view what;
@@ -85,7 +86,7 @@ std::string advice(std::string_view ending, std::span<const Conversion> conversi
   if (known == conversions.end()) {
     return fmt::format("expected {}, plain or compressed with gzip or bzip2", endings);
   }
-  return fmt::format("{} is {}; the nearest format that is read is {}: {} (read are {})", ending,
+  return fmt::format("{} is {}; the nearest supported format is {}: {} (supported: {})", ending,
                      known->what, known->to, known->command, endings);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Help for files that cannot be read: the nearest format that can, and the command that makes it.
+// Advice for files that cannot be read: the nearest supported format, and the command that converts
+// to it.
 
 #include <string>
 #include <string_view>
@@ -13,8 +14,8 @@ namespace triptych::scene {
 [[nodiscard]] std::string particle_endings();
 [[nodiscard]] std::string volume_endings();
 
-// Advice on a file of this ending (".xtc", or empty for none): the command that converts it if its
-// format is known, and the endings that are read.
+// Advice on a file with this ending (".xtc", or empty for none): the command that converts it if
+// its format is known, and the supported endings.
 [[nodiscard]] std::string particle_advice(std::string_view ending);
 [[nodiscard]] std::string volume_advice(std::string_view ending);
 

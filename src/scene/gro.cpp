@@ -37,7 +37,7 @@ void add_gro_atom(Atoms& atoms, std::string_view line, std::size_t width,
                   const LineReader& reader) {
   if (line.size() < places_begin + 3 * width) {
     reader.reject(
-        fmt::format("expected an atom with its place in columns 21 to {}, found {} columns",
+        fmt::format("expected an atom with its position in columns 21 to {}, found {} columns",
                     places_begin + 3 * width, line.size()));
   }
   constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
@@ -54,8 +54,8 @@ void add_gro_atom(Atoms& atoms, std::string_view line, std::size_t width,
   atoms.add(place, unnamed_kind(atoms, trimmed(line.substr(10, 5)), line.substr(5, 5)));
 }
 
-// Numbers of a box above 1000 nm touch, and the box is not needed: what must be right is only that
-// this line is not a further atom.
+// The numbers of a box above 1000 nm run into each other. The box is not used, so the line is only
+// checked not to be a further atom.
 void check_box(std::string_view line, const LineReader& reader) {
   const std::size_t words = split_words(line).size();
   const bool numbers = line.find_first_not_of("0123456789.+-eE \t") == std::string_view::npos;

@@ -11,7 +11,7 @@ struct Half {
 };
 
 inline constexpr double largest_half = 65504;
-// Halves below this are subnormal, and devices may take them for 0.
+// Halves below this are subnormal, and devices may treat them as 0.
 inline constexpr double least_normal_half = 0x1.0p-14;
 // The largest relative error of rounding to the nearest half, for values that are not subnormal.
 inline constexpr double half_roundoff = 0x1.0p-11;

@@ -12,10 +12,11 @@ using Vector3 = std::array<double, 3>;
 [[nodiscard]] double dot_product(const Vector3& a, const Vector3& b);
 [[nodiscard]] double length_of(const Vector3& a);
 
-// Which two axes are not perpendicular, as "axes 0 and 1"; empty where all are, to a thousandth.
+// The two axes that are not perpendicular, such as "axes 0 and 1"; empty if all are, to a
+// thousandth.
 [[nodiscard]] std::string sheared_axes(const std::array<Vector3, 3>& axes);
 
-// Where each axis points mostly: "RAS" for an axis along +x, +y and +z of a space whose axes point
+// The main directions of the axes: "RAS" for axes along +x, +y and +z of a space whose axes point
 // to R, A and S. `positive` names the space's own directions, "RAS" or "LPS".
 [[nodiscard]] std::string anatomical_letters(const std::array<Vector3, 3>& axes,
                                              std::string_view positive);

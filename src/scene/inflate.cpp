@@ -15,12 +15,10 @@
 namespace triptych::scene {
 
 void refuse_unpacked(const std::string& file, std::uint64_t most) {
-  throw core::InputError(
-      {.file = file},
-      fmt::format(
-          "unpacks to more than {} bytes; where that is meant, unpack it and name the plain "
-          "file, which may be larger",
-          most));
+  throw core::InputError({.file = file},
+                         fmt::format("unpacks to more than {} bytes; if that is intended, unpack "
+                                     "it yourself, because an uncompressed file may be larger",
+                                     most));
 }
 
 struct Inflater::Stream {
@@ -46,7 +44,8 @@ struct Inflater::Stream {
     return zlib.avail_in > 0;
   }
 
-  // Zero bytes behind a member, with which tapes and block devices fill up; no member begins so.
+  // Zero bytes after a member, which tapes and block devices use for padding. No member begins with
+  // a zero byte.
   void drop_padding() {
     bool padded = false;
     for (; has_input() && *zlib.next_in == 0; ++zlib.next_in, --zlib.avail_in) padded = true;

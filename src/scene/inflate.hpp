@@ -8,8 +8,9 @@
 
 namespace triptych::scene {
 
-// What a gzip stream may hold: a few megabytes can unpack to a thousand times as much. Who means it
-// unpacks the file, as plain files may have any size.
+// The largest unpacked size of a gzip stream, because a few megabytes can unpack to a thousand
+// times as much. Users can unpack a larger file themselves, because uncompressed files may have any
+// size.
 inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{1} << 30;
 
 // Throws InputError: the file unpacks to more than `most` bytes.
@@ -20,19 +21,19 @@ using ByteSource = std::function<std::size_t(std::span<std::byte>)>;
 
 enum class Wrapper : std::uint8_t { gzip, gzip_or_zlib };
 
-// Decompresses a gzip stream (RFC 1952, one member or several, then zero bytes or none) or a zlib
-// stream (RFC 1950) piece by piece into the caller's memory.
+// Decompresses a gzip stream (RFC 1952, one or more members, optionally followed by zero bytes) or
+// a zlib stream (RFC 1950) piece by piece into the caller's memory.
 class Inflater {
  public:
-  // `source` may return fewer bytes than asked for before its end, but none only there. `name` is
-  // the file named in errors.
+  // `source` may return fewer bytes than requested before its end, but 0 bytes only at its end.
+  // `name` is the file's name in errors.
   Inflater(ByteSource source, std::string name, Wrapper wrapper = Wrapper::gzip);
   Inflater(Inflater&&) noexcept;
   Inflater& operator=(Inflater&&) noexcept;
   ~Inflater();
 
-  // Fills `out` and returns its size, or less where the stream ended properly. Throws InputError
-  // for a stream that is damaged, ends early, fails its check sum or is followed by anything else.
+  // Fills `out` and returns its size, or less if the stream ended properly. Throws InputError for a
+  // stream that is damaged, ends early, has a wrong check sum, or is followed by other data.
   std::size_t read(std::span<std::byte> out);
 
   // Reads and drops so many bytes, or all where there are fewer.

@@ -12,14 +12,14 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// Where type and place stand in a line of the Atoms section (LAMMPS manual, read_data); the id is
-// always first. Three image flags may follow.
+// The columns of type and position in a line of the Atoms section (LAMMPS manual, read_data); the
+// id is always first. Three image flags may follow.
 struct Style {
   std::string_view name;
   std::size_t type;
   std::size_t place;
   std::optional<std::size_t> diameter = std::nullopt;
-  std::size_t behind = 0;  // columns between the place and the image flags
+  std::size_t behind = 0;  // number of columns between the position and the image flags
 
   [[nodiscard]] std::size_t flags() const { return place + 3 + behind; }
   [[nodiscard]] bool has_flags(std::size_t words) const { return words == flags() + 3; }
@@ -68,9 +68,10 @@ bool are_whole(const Words& words, std::size_t first) {
                      });
 }
 
-// Without a comment the columns must do: 5 are atomic. So are 8 that end in image flags, but only
-// where the place has a decimal point: an electron and a line have 8 columns that end with their
-// place, which may be whole numbers. 6 and 7 could be two things.
+// Without a comment, the number of columns must determine the style: 5 columns are atomic. 8
+// columns that end in image flags are atomic, too, but only if the position has a decimal point,
+// because the styles electron and line have 8 columns that end with the position, which may consist
+// of whole numbers. 6 and 7 columns are ambiguous.
 const Style& guessed_style(const Words& words, const LineReader& reader) {
   const Style& atomic = styles[0];
   if (words.size() == atomic.flags()) return atomic;
@@ -86,7 +87,7 @@ const Style& guessed_style(const Words& words, const LineReader& reader) {
                   words.size()));
 }
 
-// Reads the header up to the Atoms section, whose style comment it returns.
+// Reads the header up to the Atoms section, and returns the style in its comment.
 std::string_view find_atoms(LineReader& reader, std::optional<std::uint64_t>& count) {
   static_cast<void>(reader.require("a title"));
   for (;;) {
@@ -150,7 +151,7 @@ ParticleSet read_lammps_data(LineReader& reader, std::uint64_t frame, ColourKind
     if (style == nullptr) style = &guessed_style(words, reader);
     add_data_atom(atoms, words, *style, reader);
   }
-  // What follows is blank or nothing: else the count was too small.
+  // The next line must be blank or the end; otherwise the stated count was too small.
   const auto after = reader.next();
   if (after && !trimmed(*after).empty()) {
     reader.reject(fmt::format("expected the section to end after {} atoms", *count));

@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view item_mark = "ITEM: ";
 using DumpWords = std::vector<std::string_view>;
 
-// The simulation's box, to undo scaling.
+// The simulation box, for converting scaled positions.
 struct Cell {
   std::array<double, 3> lo{};
   std::array<double, 3> size{1, 1, 1};
@@ -26,7 +26,7 @@ struct Cell {
   }
 };
 
-// Where the columns that matter stand in a row.
+// The indices of the columns that are used.
 struct Columns {
   std::size_t count = 0;
   std::array<std::size_t, 3> place{};
@@ -39,7 +39,7 @@ struct Frame {
   std::optional<Cell> cell;
 };
 
-// Three lines "lo hi [tilt]". Of a tilted box these are the bounds of the box around it (LAMMPS
+// Three lines "lo hi [tilt]". For a tilted box these are the bounds of the surrounding box (LAMMPS
 // manual, "Triclinic simulation boxes").
 Cell read_cell(LineReader& reader, std::string_view header) {
   constexpr std::array<std::string_view, 3> axes{"x bounds", "y bounds", "z bounds"};
@@ -107,7 +107,8 @@ Columns parse_columns(std::string_view header, const LineReader& reader) {
   reader.reject("expected columns x y z, xu yu zu, xs ys zs or xsu ysu zsu");
 }
 
-// Reads the headers of one frame up to its atoms, whose header it returns without "ITEM: ATOMS".
+// Reads the headers of one frame up to its atoms, and returns the header of the atoms without
+// "ITEM: ATOMS".
 std::string_view read_headers(LineReader& reader, Frame& frame) {
   for (;;) {
     const std::string_view line = reader.require("ITEM: ATOMS");
@@ -178,7 +179,7 @@ ParticleSet read_lammps_dump(LineReader& reader, std::uint64_t frame, ColourKind
     }
     const Columns columns = parse_columns(names, reader);
     if (columns.scaled && !header.cell) {
-      reader.reject("expected ITEM: BOX BOUNDS before scaled places");
+      reader.reject("expected ITEM: BOX BOUNDS before scaled positions");
     }
     const Cell cell = header.cell.value_or(Cell{});
     Atoms atoms;

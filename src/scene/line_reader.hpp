@@ -11,11 +11,11 @@
 
 namespace triptych::scene {
 
-// The largest number of particles: ids are 32 bits wide, and the highest stands for "none".
+// The largest number of particles: ids have 32 bits, and the highest id means "none".
 inline constexpr std::uint64_t most_particles = 0xFFFFFFFEU;
 
-// Walks over the lines of a text and knows its position, so that errors can name the file and the
-// line. The text must outlive the reader.
+// Reads the lines of a text and counts them, so that errors can name the file and the line. The
+// text must outlive the reader.
 class LineReader {
  public:
   LineReader(std::string_view text, std::string file, ProgressSteps progress);
@@ -33,15 +33,15 @@ class LineReader {
   [[noreturn]] void reject(const std::string& message) const { reject_at(line_, message); }
   [[noreturn]] void reject_at(int line, const std::string& message) const;
 
-  // The number that a word spells; throws "WHAT: expected a number, found 'WORD'". NaN and
-  // infinities are numbers here; callers drop positions that contain them.
+  // The number in a word; throws "WHAT: expected a number, found 'WORD'". NaN and infinities are
+  // accepted; callers drop positions that contain them.
   [[nodiscard]] double number(std::string_view word, std::string_view what) const;
   // A count of particles: 0 … most_particles.
   [[nodiscard]] std::uint64_t count(std::string_view word, std::string_view what) const;
   [[nodiscard]] std::int64_t integer(std::string_view word, std::string_view what) const;
 
-  // An upper bound for how many more lines of at least `shortest` characters there can be: memory
-  // may be reserved for as many, whatever count the file claims.
+  // An upper limit for the number of further lines of at least `shortest` characters. This much
+  // memory may be reserved, whatever count the file claims.
   [[nodiscard]] std::size_t room(std::uint64_t claimed, std::size_t shortest) const;
 
   [[nodiscard]] int line() const { return line_; }
@@ -49,7 +49,7 @@ class LineReader {
 
  private:
   std::string_view text_;
-  std::size_t begin_ = 0;  // of the next line
+  std::size_t begin_ = 0;  // offset of the next line
   int line_ = 0;
   std::string file_;
   ProgressSteps progress_;

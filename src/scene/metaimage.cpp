@@ -63,7 +63,7 @@ class MetaHeader {
     }
     return *field;
   }
-  // Whether a key says True; `otherwise` where it is not there.
+  // Whether the value of a key is True; `otherwise` if the key is missing.
   [[nodiscard]] bool flag(const std::string& key, bool otherwise) const {
     const MetaField* field = find(key);
     if (field == nullptr) return otherwise;
@@ -127,7 +127,7 @@ StoredType meta_type(const MetaField& field) {
 std::uint64_t whole_number(const MetaField& field) {
   const auto number = parse_number<std::uint32_t>(field.value);
   if (!number || *number == 0) {
-    throw core::InputError(field.place, fmt::format("'{}'; expected a whole number from 1 on",
+    throw core::InputError(field.place, fmt::format("'{}'; expected a whole number, 1 or more",
                                                     quotable(field.value)));
   }
   return *number;
@@ -171,7 +171,7 @@ void take_meta_sizes(const MetaHeader& header, Volume& volume, ValueLayout& layo
       parse_spacings(first_three(*spacing, dimensions), volume.size, spacing->place);
 }
 
-// The directions of the axes, rows of TransformMatrix; the space is LPS.
+// The directions of the axes, which are the rows of TransformMatrix; the space is LPS.
 void note_directions(const MetaHeader& header, Volume& volume) {
   for (const char* key : {"transformmatrix", "orientation", "rotation"}) {
     const MetaField* field = header.find(key);
@@ -223,16 +223,16 @@ RawVoxels locate_voxels(const MetaHeader& header, const std::filesystem::path& f
     source.start = header.data_start();
   } else if (name.find('%') != std::string::npos && split_words(data.value).size() > 1) {
     throw core::InputError(data.place,
-                           "a pattern of files is not read; expected their names after LIST");
+                           "a pattern of files is not supported; expected their names after LIST");
   } else {
     source.file = data_file_beside(file, data.value, data.place);
   }
   if (const MetaField* skip = header.find("headersize")) {
     const auto bytes = parse_number<std::int64_t>(skip->value);
     if (!bytes || *bytes < -1) {
-      throw core::InputError(skip->place, fmt::format("'{}'; expected a whole number from 0 on, or "
-                                                      "-1",
-                                                      quotable(skip->value)));
+      throw core::InputError(
+          skip->place,
+          fmt::format("'{}'; expected a whole number, 0 or more, or -1", quotable(skip->value)));
     }
     source.skip = *bytes;
   }
@@ -262,7 +262,7 @@ Volume read_metaimage(const std::filesystem::path& file, const Component& compon
   take_meta_sizes(header, volume, source.layout);
   note_directions(header, volume);
   const MetaField& type = header.require("ElementType");
-  // "MET_UCHAR_ARRAY" is how the channels of a voxel may be announced.
+  // "MET_UCHAR_ARRAY" is one way to declare the channels of a voxel.
   MetaField element = type;
   constexpr std::string_view array = "_array";
   if (lower_case(element.value).ends_with(array)) {

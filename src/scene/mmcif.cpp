@@ -17,10 +17,10 @@ constexpr std::string_view category = "_atom_site.";
 
 struct Token {
   std::string_view text;
-  bool quoted = false;  // a value whatever it looks like
+  bool quoted = false;  // whether it was quoted, so that it is a value in any case
 
   [[nodiscard]] bool is_tag() const { return !quoted && text.starts_with('_'); }
-  // loop_, data_NAME, save_NAME, global_, stop_: what ends a loop.
+  // The words that end a loop: loop_, data_NAME, save_NAME, global_, stop_.
   [[nodiscard]] bool is_keyword() const {
     if (quoted) return false;
     const std::string word = lower_case(text.substr(0, 8));
@@ -30,20 +30,20 @@ struct Token {
   [[nodiscard]] bool is_value() const { return !is_tag() && !is_keyword(); }
 };
 
-// The words of a CIF: quoted words, text fields between lines that begin with a semicolon, comments
-// left out. A text field's own content is of no use here and is dropped.
+// The words of a CIF: quoted words and text fields between lines that begin with a semicolon;
+// comments are left out. The content of a text field is not needed and is dropped.
 class Tokens {
  public:
   explicit Tokens(LineReader& reader) : reader_(reader) {}
 
-  // The next word without taking it; nothing at the end of the file.
+  // The next word, which remains the next word; nullopt at the end of the file.
   [[nodiscard]] const std::optional<Token>& peek() {
     if (!ahead_ && !ended_) ahead_ = read();
     return ahead_;
   }
   void take() { ahead_.reset(); }
-  // The number of lines that begin with '#' before the word (or the end) that was seen last: all of
-  // them, and those directly before it.
+  // The number of lines that begin with '#' before the current word (or the end): all of them, and
+  // those directly before it.
   [[nodiscard]] std::uint64_t marks() const { return marks_; }
   [[nodiscard]] std::uint64_t marks_before() const { return marks_before_; }
 
@@ -83,7 +83,7 @@ class Tokens {
     const bool quoted = first == '\'' || first == '"';
     std::size_t end = 0;
     if (quoted) {
-      // A quote ends a word only where a blank follows: 'O5'' is one word.
+      // A quote ends a word only if a blank follows, so 'O5'' is one word.
       end = rest_.find(first, 1);
       while (end != std::string_view::npos && end + 1 < rest_.size() && rest_[end + 1] != ' ' &&
              rest_[end + 1] != '\t') {
@@ -101,14 +101,14 @@ class Tokens {
   }
 
   LineReader& reader_;
-  std::string_view rest_;  // of the current line
+  std::string_view rest_;  // rest of the current line
   std::optional<Token> ahead_;
   bool ended_ = false;
   std::uint64_t marks_ = 0;
   std::uint64_t marks_before_ = 0;
 };
 
-// The items of _atom_site that matter, and where they stand in a row.
+// The columns of _atom_site that are used, and their positions in a row.
 enum class Item : std::uint8_t { element, x, y, z, model, atom, residue, old_atom, old_residue };
 constexpr std::array<std::string_view, 9> item_names{
     "type_symbol",   "cartn_x",       "cartn_y",      "cartn_z",     "pdbx_pdb_model_num",
@@ -121,7 +121,7 @@ struct AtomColumns {
   [[nodiscard]] const std::optional<std::size_t>& operator[](Item item) const {
     return places.at(static_cast<std::size_t>(item));
   }
-  // A further item, by its tag in small letters.
+  // Adds an item by its tag in lower case.
   void add(std::string_view tag, const LineReader& reader) {
     const std::size_t index = count++;
     if (!tag.starts_with(category)) return;
@@ -133,15 +133,15 @@ struct AtomColumns {
   }
 };
 
-// Crystals of small molecules have other items: places in fractions of the cell.
+// Crystals of small molecules have other items: positions as fractions of the cell.
 void refuse_small_molecule(std::string_view tag, const LineReader& reader) {
   if (tag != "_atom_site_fract_x") return;
   reader.reject(
-      "the places are fractions of a unit cell (_atom_site_fract_x), as in CIF files of small "
+      "the positions are fractions of a unit cell (_atom_site_fract_x), as in CIF files of small "
       "molecules; expected mmCIF with _atom_site.Cartn_x. To convert: obabel IN.cif -O OUT.xyz");
 }
 
-// The tags of a loop, whose keyword is taken; nothing where it is not the loop over atoms.
+// The tags of a loop whose keyword was read already; empty if it is not the loop over atoms.
 std::optional<AtomColumns> read_columns(Tokens& tokens, const LineReader& reader) {
   AtomColumns columns;
   bool atoms = false;
@@ -155,8 +155,8 @@ std::optional<AtomColumns> read_columns(Tokens& tokens, const LineReader& reader
   return columns;
 }
 
-// Collects the rows of one model. Rows of a model need not stand together: frames are counted in the
-// order in which models appear.
+// Collects the rows of one model. The rows of a model need not be consecutive, so frames are
+// counted in the order in which models appear.
 class AtomRows {
  public:
   AtomRows(const AtomColumns& columns, std::uint64_t frame, const LineReader& reader)
@@ -200,7 +200,7 @@ class AtomRows {
     return *column;
   }
 
-  // "1.234(5)" states how certain a number is.
+  // In "1.234(5)" the parentheses contain the uncertainty.
   static std::string_view without_uncertainty(std::string_view word) {
     return word.ends_with(')') ? word.substr(0, word.find('(')) : word;
   }
@@ -254,8 +254,8 @@ Atoms read_rows(Tokens& tokens, const AtomColumns& columns, std::uint64_t frame,
   return rows.take();
 }
 
-// One atom whose items are tags with a value each, as CIF allows for a loop of one row. The first
-// tag is not taken.
+// Reads a single atom whose items are tags with one value each, which CIF allows instead of a loop
+// of one row. The first tag has not been read.
 Atoms read_pairs(Tokens& tokens, std::uint64_t frame, const LineReader& reader) {
   AtomColumns columns;
   std::vector<std::string_view> row;
@@ -275,8 +275,9 @@ Atoms read_pairs(Tokens& tokens, std::uint64_t frame, const LineReader& reader) 
   return rows.take();
 }
 
-// Whoever closes the heading and every category with '#', as the PDB does, closes the last one, too:
-// else the file was cut off. Of a few marks nothing follows: some programs only put them between.
+// A writer that closes the heading and every category with '#', as the PDB does, also closes the
+// last one; otherwise the file was cut off. A few '#' prove nothing, because some programs only put
+// them between categories.
 class ClosingMarks {
  public:
   void heading(const Tokens& tokens) {
@@ -299,7 +300,7 @@ class ClosingMarks {
   std::uint64_t closed_ = 0;
 };
 
-// Says which other content a file without atoms has, as far as its loops show.
+// Describes the other content of a file without atoms, as far as its loops show it.
 std::string_view other_content(std::string_view tag) {
   if (tag.starts_with("_chem_comp_atom.")) {
     return "the file describes a chemical component (_chem_comp_atom), not a structure";

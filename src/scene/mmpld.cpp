@@ -79,8 +79,8 @@ class Bytes {
 struct List {
   VertexType vertex = VertexType::none;
   ColourType colour = ColourType::none;
-  float radius = 0;  // for all particles, unless they have their own
-  Rgb rgb{};         // also for all particles, unless they have their own
+  float radius = 0;  // the value for all particles without their own
+  Rgb rgb{};         // the value for all particles without their own
   double lo = 0;     // the lower end of the intensities
   double hi = 1;
   std::uint64_t count = 0;
@@ -121,7 +121,7 @@ List read_list(Bytes& bytes, int version) {
   }
   if (list.vertex == VertexType::none && list.count > 0) {
     bytes.reject(
-        fmt::format("expected a list with places, found {} particles without", list.count));
+        fmt::format("expected a list with positions, found {} particles without them", list.count));
   }
   if (version >= 103) static_cast<void>(bytes.take_many(6, sizeof(float), "the list's box"));
   list.data = bytes.take_many(list.count, list.stride(), "the list's particles");
@@ -200,7 +200,7 @@ double channel(double value) {
 
 struct Colour {
   Rgb rgb{};
-  std::optional<double> intensity;  // the particle's own, if the file has it
+  std::optional<double> intensity;  // the particle's own value, if the file has one
 };
 
 Colour grey(const List& list, double value) {
@@ -252,7 +252,7 @@ ParticleSet read_mmpld(std::span<const char> content, const std::string& file, s
   }
   if (bytes.at() != end) {
     bytes.reject(
-        fmt::format("expected the frame's end at byte {}, as the table of frames says", end));
+        fmt::format("expected the frame's end at byte {}, as the table of frames states", end));
   }
   if (total == 0) bytes.reject("expected particles, found none");
   if (total > most_particles) {

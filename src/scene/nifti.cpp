@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t header_bytes_1 = 348;
 constexpr std::size_t header_bytes_2 = 540;
 
-// Where the fields are in the two versions of the header (nifti1.h, nifti2.h).
+// The positions of the fields in the two versions of the header (nifti1.h, nifti2.h).
 struct Offsets {
   std::size_t dim, datatype, pixdim, vox_offset, slope, intercept, units, qform_code, sform_code,
       quatern, srow, magic;
@@ -34,7 +34,7 @@ struct Offsets {
 constexpr Offsets offsets_1{40, 70, 76, 108, 112, 116, 123, 252, 254, 256, 280, 344};
 constexpr Offsets offsets_2{16, 12, 104, 168, 176, 184, 500, 344, 348, 352, 400, 4};
 
-// The numbers of a header, whatever its version and byte order are.
+// Reads the numbers of a header in either version and byte order.
 class NiftiHeader {
  public:
   explicit NiftiHeader(const std::filesystem::path& file)
@@ -121,8 +121,8 @@ class NiftiHeader {
     }
     const bool zeros = std::ranges::count(magic, '\0') == 4;
     reject(fmt::format(
-        "has the size of a NIfTI-{} header, but {} where 'n+{}' or 'ni{}' names the "
-        "format; Analyze 7.5, which states no orientation, is not read",
+        "has the size of a NIfTI-{} header, but {} in place of the format name 'n+{}' or 'ni{}'; "
+        "Analyze 7.5 is not supported, because it states no orientation",
         version_, zeros ? "zero bytes" : fmt::format("'{}'", quotable(magic)), digit, digit));
   }
 
@@ -161,7 +161,7 @@ const Datatype& datatype_of(const NiftiHeader& header) {
   return *found;
 }
 
-// Sizes of the three axes in space; the product of all further ones.
+// The sizes of the three spatial axes, and the product of all further ones.
 std::uint64_t take_nifti_sizes(const NiftiHeader& header, Volume& volume) {
   const std::int64_t axes = header.dim(0);
   if (axes < 3 || axes > 7) {
@@ -177,7 +177,7 @@ std::uint64_t take_nifti_sizes(const NiftiHeader& header, Volume& volume) {
     if (i <= 3) {
       volume.size.at(i - 1) = static_cast<int>(size);
     } else {
-      // At most four factors below 2³¹: what does not fit is caught when bytes are counted.
+      // At most four factors below 2³¹. An overflow is detected when the bytes are counted.
       further = further > std::numeric_limits<std::uint32_t>::max()
                     ? further
                     : further * static_cast<std::uint64_t>(size);
@@ -237,7 +237,7 @@ void note_orientation(const NiftiHeader& header, Volume& volume) {
     }
     if (const std::string sheared = sheared_axes(axes); !sheared.empty()) {
       volume.facts.notes.push_back(fmt::format(
-          "{} are not perpendicular in the matrix (sform); drawn is the grid in its own axes",
+          "{} are not perpendicular in the matrix (sform); the grid is drawn in its own axes",
           sheared));
     }
   } else if (header.qform_code() > 0) {
@@ -270,13 +270,13 @@ std::filesystem::path image_beside(const std::filesystem::path& file, const Nift
     std::error_code unreadable;
     if (std::filesystem::is_regular_file(image, unreadable)) return image;
   }
-  header.reject(fmt::format("the voxels, in '{}' beside it, are not there",
+  header.reject(fmt::format("the file '{}' with the voxels does not exist",
                             stem.replace_extension(".img").filename().string()));
 }
 
 std::uint64_t start_of_voxels(const NiftiHeader& header) {
   const double offset = header.vox_offset();
-  // In a single file, four bytes after the header say whether extensions follow.
+  // In a single file, the four bytes after the header state whether extensions follow.
   const std::size_t least = header.is_single_file() ? header.header_bytes() + 4 : 0;
   if (offset == 0) return least;
   constexpr double most = 0x1.0p53;
@@ -316,7 +316,7 @@ Volume read_nifti(const std::filesystem::path& file, const Component& component)
   source.layout.big_endian = header.big_endian();
   source.layout.components = datatype.components * further;
   if (further > 1) source.layout.block = volume.voxel_count();
-  // A slope of 0 means that there is none; colours have none either.
+  // A slope of 0 means that there is no scaling. Colours are not scaled either.
   const double slope = header.slope();
   const double intercept = header.intercept();
   if (slope != 0 && std::isfinite(slope) && std::isfinite(intercept) && datatype.components == 1) {

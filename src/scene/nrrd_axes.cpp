@@ -19,7 +19,7 @@ namespace {
 
 using Vector = Vector3;
 
-// One "(a,b,c)", taken off the front of `text`.
+// Removes one "(a,b,c)" from the beginning of `text` and returns its numbers.
 Vector take_vector(std::string_view& text, const core::FilePlace& place) {
   const std::size_t open = text.find_first_not_of(" \t");
   const std::size_t close = text.find(')');
@@ -79,7 +79,7 @@ std::array<double, 3> lengths_of(const std::array<Vector, 3>& axes, const std::a
   return spacing;
 }
 
-// The words of a field that has one for each axis, without that of the components.
+// The words of a field that has one for each axis, without the word of the component axis.
 std::vector<std::string_view> words_of_axes(std::string_view value, const LeftOut& left_out) {
   auto words = split_words(value);
   if (left_out && words.size() == 4) {
@@ -88,7 +88,7 @@ std::vector<std::string_view> words_of_axes(std::string_view value, const LeftOu
   return words;
 }
 
-// Where the axes begin or end, NaN where that is not known.
+// The positions at which the axes begin or end; NaN if unknown.
 Vector parse_ends(const Field& field, const LeftOut& left_out) {
   const auto words = words_of_axes(field.value, left_out);
   Vector ends{};
@@ -107,8 +107,8 @@ Vector parse_ends(const Field& field, const LeftOut& left_out) {
   return ends;
 }
 
-// Whether samples stand at the ends of an axis; else they are the middles of cells, as the format's
-// own library has it where nothing is said.
+// Whether samples are at the ends of an axis. Otherwise they are in the middle of cells, which is
+// also the default of the format's own library.
 std::array<bool, 3> parse_node_centred(const Field* field, const LeftOut& left_out) {
   std::array<bool, 3> node{};
   if (field == nullptr) return node;
@@ -128,7 +128,7 @@ std::array<bool, 3> parse_node_centred(const Field* field, const LeftOut& left_o
   return node;
 }
 
-// From where the axes begin and end; nothing where that is not known of any.
+// Computes the spacing from the ends of the axes; nullopt if no axis has known ends.
 std::optional<Vector> spacing_of_ends(const Header& header, const std::array<int, 3>& size,
                                       const LeftOut& left_out) {
   const Field* lowest = header.find("axis mins");
@@ -176,7 +176,7 @@ bool is_space(std::string_view kind) {
   return name == "domain" || name == "space" || name == "none" || name == "???";
 }
 
-// Colours or vectors along one of three axes would be drawn as if they were places.
+// Colours or vectors along one of three axes would be drawn as if they were positions.
 void require_places(const Field& kinds) {
   const auto words = split_words(kinds.value);
   if (words.size() != 3) {
@@ -192,7 +192,7 @@ void require_places(const Field& kinds) {
   }
 }
 
-// Finds the component axis among four: the one whose kind is not spatial, else the one without a
+// Finds the component axis of four axes: the one whose kind is not spatial, else the one without a
 // direction, else the only one of size 1.
 std::size_t component_axis(const Header& header, const std::vector<std::string_view>& sizes) {
   const core::FilePlace& place = header.require("dimension").place;
@@ -207,7 +207,7 @@ std::size_t component_axis(const Header& header, const std::vector<std::string_v
     }
   }
   if (const Field* directions = header.find("space directions"); found.empty() && directions) {
-    // "none" stands where a vector would be.
+    // "none" replaces a vector.
     std::size_t axis = 0;
     bool inside = false;
     for (std::size_t i = 0; i < directions->value.size(); ++i) {
@@ -256,9 +256,9 @@ LeftOut parse_axes(const Header& header, Volume& volume, ValueLayout& layout) {
       parse_sizes(fmt::format("{}", fmt::join(words_of_axes(sizes.value, axis), " ")), sizes.place);
   const auto count = parse_number<std::uint32_t>(words[axis]);
   if (!count || *count == 0) {
-    throw core::InputError(sizes.place, fmt::format("size '{}' along axis {}; expected a whole "
-                                                    "number from 1 on",
-                                                    quotable(words[axis]), axis));
+    throw core::InputError(
+        sizes.place, fmt::format("size '{}' along axis {}; expected a whole number, 1 or more",
+                                 quotable(words[axis]), axis));
   }
   layout.components = *count;
   for (std::size_t i = 0; i < axis; ++i) {

@@ -12,8 +12,8 @@
 
 namespace triptych::scene::nrrd {
 
-// The axis of four that is not spatial, because it is that of the components. Fields that have one
-// word for each axis have one for it as well.
+// The axis that is not spatial if there are four, because it has the components. Fields with one
+// word for each axis have one for this axis, too.
 using LeftOut = std::optional<std::size_t>;
 
 // Sets the sizes and, for four axes, the layout of the components. Throws InputError with file and

@@ -48,7 +48,7 @@ std::int64_t parse_skip(const Field* field, std::int64_t lowest, std::string_vie
   return *count;
 }
 
-// Where `count` lines from `start` on end.
+// The position at which `count` lines from `start` on end.
 std::uint64_t skip_lines(const std::filesystem::path& file, std::uint64_t start, std::int64_t count,
                          const core::FilePlace& place) {
   std::ifstream in(file, std::ios::binary);
@@ -63,14 +63,14 @@ std::uint64_t skip_lines(const std::filesystem::path& file, std::uint64_t start,
   return static_cast<std::uint64_t>(in.tellg());
 }
 
-// A pattern, "FORMAT MIN MAX STEP" with perhaps a dimension behind; a name alone may have a '%' in
-// it. Nothing where it is none.
+// A pattern "FORMAT MIN MAX STEP", optionally followed by a dimension. A plain name may also
+// contain a '%'. nullopt if the text is not a pattern.
 std::optional<std::vector<std::string>> files_of_pattern(std::string_view value,
                                                          const core::FilePlace& place) {
   constexpr std::size_t most_files = 100'000;
   auto words = split_words(value);
   if (words.size() < 4) return std::nullopt;
-  // A dimension may stand behind the three numbers.
+  // A dimension may follow the three numbers.
   std::size_t first = words.size() - 3;
   const auto is_number = [](std::string_view word) { return parse_number<int>(word).has_value(); };
   if (first >= 2 && is_number(words[first - 1])) --first;
@@ -102,7 +102,7 @@ std::optional<std::vector<std::string>> files_of_pattern(std::string_view value,
   return names;
 }
 
-// The files that the field names, in their order.
+// The files that the field names, in order.
 void locate_files(const Header& header, const Field& data, const std::filesystem::path& file,
                   RawVoxels& source) {
   std::vector<Field> named;
@@ -144,16 +144,16 @@ RawVoxels locate(const Header& header, const std::filesystem::path& file) {
                            "the header ends without the blank line before the data");
   }
   const Field* lines = header.find("line skip");
-  const std::int64_t line_count = parse_skip(lines, 0, "a whole number from 0 on");
+  const std::int64_t line_count = parse_skip(lines, 0, "a whole number, 0 or more");
   if (line_count > 0) {
     if (source.packing != Packing::none || !source.more_files.empty()) {
       throw core::InputError(lines->place,
-                             "'line skip' is read only of a single file that is not compressed");
+                             "'line skip' is supported only for a single uncompressed file");
     }
     source.start = skip_lines(source.file, source.start, line_count, lines->place);
   }
   source.skip =
-      parse_skip(header.find("byte skip"), RawVoxels::at_end, "a whole number from 0 on, or -1");
+      parse_skip(header.find("byte skip"), RawVoxels::at_end, "a whole number, 0 or more, or -1");
   return source;
 }
 

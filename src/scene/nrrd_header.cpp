@@ -11,7 +11,7 @@
 namespace triptych::scene::nrrd {
 namespace {
 
-// Key/value pairs may be long, whole documents among them.
+// Key/value pairs may be long, because some contain whole documents.
 constexpr std::size_t usual_header = std::size_t{1} << 16U;
 constexpr std::size_t longest_header = std::size_t{64} << 20U;
 
@@ -38,7 +38,7 @@ std::string canonical(std::string_view name) {
 
 Header::Header(const std::filesystem::path& file) : file_(file.string()) {
   std::string start = content_start(file, usual_header);
-  // More than is usual is read only where the header does not end before.
+  // More than the usual size is read only if the header has not ended before.
   const bool ends = start.find("\n\n") != std::string::npos ||
                     start.find("\n\r\n") != std::string::npos || start.size() < usual_header;
   if (!ends) start = content_start(file, longest_header);
@@ -112,7 +112,7 @@ void Header::add(std::string_view line, const core::FilePlace& place) {
   const std::string name = canonical(line.substr(0, colon));
   const bool is_field =
       name == "sample units" || std::find(known.begin(), known.end(), name) != known.end();
-  // A key may have colons of its own.
+  // A key may contain colons.
   const bool is_pair = line.substr(colon).starts_with(":=") ||
                        (!is_field && line.find(":=") != std::string_view::npos);
   if (is_pair) return;

@@ -1,5 +1,5 @@
 #pragma once
-// The header of an NRRD file, field by field; what the fields mean is nrrd.cpp's.
+// The header of an NRRD file, field by field. nrrd.cpp interprets the fields.
 
 #include <fmt/format.h>
 
@@ -23,7 +23,8 @@ struct Field {
 // The fields of a header by their canonical names.
 class Header {
  public:
-  // Throws InputError with the line for what is no header of ours, or has a field twice; IoError.
+  // Throws InputError with the line if the text is not a supported header or has a field twice;
+  // IoError.
   explicit Header(const std::filesystem::path& file);
 
   [[nodiscard]] const Field* find(const std::string& name) const {
@@ -37,9 +38,9 @@ class Header {
     }
     return *field;
   }
-  // Where the blank line ends, if there is one; in unpacked bytes.
+  // The position after the blank line that ends the header, if there is one, in unpacked bytes.
   [[nodiscard]] std::optional<std::uint64_t> data_start() const noexcept { return data_start_; }
-  // The lines behind "data file: LIST".
+  // The lines after "data file: LIST".
   [[nodiscard]] const std::vector<Field>& listed_files() const noexcept { return files_; }
   [[nodiscard]] core::FilePlace last_line() const { return {.file = file_, .line = lines_}; }
 

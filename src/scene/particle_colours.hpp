@@ -1,5 +1,5 @@
 #pragma once
-// The colours of particles, in each kind that a set can hold.
+// The colours of particles, in each kind that a set can contain.
 
 #include <array>
 #include <cstdint>

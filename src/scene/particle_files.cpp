@@ -59,7 +59,8 @@ std::optional<Source> find_source(std::string_view data,
   return Source{*file, *frame};
 }
 
-// A mark that editors put before a text. Throws InputError for text in two bytes a letter.
+// Removes the byte order mark that editors put before a text. Throws InputError for text with two
+// bytes per character.
 std::span<const char> without_byte_order_mark(const std::vector<char>& content,
                                               const std::string& file) {
   const std::string_view text(content.data(), content.size());
@@ -85,7 +86,7 @@ void end_lines_with_lf(std::vector<char>& content) {
 ParticleSet read(const Source& source, ColourKind colour, const Progress& progress) {
   const std::string name = source.file.string();
   const bool packed = packing_of_file(source.file) != Packing::none;
-  // The share of the progress that unpacking has.
+  // The share of unpacking in the progress.
   const double unpacked = packed ? 0.25 : 0;
   const Progress unpacking =
       progress ? Progress([&progress, unpacked](double share) { progress(unpacked * share); })
@@ -120,10 +121,11 @@ ParticleSet load_particles(std::string_view data, ColourKind colour,
   }
   ParticleSet set = read(*source, colour, progress);
   if (set.count() == 0 && set.dropped > 0) {
-    throw core::InputError({.file = source->file.string()},
-                           fmt::format("none of its {} particles can be drawn; expected finite "
-                                       "places and a radius above 0",
-                                       set.dropped));
+    throw core::InputError(
+        {.file = source->file.string()},
+        fmt::format(
+            "none of its {} particles can be drawn; expected finite positions and a radius above 0",
+            set.dropped));
   }
   set.name = data;
   set.hash = particle_hash(set);

@@ -1,5 +1,6 @@
 #pragma once
-// The table of particle formats: one row each. docs/adding-a-file-format.md says how to add one.
+// The table of particle formats, with one row for each. docs/adding-a-file-format.md describes how
+// to add one.
 
 #include <cstdint>
 #include <span>
@@ -20,10 +21,10 @@ struct ParticleContent {
 
 struct ParticleFormat {
   std::string_view name;
-  std::string_view endings;  // in small letters, separated by blanks; the first one is the usual one
-  std::string_view unit;     // of lengths; empty where the files do not state one
-  // Whether content that begins like this is of this format beyond doubt; never true for a format
-  // whose files begin with free text.
+  std::string_view endings;  // in lower case, separated by blanks; the first one is the usual one
+  std::string_view unit;     // unit of lengths; empty if the files do not state one
+  // Whether only content of this format can begin like this; always false for a format whose files
+  // begin with free text.
   bool (*begins)(std::string_view start);
   bool text;  // lines, and not bytes
   ParticleSet (*read)(const ParticleContent& content, std::uint64_t frame, ColourKind colour);
@@ -31,9 +32,9 @@ struct ParticleFormat {
 
 [[nodiscard]] std::span<const ParticleFormat> particle_formats();
 
-// The format of a file by its name, without .gz or .bz2, and by how its content begins. Throws
-// InputError for a name that no format has, where its content is of none either; and for content
-// that is of another format than the name says.
+// Determines the format of a file from its name, without .gz or .bz2, and from the beginning of its
+// content. Throws InputError for an unknown name if the content does not identify a format either,
+// and for content of another format than that of the name.
 [[nodiscard]] const ParticleFormat& particle_format(const std::string& file,
                                                     std::string_view start);
 

@@ -302,7 +302,7 @@ constexpr std::array<Generator, 7> generators{{
     {{"plume", "a lattice slab with a crater and an expanding cone of clusters above it"}, plume},
     {{"coincident", "every position eight times, in different colours: ties"}, coincident},
     {{"wall", "a wall without a gap, seen whole from +z"}, wall},
-    {{"hidden", "the wall of a tenth as many, the others behind it"}, hidden},
+    {{"hidden", "a wall of a tenth of the particles, with the others behind it"}, hidden},
 }};
 
 // Throws InputError for an unknown name or a count that cannot be made.

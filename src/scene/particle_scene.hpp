@@ -22,13 +22,13 @@ struct SphereShading {
   return static_cast<float>(static_cast<double>(radius) * scale);
 }
 
-// Everything that determines the picture, and nothing about how it is computed.
-// A pixel shows the nearest surface point in front of the eye along the ray through the pixel's
-// centre (Camera). That is where the ray enters a sphere or, if the eye is inside the sphere, where
-// it leaves it. No near or far plane cuts anything off. camera.near only scales the depth buffer:
-// z = near/Z, where Z is the distance along the view axis (reversed depth with an infinite far
-// plane; 0 where there is nothing). It is a power of two that is so small that no surface that
-// matters is nearer. If two depths are equal, the particle with the lowest id is visible.
+// Everything that determines the image, without the way in which it is computed. A pixel shows the
+// nearest surface point in front of the eye along the ray through the pixel's centre (Camera). That
+// is where the ray enters a sphere or, if the eye is inside the sphere, where it leaves it. No near
+// or far plane cuts anything off. camera.near only scales the depth buffer: z = near/Z, where Z is
+// the distance along the view axis (reversed depth with an infinite far plane; 0 if there is no
+// surface). It is a power of two that is so small that no relevant surface is nearer. If two depths
+// are equal, the particle with the lowest id is visible.
 struct ParticleScene {
   std::shared_ptr<const ParticleSet> particles;
   TransferFunction intensity_colours;  // for ColourKind::intensity; its opacity is not used

@@ -1,5 +1,5 @@
 #pragma once
-// Particles: what a file or a generator gives (ParticleSet).
+// Particles from a file or a generator (ParticleSet).
 
 #include <array>
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace triptych::scene {
 
-// What colours a particle: the levels of the factor `colour`.
+// The source of a particle's colour: the levels of the factor `colour`.
 enum class ColourKind : std::uint8_t {
   rgba8,     // four bytes, red in the lowest
   rgba32,    // four floats
@@ -24,38 +24,40 @@ enum class ColourKind : std::uint8_t {
 [[nodiscard]] std::string_view name_of(ColourKind kind);
 [[nodiscard]] ColourKind colour_kind(std::string_view name);  // throws InputError
 
-// Spheres, one array per property; all arrays that are not empty have the same length. Every sphere
-// is finite with a radius > 0: what is not was dropped and counted.
+// Spheres, with one array per property. All arrays that are not empty have the same length. Every
+// sphere is finite and has a radius > 0; all others were dropped and counted.
 struct ParticleSet {
   std::string name;  // the `data` factor: a file name or generate:NAME:COUNT
   std::vector<std::array<float, 4>> spheres;  // centre x, y, z and radius, world units
-  std::vector<std::uint32_t> ids;  // index in the file, counting from 0 the dropped ones too;
-                                   // ascending unless the set was permuted
+  std::vector<std::uint32_t> ids;  // index in the file, counted from 0 and including the dropped
+                                   // ones; ascending unless the set was permuted
   ColourKind colour = ColourKind::rgba8;
-  // Exactly the one that `colour` names is filled. Colours are straight; alpha is not used, spheres
-  // are opaque.
+  // Only the array that `colour` names is filled. Colours are straight; alpha is not used, because
+  // spheres are opaque.
   std::vector<std::uint32_t> rgba8;
   std::vector<std::array<float, 4>> rgba32;
   std::vector<float> intensity;
-  std::uint64_t dropped = 0;  // radius ≤ 0 or not finite, centre not finite
-  std::string hash;           // content hash of all of the above but the name
-  ReadFacts facts;            // of a file; no part of the hash
+  // Number of particles with a radius ≤ 0, or a radius or centre that is not finite.
+  std::uint64_t dropped = 0;
+  std::string hash;  // content hash of all members above except the name
+  ReadFacts facts;   // facts about a file; not part of the hash
 
   [[nodiscard]] std::size_t count() const noexcept { return spheres.size(); }
 };
 
-// What ParticleSet::hash holds: needed again by whoever permutes a set.
+// The value of ParticleSet::hash, which has to be computed again after a permutation.
 [[nodiscard]] std::string particle_hash(const ParticleSet& set);
 
-// The box around all spheres, their radii included; the unit box for none.
+// The box around all spheres, including their radii; the unit box if there are none.
 [[nodiscard]] Box bounding_box(const ParticleSet& set);
 
-// Appends one particle as read from a file, or counts it as dropped. `index` is its place in the
-// file. The caller appends the colour only where this returns true.
+// Appends one particle from a file, or counts it as dropped. `index` is its position in the file.
+// The caller appends the colour only if this returns true.
 [[nodiscard]] bool append(ParticleSet& set, const std::array<double, 4>& sphere,
                           std::uint32_t index);
 
-// Called now and then while particles are read or made, with the share done in [0, 1].
+// Called from time to time while particles are read or generated, with the finished share in [0,
+// 1].
 using Progress = std::function<void(double share)>;
 
 // `data` as in a plan: "generate:NAME:COUNT" (scene/particle_generators.hpp) or a file of one of the

@@ -21,7 +21,7 @@ bool is_letter_of_pdb(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-// Columns as the format counts them, from 1, both included.
+// Columns are counted from 1, as in the specification, and both ends are included.
 std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
   return line.size() < first ? std::string_view{} : line.substr(first - 1, last - first + 1);
 }
@@ -30,15 +30,15 @@ bool is_blank_column(std::string_view line, std::size_t column) {
   return line.size() < column || line[column - 1] == ' ';
 }
 
-// The letters of an atom's name, without the digits before them.
+// The letters of an atom's name, without preceding digits.
 std::string letters_of_name(std::string_view name) {
   std::string letters = lower_case(trimmed(name));
   letters.erase(0, letters.find_first_not_of("0123456789'\" "));
   return letters;
 }
 
-// The symbol in columns 77 and 78, or nothing. Older files have other things there, such as the end
-// of a word that names a segment: "MEMBRANE" does not mean radium.
+// The symbol in columns 77 and 78; empty if there is none. Older files have other text there, such
+// as the end of a segment's name: "MEMBRANE" does not mean radium.
 std::string symbol_in_columns(std::string_view line) {
   const std::string_view field = columns(line, 77, 78);
   const std::string_view symbol = trimmed(field);
@@ -57,9 +57,9 @@ std::uint32_t kind_of_atom(Atoms& atoms, std::string_view line) {
   return unnamed_kind(atoms, columns(line, 13, 16), columns(line, 18, 21));
 }
 
-// A coordinate is Real(8.3). What is too wide for its columns runs into the neighbouring ones, where
-// it may look like another number: so a number that is not written as the format has it must have
-// blanks around it.
+// A coordinate has the format Real(8.3). A number that is too wide runs into the neighbouring
+// columns, where it may look like another number. Therefore a number in any other format must be
+// surrounded by blanks.
 double coordinate(std::string_view line, std::size_t first, std::string_view what,
                   const LineReader& reader) {
   const std::size_t last = first + 7;
@@ -84,7 +84,7 @@ void add_pdb_atom(Atoms& atoms, std::string_view line, const LineReader& reader)
   }
   if (line.size() < end_of_place) {
     reader.reject(fmt::format(
-        "expected an atom with its place in columns 31 to 54, found {} columns", line.size()));
+        "expected an atom with its position in columns 31 to 54, found {} columns", line.size()));
   }
   const std::array<double, 3> place{coordinate(line, 31, "x in columns 31 to 38", reader),
                                     coordinate(line, 39, "y in columns 39 to 46", reader),
@@ -92,8 +92,9 @@ void add_pdb_atom(Atoms& atoms, std::string_view line, const LineReader& reader)
   atoms.add(place, kind_of_atom(atoms, line));
 }
 
-// Whether a line is an atom's. A serial number of six digits may begin in column 5 or 6. Throws for
-// a line that begins like an atom's and is none, which would be left out silently.
+// Whether a line describes an atom. A serial number of six digits may begin in column 5 or 6.
+// Throws for a line that begins like an atom's but is not one, because it would be left out
+// silently.
 bool is_atom(std::string_view line, const LineReader& reader) {
   if (line.starts_with("HETATM")) return true;
   if (line.starts_with("ATOM")) {
@@ -112,13 +113,13 @@ bool is_atom(std::string_view line, const LineReader& reader) {
   return false;
 }
 
-// Where frames begin and end. Frames are models; where nobody writes MODEL, what END or ENDMDL
-// closes, as VMD writes them.
+// Determines the beginnings and ends of frames. Frames are models. If a file has no MODEL, frames
+// end with END or ENDMDL, as VMD writes them.
 class PdbFrames {
  public:
   explicit PdbFrames(const LineReader& reader) : reader_(reader) {}
 
-  // An atom comes; returns the number of its frame.
+  // Called for each atom; returns the number of its frame.
   std::uint64_t atom() {
     if (has_models_ && !in_model_) reader_.reject("expected MODEL before further atoms");
     if (!in_model_ && (count_ == 0 || closed_)) ++count_;
@@ -133,7 +134,7 @@ class PdbFrames {
       in_model_ = false;
       closed_ = true;
     } else if (name == "HEADER") {
-      // The PDB's own have the entry's name there.
+      // Entries of the PDB itself have their name there.
       is_entry_ = !trimmed(columns(line, 63, 66)).empty();
     }
     if (name == "END") ended_ = true;
@@ -161,7 +162,7 @@ class PdbFrames {
   bool has_models_ = false;
   bool in_model_ = false;
   bool closed_ = false;    // the last frame
-  bool ended_ = false;     // by END, at least once
+  bool ended_ = false;     // frames ended by END, at least once
   bool is_entry_ = false;  // of the PDB
 };
 

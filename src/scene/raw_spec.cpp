@@ -56,7 +56,7 @@ std::vector<std::string_view> parts_of(std::string_view data) {
   }
 }
 
-// An option behind the type.
+// An option after the type.
 void take_option(RawSpec& spec, std::string_view part, std::string_view data) {
   constexpr std::string_view skip = "skip=";
   constexpr std::string_view components = "components=";
@@ -84,7 +84,7 @@ void take_option(RawSpec& spec, std::string_view part, std::string_view data) {
 
 std::optional<RawSpec> parse_raw_spec(std::string_view data) {
   const std::vector<std::string_view> parts = parts_of(data);
-  // The first part that is a size ends the file's name, which may have colons of its own.
+  // The first part that is a size ends the file's name, which may contain colons.
   std::size_t at = 1;
   while (at < parts.size() && !three_numbers<int>(parts[at])) ++at;
   if (at >= parts.size()) return std::nullopt;
@@ -112,7 +112,7 @@ Volume read_raw(const RawSpec& spec, const std::filesystem::path& file,
   Volume volume;
   volume.size = spec.size;
   volume.spacing = spec.spacing;
-  // Any bytes may be voxels: only a name that says so makes them a compressed stream.
+  // Any bytes may be voxels, so only the file's name decides whether it is a compressed stream.
   const bool packed = file.extension() == ".gz" || file.extension() == ".bz2";
   read_voxels(volume, {.file = file,
                        .packing = packed ? packing_of_file(file) : Packing::none,

@@ -1,5 +1,5 @@
 #pragma once
-// Voxels without a header, whose size is stated beside the file's name.
+// Voxels without a header. Their size is stated after the file's name.
 
 #include <optional>
 #include <string>
@@ -11,8 +11,8 @@
 namespace triptych::scene {
 
 // "FILE:256x256x128:u8", and after the type in any order: the spacing (":1x1x2.5"), "big" or
-// "little" (the default), "skip=BYTES" before the voxels, "components=N" (a voxel's values stand
-// together). Types: u8 i8 u16 i16 u32 i32 u64 i64 f32 f64, or their names in NumPy (uint8, float32).
+// "little" (the default), "skip=BYTES" before the voxels, "components=N" (consecutive values of a
+// voxel). Types: u8 i8 u16 i16 u32 i32 u64 i64 f32 f64, or their names in NumPy (uint8, float32).
 struct RawSpec {
   std::string file;
   std::array<int, 3> size{};
@@ -21,7 +21,7 @@ struct RawSpec {
   std::int64_t skip = 0;
 };
 
-// Nothing where `data` states no size. Throws InputError for one that states a size and is broken.
+// nullopt if `data` states no size. Throws InputError for a description with a mistake.
 [[nodiscard]] std::optional<RawSpec> parse_raw_spec(std::string_view data);
 
 [[nodiscard]] Volume read_raw(const RawSpec& spec, const std::filesystem::path& file,

@@ -67,7 +67,7 @@ bool is_compressed(const RawVoxels& source) {
          source.encoding == RawEncoding::zlib || source.encoding == RawEncoding::bzip2;
 }
 
-// The bytes of the voxels in one of the files, those to be skipped included.
+// The bytes of the voxels in one of the files, including those to be skipped.
 ByteSource open_data(const RawVoxels& source, const std::filesystem::path& file) {
   const std::string name = file.string();
   ByteSource bytes;
@@ -106,7 +106,8 @@ std::uint64_t bytes_before(const RawVoxels& source, const std::filesystem::path&
   return all - std::min(share, all);
 }
 
-// Checks, before memory is taken, that a file is long enough for what is claimed of it.
+// Checks, before memory is allocated, that a file is long enough for the voxels that its header
+// claims.
 void check_claim(const Volume& volume, const RawVoxels& source, std::uint64_t needed,
                  std::uint64_t share, const std::filesystem::path& file) {
   const std::uint64_t size = size_of_file(file);
@@ -114,8 +115,8 @@ void check_claim(const Volume& volume, const RawVoxels& source, std::uint64_t ne
       source.packing == Packing::none ? size - std::min(source.start, size) : size;
   const auto skip = static_cast<std::uint64_t>(std::max<std::int64_t>(source.skip, 0));
   if (is_compressed(source)) {
-    // Deflate's densest code spends one bit on 129 bytes; more cannot come out of this file. No
-    // such bound helps for bzip2.
+    // The densest code of Deflate spends one bit on 129 bytes, which limits the size of the
+    // unpacked data. There is no useful limit for bzip2.
     constexpr std::uint64_t largest_ratio = 1032;
     const bool deflated =
         source.encoding != RawEncoding::bzip2 && source.packing != Packing::bzip2;
@@ -130,7 +131,7 @@ void check_claim(const Volume& volume, const RawVoxels& source, std::uint64_t ne
     }
     return;
   }
-  // A value of a text has at least a letter, and a blank before the next one.
+  // A value in a text has at least one character, and a separator before the next one.
   const bool text = source.encoding == RawEncoding::text;
   const bool hex = source.encoding == RawEncoding::hex;
   const std::uint64_t least = text  ? share / bytes_of(source.layout.type) * 2 - 1
@@ -142,7 +143,7 @@ void check_claim(const Volume& volume, const RawVoxels& source, std::uint64_t ne
   }
 }
 
-// The voxels' bytes of all files after one another.
+// The bytes of the voxels of all files, one after the other.
 class Files {
  public:
   Files(const Volume& volume, const RawVoxels& source, std::uint64_t needed)
@@ -214,7 +215,7 @@ class Files {
   ByteSource bytes_;
 };
 
-// One plain file, whose voxels are its bytes: read at once.
+// Reads one uncompressed file, whose bytes are the voxels, in one piece.
 void read_plain(Volume& volume, const RawVoxels& source, std::uint64_t needed) {
   const std::uint64_t size = size_of_file(source.file);
   const std::uint64_t there = size - std::min(source.start, size);
@@ -235,8 +236,8 @@ void read_plain(Volume& volume, const RawVoxels& source, std::uint64_t needed) {
   }
 }
 
-// Room is set aside for all of them, so that none is copied, but taken only as they come: a claim
-// alone costs no memory.
+// Address space is reserved for all voxels, so that none is copied, but memory is used only as they
+// are read. A false claim in a header therefore costs no memory.
 void take_plain(VoxelBytes& voxels, std::uint64_t needed, Files& files) {
   constexpr std::uint64_t piece = std::uint64_t{16} << 20;
   voxels.reserve(needed);
@@ -281,9 +282,9 @@ void note_values(Volume& volume, const RawVoxels& source) {
   if (layout.components == 1) return;
   facts.notes.push_back(
       source.component.magnitude
-          ? fmt::format("drawn is the magnitude of the {} values of each voxel", layout.components)
-          : fmt::format("drawn is component {} of the {} values of each voxel; the factor component "
-                        "chooses another one, or their magnitude",
+          ? fmt::format("the magnitude of the {} values of each voxel is drawn", layout.components)
+          : fmt::format("component {} of the {} values of each voxel is drawn; the factor "
+                        "component chooses another one, or their magnitude",
                         source.component.index, layout.components));
 }
 
@@ -292,7 +293,7 @@ void note_values(Volume& volume, const RawVoxels& source) {
 void read_voxels(Volume& volume, const RawVoxels& given) {
   RawVoxels source = given;
   ValueLayout& layout = source.layout;
-  // Numbers in a text come in the order of bytes that the machine has.
+  // Numbers in a text are converted in the machine's byte order.
   if (source.encoding == RawEncoding::text) {
     layout.big_endian = std::endian::native == std::endian::big;
   }
@@ -334,11 +335,10 @@ void read_stream(Volume& volume, const ValueLayout& layout, const Component& com
   const auto needed = value_bytes(volume, layout);
   check_component(component, layout.components, file);
   if (!needed || *needed > most_unpacked_bytes) {
-    throw core::InputError(
-        source.sizes_place,
-        fmt::format("{} are more than {} bytes, the most that is read of this format; convert larger "
-                    "ones to NRRD",
-                    stated(volume, source), most_unpacked_bytes));
+    throw core::InputError(source.sizes_place,
+                           fmt::format("{} are more than {} bytes, the largest supported size of "
+                                       "this format; convert larger ones to NRRD",
+                                       stated(volume, source), most_unpacked_bytes));
   }
   const std::uint64_t held = take_values(volume, layout, component, values);
   if (held < *needed) {

@@ -19,28 +19,27 @@ struct RawVoxels {
   static constexpr std::int64_t at_end = -1;
 
   std::filesystem::path file;
-  // Further files that hold the voxels' continuation, each as many as the first one.
+  // Further files with the continuation of the voxels, each with as many as the first one.
   std::vector<std::filesystem::path> more_files = {};
-  Packing packing = Packing::none;  // of the file as a whole: `start` counts unpacked bytes
-  std::uint64_t start = 0;  // where the data, skipped bytes included, begin in the file
-  // Bytes to leave out before the voxels, of the decoded stream; at_end: the voxels are its last
-  // bytes.
+  Packing packing = Packing::none;  // for the file as a whole: `start` counts unpacked bytes
+  std::uint64_t start = 0;          // where the data begin in the file, including skipped bytes
+  // Bytes of the decoded stream to skip before the voxels; at_end: the voxels are its last bytes.
   std::int64_t skip = 0;
   RawEncoding encoding = RawEncoding::plain;
   ValueLayout layout = {};
   Component component = {};
-  bool more_may_follow = false;  // behind the voxels; else it is an error
+  bool more_may_follow = false;  // data after the voxels are allowed; otherwise they are an error
   core::FilePlace sizes_place = {};  // where the header states the sizes; named when bytes disagree
 };
 
-// Fills volume.voxels, whose size is set, its type, its facts, and its range from the finite voxels
-// (0..0 when there is none). One copy of the voxels is held. Of a plain file none is allocated
-// before it is known to be long enough; of a compressed one memory is used as the voxels come out of
-// it. Throws InputError when the data are shorter or longer than size and type say or a compressed
-// stream is broken, IoError when the file cannot be read.
+// Fills volume.voxels, whose size is set, and sets its type, its facts, and its range from the
+// finite voxels (0..0 if there is none). Only one copy of the voxels is kept. For an uncompressed
+// file, memory is allocated after the file is known to be long enough; for a compressed one, memory
+// is used as the voxels are unpacked. Throws InputError if the data are shorter or longer than size
+// and type require or a compressed stream is broken, and IoError if the file cannot be read.
 void read_voxels(Volume& volume, const RawVoxels& source);
 
-// Like read_voxels, from values that are decoded already. More may follow them. No more than
+// Like read_voxels, from values that are already decoded. More values may follow them. At most
 // most_unpacked_bytes are read.
 void read_stream(Volume& volume, const ValueLayout& layout, const Component& component,
                  const ByteSource& values, const std::filesystem::path& file);
@@ -51,11 +50,11 @@ void read_stream(Volume& volume, const ValueLayout& layout, const Component& com
                                                    const std::array<int, 3>& size,
                                                    const core::FilePlace& place);
 // A spacing must be a positive number, and neither it nor the length of all `size` voxels along its
-// axis may come near the ends of single precision.
+// axis may be near the limits of single precision.
 [[nodiscard]] double usable_spacing(double spacing, int size, const core::FilePlace& place);
 
-// The file that a header names, relative to the header's folder. Throws InputError when it is not
-// there.
+// The file that a header names, relative to the header's folder. Throws InputError if it does not
+// exist.
 [[nodiscard]] std::filesystem::path data_file_beside(const std::filesystem::path& header,
                                                      std::string_view name,
                                                      const core::FilePlace& place);

@@ -1,6 +1,6 @@
 #pragma once
-// What a reader found in a file beside the data themselves: for `render --describe`, and for
-// warnings about everything that had to be guessed.
+// Facts that a reader found in a file in addition to the data: for `render --describe`, and for
+// warnings about guesses.
 
 #include <cstdint>
 #include <string>
@@ -15,13 +15,13 @@ struct ReadFacts {
     std::uint64_t count = 0;
   };
 
-  std::string format;              // as the table of formats names it, "PDB"
-  std::string unit;                // of lengths; empty where the file does not state one
+  std::string format;              // the name in the table of formats, "PDB"
+  std::string unit;                // unit of lengths; empty if the file does not state one
   std::vector<Kind> kinds;         // particles only, in the order in which colours are given
   bool elements = false;           // whether kinds are chemical elements
   std::string value_type;          // volumes only: the type of a value in the file
   std::uint64_t components = 1;    // volumes only: values that the file has for each voxel
-  std::string orientation;         // volumes only: where the axes point, as the file states it
+  std::string orientation;  // volumes only: the directions of the axes, as the file states them
   std::vector<std::string> notes;  // one sentence for each thing that was guessed or left out
 };
 

@@ -13,17 +13,17 @@ namespace triptych::scene {
 // Lines without their ends, which may be LF or CR LF; the end of the last one may be missing.
 [[nodiscard]] std::vector<std::string_view> split_lines(std::string_view text);
 
-// The parts between blanks and tabs.
+// The parts that are separated by blanks and tabs.
 [[nodiscard]] std::vector<std::string_view> split_words(std::string_view text);
 
-// Without the byte order mark of UTF-8, which editors put before a text.
+// The text without the byte order mark of UTF-8, which some editors put before it.
 [[nodiscard]] std::string_view without_mark(std::string_view text);
 
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 [[nodiscard]] std::string lower_case(std::string_view text);
 
-// A word of a file as a message quotes it: on one line, at most 40 characters of it, and none that
-// a terminal would act on.
+// A word of a file in the form in which messages quote it: on one line, at most 40 characters,
+// without characters that control a terminal.
 [[nodiscard]] std::string quotable(std::string_view word);
 
 // The number that the whole word spells, if it does and the type can hold it.

@@ -37,7 +37,7 @@ std::string text_of(const Range& range) {
   return fmt::format("{}..{}", range.lo, range.hi);
 }
 
-// The values of a volume that count: finite ones, and for a logarithm only positive ones.
+// The values of a volume that are used: finite ones, and for a logarithm only positive ones.
 template <typename Scalar>
 class Counted {
  public:
@@ -83,7 +83,7 @@ class Counted {
   throw core::InputError(
       mapping == Mapping::logarithmic
           ? fmt::format("{}: mapping log needs values above 0, and no voxel has one", volume.name)
-          : fmt::format("{}: no voxel has a finite value to take a window of", volume.name));
+          : fmt::format("{}: no voxel has a finite value, so it has no window", volume.name));
 }
 
 template <typename Scalar>

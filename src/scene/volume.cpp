@@ -73,8 +73,7 @@ VoxelBytes convert(VoxelBytes&& voxels, Convert&& each) {
   return std::move(out);
 }
 
-// How an integer of type From is stored as an unsigned one: signed types are shifted so that they
-// begin at 0.
+// The unsigned form of an integer of type From: signed types are shifted so that they begin at 0.
 template <typename From>
 inline constexpr int shift_of = std::is_signed_v<From> ? -int{std::numeric_limits<From>::min()} : 0;
 
@@ -118,7 +117,7 @@ bool is_linear(const Volume& volume) {
   return volume.mapping == Mapping::linear && !volume.clipped;
 }
 
-// What is subtracted from integers before they are stored as f16.
+// The number that is subtracted from integers before they are stored as f16.
 double whole_part_of_lower_end(const Volume& volume) {
   return std::floor(volume.range_lo);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Volumes: what a file or a generator gives (Volume), and what a device is given (VoxelGrid).
+// Volumes from a file or a generator (Volume), and their form on a device (VoxelGrid).
 
 #include <array>
 #include <cstddef>
@@ -23,10 +23,10 @@ enum class ScalarType : std::uint8_t { u8, i8, u16, i16, f32, f64 };
 enum class Mapping : std::uint8_t { linear, logarithmic };
 [[nodiscard]] std::string_view name_of(Mapping mapping);
 
-// A scalar field on a regular grid, values as stored in the file, native byte order, x fastest:
-// voxel (i, j, k) is element i + nx·(j + ny·k). Voxel centres lie at (i+½)·spacing, the volume
-// fills [0, size·spacing] in world units, values are clamped to the edge outside the outermost
-// centres.
+// A scalar field on a regular grid. Values are as stored in the file, in native byte order, with x
+// fastest: voxel (i, j, k) is element i + nx·(j + ny·k). Voxel centres are at (i+½)·spacing, and
+// the volume fills [0, size·spacing] in world units. Outside the outermost centres, values are
+// clamped to the edge.
 struct Volume {
   std::string name;  // the `data` factor: a file name or generate:NAME:SIZE
   std::array<int, 3> size{};
@@ -42,7 +42,8 @@ struct Volume {
   ReadFacts facts;       // of a file
 
   [[nodiscard]] std::size_t voxel_count() const noexcept;
-  [[nodiscard]] double value(std::size_t index) const;  // as stored; may be NaN or infinite
+  // Values as stored in the file; may be NaN or infinite.
+  [[nodiscard]] double value(std::size_t index) const;
 };
 
 // How voxels are stored on a device: the levels of the factor `voxel`.
@@ -50,7 +51,7 @@ enum class VoxelFormat : std::uint8_t { u8, u16, f32, f16 };
 [[nodiscard]] std::string_view name_of(VoxelFormat format);
 [[nodiscard]] VoxelFormat voxel_format(std::string_view name);  // throws InputError
 [[nodiscard]] std::size_t bytes_of(VoxelFormat format);
-// The largest integer that u8 and u16 store; 1 for floats, of which a texel is what is stored.
+// The largest integer that u8 and u16 store; 1 for floats, whose texels contain the stored value.
 [[nodiscard]] double largest_stored(VoxelFormat format);
 
 // Voxels as uploaded. The normalised value, 0..1 over the range, is
@@ -68,7 +69,7 @@ struct VoxelGrid {
   double offset = 0;
   double range_lo = 0;
   double range_hi = 1;
-  Mapping mapping = Mapping::linear;  // of the values; that of `stored` is linear
+  Mapping mapping = Mapping::linear;  // range of the values; that of `stored` is linear
   std::string name;
   std::string hash;  // content_hash of the voxels and the mapping
 
@@ -76,22 +77,22 @@ struct VoxelGrid {
   [[nodiscard]] double normalised(std::size_t index) const;  // x of a voxel
 };
 
-// The smallest format that holds every value of this type exactly; f64 becomes f32.
+// The smallest format that represents every value of this type exactly; f64 becomes f32.
 [[nodiscard]] VoxelFormat lossless_format(ScalarType type);
-// As the volume's values are mapped: integers that are clamped or of which a logarithm is taken are
-// f32.
+// The format after mapping: integers that are clamped, or whose logarithm is taken, become f32.
 [[nodiscard]] VoxelFormat lossless_format(const Volume& volume);
 
-// Whether f16 holds every voxel exactly: integers, mapped as they are, each of which has at most 11
-// significant bits once the whole part of the range's lower end is taken off.
+// Whether f16 represents every voxel exactly. This is so for integers with a linear mapping, each
+// of which has at most 11 significant bits after the whole part of the range's lower end is
+// subtracted.
 [[nodiscard]] bool fits_halves(const Volume& volume);
 
-// Converts; where the format is too small for the volume, values are rounded to its steps over the
-// range. Consumes the volume's voxels where the representation is the same, to keep one copy in
-// memory.
+// Converts the volume. If the format is too small, values are rounded to its steps over the range.
+// If the representation is the same, the volume's voxels are moved, so that there is only one copy
+// in memory.
 [[nodiscard]] VoxelGrid encode(Volume&& volume, VoxelFormat format);
 
-// Which value of a voxel is drawn where a file has several: the levels of the factor `component`.
+// The value of a voxel that is drawn if a file has several: the levels of the factor `component`.
 struct Component {
   std::uint64_t index = 0;  // counted from 0
   bool magnitude = false;   // the Euclidean length of all of them instead

@@ -1,5 +1,6 @@
 #pragma once
-// The table of volume formats: one row each. docs/adding-a-file-format.md says how to add one.
+// The table of volume formats, with one row for each. docs/adding-a-file-format.md describes how to
+// add one.
 
 #include <filesystem>
 #include <span>
@@ -11,7 +12,7 @@ namespace triptych::scene {
 
 struct VolumeFormat {
   std::string_view name;
-  std::string_view endings;  // in small letters, separated by blanks; the first one is the usual one
+  std::string_view endings;  // in lower case, separated by blanks; the first one is the usual one
   // Whether the unpacked content of a file begins as one of this format, beyond doubt.
   bool (*begins)(std::string_view start);
   Volume (*read)(const std::filesystem::path& file, const Component& component);
@@ -19,9 +20,9 @@ struct VolumeFormat {
 
 [[nodiscard]] std::span<const VolumeFormat> volume_formats();
 
-// The format of a file by its name, without .gz or .bz2, or where no format has that name by how its
-// content begins. Throws InputError where it has none, and for content that is of another format
-// than the name says.
+// Determines the format of a file from its name, without .gz or .bz2, or from the beginning of its
+// content if no format has that ending. Throws InputError if neither identifies a format, and for
+// content of another format than that of the name.
 [[nodiscard]] const VolumeFormat& volume_format(const std::filesystem::path& file);
 
 }  // namespace triptych::scene

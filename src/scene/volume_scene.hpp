@@ -40,9 +40,9 @@ enum class Quadrature : std::uint8_t { midpoint, preintegrated, cells };
 [[nodiscard]] std::string_view name_of(Quadrature quadrature);
 [[nodiscard]] Quadrature quadrature(std::string_view name);  // throws InputError
 
-// Everything that determines the picture, and nothing about how it is computed. Samples are at
-// t₀ + (i+½)·h, where h = step_voxels · smallest spacing, and t₀ is where the ray enters the box.
-// Sample i stands for the length min(h, t₁ − t₀ − i·h), so that only the last one is partial.
+// Everything that determines the image, without the way in which it is computed. Samples are at t₀
+// + (i+½)·h, where h = step_voxels · smallest spacing, and t₀ is where the ray enters the box.
+// Sample i represents the length min(h, t₁ − t₀ − i·h), so that only the last one is partial.
 struct VolumeScene {
   std::shared_ptr<const VoxelGrid> grid;
   TransferFunction transfer_function;
@@ -57,7 +57,7 @@ struct VolumeScene {
   [[nodiscard]] Box box() const;
   [[nodiscard]] double smallest_spacing() const;
   [[nodiscard]] double step_world() const { return step_voxels * smallest_spacing(); }
-  // For Quadrature::cells: the number of parts into which the way through a cell is cut.
+  // For Quadrature::cells: the number of parts into which the ray's segment in a cell is cut.
   [[nodiscard]] int parts_of_cell() const;
 };
 

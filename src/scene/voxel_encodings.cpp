@@ -15,7 +15,7 @@
 namespace triptych::scene {
 namespace {
 
-// The letters of a source, one by one.
+// The characters of a source, one by one.
 class Letters {
  public:
   explicit Letters(ByteSource source) : source_(std::move(source)) {}
@@ -31,7 +31,7 @@ class Letters {
   }
   void take() { ++at_; }
 
-  // The next letter that is not a blank.
+  // The next character that is not white space.
   std::optional<char> peek_ink() {
     for (auto c = peek(); c; c = peek()) {
       if (*c != ' ' && *c != '\n' && *c != '\r' && *c != '\t') return c;
@@ -113,7 +113,7 @@ class Base64Reader {
   }
 
  private:
-  // Four letters are three bytes; '=' stands for one that is missing at the end of a run.
+  // Four characters encode three bytes; '=' replaces a missing one at the end of a run.
   bool next_group() {
     unsigned bits = 0;
     unsigned letters = 0;
@@ -155,7 +155,7 @@ std::optional<std::array<std::byte, 8>> number_bytes(std::string_view word) {
   return bytes;
 }
 
-// from_chars reads std::uint8_t as a number, not as a letter.
+// from_chars reads std::uint8_t as a number, not as a character.
 std::optional<std::array<std::byte, 8>> value_of(std::string_view word, StoredType type) {
   switch (type) {
     case StoredType::u8:
@@ -201,7 +201,7 @@ class TextReader {
   }
 
   bool next_value() {
-    constexpr std::size_t longest = 400;  // letters of a number, however it is written
+    constexpr std::size_t longest = 400;  // characters of a number in any notation
     std::string word;
     auto c = letters_.peek();
     for (; c && separates(*c); c = letters_.peek()) letters_.take();

@@ -8,18 +8,17 @@
 
 namespace triptych::scene {
 
-// Each throws InputError with the file where its input is none of the kind. They end where their
-// input ends.
+// Each throws InputError with the file if its input has another form. Reading ends with the input.
 
-// Two digits a byte, with blanks and line ends anywhere.
+// Two digits per byte; white space may be anywhere.
 [[nodiscard]] ByteSource hex_bytes(ByteSource source, std::string file);
 
-// Several runs may follow one another, each padded at its end. Ends at the first letter that belongs
-// to none, such as the '<' of a closing tag.
+// Several runs may follow one another, each with its own padding. Reading ends at the first
+// character that does not belong to the encoding, such as the '<' of a closing tag.
 [[nodiscard]] ByteSource base64_bytes(ByteSource source, std::string file);
 
-// Numbers with blanks, line ends or commas between them, as bytes of `type` in native order. Ends at
-// a '<', too, where a closing tag begins.
+// Reads numbers that are separated by white space or commas, and returns them as bytes of `type` in
+// native order. Reading also ends at a '<', where a closing tag begins.
 [[nodiscard]] ByteSource text_values(ByteSource source, StoredType type, std::string file);
 
 }  // namespace triptych::scene

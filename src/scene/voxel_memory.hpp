@@ -26,7 +26,7 @@ struct VoxelAllocator {
     return static_cast<T*>(allocate_voxels(n * sizeof(T)));
   }
   void deallocate(T* voxels, std::size_t n) noexcept { free_voxels(voxels, n * sizeof(T)); }
-  // What resize() adds is already 0. Writing it again would fill a file twice.
+  // Memory that resize() adds is already 0. Writing it again would fill a file twice.
   template <typename U>
   void construct(U* /*fresh*/) noexcept {}
   template <typename U, typename... From>

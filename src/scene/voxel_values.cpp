@@ -126,7 +126,7 @@ template <typename From, typename To>
 std::uint64_t lengths(Volume& volume, const ValueLayout& layout, std::uint64_t needed,
                       const ByteSource& source) {
   Voxels<To> voxels(volume.voxels, volume.voxel_count());
-  std::vector<double> sums;  // of a block; grows as its values come
+  std::vector<double> sums;  // values of a block; grows as values are read
   std::size_t at = 0;
   return for_each_value<From>(layout, needed, source, [&](From value, std::uint64_t component) {
     const double scaled = layout.slope * static_cast<double>(value) + layout.intercept;
@@ -150,7 +150,7 @@ void convert_in_place(Volume& volume, ScalarType type) {
   volume.type = type;
 }
 
-// 32-bit integers that no float holds.
+// 32-bit integers that a float cannot represent.
 template <typename From>
 void convert_to_doubles(Volume& volume) {
   if constexpr (sizeof(From) == sizeof(double)) {
@@ -168,7 +168,7 @@ void convert_to_doubles(Volume& volume) {
   }
 }
 
-// From wide integers to the smallest type that holds all of them.
+// Converts wide integers to the smallest type that can represent all of them.
 template <typename From>
 void narrow(Volume& volume) {
   From lo = std::numeric_limits<From>::max();
@@ -178,7 +178,7 @@ void narrow(Volume& volume) {
     const auto value = load_scalar<From>(volume.voxels.data(), i);
     lo = std::min(lo, value);
     hi = std::max(hi, value);
-    // In double, the float of the largest integers would be beyond them.
+    // The comparison is in double, because the nearest float to the largest integer exceeds it.
     exact_floats = exact_floats && static_cast<double>(static_cast<float>(value)) ==
                                        static_cast<double>(value);
   }
@@ -254,7 +254,7 @@ void check_component(const Component& component, std::uint64_t components,
   if (component.magnitude || component.index < components) return;
   throw core::InputError(
       {.file = file.string()},
-      fmt::format("has {} value{} for each voxel; component {} is none of them, counted from 0",
+      fmt::format("has {} value{} for each voxel; component {}, counted from 0, does not exist",
                   components, components == 1 ? "" : "s", component.index));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
-// From the values of a file to the voxels of a volume: one component of several, or its magnitude,
-// scaled if the file states a scale, in one of the types that Volume has.
+// Converts the values of a file to the voxels of a volume: it selects one component of several, or
+// computes their magnitude, and applies the scale that the file states. The result has one of the
+// types of Volume.
 
 #include <cstdint>
 #include <optional>
@@ -16,16 +17,16 @@ namespace triptych::scene {
 enum class StoredType : std::uint8_t { u8, i8, u16, i16, u32, i32, u64, i64, f32, f64 };
 [[nodiscard]] std::size_t bytes_of(StoredType type);
 [[nodiscard]] std::string_view name_of(StoredType type);
-// The type of a volume's voxels that stores these values as they are; nothing where none does.
+// The type of a volume's voxels that stores these values unchanged; nullopt if there is none.
 [[nodiscard]] std::optional<ScalarType> same_type(StoredType type);
 
-// How the values of a file follow one another. Voxels come with x fastest.
+// The order of the values in a file. Voxels are stored with x fastest.
 struct ValueLayout {
   StoredType type = StoredType::u8;
   bool big_endian = false;
   std::uint64_t components = 1;  // values for each voxel
-  // How many voxels' values of one component stand together: 1 where the components of a voxel do,
-  // all voxels where one component's volume follows the other.
+  // The number of consecutive values of one component: 1 if the components of a voxel are
+  // consecutive, or the number of voxels if the components are separate volumes.
   std::uint64_t block = 1;
   double slope = 1;  // value = slope·stored + intercept
   double intercept = 0;
@@ -37,8 +38,8 @@ struct ValueLayout {
 [[nodiscard]] bool is_plain(const ValueLayout& layout);
 
 // Reads all values of a volume, whose size is set, and fills its voxels and its type. Memory is
-// taken as they come. Returns how many bytes were there, which are fewer than value_bytes only where
-// the source ended too early.
+// used as they are read. Returns the number of bytes that were read, which is less than value_bytes
+// only if the source ended too early.
 [[nodiscard]] std::uint64_t take_values(Volume& volume, const ValueLayout& layout,
                                         const Component& component, const ByteSource& source);
 

@@ -29,14 +29,14 @@ struct VtiArray {
   bool of_cells = false;
 };
 
-// The content of a file's tags.
+// The contents of a file's tags.
 struct VtiFile {
   std::string file;
   XmlTag root;
   XmlTag image;
   std::vector<XmlTag> pieces;
   std::vector<VtiArray> arrays;
-  std::array<std::string, 2> active;  // the names of the points' and the cells' scalars
+  std::array<std::string, 2> active;  // the names of the point and cell arrays that are the scalars
   std::optional<XmlTag> appended;
   std::uint64_t appended_start = 0;  // behind its '_'
 
@@ -45,7 +45,7 @@ struct VtiFile {
   }
 };
 
-// Where the '_' is that data follow.
+// The position of the '_' that precedes the data.
 std::uint64_t start_of_appended(const std::filesystem::path& file, std::uint64_t from) {
   const ByteSource source = content_bytes(file);
   skip_bytes(source, from);
@@ -99,7 +99,8 @@ VtiFile read_tags(const std::filesystem::path& file) {
   return vti;
 }
 
-// The scalars of the points, those of the cells, the first array of the points, or of the cells.
+// Chooses the point scalars, else the cell scalars, else the first point array, else the first cell
+// array.
 const VtiArray& chosen_array(const VtiFile& vti) {
   for (const bool by_name : {true, false}) {
     for (const bool of_cells : {false, true}) {
@@ -179,7 +180,7 @@ StoredType vti_type(const VtiFile& vti, const XmlTag& array) {
                          quotable(name)));
 }
 
-// Numbers before the data, in the file's byte order: 4 or 8 bytes each.
+// Numbers before the data, in the file's byte order, with 4 or 8 bytes each.
 class BlockHeader {
  public:
   BlockHeader(const VtiFile& vti, const ByteSource& source)
@@ -244,7 +245,7 @@ class ZlibBlocks {
     if (next_ == packed_.size()) return false;
     const std::uint64_t packed_size = packed_[next_++];
     const std::uint64_t size = next_ == packed_.size() ? last_ : size_;
-    // zlib's own bound of what a block of that size can become.
+    // zlib's upper limit for the compressed size of a block of that size.
     if (packed_size > compressBound(static_cast<uLong>(size)) + 64) {
       reject(fmt::format("{} compressed bytes for a block of {}", packed_size, size));
     }
@@ -275,7 +276,7 @@ class ZlibBlocks {
   std::size_t at_ = 0;
 };
 
-// The array's values from their first byte on; nothing of them is taken.
+// A source of the array's values from the first byte on; nothing has been read.
 ByteSource open_array(const VtiFile& vti, const XmlTag& array, const std::filesystem::path& file,
                       StoredType type) {
   const std::string format = array.attribute("format", "ascii");
@@ -301,7 +302,8 @@ ByteSource open_array(const VtiFile& vti, const XmlTag& array, const std::filesy
   const std::string compressor = vti.root.attribute("compressor");
   if (compressor.empty()) {
     const BlockHeader header(vti, bytes);
-    static_cast<void>(header.take());  // how many bytes follow: the sizes say so, too
+    // The number of following bytes, which also follows from the sizes.
+    static_cast<void>(header.take());
     return bytes;
   }
   if (compressor != "vtkZLibDataCompressor") {
@@ -325,7 +327,7 @@ Volume read_vti(const std::filesystem::path& file, const Component& component) {
   const std::string components = array.tag.attribute("NumberOfComponents", "1");
   const auto count = parse_number<std::uint32_t>(components);
   if (!count || *count == 0) {
-    vti.reject(fmt::format("NumberOfComponents '{}'; expected a whole number from 1 on",
+    vti.reject(fmt::format("NumberOfComponents '{}'; expected a whole number, 1 or more",
                            quotable(components)));
   }
   layout.components = *count;
@@ -333,9 +335,8 @@ Volume read_vti(const std::filesystem::path& file, const Component& component) {
   layout.big_endian = text ? std::endian::native == std::endian::big
                            : vti.root.attribute("byte_order") == "BigEndian";
   if (vti.arrays.size() > 1) {
-    volume.facts.notes.push_back(fmt::format("drawn is the array '{}' of {}",
-                                             quotable(array.tag.attribute("Name")),
-                                             vti.arrays.size()));
+    volume.facts.notes.push_back(fmt::format(
+        "the array '{}' of {} is drawn", quotable(array.tag.attribute("Name")), vti.arrays.size()));
   }
   read_stream(volume, layout, component, open_array(vti, array.tag, file, layout.type), file);
   return volume;

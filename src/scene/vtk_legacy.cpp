@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t longest_vtk_header = std::size_t{1} << 20U;
 
-// The lines of a header, and where each ends.
+// The lines of a header, and the position at which each ends.
 class VtkLines {
  public:
   explicit VtkLines(const std::filesystem::path& file)
@@ -35,7 +35,7 @@ class VtkLines {
       if (!trimmed(line).empty()) return trimmed(line);
     }
   }
-  // The next line, blank or not.
+  // The next line, which may be blank.
   std::string_view any() {
     const std::size_t length = std::min(rest_.find('\n'), rest_.size());
     std::string_view line = rest_.substr(0, length);
@@ -91,12 +91,12 @@ StoredType vtk_type(const VtkLines& lines, std::string_view name) {
 std::uint64_t count_of(const VtkLines& lines, std::string_view word) {
   const auto count = parse_number<std::uint32_t>(word);
   if (!count || *count == 0) {
-    lines.reject(fmt::format("expected a whole number from 1 on, found '{}'", quotable(word)));
+    lines.reject(fmt::format("expected a whole number, 1 or more, found '{}'", quotable(word)));
   }
   return *count;
 }
 
-// The properties of the image that are stated before its array.
+// The properties of the image that precede its array.
 struct VtkHeader {
   bool binary = false;
   std::string sizes;
@@ -104,7 +104,7 @@ struct VtkHeader {
   bool of_cells = false;
 };
 
-// Up to POINT_DATA or CELL_DATA, whose number of values is returned.
+// Reads up to POINT_DATA or CELL_DATA, and returns its number of values.
 std::uint64_t take_geometry(VtkLines& lines, VtkHeader& header) {
   for (;;) {
     const std::string_view line = lines.next("POINT_DATA");
@@ -128,7 +128,7 @@ std::uint64_t take_geometry(VtkLines& lines, VtkHeader& header) {
   }
 }
 
-// The lines that announce an array; afterwards its values begin.
+// Reads the lines that declare an array; its values follow.
 ValueLayout take_array(VtkLines& lines, const VtkHeader& header) {
   ValueLayout layout;
   layout.big_endian = true;
@@ -150,7 +150,7 @@ ValueLayout take_array(VtkLines& lines, const VtkHeader& header) {
   } else if (key == "color_scalars") {
     need(3, "COLOR_SCALARS name components");
     layout.type = header.binary ? StoredType::u8 : StoredType::f32;
-    // Bytes, which a text has as shares of 255.
+    // Reads bytes; a text file has them as fractions of 255.
     if (!header.binary) layout.slope = 255;
     layout.components = count_of(lines, words[2]);
   } else if (key == "field") {
@@ -167,7 +167,7 @@ ValueLayout take_array(VtkLines& lines, const VtkHeader& header) {
   return layout;
 }
 
-// The lines before the image's geometry.
+// The lines before the geometry of the image.
 VtkHeader take_heading(VtkLines& lines) {
   if (!lines.any().starts_with("# vtk DataFile Version")) {
     lines.reject("not a VTK file; expected '# vtk DataFile Version'");

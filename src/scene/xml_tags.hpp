@@ -1,6 +1,6 @@
 #pragma once
-// The tags of an XML file, one by one, with where each ends in the file: for formats that keep much
-// data between tags. Not a whole XML parser: entities in attributes are left as they are.
+// The tags of an XML file, one by one, with the position at which each ends: for formats with large
+// data between tags. This is not a whole XML parser: entities in attributes are left as they are.
 
 #include <cstdint>
 #include <map>
@@ -16,7 +16,7 @@ struct XmlTag {
   std::string name;  // "/NAME" of a closing tag
   std::map<std::string, std::string> attributes;
   bool empty = false;     // <NAME/>
-  std::uint64_t end = 0;  // of the byte after '>'
+  std::uint64_t end = 0;  // position of the byte after '>'
 
   [[nodiscard]] std::string attribute(const std::string& key, const std::string& otherwise = {}) const {
     const auto found = attributes.find(key);
@@ -28,7 +28,7 @@ class XmlTags {
  public:
   XmlTags(ByteSource source, std::string file);
 
-  // The next tag, or nothing at the end. Comments, declarations and texts are skipped. Throws
+  // The next tag; nullopt at the end. Comments, declarations and texts are skipped. Throws
   // InputError for a tag that does not end or is too long.
   [[nodiscard]] std::optional<XmlTag> next();
 

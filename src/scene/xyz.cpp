@@ -15,12 +15,13 @@
 namespace triptych::scene {
 namespace {
 
-// Which words of a line are the element and the place.
+// The columns of the element and the position in a line.
 struct XyzColumns {
   std::size_t element = 0;
   std::size_t place = 1;
-  bool numbered = false;             // the element is an atomic number, as the file states
-  std::optional<std::size_t> count;  // as stated; a plain file may have more than are of use
+  bool numbered = false;  // the element is an atomic number, according to the file
+  // Number of columns, as stated; a plain file may have further ones.
+  std::optional<std::size_t> count;
 };
 
 std::string_view take_part(std::string_view& list) {
@@ -74,7 +75,8 @@ XyzColumns columns_of(std::string_view text, const LineReader& reader) {
   return comment.properties ? stated_columns(*comment.properties, reader) : XyzColumns{};
 }
 
-// Numbers as other programs write them: with Fortran's exponent (1.0D+00), or Mathematica's (8.4*^-6).
+// Numbers in the notations of other programs: with Fortran's exponent (1.0D+00), or Mathematica's
+// (8.4*^-6).
 double xyz_number(std::string_view word, std::string_view what, const LineReader& reader) {
   const std::size_t mark = word.find_first_of("dD*");
   if (mark == std::string_view::npos) return reader.number(word, what);
@@ -89,7 +91,7 @@ double xyz_number(std::string_view word, std::string_view what, const LineReader
   return value ? *value : reader.number(word, what);
 }
 
-// Words of a line of which some may be quoted texts with blanks in them.
+// The words of a line, some of which may be quoted texts with blanks.
 void split_quoted_into(std::string_view line, std::vector<std::string_view>& words,
                        const LineReader& reader) {
   if (line.find('"') == std::string_view::npos) {
@@ -115,7 +117,7 @@ void add_xyz_atom(Atoms& atoms, const std::vector<std::string_view>& words,
                   const XyzColumns& columns, const LineReader& reader) {
   if (!columns.count && words.size() < 4) reader.reject("expected an element, x, y and z");
   if (columns.count && words.size() != *columns.count) {
-    reader.reject(fmt::format("expected {} columns, as Properties says, found {}", *columns.count,
+    reader.reject(fmt::format("expected {} columns, as Properties states, found {}", *columns.count,
                               words.size()));
   }
   const std::string_view word = words[columns.element];
@@ -132,12 +134,13 @@ void add_xyz_atom(Atoms& atoms, const std::vector<std::string_view>& words,
             atoms.kind(word));
 }
 
-// The letters that a word begins with: "C" of "C12".
+// The letters at the beginning of a word: "C" for "C12".
 std::string_view letters_of_word(std::string_view word) {
   return word.substr(0, word.find_first_of("0123456789_-+."));
 }
 
-// "CB" or "HG": no element, but an atom's name in a protein. Then "CA" is one, too.
+// "CB" or "HG" is not an element but the name of an atom in a protein. Then "CA" is such a name,
+// too.
 bool is_atom_name(std::string_view word) {
   const std::string_view letters = letters_of_word(word);
   const bool upper = std::ranges::all_of(letters, [](char c) { return c >= 'A' && c <= 'Z'; });
@@ -168,7 +171,7 @@ void note_numbers(Atoms& atoms) {
       fmt::join(read_as, ", "), all ? "" : ", …"));
 }
 
-// From the file's words to elements.
+// Converts the file's words to elements.
 void name_words(Atoms& atoms, bool numbered) {
   if (!numbered) note_numbers(atoms);
   const bool names = std::ranges::any_of(atoms.kind_names, is_atom_name);
@@ -190,8 +193,8 @@ void name_words(Atoms& atoms, bool numbered) {
   name_elements(atoms);
 }
 
-// A frame is followed by nothing, or by the count of the next one. The data set QM9 has three lines
-// there: frequencies, SMILES and InChI.
+// After a frame, either the file ends or the next count follows. The data set QM9 has three other
+// lines there: frequencies, SMILES and InChI.
 void check_what_follows(LineReader& reader) {
   if (reader.at_end()) return;
   const std::string_view line = reader.require("a frame");
@@ -200,9 +203,10 @@ void check_what_follows(LineReader& reader) {
   const auto smiles = reader.next();
   const auto inchi = reader.next();
   if (smiles && inchi && inchi->starts_with("InChI=") && reader.at_end()) return;
-  reader.reject_at(number, fmt::format("expected the end or the next frame's number of atoms, found "
-                                       "'{}': the file has more lines than its number of atoms says",
-                                       quotable(trimmed(line))));
+  reader.reject_at(number,
+                   fmt::format("expected the end or the next frame's number of atoms, found "
+                               "'{}': the file has more lines than its number of atoms states",
+                               quotable(trimmed(line))));
 }
 
 }  // namespace

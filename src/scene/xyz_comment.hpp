@@ -1,7 +1,7 @@
 #pragma once
-// The comment line of extended XYZ, after its specification (https://github.com/libAtoms/extxyz):
-// KEY=VALUE pairs and single keys, where a value is a word, a quoted text, or a list in brackets or
-// braces.
+// The comment line of extended XYZ, according to its specification
+// (https://github.com/libAtoms/extxyz): KEY=VALUE pairs and single keys, where a value is a word, a
+// quoted text, or a list in brackets or braces.
 
 #include <optional>
 #include <string>
@@ -10,10 +10,10 @@
 namespace triptych::scene {
 
 struct XyzComment {
-  // The value of `Properties`, in any case; nothing where no key of that name is there.
+  // The value of `Properties`, in any case; nullopt if there is no such key.
   std::optional<std::string> properties;
-  // Why the comment cannot be read by the specification though it may be meant so: it has
-  // "Properties=" in it, but a quote or bracket is never closed, or the key is there twice.
+  // The reason why the comment is not valid extended XYZ although it is probably meant to be: it
+  // contains "Properties=", but a quote or bracket is never closed, or the key appears twice.
   std::string error;
 };
 

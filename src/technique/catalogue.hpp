@@ -13,8 +13,8 @@ namespace triptych::technique {
 enum class Work : std::uint8_t { compute, draw };
 [[nodiscard]] std::string_view name_of(Work work);
 
-// How a particle technique finds the pixels of a sphere: by a sprite around it, by tiles of the
-// picture that it reaches, or by rays that look for it.
+// How a particle technique finds the pixels of a sphere: by a sprite around it, by the tiles of the
+// image that it covers, or by rays.
 enum class Method : std::uint8_t { sprites, tiles, rays };
 // The vertices with which a sphere is drawn.
 enum class Vertices : std::uint8_t { none, one, corners };
@@ -25,7 +25,7 @@ struct Technique {
   Work work = Work::compute;
   Method method = Method::rays;
   Vertices vertices = Vertices::none;
-  bool asks_corners = false;      // draws as many corners as the factor `corners` says
+  bool asks_corners = false;      // draws the number of corners that the factor `corners` selects
   bool fetches_by_index = false;  // its shaders read all spheres from one storage buffer
   bool instanced = false;         // one instance for each sphere
   bool parts = false;             // can draw a volume in parts that do not fit into memory at once

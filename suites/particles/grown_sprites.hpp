@@ -1,5 +1,5 @@
 #pragma once
-// The additional fragments that a coarse vertex grid causes.
+// The additional fragments due to a coarse vertex grid.
 
 #include "scene/particle_scene.hpp"
 

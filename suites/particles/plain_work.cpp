@@ -107,13 +107,13 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
   if (!technique.asks_corners)
     plainer("corners", "8", "only polygon_tess uses the number of corners");
   if (technique.method == technique::Method::rays) {
-    plainer("conservative_depth", "off", "rays skip hidden cells in any case");
-    plainer("culling", "frustum", "rays leave out what they cannot hit in any case");
+    plainer("conservative_depth", "off", "rays always skip hidden cells");
+    plainer("culling", "frustum", "rays always skip what they cannot hit");
     return plain;
   }
   if (work.options.conservative_depth) {
     if (technique.method == technique::Method::tiles) {
-      plainer("conservative_depth", "off", "tiles reject by the sphere's front in any case");
+      plainer("conservative_depth", "off", "tiles always reject by the sphere's front");
     } else if (sprites_are_apart(work.scene)) {
       plainer("conservative_depth", "off", "no sprite lies behind another");
     }

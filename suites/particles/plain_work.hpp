@@ -1,17 +1,18 @@
 #pragma once
-// Configurations of particles that are exactly the same work (measure::Suite::plain).
+// Configurations of particles that do exactly the same work (measure::Suite::plain).
 
 #include "measure/contract/suite.hpp"
 #include "scene/particle_scene.hpp"
 
 namespace triptych::particles_suite {
 
-// Whether no two sprites share a pixel, whatever technique draws them. False if that is not
-// certain, which is the case for spheres that reach the plane of the eye or come near it.
+// Whether no two sprites share a pixel with any technique. False if that is not certain, which is
+// the case for spheres that reach the plane of the eye or come near it.
 [[nodiscard]] bool sprites_are_apart(const scene::ParticleScene& scene);
 
-// Levels that matter only for another technique or another kind of colour. Also conservative depth,
-// which rejects hidden fragments before shading, if no sprite lies behind another one.
+// Replaces levels that matter only for another technique or another kind of colour. This includes
+// conservative depth, which rejects hidden fragments before shading, if no sprite lies behind
+// another one.
 [[nodiscard]] measure::PlainWork plain_work(const measure::Configuration& configuration,
                                             const measure::ParticleWork& work);
 

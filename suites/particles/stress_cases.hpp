@@ -44,7 +44,7 @@ struct StressScene {
   scene::Camera camera;
   int width = 0;
   int height = 0;
-  // The camera of the previous frame, if the case is about what a frame leaves for the next one.
+  // The camera of the previous frame, for a case that tests the effect of one frame on the next.
   std::optional<scene::Camera> camera_before = {};
 };
 [[nodiscard]] StressScene stress_scene(const StressData& data, scene::ColourKind colour);

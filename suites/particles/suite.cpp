@@ -129,7 +129,7 @@ std::string ParticleSuite::missing_data(const Configuration& configuration) cons
   const std::string& data = configuration.at("data");
   if (stress_data(data) || scene::particles_present(data, folders_)) return {};
   return fmt::format(
-      "data file '{}' is not here{}; set TRIPTYCH_DATA to the folder that holds particles/", data,
+      "data file '{}' was not found{}; set TRIPTYCH_DATA to the folder that holds particles/", data,
       folders_.empty() ? "" : fmt::format(", nor in {}", folders_.front().string()));
 }
 
@@ -158,7 +158,7 @@ void ParticleSuite::load(const Configuration& configuration) {
 const StressScene& ParticleSuite::own(std::string_view factor) const {
   if (loaded_.own) return *loaded_.own;
   throw core::InputError(
-      fmt::format("{}: own: only data stress:CASE have one of their own, {} does not", factor,
+      fmt::format("{}: the level own is only for data stress:CASE, and {} is other data", factor,
                   loaded_.particles->name));
 }
 
@@ -297,8 +297,8 @@ std::string ParticleSuite::limit_key(const Configuration& configuration) {
       configuration.at("viewport"), beside_factors(configuration));
 }
 
-// A pixel shows what the ray through its centre meets, so there is nothing to refine: the reference
-// in double precision is already the limit.
+// A pixel shows the surface on the ray through its centre, so there is no sampling to refine: the
+// reference in double precision is already the limit.
 measure::Limit ParticleSuite::limit(const Configuration& configuration) {
   core::Image image = reference::render_spheres(scene(configuration)).image();
   core::Image none(image.width, image.height);

@@ -13,8 +13,8 @@
 
 namespace triptych::volume_suite {
 
-// The levels of one configuration. `stress` is its stress case, or nullptr if its data is none.
-// Both must outlive this object.
+// The levels of one configuration. `stress` is its stress case, or nullptr if its data are not a
+// stress case. Both must outlive this object.
 class OwnLevels {
  public:
   OwnLevels(const measure::Configuration& configuration, const StressScene* stress)

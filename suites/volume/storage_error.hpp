@@ -14,7 +14,7 @@ struct StorageError {
 };
 
 // `voxel` is the factor's level. `native` is the format that stores the data's values exactly.
-// `fits_halves` tells whether half floats do (scene::fits_halves).
+// `fits_halves` is true if half floats do (scene::fits_halves).
 [[nodiscard]] StorageError storage_error(const std::string& voxel, scene::VoxelFormat native,
                                          bool fits_halves, technique::Precision precision);
 

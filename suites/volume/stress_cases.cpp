@@ -276,8 +276,8 @@ std::vector<StressCase> cases_of_frame() {
        "halves",
        "integers reach 65504, the largest half float, or 65535, beyond it; or floats would become "
        "subnormal half floats",
-       "as f16 the first are exact and the second are scaled to their range; no half float is "
-       "subnormal or infinite",
+       "as f16, integers up to 65504 are exact and all other values are scaled to their range; no "
+       "half float is subnormal or infinite",
        {"largest", "beyond", "subnormal"},
        stress_halves},
   };

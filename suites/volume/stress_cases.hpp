@@ -25,7 +25,7 @@ namespace triptych::volume_suite {
 // The level that selects the value that belongs to the data.
 using measure::own_level;
 
-// A case's volume, and the values that the level `own` stands for.
+// A case's volume, and the values of the level `own`.
 struct StressScene {
   scene::Volume volume;
   scene::TransferFunction function;
@@ -38,9 +38,9 @@ struct StressScene {
   scene::Quadrature quadrature = scene::Quadrature::midpoint;
   std::array<float, 4> background{0.25F, 0.125F, 0.0625F, 1};
   std::vector<record::Expectation> expectations = {};
-  std::vector<record::Expectation> when_skipping = {};  // only if empty space is skipped
+  std::vector<record::Expectation> when_skipping = {};  // applies only if empty space is skipped
   std::vector<record::Expectation> when_leaping =
-      {};  // only if it is skipped by leaps (skip: distance)
+      {};  // applies only if it is skipped by leaps (skip: distance)
 };
 
 struct StressCase {

@@ -27,10 +27,10 @@ StressScene from_within(const scene::TransferFunction& function) {
   return scene;
 }
 
-// The bound on an image grows with the number of samples, as each may be rounded: of 10⁵ and 10⁶
-// samples it allows what a third of them missing would make of the image. Their number is known:
-// every ray is at least as long as the way straight through. One sample at either end is left to
-// rounding.
+// The bound on an image grows with the number of samples, because each may be rounded. With 10⁵ or
+// 10⁶ samples it would allow an image in which a third of them are missing. The expected number is
+// known, because every ray is at least as long as the way straight through. One sample at either
+// end may differ by rounding.
 record::Expectation every_sample(double least_length, double step_voxels) {
   const double least = std::floor(least_length / step_voxels) - 2;
   return {fmt::format("at least {} samples for every ray that meets the volume", least),

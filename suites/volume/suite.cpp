@@ -111,7 +111,7 @@ std::string VolumeSuite::missing_data(const Configuration& configuration) const 
   const std::string& data = configuration.at("data");
   if (analytic_data(data) || stress_data(data) || scene::is_present(data, folders_)) return {};
   return fmt::format(
-      "data file '{}' is not here{}; set TRIPTYCH_DATA to the folder that holds volumes/", data,
+      "data file '{}' was not found{}; set TRIPTYCH_DATA to the folder that holds volumes/", data,
       folders_.empty() ? "" : fmt::format(", nor in {}", folders_.front().string()));
 }
 

@@ -12,7 +12,8 @@ namespace triptych::volume_suite {
 struct PathPrecision {
   double ert = 0;                  // ε: a ray may end when less light than this is left
   double adapt = 0;                // allowed error of merged samples (technique::brick_kinds)
-  double filter_weight_error = 0;  // of the device's sampler, found by a probe (measure::Device)
+  // Error of the device's sampler, found by a probe (measure::Device).
+  double filter_weight_error = 0;
   double storage_step = 0;         // normalised value per step of a voxel format that loses values
   double voxel_rounding = 0;       // relative error of each voxel, for a format that rounds
   technique::Precision precision = technique::Precision::fp32;

@@ -10,8 +10,8 @@
 namespace triptych::architecture {
 namespace {
 
-// A test program's source, "`gate_test`", with the cases in it that the row names. A file without
-// cases stands for all of its cases.
+// The source of a test program, "`gate_test`", with the cases in it that the row names. A file
+// without cases stands for all of its cases.
 struct NamedTest {
   std::string file;
   std::vector<std::string> cases;
@@ -31,7 +31,7 @@ std::vector<NamedTest> tests_of(const std::string& cell) {
   return tests;
 }
 
-// The last cell of each row that is not a head.
+// The last cell of each row except the head.
 std::vector<std::string> rows_of(const std::string& page) {
   std::vector<std::string> rows;
   std::istringstream lines(page);
@@ -45,8 +45,8 @@ std::vector<std::string> rows_of(const std::string& page) {
 
 class Sources {
  public:
-  // The texts of all sources of this name that the CMakeLists.txt beside them names: the judge and
-  // the command line both have a gate_test.
+  // The texts of all sources with this name that the CMakeLists.txt next to them lists. The judge
+  // and the command line both have a gate_test.
   [[nodiscard]] std::optional<std::string> text(const std::string& name) const {
     std::optional<std::string> all;
     for (const auto& file : files_) {

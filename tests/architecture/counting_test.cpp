@@ -1,5 +1,5 @@
-// The code that counts has the same control flow as the code that is timed: in device code,
-// TRI_COUNT decides only what is counted.
+// The counting build has the same control flow as the timed build: in device code, TRI_COUNT only
+// affects counting.
 
 #include <gtest/gtest.h>
 

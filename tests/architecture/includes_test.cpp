@@ -81,8 +81,8 @@ std::map<std::string, std::set<std::string>> folders_of(const std::string& room)
   return found;
 }
 
-// Repeatedly removes folders that need none of those that remain. What cannot be removed is a
-// circle.
+// Repeatedly removes folders that need none of the remaining folders. The folders that cannot be
+// removed form a circle.
 std::string circle_in(std::map<std::string, std::set<std::string>> needed) {
   while (true) {
     const auto free = std::ranges::find_if(needed, [&](const auto& folder) {

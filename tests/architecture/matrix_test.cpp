@@ -74,7 +74,7 @@ std::string judged_plans(const std::string& suite, const std::string& check) {
   return all;
 }
 
-// Nobody judges what no gate draws.
+// A technique that no gate draws is never judged.
 TEST(Matrix, EveryTechniqueIsInTheGatesPlans) {
   for (const technique::Technique& each : technique::catalogue()) {
     for (const char* check : {"image", "cost", "code"}) {
@@ -94,7 +94,7 @@ TEST(Matrix, UnsupportedNamesOnlyTechniquesThereAre) {
   }
 }
 
-// The ids of techniques with which a text compares something.
+// The ids of techniques in comparisons within a text.
 std::set<std::string> compared_ids(const std::string& text) {
   static const std::regex comparison(R"re(technique(?:\.id|"\))?\s*[=!]=\s*"([a-z_]+)")re");
   std::set<std::string> ids;
@@ -107,8 +107,8 @@ std::set<std::string> compared_ids(const std::string& text) {
   return ids;
 }
 
-// A rule for one technique would be forgotten for the next one. What differs between techniques is
-// a column of the catalogue.
+// A rule for one technique would be forgotten for the next one. Differences between techniques are
+// columns of the catalogue.
 TEST(Matrix, SharedCodeComparesNoIdsOfTechniques) {
   EXPECT_EQ(compared_ids("if (work.technique == \"point\" && at(\"technique\") != \"raycast\" && "
                          "technique.id == \"mesh\" && api == \"gl\")"),

@@ -8,7 +8,7 @@ namespace triptych::architecture {
 namespace {
 
 // A search in a field or a result that contains prose, or a comparison with one. Only the words
-// folder makes prose, and core quotes it.
+// folder produces prose, and core quotes it.
 const std::regex reads_prose(
     R"(\b(detail|last_words|message|what\(\)|text_of\([^()]*\)|headline\([^()]*\)|advice\([^()]*\)))"
     R"(\s*(\.\s*(find|rfind|starts_with|ends_with|contains|substr|compare)\b|[=!]=\s*"[^"]))");

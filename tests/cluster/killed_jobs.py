@@ -153,7 +153,7 @@ def test(folder, generator):
     assert f"shards {ranges(lost)} of {SHARDS} are not complete" in told and f"submit --again {farm}" in told, told
     for index in sent_again:
         log = (farm / "1" / f"shard-{index}.log").read_text()
-        assert "sent 2 times" in log and "were there before" in log, log
+        assert "sent 2 times" in log and "were already in the store" in log, log
     assert f"shards {ranges(lost)} of" in run(CLUSTER / "submit", "--again", farm)
     wait("the end of what was sent again", queue_is_empty, 600)
     told = (farm / "merge.log").read_text()

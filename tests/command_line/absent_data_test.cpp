@@ -48,7 +48,7 @@ TEST_F(AbsentData, IsASkipForCTestAndNotToBeJudgedForTheGate) {
       << gate.output;
 }
 
-// A machine may be meant to lack data, but something has to be judged.
+// A machine may lack data files on purpose, but something has to be judged.
 TEST_F(AbsentData, IsExcusedByAnOptionUnlessNothingIsLeft) {
   ASSERT_EQ(program.run("run plan --device 'null:*' --store first.sqlite").code, 0);
   const std::string accept = "accept plan --reason new --baselines baselines --store ";
@@ -69,7 +69,8 @@ TEST_F(AbsentData, IsExcusedByAnOptionUnlessNothingIsLeft) {
       program.run("gate plan --check counters --baselines baselines --store both.sqlite").code, 2);
 }
 
-// The page shows what it can: the times, the image, and the reason why it cannot be judged.
+// The page shows everything that it can: the times, the image, and the reason why the image cannot
+// be judged.
 TEST_F(AbsentData, LeavesAPageWithoutATruth) {
   ASSERT_EQ(program.run("run plan --device 'null:*' --store s.sqlite").code, 0);
   std::filesystem::remove(program.folder() / "field.nrrd");

@@ -1,4 +1,4 @@
-// How the words of a command line are understood, and what its help says about them.
+// The parsing of command lines, and the help texts about it.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST_F(Arguments, EveryGlobMatchesADevice) {
 TEST_F(Arguments, APlanWithoutAName) {
   const Result result = program.run("run ''");
   EXPECT_EQ(result.code, 3);
-  EXPECT_THAT(result.output, HasSubstr("a plan needs a name"));
+  EXPECT_THAT(result.output, HasSubstr("a plan must be named"));
 }
 
 TEST_F(Arguments, BaselinesWithoutAName) {
@@ -104,7 +104,7 @@ TEST_F(Arguments, WhatIsNoTextIsRefusedWhereItStands) {
   const Result listed = program.run("list bytes.yaml --json");
   EXPECT_EQ(listed.code, 3);
   EXPECT_THAT(listed.output, HasSubstr("bytes.yaml:2:8: 'data'"));
-  // A plan's name is its file's, which may be anything.
+  // A plan has the name of its file, which may be any text.
   program.write("p\xff.yaml", one_step_plan);
   const Result named = program.run("list 'p\xff.yaml' --json");
   EXPECT_EQ(named.code, 0) << named.output;

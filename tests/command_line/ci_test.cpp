@@ -1,5 +1,5 @@
-// The scripts of ci/ with replacements for all programs that they call: what they ask for, and
-// their exit codes.
+// The scripts of ci/ with replacements for all programs that they call: the arguments of these
+// calls, and the exit codes.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using test::Result;
 using testing::HasSubstr;
 
-// Told by the environment what to answer.
+// An environment variable contains the answer.
 constexpr const char* stand_in_program = R"(#!/bin/sh
 echo "$*" >> calls
 exit ${GATE:-0}

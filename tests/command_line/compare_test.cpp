@@ -166,7 +166,7 @@ TEST_F(Compare, SideBySideNeedsAStoreOfTwoDevices) {
   expect_verdict(program.run("compare volume/quick"), 3, "needs two sides");
 }
 
-// Each side is a run of its own.
+// Each side is stored as a separate run.
 TEST_F(Compare, SideBySideReadsWhatAComparisonStored) {
   const std::string two = R"({"devices": [1, 1.7], "base_ns": 1e6})";
   const Result compared =

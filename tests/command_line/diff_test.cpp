@@ -72,7 +72,7 @@ TEST_F(Diff, WhatOnlyOneHasCannotBeJudged) {
   EXPECT_THAT(result.output, HasSubstr("plan volume/accuracy: only b has it"));
 }
 
-// The driver can draw nothing of it, neither before nor after. That is no pass.
+// The driver could draw nothing of it before and after, which does not count as a pass.
 TEST_F(Diff, WhatNeitherMeasuredCannotBeJudged) {
   for (const char* store : {"old.sqlite", "new.sqlite"}) {
     const Result run =
@@ -90,7 +90,7 @@ TEST_F(Diff, DevicesThatAreNotAskedForAreLeftOut) {
   measure("new.sqlite");
   const Result result = diff("--device 'gl:*'");
   EXPECT_EQ(result.code, 2) << result.output;
-  EXPECT_EQ(result.output, "triptych: old.sqlite and new.sqlite hold no run of such a device\n");
+  EXPECT_EQ(result.output, "triptych: old.sqlite and new.sqlite have no run of such a device\n");
 }
 
 TEST_F(Diff, AStoreThatIsNotThereIsNamed) {

@@ -34,7 +34,7 @@ ELSEWHERE = {
 }
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 LANGUAGES = ("", "sh", "text")  # text: output of a program, which may print a command to paste
-# Not the last line of `run`, which says how much time "triptych itself" took.
+# Leaves out the last line of `run`, which contains the time that "triptych itself" took.
 COMMAND = re.compile(r"(?:^|[\s;(/])triptych (?!itself)(?P<words>[a-z][^)\n]*)")
 FORM = re.compile(r"…| {2,}[a-z]")  # "STORE…", or an explanation beside it: a synopsis, not a command
 
@@ -55,7 +55,7 @@ def small(words):
     name = words.split()[0]
     if name in ("gate", "compare") and ".yaml" not in words and "--apis" not in words:
         words += " volume-quick.yaml particles-quick.yaml"
-    # Files of data are not there: generated data of the same kind are.
+    # Data files are not available, so generated data of the same kind replace them.
     generated = "generate:uniform:10" if " particles" in words else "generate:gaussian_blob:8"
     words = re.sub(r"\bdata=[\w-]+\.\w[\w.]*", f"data={generated}", words)
     if name in ("gate", "accept"):

@@ -1,4 +1,4 @@
-// A requested error: the cheapest configuration that keeps it, or why there is none.
+// A requested error: the cheapest configuration that meets it, or the reason why there is none.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -41,7 +41,8 @@ TEST(Error, IsKeptByTheFastestOfItsCandidates) {
   EXPECT_NE(kept.output.find("preintegrated keeps it with step"), std::string::npos);
   EXPECT_EQ(kept.output.find("own keeps it"), std::string::npos) << kept.output;
   EXPECT_NE(kept.output.find("of 0.001:rms"), std::string::npos) << kept.output;
-  EXPECT_NE(kept.output.find("% of drawing nothing, covered"), std::string::npos) << kept.output;
+  EXPECT_NE(kept.output.find("% of the error of an empty image, covered"), std::string::npos)
+      << kept.output;
 }
 
 // An image with few rows must not be searched with a line of few pixels, which shows nothing about
@@ -72,7 +73,8 @@ TEST(Error, ThatDrawingNothingKeepsIsNoChoice) {
   const Program program;
   const Result empty = program.run("run volume/quick " + std::string(tiny) + " --error 0.9");
   EXPECT_EQ(empty.code, 2) << empty.output;
-  EXPECT_NE(empty.output.find("drawing nothing keeps 0.9:rms, it errs by"), std::string::npos)
+  EXPECT_NE(empty.output.find("an empty image already meets 0.9:rms, because its error is"),
+            std::string::npos)
       << empty.output;
   EXPECT_NE(empty.output.find("of 256 pixels show anything"), std::string::npos) << empty.output;
 }
@@ -86,8 +88,9 @@ TEST(Error, OutOfReachInOneSceneIsToldAndAllOthersAreMeasured) {
       constant);
   const Result result = program.run(plan, drawing_the_limit(program, {constant}, "16"));
   EXPECT_EQ(result.code, 2) << result.output;
-  EXPECT_NE(result.output.find("data=generate:mandelbulb:16,technique=raycast,viewport=16: no step "
-                               "keeps 7e-13, the step's share of 1e-12:max; the least error is"),
+  EXPECT_NE(result.output.find(
+                "data=generate:mandelbulb:16,technique=raycast,viewport=16: no step has an error "
+                "of at most 7e-13, the step's share of 1e-12:max; the smallest error is"),
             std::string::npos)
       << result.output;
   EXPECT_NE(result.output.find("of 1e-12:max"), std::string::npos) << result.output;
@@ -121,7 +124,7 @@ TEST(Error, ThatADeviceDoesNotKeepIsToldWithTheLeast) {
   const Program program;
   const Result missed = program.run("run volume/quick " + std::string(tiny) + " --error 0.001");
   EXPECT_EQ(missed.code, 2) << missed.output;
-  EXPECT_NE(missed.output.find("no candidate keeps 0.001:rms; the least error is"),
+  EXPECT_NE(missed.output.find("no candidate meets 0.001:rms; the smallest error is"),
             std::string::npos)
       << missed.output;
 }

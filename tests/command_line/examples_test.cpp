@@ -75,7 +75,7 @@ std::string script_of(const Job& job) {
 }
 
 // Replaces the program: it uses a scripted device and one small scene, whatever devices the job
-// requires, and accepts what that leaves of the plan.
+// requires, and accepts the remaining part of the plan.
 constexpr const char* stand_in = R"(#!/bin/bash
 [ "$1" = gate ] || exec {0} "$@" --drop
 arguments=()
@@ -94,7 +94,7 @@ printf '#!/bin/sh\nmkdir -p "$1"\ntouch "$1/triptych.deb"\necho built >> builds\
 chmod +x "$3/ci/package"
 )";
 
-// A repository with nothing of Triptych but the job, on a machine whose driver is scripted.
+// A repository that contains only the job, on a machine with a scripted driver.
 class Examples : public testing::TestWithParam<Job (*)()> {
  protected:
   void SetUp() override {

@@ -106,7 +106,7 @@ inline Outcome follow(pid_t child, long at) {
 
 }  // namespace failing_detail
 
-// The output is written to the file `told` in the folder.
+// `told`: the name of the file in the folder to which the output is written.
 inline Outcome run_failing(const std::filesystem::path& folder, const std::string& script,
                            const std::vector<std::string>& arguments, const std::string& told,
                            long at = std::numeric_limits<long>::max()) {

@@ -32,10 +32,10 @@ TEST(Faults, AFaultThatHitsNothingIsTold) {
   const Program program;
   const Result missed = program.run(three + " --inject 'crash@*haze*'");
   EXPECT_EQ(missed.code, 0) << missed.output;
-  EXPECT_NE(missed.output.find("--inject crash@*haze* hits nothing"), std::string::npos)
+  EXPECT_NE(missed.output.find("--inject crash@*haze* affects nothing"), std::string::npos)
       << missed.output;
   const Result hit = program.run(three + " --inject 'extra_sample@null:*'");
-  EXPECT_EQ(hit.output.find("hits nothing"), std::string::npos) << hit.output;
+  EXPECT_EQ(hit.output.find("affects nothing"), std::string::npos) << hit.output;
 }
 
 TEST(Faults, ALostDeviceCostsOneConfiguration) {
@@ -55,7 +55,7 @@ TEST(Faults, AKilledRunIsResumed) {
   EXPECT_EQ(resumed.code, 0) << resumed.output;
   EXPECT_NE(resumed.output.find("3 measured, 0 skipped, 0 failed"), std::string::npos)
       << resumed.output;
-  EXPECT_NE(resumed.output.find("1 of them were there before"), std::string::npos)
+  EXPECT_NE(resumed.output.find("1 of them were already in the store"), std::string::npos)
       << resumed.output;
 }
 
@@ -69,7 +69,7 @@ TEST(Faults, AResumedRunTellsWhatItHolds) {
   EXPECT_EQ(finished.code, 0) << finished.output;
   EXPECT_NE(finished.output.find(": 2 measured, 0 skipped, 0 failed"), std::string::npos)
       << finished.output;
-  EXPECT_NE(finished.output.find("2 of them were there before\n"), std::string::npos)
+  EXPECT_NE(finished.output.find("2 of them were already in the store\n"), std::string::npos)
       << finished.output;
 }
 

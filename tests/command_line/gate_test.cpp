@@ -59,7 +59,7 @@ TEST(Gate, CannotJudgeWithoutBaselines) {
       << judged.output;
 }
 
-// For a run that read no statistics, the gate has to say why it does not pass.
+// For a run that read no statistics, the gate has to give the reason why it does not pass.
 TEST(Gate, ATestOfACheckThatDecidesNothingIsSkipped) {
   const Program program;
   std::filesystem::create_directory(program.folder() / "baselines");
@@ -88,7 +88,7 @@ TEST(Gate, APartIsFinishedInItsOwnStore) {
       << refused.output;
 }
 
-// The same name for other voxels.
+// Other voxels under the same name.
 TEST(Gate, WindowsAndMappingsOfOneVolumeAreNoChangedData) {
   const Program program;
   program.write("plan", std::string(tiny_plan) +
@@ -102,7 +102,7 @@ TEST(Gate, WindowsAndMappingsOfOneVolumeAreNoChangedData) {
   EXPECT_EQ(pass.code, 0) << pass.output;
 }
 
-// The reference image in the store was drawn from what the file contained at that time.
+// The reference image in the store was drawn from the file's contents at that time.
 TEST(Gate, AnEditedTransferFunctionIsNotJudgedByWhatItWas) {
   const Program program;
   program.write("plan",
@@ -127,7 +127,7 @@ TEST(Gate, AWrongPictureIsARegression) {
   EXPECT_EQ(program.run(judge_from("s.sqlite")).code, 1);
 }
 
-// A check that was not asked for is on neither of them.
+// A check that was not requested appears in neither of them.
 TEST(Gate, ThePageSaysWhatTheScreenSays) {
   const Program program;
   accept_runs(program, right_picture(program), 1);

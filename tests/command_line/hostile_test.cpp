@@ -1,4 +1,4 @@
-// Input that no command was made for leads to a line that says so. Nothing reaches the terminal
+// Input that no command expects leads to an error of one line. Nothing reaches the terminal
 // unescaped, and no command hangs.
 
 #include <SQLiteCpp/SQLiteCpp.h>

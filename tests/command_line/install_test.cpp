@@ -1,5 +1,4 @@
-// What a user gets who has installed the program: its version, its baselines and its shell
-// completion.
+// A user's installation: its version, its baselines and its shell completion.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -88,8 +87,8 @@ TEST_F(Installed, HasTheWholeDocumentation) {
   EXPECT_GT(links, 100U);
 }
 
-// Accepting starts the user's own baselines, which from then on are the ones to judge by. An
-// installation may be shared, and that of a container is lost.
+// Accepting starts the user's own baselines, which are used from then on. An installation may be
+// shared, and the one in a container is lost.
 TEST_F(Installed, AcceptsIntoTheWorkingDirectoryAndNowhereElse) {
   const std::filesystem::path installed = prefix() + "/share/triptych/baselines";
   const auto before = tree(installed);

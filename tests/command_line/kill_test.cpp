@@ -1,6 +1,6 @@
-// Kills the program at random moments, which are the same in every run. What was recorded stays,
-// and what replaces a file or a folder does so at once or not at all. TRIPTYCH_KILLS=1000 kills
-// each command more often.
+// Kills the program at random moments, which are the same in every run. Stored records remain, and
+// a file or folder is replaced either completely or not at all. TRIPTYCH_KILLS=1000 kills each
+// command more often.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

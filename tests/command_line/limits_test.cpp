@@ -115,7 +115,7 @@ TEST(FullDisk, AnAcceptThatDoesNotFitChangesNothing) {
   ASSERT_EQ(program.run(accept + "kept").code, 0);
   std::filesystem::create_directory(program.folder() / "small");
   const auto before = tree(program.folder() / "kept/volume/quick");
-  // What is kept fills about 30 KiB of it.
+  // The existing files fill about 30 KiB of it.
   for (const char* size : {"36k", "48k"}) {
     const Result result =
         program.run(accept + "small/b", "{}",

@@ -1,4 +1,4 @@
-// What a gate prints in a log, on a terminal, and in the job of a CI system.
+// The output of a gate in a log, on a terminal, and in the job of a CI system.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -57,7 +57,7 @@ TEST_F(MergeCommand, IsJudgedAsOneRun) {
   EXPECT_EQ(verdict_on("m.sqlite"), verdict_on("whole.sqlite"));
   EXPECT_EQ(run("report --store m.sqlite --out r.html --baselines b").code, 0);
   EXPECT_THAT(run("run p.yaml --device 'null:*' --resume --store m.sqlite").output,
-              HasSubstr("16 of them were there before"));
+              HasSubstr("16 of them were already in the store"));
 }
 
 TEST_F(MergeCommand, AShardTooFewIsMissed) {
@@ -67,7 +67,7 @@ TEST_F(MergeCommand, AShardTooFewIsMissed) {
               HasSubstr("have no record"));
 }
 
-// A configuration that no device of a shard has is no gap in the merged run.
+// A configuration that no device of a shard has is not a gap in the merged run.
 TEST_F(MergeCommand, NamesWhatItsPartsLack) {
   SQLite::Database((program.folder() / "2.sqlite").string(), SQLite::OPEN_READWRITE)
       .exec("DELETE FROM record WHERE configuration = (SELECT min(configuration) FROM record)");

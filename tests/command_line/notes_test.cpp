@@ -1,5 +1,4 @@
-// What was guessed while data were read is printed once, however many configurations and devices
-// draw them.
+// Guesses about data are printed once, however many configurations and devices draw them.
 
 #include <gtest/gtest.h>
 

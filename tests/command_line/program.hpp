@@ -10,7 +10,7 @@ namespace triptych::command_line {
 
 using test::Result;
 
-// Runs in a folder of its own; `script` is that of the null backend.
+// Runs in a separate folder; `script` is the script of the null backend.
 class Program {
  public:
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }

@@ -39,7 +39,7 @@ TEST(Reduce, ACrashIsReducedToWhatItNeeds) {
   EXPECT_THAT(result.output, HasSubstr("data generate:mandelbulb:96 → generate:mandelbulb:1,"));
   const std::string command = last_command(result.output);
   EXPECT_THAT(command, HasSubstr("--set step=0.5"));
-  EXPECT_THAT(command, Not(HasSubstr("--set skip")));  // it already has the default
+  EXPECT_THAT(command, Not(HasSubstr("--set skip")));  // the level is already the default
   const Result again = program.run(command, crash);
   EXPECT_EQ(again.code, 3) << again.output;
   EXPECT_THAT(again.output, HasSubstr("SIGABRT"));
@@ -67,7 +67,7 @@ TEST(Reduce, TheFolderHoldsWhatAReportNeeds) {
   EXPECT_EQ(again.code, 1) << again.output;
 }
 
-// Images of another scene beside the failure would get into the bug report.
+// Images of another scene in the folder would get into the bug report.
 TEST(Reduce, WhatIsNotDrawnLeavesNoFilesOfAnEarlierFrame) {
   const Program program;
   const std::string render = "render volume --device null:scripted --truth --out r --set viewport=";

@@ -103,7 +103,7 @@ TEST_F(ReportTest, WritesBothFilesOrNeither) {
   EXPECT_EQ(program_.run(command + "--benchmark-json b.json").output, "page.html\nb.json\n");
 }
 
-// If it contained one plan only, it would leave out what CI keeps the store for.
+// A page with only one plan would leave out the other plans in the store.
 TEST_F(ReportTest, BenchmarkJsonHoldsEveryPlan) {
   measure(std::string("volume/quick") + small_scene);
   measure(std::string("volume/speed") + small_scene);

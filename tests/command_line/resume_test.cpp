@@ -33,12 +33,13 @@ TEST_F(Resume, AnotherPlanOfTheSameNameIsRefused) {
   const Result other = run("other/p.yaml --resume");
   EXPECT_EQ(other.code, 3) << other.output;
   EXPECT_THAT(other.output, HasSubstr("step=0.5"));
-  EXPECT_THAT(other.output, HasSubstr("another of that name"));
+  EXPECT_THAT(other.output, HasSubstr("another plan of that name"));
   program.write("one/p.yaml", std::string(tiny_plan) + "step: [0.5, 0.7]\n");
   const Result longer = run("one/p.yaml --resume");
   EXPECT_THAT(longer.output, HasSubstr("2 measured, 0 skipped, 0 failed"));
-  EXPECT_GT(longer.output.find("1 of them were there before"), longer.output.find("2 measured"));
-  EXPECT_THAT(longer.output, HasSubstr("1 of them were there before\n"));
+  EXPECT_GT(longer.output.find("1 of them were already in the store"),
+            longer.output.find("2 measured"));
+  EXPECT_THAT(longer.output, HasSubstr("1 of them were already in the store\n"));
   EXPECT_EQ(run("one/p.yaml --resume --set step=0.9").code, 3) << "of a plan that has changed";
 }
 
@@ -72,7 +73,7 @@ TEST_F(Resume, AValidationGoesOn) {
   EXPECT_EQ(first_told(""), first);
 }
 
-// What was measured is judged, and what was not measured is no pass.
+// The measured part is judged. The rest does not count as a pass.
 TEST_F(Resume, AnInterruptedValidationEndsWithTheLastScreen) {
   const Result ended = validate_one(program, "--junit j.xml --json j.json");
   EXPECT_EQ(ended.code, 1) << ended.output;  // its image is wrong

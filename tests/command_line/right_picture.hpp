@@ -9,7 +9,7 @@
 
 namespace triptych::command_line {
 
-// The reference image of the tiny plan's scene as a file, which a scripted device returns.
+// The file with the reference image of the tiny plan's scene. A scripted device returns this image.
 // `transfer_function`: a preset, or a file in the program's folder.
 inline std::filesystem::path right_picture(const Program& program,
                                            const std::string& transfer_function = "haze") {

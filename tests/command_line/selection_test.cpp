@@ -27,7 +27,7 @@ std::vector<std::string> names_in(const std::string& listed) {
   return names;
 }
 
-// A short name that two configurations share could not choose one of them.
+// If two configurations had the same short name, it could not select one of them.
 TEST(ShortNames, AreUniqueInEveryPlanThatComesWithTriptych) {
   const Program program;
   for (const char* plan :

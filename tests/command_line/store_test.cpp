@@ -1,4 +1,4 @@
-// The records of a run are in the file that was named, or the run says that they cannot be.
+// The records of a run are in the named file, or the run reports that they cannot be stored.
 
 #include "record/store.hpp"
 

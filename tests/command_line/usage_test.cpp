@@ -159,7 +159,8 @@ TEST(Usage, HowToMeasureNamesThePlanAsItWasTyped) {
                  "no run of my: measure first with `triptych run my.yaml --store s.sqlite`");
 }
 
-// The output streams are separate here; the # at the end disables the part that would join them.
+// The two output streams are separate here. The # at the end comments out the part that would join
+// them.
 TEST(Usage, OutputThatCannotBeWrittenIsNoSuccess) {
   const Program program;
   for (const char* command :

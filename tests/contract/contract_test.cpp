@@ -1,4 +1,4 @@
-// What measure/contract/backend.hpp promises for every API.
+// The requirements of measure/contract/backend.hpp for every API.
 
 #include <cstdlib>
 #include <set>

@@ -1,5 +1,5 @@
 #pragma once
-// What the device reports about itself, with one property lowered.
+// The device's report about itself, with one property lowered.
 
 #include <vulkan/vulkan_core.h>
 

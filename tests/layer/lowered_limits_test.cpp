@@ -61,7 +61,7 @@ const std::vector<Lowered>& lowered() {
       {"linearFilter", volume, 4, "cannot filter images of format"},
       {"timestampValidBits=0", volume},
       {"timestampComputeAndGraphics", volume},
-      {"graphicsQueue", volume, 3, "no queue that draws"},
+      {"graphicsQueue", volume, 3, "no graphics queue"},
       {"computeFamilyFirst", particles},
       {"hostVisibleDeviceLocal", volume},
       {"hostVisibleDeviceLocal", particles},

@@ -9,7 +9,7 @@
 namespace triptych::layer {
 namespace {
 
-// For the pool that was made last; the program has only one.
+// This is the pool that was created last; the program has only one.
 std::atomic<bool> pool_draws = true;
 
 // `computeFamilyFirst`: another family comes before the driver's, which can neither draw nor has a

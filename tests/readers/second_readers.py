@@ -48,7 +48,8 @@ class Volume:
         self.spacing = np.abs(np.asarray(spacing, float))
 
 
-# One function for each format: path to Particles or Volume. ImportError where it is not installed.
+# One function for each format, from a path to Particles or Volume. ImportError if the program is
+# not installed.
 
 
 def by_gemmi_pdb(path):
@@ -318,7 +319,7 @@ def difference_of_particles(facts, out, second):
     elements = second.elements or [""] * len(spheres)
     ours, colours, radii = sorted_rows(spheres[:, :3].astype(float), colours, spheres[:, 3])
     theirs, elements = sorted_rows(second.places, elements)
-    # MDAnalysis keeps single precision; a unit in its last place on either side.
+    # MDAnalysis keeps single precision, so a unit in the last place is allowed on either side.
     if not np.allclose(ours, theirs, rtol=3e-7, atol=2e-6):
         return f"places differ by up to {np.abs(ours - theirs).max():.3g}"
     if second.radii is not None:

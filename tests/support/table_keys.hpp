@@ -1,5 +1,5 @@
 #pragma once
-// What the keys of both suites must depend on.
+// The requirements for the keys of both suites.
 
 #include <gtest/gtest.h>
 

@@ -109,7 +109,7 @@ class XmlCheck {
   return XmlCheck(text).fault();
 }
 
-// What a program prints about strange names must be shown as text.
+// Strange names must appear as text in the output of a program.
 inline const std::vector<std::string>& hostile_strings() {
   static const std::vector<std::string> all{"<script>alert(1)</script>",
                                             "\" onload=\"x",

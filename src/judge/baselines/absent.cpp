@@ -15,7 +15,8 @@ Absent read_entry(const core::JsonNode& entry) {
   if (entry.has("host")) absent.host = entry.at("host").text();
   if (entry.has("expiry")) absent.expiry = expiry_of(entry);
   if (matches_every_device(absent.device) && matches_every_host(absent.host)) {
-    entry.at("device").fail("expected a device: this excuses every one on every machine");
+    entry.at("device").fail(
+        "expected a device, because this entry excuses every device on every machine");
   }
   return absent;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The devices that a machine is meant to lack, from baselines/absent.json, which is reviewed as
-// waivers are.
+// The devices that a machine lacks on purpose, from baselines/absent.json, which is reviewed like
+// waivers.
 
 #include <filesystem>
 #include <string>
@@ -12,7 +12,7 @@ struct Absent {
   std::string device = {};  // glob over device ids
   std::string host = "*";   // glob over names of machines
   std::string reason = {};
-  std::string expiry = {};  // ISO date from which on it excuses nothing; empty: never
+  std::string expiry = {};  // ISO date from which on the entry is ignored; empty: never
 };
 
 // Reads [{device, reason}, …]; an entry may also have a `host` and an `expiry`. Without such a file

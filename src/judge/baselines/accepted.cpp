@@ -21,12 +21,12 @@ void refuse_unfit(const std::vector<record::Record>& records, const std::string&
   for (const record::Record& record : records) {
     if (record.plan != request.plan) {
       throw core::InputError(
-          fmt::format("run {} is of plan {}, not of {}", run, record.plan, request.plan));
+          fmt::format("run {} measured plan {}, not {}", run, record.plan, request.plan));
     }
     if (!record.injected.empty()) {
-      throw core::InputError(
-          fmt::format("run {} holds the injected fault '{}' ({} on {}); it is never a baseline",
-                      run, record.injected, record.configuration, record.device));
+      throw core::InputError(fmt::format(
+          "run {} has the injected fault '{}' ({} on {}), so it cannot become a baseline", run,
+          record.injected, record.configuration, record.device));
     }
   }
 }
@@ -114,8 +114,8 @@ void refuse_part(const Accepted& accepted, const Baselines& stored, const std::s
   if (missing.empty()) return;
   throw core::InputError(fmt::format(
       "run {} has no record of {} of {} stored configurations ({}{}): finish it with triptych run "
-      "{} --resume{}, accept what it has with --only GLOB, or drop them with --drop where the plan "
-      "has them no longer",
+      "{} --resume{}, accept the measured ones with --only GLOB, or use --drop if the plan no "
+      "longer has the missing ones",
       run, missing.size(), known.size(), missing.front(), missing.size() > 1 ? "; …" : "",
       plan_in_a_command(request), request.store_option));
 }
@@ -131,7 +131,7 @@ void refuse_incomplete(const record::Store& store, const Accepted& accepted,
     if (missing.empty()) continue;
     throw core::InputError(fmt::format(
         "run {} was cut short: of {} configurations on {} it has no record of {} ({}{}); finish it "
-        "with triptych run {} --resume{}, accept what it has with --only GLOB, or with --drop",
+        "with triptych run {} --resume{}, or accept the measured ones with --only GLOB or --drop",
         accepted.run.id, planned.size(), device, missing.size(), missing.front(),
         missing.size() > 1 ? "; …" : "", plan_in_a_command(request), request.store_option));
   }

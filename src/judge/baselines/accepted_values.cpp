@@ -217,7 +217,7 @@ void update_timings(const Accepted& accepted, const record::Device& device, Next
   if (!table.empty()) update.write(2);
   if (kept > 0) {
     next.lines.push_back(fmt::format(
-        "{}: times and statistics of {} configurations stay as stored, the run was untimed",
+        "{}: times and statistics of {} configurations stay as stored, because the run was untimed",
         device.id, kept));
   }
 }

@@ -86,7 +86,7 @@ StoredImage read_stored_image(const core::JsonNode& node) {
 StoredCounters read_counters(const core::JsonNode& node) {
   return read_members<record::Counts>(node, [](const core::JsonNode& by_device) {
     record::Counts counts = read_counts(by_device);
-    if (counts.empty()) by_device.fail("expected the value of a device at least");
+    if (counts.empty()) by_device.fail("expected the value of at least one device");
     return counts;
   });
 }
@@ -149,7 +149,7 @@ std::string first_change(const fs::path& folder, const Manifest& manifest) {
       others.insert(name);
     }
   }
-  return others.empty() ? std::string() : *others.begin() + " is none of its files";
+  return others.empty() ? std::string() : *others.begin() + " is not one of its files";
 }
 
 double log_spread(std::vector<double> times_ns) {

@@ -94,7 +94,7 @@ std::string lost_check(const fs::path& folder, const Manifest& manifest) {
   for (const auto& [check, file] :
        {std::pair{Check::accuracy, Layout::errors}, std::pair{Check::stress, Layout::scores}}) {
     if (fs::exists(folder / file) && !manifest.checks.contains(check)) {
-      return lacks(fmt::format("the check {}, which {} is of", record::name_of(check), file));
+      return lacks(fmt::format("the check {}, although {} exists", record::name_of(check), file));
     }
   }
   return {};

@@ -1,6 +1,6 @@
 #pragma once
-// The manifest proves the other files of the baselines, and nothing proves the manifest. So what it
-// states is compared with what the files hold.
+// The manifest contains checksums of all other files of the baselines, but nothing contains a
+// checksum of the manifest. Therefore its statements are compared with the contents of the files.
 
 #include <filesystem>
 #include <string>

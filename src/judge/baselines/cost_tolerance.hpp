@@ -1,5 +1,5 @@
 #pragma once
-// How far two counts of the same frame, made by the same program in two processes, may differ.
+// The allowed difference of two counts of the same frame by the same program in two processes.
 
 #include <array>
 #include <optional>
@@ -57,14 +57,14 @@ inline constexpr std::array cost_tolerances{
   return 0;
 }
 
-// The techniques whose cache misses repeat. Where a buffer begins within a cache line differs from
-// run to run: that moved the misses of volumes by at most 0.07 %, and by single misses where there
-// are about a hundred. Sprites and tiles touch about as much memory as the cache holds, so that it
-// moved theirs by 5 %.
+// The techniques whose cache misses repeat. A buffer begins at another position within a cache line
+// in each run. This changed the misses of volumes by at most 0.07 %, or by single misses if there
+// are only about a hundred. Sprites and tiles use about as much memory as the cache holds, so that
+// their misses changed by 5 %.
 inline constexpr std::array<std::string_view, 2> techniques_with_stable_misses{"raycast*",
                                                                                "speed_of_light"};
 
-// Cache misses of device code; empty where they do not repeat.
+// Cache misses of device code; empty if they do not repeat.
 [[nodiscard]] inline std::optional<double> misses_tolerance(std::string_view technique,
                                                             double stored) {
   for (const std::string_view each : techniques_with_stable_misses) {

@@ -7,7 +7,7 @@ namespace {
 
 using core::Json;
 
-// For tables {device: …} and {name: {device: …}}. Objects that become empty are removed too.
+// Handles tables {device: …} and {name: {device: …}}. Objects that become empty are removed too.
 void erase_device(Json& values, const std::string& device) {
   values.erase(device);
   for (auto item = values.begin(); item != values.end();) {
@@ -16,7 +16,7 @@ void erase_device(Json& values, const std::string& device) {
   }
 }
 
-// For a table of all devices.
+// Handles a table of all devices.
 void drop_from_table(std::span<const record::Record> skipped, const char* name, NextFolder& next) {
   if (!next.files.contains(name)) return;
   Update file(next, name);
@@ -27,7 +27,7 @@ void drop_from_table(std::span<const record::Record> skipped, const char* name, 
   file.write(2);
 }
 
-// For a file that belongs to one device.
+// Handles a file that belongs to one device.
 void drop_from_file(std::span<const record::Record> skipped, const std::string& device,
                     const std::string& name, int depth, NextFolder& next) {
   if (!next.files.contains(name)) return;

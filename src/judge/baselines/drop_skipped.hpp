@@ -1,5 +1,5 @@
 #pragma once
-// Removes from the baselines of a device what it can no longer draw.
+// Removes the configurations that a device can no longer draw from its baselines.
 
 #include <map>
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace triptych::judge {
 
-// Erases one device of one configuration from a table of the form {configuration: {device: …}} or
-// {configuration: {name: {device: …}}}, and the objects that become empty by it.
+// Removes one device of one configuration from a table of the form {configuration: {device: …}} or
+// {configuration: {name: {device: …}}}, and the objects that become empty.
 void erase_from(core::Json& table, const std::string& configuration, const std::string& device);
 
 // Removes everything that is stored about the records' configurations on their devices. What is

@@ -17,7 +17,7 @@ namespace triptych::judge {
 namespace fs = std::filesystem;
 namespace {
 
-// Turns the file system's errors into ours.
+// Converts errors of the file system to core::IoError.
 template <typename Act>
 void act_on(const fs::path& path, const Act& act) {
   try {
@@ -77,7 +77,7 @@ void replace_one_by_one(const fs::path& folder, const Files& files) {
 WriterLock::WriterLock(const fs::path& root) : fd_(-1) {
   act_on(root, [&] { fs::create_directories(root); });
   fd_ = ::open(root.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  // Where a folder cannot be locked, nobody else can have locked it either.
+  // If a folder cannot be locked, no other process can have locked it either.
   if (fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(fd_);
     throw core::IoError(fmt::format("{}: another accept is writing there", root.string()));

@@ -14,7 +14,7 @@ namespace triptych::judge {
 using Files = std::map<std::string, std::vector<std::byte>>;
 
 // Held by the process that writes below `root`, which is created if it is missing. The constructor
-// throws IoError if another process holds it.
+// throws IoError if another process already holds it.
 class WriterLock {
  public:
   explicit WriterLock(const std::filesystem::path& root);

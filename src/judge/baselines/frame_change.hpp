@@ -1,5 +1,5 @@
 #pragma once
-// How two counts of one frame differ, and whether they may.
+// The difference of two counts of one frame, and whether it is allowed.
 
 #include <array>
 #include <optional>
@@ -12,17 +12,17 @@
 
 namespace triptych::judge {
 
-// The parts of Record::cost that decide the verdict.
+// The parts of Record::cost that affect the verdict.
 inline constexpr std::array<std::string_view, 2> cost_parts{"device_code", "driver"};
 
 [[nodiscard]] std::optional<double> count_of(const record::Counts& counts, std::string_view name);
-// The instructions of the parts that decide, together.
+// The sum of the instructions of these parts.
 [[nodiscard]] double frame_of(const record::Counts& cost);
 
 struct FrameChange {
   bool more = false;            // some part is larger than its tolerance allows
   bool less = false;            // some part is smaller than its tolerance allows
-  std::vector<Change> changes;  // of each such part, and of allocations besides
+  std::vector<Change> changes;  // the changes of each such part, and of the allocations
 };
 
 // Uses cost_tolerance.hpp, which holds for counts by one counter of one program and one driver.

@@ -1,5 +1,5 @@
 #pragma once
-// What is stored of a reference picture if the picture itself is not stored.
+// The hashes that are stored of a reference image if the image itself is not stored.
 
 #include <array>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// Values in entries that excuse something, in whichever file they are.
+// Values in entries that excuse something, for all files with such entries.
 
 #include <initializer_list>
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace triptych::judge {
 
-// Refuses unknown keys: an entry with a key that nobody reads would excuse more than it says.
+// Refuses unknown keys, because an entry with an ignored key would excuse more than intended.
 void refuse_other_keys(const core::JsonNode& entry, std::initializer_list<std::string_view> known);
 // Must not be blank.
 [[nodiscard]] std::string reason_of(const core::JsonNode& entry);
@@ -18,7 +18,8 @@ void refuse_other_keys(const core::JsonNode& entry, std::initializer_list<std::s
 [[nodiscard]] std::string expiry_of(const core::JsonNode& entry);
 // nullopt unless both are ISO dates.
 [[nodiscard]] std::optional<int> days_between(std::string_view from, std::string_view to);
-// An end that is more than a year after `today` (an ISO date) excuses for ever in practice.
+// An expiry date that is more than a year after `today` (an ISO date) would in practice excuse for
+// ever.
 void refuse_distant_expiry(const core::JsonNode& expiry, const std::string& today);
 // Whether a glob excludes none of these, however it is written: "*:*" matches every device.
 [[nodiscard]] bool matches_every_device(std::string_view glob);

@@ -28,7 +28,7 @@ Waiver read_entry(const core::JsonNode& entry) {
   return waiver;
 }
 
-// An entry that excuses everything would hide everything that is found later.
+// An entry that excuses everything would also hide all later failures.
 void refuse_without_limits(const core::JsonNode& entry, const Waiver& waiver) {
   if (matches_every_device(waiver.device) && matches_every_test(waiver.test) &&
       matches_every_configuration(waiver.configuration)) {
@@ -56,7 +56,7 @@ std::vector<Waiver> read_waivers(const std::filesystem::path& file, const std::s
   const auto json = core::JsonFile::read(file);
   if (!json) return result;
   for (const core::JsonNode& entry : json->root().elements()) {
-    // An entry that is never looked at again would excuse whatever breaks later.
+    // An entry that nobody reviews would also excuse later failures.
     refuse_distant_expiry(entry.at("expiry"), today);
     result.push_back(read_entry(entry));
     refuse_without_limits(entry, result.back());

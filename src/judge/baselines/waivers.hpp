@@ -1,6 +1,6 @@
 #pragma once
-// What is known to fail, as files list it: baselines/waivers.json is written by hand and has expiry
-// dates; a validation writes a file of its own, by configuration.
+// Lists of known failures. baselines/waivers.json is written by hand and has expiry dates. A
+// validation writes a file of its own, with one entry for each configuration.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace triptych::judge {
 
-// What is known to happen. A waiver that does not say it excuses failures and flakes.
+// The expected result. A waiver without it excuses failures and flakes.
 enum class Known : std::uint8_t {
   fail,   // a regression
   flake,  // a regression in some runs and a pass in others
@@ -23,7 +23,7 @@ struct Waiver {
   std::string device;
   std::string test;
   std::string reason;
-  std::string expiry;  // ISO date from which on it excuses nothing; empty: never
+  std::string expiry;  // ISO date from which on the entry is ignored; empty: never
   std::string configuration = "*";
   Known known = Known::fail;
 };

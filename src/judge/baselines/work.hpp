@@ -20,8 +20,8 @@ struct WorkChange {
   std::string unit;      // one of work_units
 };
 
-// Empty if both sides have no unit in common, or one of them has 0 of it. `then` gives the earlier
-// count of a unit.
+// Empty if the two sides have no unit in common, or if one of them has 0 of it. `then` returns the
+// earlier count of a unit.
 [[nodiscard]] std::optional<WorkChange> work_change(
     const record::Counts& now,
     const std::function<std::optional<double>(const std::string&)>& then);

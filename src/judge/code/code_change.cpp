@@ -33,7 +33,8 @@ constexpr CodeStatistic branches{"branches", "Branches", false, true, 14};
 constexpr CodeStatistic copies{"copies", "Copies", false, true, 15};
 }  // namespace quantity
 
-// Names of RADV, radeonsi, NVK, NVIDIA's driver, ANV and iris, OpenCL, and of what Triptych counts.
+// Names of RADV, radeonsi, NVK, NVIDIA's driver, ANV and iris, OpenCL, and of the statistics that
+// Triptych counts.
 constexpr std::array<NamedStatistic, 44> named_statistics{{
     {"subgroups per simd", quantity::occupancy},
     {"max waves", quantity::occupancy},

@@ -1,5 +1,5 @@
 #pragma once
-// Compares what compilers reported about two builds of the same device code.
+// Compares the compiler reports of two builds of the same device code.
 
 #include <cstddef>
 #include <string>
@@ -11,14 +11,13 @@
 namespace triptych::judge {
 
 // The meaning of a driver's statistic. Drivers use different names for the same quantity. Unknown
-// names are kept as they are; their changes are shown and decide nothing.
+// names are kept, and their changes are shown but do not affect the verdict.
 struct CodeStatistic {
   std::string_view name;  // "occupancy"; empty for an unknown statistic
-  std::string_view mesa =
-      {};                // its name in the totals of Mesa's developers: "MaxWaves"; may be empty
+  std::string_view mesa = {};  // its name in Mesa's shader-db totals: "MaxWaves"; may be empty
   bool decides = false;  // a change for the worse is a regression
-  bool more_is_worse = true;  // means nothing where it does not decide
-  int rank = 100;             // in the order in which people want to read them
+  bool more_is_worse = true;  // meaningless if a change does not affect the verdict
+  int rank = 100;             // the order in which statistics are printed, by importance
 
   [[nodiscard]] bool is_occupancy() const { return rank == 0; }
   // Spills and scratch memory should be 0, so their relative change means nothing.

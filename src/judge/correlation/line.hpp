@@ -1,6 +1,6 @@
 #pragma once
-// Fits a robust line to one device's cost as a function of another's, and finds what lies off it.
-// docs/correlation.md explains its use.
+// Fits a robust line to one device's cost as a function of another's, and finds the configurations
+// that are off the line. docs/correlation.md explains its use.
 
 #include <span>
 #include <string>
@@ -14,7 +14,7 @@ namespace triptych::judge {
 // First guesses from times: no real costs of several devices existed when they were chosen. Tune
 // them with the bench.
 struct LineModel {
-  // Conditions under which a line can tell something.
+  // Conditions under which a line is meaningful.
   static constexpr std::size_t least_configurations = 20;
   static constexpr double least_rho = 0.9;  // of the logarithms
   static constexpr double least_slope = 0.7;
@@ -22,9 +22,9 @@ struct LineModel {
   static constexpr double largest_scale = 0.25;
   // Costs repeat within this share, so that no line can be known better.
   static constexpr double least_scale = 5e-4;
-  // Conditions under which something is named.
-  // The expected share of false findings by Benjamini and Hochberg, for levels and for
-  // configurations each; 1 % for both together.
+  // Conditions under which a level or a configuration is reported. The expected share of false
+  // findings by Benjamini and Hochberg, for levels and for configurations each; 1 % for both
+  // together.
   static constexpr double share_of_false = 0.005;
   // Half of the effect that is to be found (10 %): measured effects scatter around the true one.
   static constexpr double configuration_effect = 1.05;

@@ -1,5 +1,6 @@
 #pragma once
-// Two devices compared point by point: what the report draws and `gate --json` prints.
+// The comparison of two devices, configuration by configuration, for the report and for `gate
+// --json`.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 namespace triptych::judge {
 
-// Why nothing can be concluded from a line. The limits are in LineModel.
+// The reason why nothing can be concluded from a line. The limits are in LineModel.
 enum class LineRefusal : std::uint8_t {
   none,
   too_few_configurations,
@@ -28,7 +29,7 @@ struct CorrelationLine {
   double slope = 0;
   double scale = 0;    // robust standard deviation of the residuals, in ln
   double rho = 0;      // Pearson's r of the logarithms
-  double pearson = 0;  // of the values themselves, as in the paper
+  double pearson = 0;  // correlation of the values themselves, as in the paper
   LineRefusal refusal = LineRefusal::none;
 
   [[nodiscard]] bool admitted() const { return refusal == LineRefusal::none; }
@@ -51,7 +52,7 @@ struct CorrelationPair {
   std::string device_a;
   std::string device_b;
   std::string signal;  // "cost": instructions per frame; "time": nanoseconds per frame
-  // For cost: device_b has no stored costs, so that only the line can tell something.
+  // For cost: device_b has no stored costs, so that only the line can reveal something.
   bool new_device = false;
   CorrelationLine line = {};
   std::vector<CorrelationPoint> points = {};  // one for each configuration

@@ -32,8 +32,7 @@ struct Repeatability {
                                           const FrameCost& stored);
 [[nodiscard]] Repeatability operator+(const Repeatability& a, const Repeatability& b);
 
-// How one configuration on one device has changed since it was accepted, as shares of the stored
-// sum.
+// The change of one configuration on one device since it was accepted, as shares of the stored sum.
 struct CostChange {
   double device_code = 0;
   double driver = 0;
@@ -47,7 +46,7 @@ struct CostChange {
 [[nodiscard]] bool residual_moved(const CostChange& a, const Repeatability& bound_a,
                                   const CostChange& b, const Repeatability& bound_b);
 
-// What moved on one device, told with as few names as possible.
+// The change on one device, described with as few names as possible.
 struct Movement {
   enum class Of : std::uint8_t { everything, level, configuration };
   Of of = Of::configuration;

@@ -1,5 +1,5 @@
-// Checks whether the run is complete: whether it has everything that it set out to measure, on all
-// devices that its machine should have, for all checks in its baselines.
+// Checks whether the run is complete: whether it has all planned configurations, on all devices
+// that its machine should have, for all checks in its baselines.
 
 #include <algorithm>
 #include <iterator>
@@ -39,7 +39,7 @@ Advised without(const std::string& device) {
   return {Advice::repair_driver, "--without-device " + core::shell_quoted(device)};
 }
 
-// A process that ended before it answered may have had devices to list.
+// A process that crashed or hung during the listing may have missed devices.
 void report_failed_listings(const RunView& view, std::vector<Finding>& findings) {
   for (const record::Beginning& begun : view.run.begun) {
     for (const record::Unusable& each : begun.unusable) {
@@ -74,8 +74,8 @@ bool is_expected(const RunView& view, const std::string& id,
   });
 }
 
-// Devices that were accepted on a machine of the same kind and are not listed here, by id. With
-// each comes a device that shows which kind of machine it is.
+// Devices that were accepted on a machine of the same kind and are not listed here, by id. Each
+// comes with a present device that identifies the kind of machine.
 std::map<std::string, std::string> gone_devices(const RunView& view) {
   const Manifest& manifest = view.baselines.manifest();
   const std::map<std::string, std::string> ids = ids_of_drivers(manifest);

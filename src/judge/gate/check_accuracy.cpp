@@ -19,9 +19,9 @@ namespace {
 // Writing a picture as float rounds each channel once.
 constexpr double float_rounding = 0x1.0p-24;
 
-// The largest error that is allowed. The part of the accepted error that came from rounding,
-// storage and early termination may appear once more: the root mean square is a distance, so two
-// right pictures differ by no more than the sum of their distances from the truth on their lattice.
+// The largest error that is allowed. The accepted error has a part from rounding, storage and early
+// termination, which may appear once more. The root mean square is a distance, so two correct
+// images differ by no more than the sum of their distances from the reference image.
 double allowed(const StoredError& stored) {
   return stored.rmse + 2 * stored.arithmetic + float_rounding;
 }
@@ -124,7 +124,7 @@ class Scenes {
   std::vector<accuracy::AccuracyScene> scenes_;
 };
 
-// Looks at one record after the other. A record that cannot be judged gets a finding and does not
+// Processes one record after the other. A record that cannot be judged gets a finding and does not
 // stop the others.
 class AccuracyCheck {
  public:

@@ -1,6 +1,5 @@
-// Compares what compilers report about their output with the values stored for the same driver
-// version. The comparison is exact and valid on any machine, because the output does not depend on
-// the machine that compiles.
+// Compares compiler reports with the values stored for the same driver version. The comparison is
+// exact and valid on any machine, because the output does not depend on the machine that compiles.
 
 #include <fmt/format.h>
 
@@ -16,7 +15,7 @@
 namespace triptych::judge {
 namespace {
 
-// A change of several executables names each; of one it names the statistic alone.
+// If several executables changed, the change names each of them; otherwise only the statistic.
 Change change_of(const CodeChange& change, bool several) {
   const std::string_view name =
       change.statistic.name.empty() ? std::string_view(change.driver_name) : change.statistic.name;
@@ -43,7 +42,8 @@ std::vector<Change> changes_of(const CodeTotals& totals) {
   return changes;
 }
 
-// A configuration that is compiled in other parts than before cannot be compared part by part.
+// A configuration that consists of other executables than before cannot be compared executable by
+// executable.
 bool in_other_parts(const CodeComparison& comparison) {
   return !comparison.gone.empty() || !comparison.added.empty();
 }

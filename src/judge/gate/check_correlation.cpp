@@ -26,7 +26,7 @@ Finding about_device(const DeviceCost& device, Verdict verdict, Observation what
 struct Moved {
   const DeviceCost* device = nullptr;
   std::vector<const record::Record*> records;
-  std::vector<double> by;        // for each; 0: it did not move, or no pair's residual shows it
+  std::vector<double> by;  // for each device; 0: it did not move, or no pair's residual shows it
   std::set<std::string> held;    // names of the devices with which it was compared
   std::set<std::string> beside;  // names of those whose residual with this device moved
 };
@@ -39,8 +39,8 @@ CostChange change_of(const ConfigurationCost& cost) {
   return change_of(*cost.stored, cost.now);
 }
 
-// Accepted devices that were counted by the same emulator: those of the run, and stored ones that
-// are not in the run.
+// Accepted devices that the same emulator counted: those of the run, and stored ones that are not
+// in the run.
 std::vector<const DeviceCost*> partners_of(const DeviceCost& device,
                                            const std::vector<DeviceCost>& devices) {
   std::vector<const DeviceCost*> here;
@@ -209,8 +209,8 @@ std::vector<CorrelationPair> pairs_by_cost(const std::vector<DeviceCost>& device
     for (std::size_t b = a + 1; b < devices.size(); ++b) {
       if (devices[a].counted_by != devices[b].counted_by) continue;
       const bool b_is_known = devices[b].accepted() && !devices[a].accepted();
-      if (!devices[a].measured) continue;  // then b was not measured either
-      // A device that is not in the run is shown only beside a new device.
+      if (!devices[a].measured) continue;  // in this case b was not measured either
+      // A device that is not in the run is shown only together with a new device.
       if (!devices[b].measured && !b_is_known) continue;
       pairs.push_back(b_is_known ? pair_of(devices[b], devices[a])
                                  : pair_of(devices[a], devices[b]));
@@ -234,7 +234,7 @@ void mark_outliers(const Moved& moved, std::vector<CorrelationPair>& pairs) {
   }
 }
 
-// One line for each device of the run without a cost.
+// One finding for each device of the run without a cost.
 void report_uncounted(const CorrelationInput& input, const std::vector<DeviceCost>& devices,
                       std::vector<Finding>& findings) {
   std::set<std::string> told;

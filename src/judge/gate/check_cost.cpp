@@ -13,7 +13,8 @@
 namespace triptych::judge {
 namespace {
 
-// A change that is worth a line but decides nothing, with the configuration in which it is largest.
+// A change that is reported but does not affect the verdict, with the configuration in which it is
+// largest.
 struct Note {
   std::size_t changed = 0;
   double worst = 0;
@@ -68,8 +69,8 @@ class DeviceCostCheck {
         finding_about(view_, device_, Check::cost, verdict, std::move(what), std::move(advice)));
   }
 
-  // How another record was counted, if not as this one was; that happens in a run that was resumed
-  // or merged from shards.
+  // How another record was counted, if differently from this one. This happens in a run that was
+  // resumed or merged from shards.
   [[nodiscard]] std::optional<std::string> counted_otherwise(const record::Record& counted) const {
     for (const record::Record* record : records_) {
       if (record->cost.empty() || record->counted_by == counted.counted_by) continue;
@@ -78,8 +79,8 @@ class DeviceCostCheck {
     return std::nullopt;
   }
 
-  // Compares with the nearest stored counts that there are: those of another version of this
-  // driver, or by another emulator.
+  // Compares with the most similar stored counts: those of another version of this driver, or by
+  // another emulator.
   void tell_other(const record::Record& counted, std::vector<Finding>& findings) const {
     const DriverCost* other = stored_;
     for (const auto& [driver, cost] : view_.baselines.cost_of_all_drivers()) {

@@ -150,7 +150,7 @@ std::vector<Finding> check_counters(const RunView& view) {
     }
   }
   for (const auto& [device, configurations] : not_stored) {
-    // What no accepted device was able to draw says nothing about a device that was never accepted.
+    // A configuration that no accepted device could draw says nothing about a new device.
     const record::Device& info = view.devices.at(device);
     const bool known = !view.baselines.present() || view.knows_driver(info);
     findings.push_back(

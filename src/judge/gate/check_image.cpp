@@ -13,7 +13,7 @@
 namespace triptych::judge {
 namespace {
 
-// Two renderings of one truth differ only by rounding to float.
+// Two renderings of one reference image differ only by rounding to float.
 constexpr double truth_tolerance = 1e-5;
 
 // A picture of one device that can be compared with those of other devices.
@@ -23,7 +23,7 @@ struct Picture {
   double rmse;  // from the truth
 };
 
-// Only the scene and the technique are set, so that every device takes the path that it prefers.
+// Only the scene and the technique are set, so that every device uses its preferred path.
 bool on_default_path(const record::Record& record) {
   const auto scene = record::parse_factor_list(record.scene);
   const auto named = record::parse_factor_list(record.configuration);
@@ -106,7 +106,7 @@ class SceneJudge {
     }
   }
 
-  // Once for each scene: is the reference image the accepted one?
+  // Checks once for each scene whether the reference image is the accepted one.
   void check_truth(const TruthPair& pair) {
     if (truth_checked_ || !view_.baselines.present()) return;
     truth_checked_ = true;
@@ -117,7 +117,8 @@ class SceneJudge {
       Observation how = image_observation(accuracy::compare(pair.truth, *stored_, truth_tolerance),
                                           pair.truth, *stored_, Against::stored_image);
       what.numbers = how.numbers;
-      if (how.cause == Cause::within_bound) {  // ids and depths are compared where they are certain
+      // Ids and depths are compared only where they are certain.
+      if (how.cause == Cause::within_bound) {
         how = image_observation(accuracy::compare(pair.truth, *stored_, pair.bound), pair.truth,
                                 *stored_, Against::stored_image);
       }
@@ -159,7 +160,7 @@ class SceneJudge {
   std::optional<ReferenceHash> reference_;  // its hash, if the picture is not stored
   bool truth_checked_ = false;
   std::vector<Picture> pictures_;
-  core::Image bound_;  // of a particle scene: shows where ids are certain
+  core::Image bound_;  // bound of a particle scene: shows where ids are certain
 };
 
 }  // namespace

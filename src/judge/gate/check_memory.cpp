@@ -1,4 +1,4 @@
-// Bytes allocated on the device, which must be equal on a device that was accepted.
+// Compares the bytes allocated on the device, which must be equal on an accepted device.
 
 #include <set>
 

@@ -7,7 +7,7 @@
 namespace triptych::judge {
 namespace {
 
-// A device that was never accepted may score as little as the worst accepted one.
+// A device without baselines may have the score of the worst accepted device.
 std::optional<int> allowed_on(const std::map<std::string, std::uint64_t>& stored,
                               const std::string& device) {
   const auto own = stored.find(device);
@@ -21,7 +21,7 @@ Verdict verdict_of(int points, std::optional<int> accepted) {
   if (!accepted) return Verdict::cannot_judge;
   if (points < *accepted) return Verdict::regression;
   if (points > *accepted) return Verdict::improved;
-  // A case that was accepted with less than all points stays visible.
+  // A case that was accepted with fewer than all points is still reported.
   return points == best_stress_score ? Verdict::pass : Verdict::advisory;
 }
 
@@ -50,7 +50,7 @@ std::vector<Finding> check_stress(const RunView& view) {
         finding_about(view, Check::stress, Verdict::cannot_judge, {.cause = Cause::no_reference}));
     return findings;
   }
-  // Devices that the request does not ask for show what those that it asks for should show.
+  // Devices that the request does not judge still serve as examples for those that it does.
   std::vector<record::Record> all = view.store.records(view.records.front().run);
   std::erase_if(all,
                 [&](const record::Record& record) { return record.plan != view.request.plan; });

@@ -1,4 +1,5 @@
-// Compares times with those of the accepted run. They are shown, and decide only on request.
+// Compares times with those of the accepted run. They are shown, and affect the verdict only on
+// request.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,7 @@
 namespace triptych::judge {
 namespace {
 
-const double tolerated = std::log(1.02);  // a smaller slowdown is not worth a finding
+const double tolerated = std::log(1.02);  // a smaller slowdown is not reported
 
 // A time as a ratio to the stored one.
 struct Ratio {
@@ -57,7 +58,7 @@ class DeviceTimes {
   }
 
   std::vector<Finding> finish() && {
-    // Where times decide, a time that cannot be compared is no pass.
+    // If times affect the verdict, a time that cannot be compared does not pass.
     const Verdict missing = decides() ? Verdict::cannot_judge : Verdict::advisory;
     if (!not_stored_.empty() && stored_.empty()) {
       add(missing, {.cause = Cause::no_stored_device, .facts = {{"device_key", device_.key()}}});
@@ -84,7 +85,7 @@ class DeviceTimes {
     return std::isfinite(middle) && middle > 0;
   }
 
-  // Where the picture is also judged, or is excused, that finding has the verdict.
+  // If the image is also judged, or is excused, that finding has the verdict.
   void add_wrong(const record::Record& record, const Observation& why) {
     const bool is_told =
         view_.checks.contains(Check::image) || is_waived(view_, record, Check::image);
@@ -100,7 +101,7 @@ class DeviceTimes {
     judge(ratio_of(record, *clock, stored->second), *clock, stored->second);
   }
 
-  // The only place where a time decides.
+  // Only here a time affects the verdict.
   [[nodiscard]] Verdict verdict_of(const Ratio& ratio) const {
     if (!decides()) return Verdict::pass;
     if (ratio.log_ratio - ratio.half_width > tolerated) return Verdict::regression;

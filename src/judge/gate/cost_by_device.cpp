@@ -59,7 +59,7 @@ DeviceCost of_before(const DriverCost& stored) {
   return result;
 }
 
-// By the clock that both trust; the wall clock times every frame.
+// Times are by the clock that both trust; the wall clock times every frame.
 std::optional<double> log_median(const record::Record& record, std::string_view clock) {
   const std::vector<double>& times = record.time_ns_by(clock);
   return times.empty() ? std::nullopt : std::optional(std::log(estimation::median(times)));

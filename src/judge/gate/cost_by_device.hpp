@@ -1,6 +1,6 @@
 #pragma once
-// The data for the correlation of costs: the cost of each configuration on each device, today's and
-// the stored one.
+// The data for the correlation of costs: the current and the stored cost of each configuration on
+// each device.
 
 #include <map>
 #include <optional>
@@ -47,7 +47,8 @@ struct DeviceCost {
 // The pair by cost over all configurations that both have, with its line fitted.
 [[nodiscard]] CorrelationPair pair_of(const DeviceCost& a, const DeviceCost& b);
 
-// The same by time for each two devices of the run. It is shown only; nothing is judged by it.
+// The same by time, for each pair of devices of the run. It is shown only, and nothing is judged by
+// it.
 [[nodiscard]] std::vector<CorrelationPair> pairs_by_time(const CorrelationInput& input);
 
 // The check itself, without the gate.

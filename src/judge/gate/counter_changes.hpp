@@ -7,8 +7,8 @@
 
 namespace triptych::judge {
 
-// The counters of a record that differ from those of other devices by more than they may. A counter
-// that one of the two does not have is not compared.
+// The counters of a record that differ from those of other devices by more than is allowed. A
+// counter that one of the two does not have is not compared.
 [[nodiscard]] std::vector<Change> counter_changes(const record::Record& record,
                                                   const StoredCounters& of_others,
                                                   const FindOpenCounts& open_counts);

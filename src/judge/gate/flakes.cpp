@@ -20,7 +20,8 @@ bool is_right(Verdict verdict) {
   return verdict == Verdict::pass || verdict == Verdict::improved || verdict == Verdict::advisory;
 }
 
-// How the next run is to expect this finding; nullopt if it is to expect a pass.
+// The result that the next run should expect in place of this finding; nullopt if it should expect
+// a pass.
 std::optional<Known> expected_as(const Finding& finding) {
   if (finding.verdict == Verdict::skipped) return Known::skip;
   if (finding.verdict == Verdict::regression) {
@@ -30,8 +31,8 @@ std::optional<Known> expected_as(const Finding& finding) {
   return known ? std::optional(finding.excuse.known) : std::nullopt;
 }
 
-// `finding` when the second attempt was right: a flake, or a timeout, which cannot be told from a
-// slow driver.
+// `finding` if the second attempt was right: a flake, or a timeout, which cannot be distinguished
+// from a slow driver.
 Finding right_again(const Finding& finding) {
   Finding again = finding;
   again.drawn_again = Again::flake;
@@ -43,9 +44,8 @@ Finding right_again(const Finding& finding) {
   return again;
 }
 
-// What became of a regression after the second attempt. If its check now has no finding for the
-// place, the regression was a crash of something that has no finding once it is drawn, such as a
-// picture of speed_of_light.
+// The regression after the second attempt. If its check now has no finding for the place, the
+// configuration crashed the first time and has no finding when it is drawn, such as speed_of_light.
 void tell_again(const Finding& finding, Redrawn& redrawn) {
   std::vector<Finding>& findings = redrawn.result.findings;
   const auto again = std::ranges::find_if(findings, [&](const Finding& each) {

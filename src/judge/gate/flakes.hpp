@@ -1,6 +1,6 @@
 #pragma once
-// Handles regressions that were drawn a second time, and lists what a run leaves for the next one
-// to expect.
+// Handles regressions that were drawn a second time, and lists the results that the next run should
+// expect.
 
 #include <functional>
 #include <set>
@@ -19,15 +19,16 @@ using Places = std::set<std::pair<std::string, std::string>>;  // device, config
 [[nodiscard]] Places failing(const GateResult& result);
 
 struct Redrawn {
-  GateResult result;  // of the second attempt; flakes stay regressions, timeouts are undecided
+  // Verdict of the second attempt; flakes stay regressions, timeouts are undecided.
+  GateResult result;
   Places flakes;
 };
 
 // `first` and `second` judge the same run, before and after `places` were drawn again.
 [[nodiscard]] Redrawn tell_flakes(const GateResult& first, GateResult second, const Places& places);
 
-// What fails, flakes or is skipped in the results and is not waived, unless by the file of expected
-// results itself. `reason_of` gives the words for people who read the file.
+// The failures, flakes and skips in the results that are not waived, except by the file of expected
+// results itself. `reason_of` gives the text for people who read the file.
 [[nodiscard]] std::vector<Waiver> as_expected(
     std::span<const GateResult> results,
     const std::function<std::string(const Finding&)>& reason_of);

@@ -75,7 +75,7 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
 }
 
 // A configuration that this device measured before is missing if it is now skipped. With a setting
-// that overrides what the driver can do (MESA_GL_VERSION_OVERRIDE), it counts as another device.
+// that overrides the driver's capabilities (MESA_GL_VERSION_OVERRIDE), it counts as another device.
 bool measured_before(const RunView& view, const record::Record& record) {
   const bool overridden = std::ranges::any_of(
       view.device(record).environment,
@@ -108,7 +108,8 @@ void report_outcomes(const RunView& view, std::vector<Finding>& findings) {
   }
 }
 
-// What the driver did wrong apart from any configuration: in its clock, its statistics, at its end.
+// Faults of the driver outside of any configuration: in its clock, in its statistics, or when it is
+// closed.
 void report_device_faults(const RunView& view, std::vector<Finding>& findings) {
   for (const auto& [id, device] : view.devices) {
     for (const record::DeviceFault& fault : device.faults) {
@@ -194,7 +195,7 @@ void report_rows(const RunView& view, std::vector<Finding>& findings) {
   }
 }
 
-// The run must be the one that was asked for.
+// The run must belong to the requested plan.
 void report_other_plan(const RunView& view, const std::string& run,
                        std::vector<Finding>& findings) {
   if (view.request.plan_hash.empty() || view.records.empty()) return;
@@ -237,7 +238,7 @@ void append(std::vector<Finding>& findings, std::vector<Finding> more) {
   std::ranges::move(more, std::back_inserter(findings));
 }
 
-// What the checks fill in, one after the other.
+// The results that the checks fill in, one after the other.
 struct Judging {
   const RunView& view;
   GateResult& result;
@@ -319,12 +320,12 @@ int rank(Verdict verdict) {
   return 6;
 }
 
-// The programs that measured, if one of them is not the one that judges. A run that was resumed may
-// have several.
+// The programs that measured, if one of them is not the program that judges. A run that was resumed
+// may have several.
 std::string other_programs(const RunView& view) {
   std::set<std::string> programs;
   for (const record::Beginning& each : view.run.begun) programs.insert(each.program);
-  // Older stores have it only once for each run.
+  // Older stores have this fact only once for each run.
   const bool is_known = programs.erase(std::string()) == 0 && !programs.empty();
   const auto program = view.run.system.find("triptych");
   if (!is_known && program != view.run.system.end()) programs.insert(program->second);
@@ -365,7 +366,7 @@ void report_nothing_decided(const RunView& view, GateResult& result) {
   }
 }
 
-// If this program was right before, the fault is the driver's and not ours.
+// If this program was right before, the fault is the driver's and not Triptych's.
 void tell_where_accepted(const RunView& view, std::vector<Finding>& findings) {
   if (!view.baselines.present()) return;
   for (Finding& each : findings) {

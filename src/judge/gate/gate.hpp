@@ -27,22 +27,22 @@ struct GateResult {
   std::string plan;
   std::string run;
   std::vector<Finding> findings;  // the worst first, then by device and configuration
-  // By device, then in the order of measuring.
+  // The records by device, then in the order of measuring.
   std::vector<accuracy::AccuracyScene> accuracies = {};
   std::vector<CorrelationPair> correlations = {};  // the pairs that could be drawn
   std::set<std::string> devices = {};              // the requested devices that measured something
   // The settings that were made for each device when it was measured, by its id. Printed commands
   // repeat them.
   std::map<std::string, std::map<std::string, std::string>> environments = {};
-  std::string argument = {};                         // as in the request
-  std::map<std::string, std::string> defaults = {};  // as in the request
+  std::string argument = {};                         // copied from the request
+  std::map<std::string, std::string> defaults = {};  // copied from the request
   std::string baselines = {};                        // the folder, if commands have to name it
-  bool times_decided = false;                        // as in the request
-  bool part = false;                                 // as in the request
-  // About the run: what was found while devices were listed and cannot be used, the injected faults
-  // with the number of their records, the program that measured if it is not the one that judges,
-  // and the day of a run that began more than a day before it is judged: a later one may have
-  // failed before it began. The last screen shows all of these, whatever the verdict.
+  bool times_decided = false;                        // copied from the request
+  bool part = false;                                 // copied from the request
+  // Notes about the run: loaders and drivers that could not be used while devices were listed, the
+  // injected faults with the number of their records, the program that measured if it is not the
+  // one that judges, and the day of a run that began more than a day ago, because a later run may
+  // have failed before it began. The last screen shows all of these, whatever the verdict.
   std::vector<record::Unusable> unusable = {};
   std::map<std::string, std::size_t> injected = {};
   std::string measured_by = {};
@@ -64,7 +64,7 @@ struct GateRequest {
   std::vector<std::string> devices;  // globs; empty: all in the run
   // Globs; each must match a device that measured something.
   std::vector<std::string> required_devices;
-  // Globs over devices that this machine is meant to lack, and over APIs whose devices cannot be
+  // Globs over devices that this machine lacks on purpose, and over APIs whose devices cannot be
   // listed here.
   std::vector<std::string> without_devices = {};
   std::string program = {};  // the judging program's version; empty: not compared
@@ -73,7 +73,7 @@ struct GateRequest {
   FindTruth truth;
   // The limit of a record's scene, nullptr if it has none. It must live as long as the request.
   std::function<const accuracy::LimitPicture*(const record::Record&)> limit = {};
-  // What must hold for a record besides its reference image; empty: nothing.
+  // The requirements for a record in addition to its reference image; empty: none.
   FindExpectations expectations = {};
   FindOpenCounts open_counts = {};  // called only if counters differ
   std::string today;                // ISO date, for the expiry of waivers
@@ -83,16 +83,16 @@ struct GateRequest {
   // A configuration that is slower than stored by more than its interval and by more than 2 % is a
   // regression. Otherwise times are advisory.
   bool times_decide = false;
-  // The hash and the configuration keys of the plan as it is now, to recognize a run of another
-  // plan. Empty: not known.
+  // The hash and the configuration keys of the current plan, to recognize a run of another plan.
+  // Empty: not known.
   std::string plan_hash = {};
   std::vector<std::string> expected = {};
   // Levels that these keys leave out, for the factors that the plan names.
   std::map<std::string, std::string> defaults = {};
   // `expected` is only a part of the plan, so other accepted configurations are not missing.
   bool part = false;
-  // What is known to fail or to be skipped. Everything else has to pass, and a skip that is not
-  // listed cannot be judged. nullopt: any configuration may be skipped.
+  // Known failures and skips. Everything else has to pass, and a skip that is not listed cannot be
+  // judged. nullopt: any configuration may be skipped.
   std::optional<std::vector<Waiver>> known = {};
   // The content hash of the data from which the record's reference image would be drawn now, in the
   // record's voxel format; empty if it is not known. An empty function: it is the record's own.

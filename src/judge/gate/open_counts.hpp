@@ -8,13 +8,13 @@
 
 namespace triptych::judge {
 
-// By how much the counters of a record may differ between two right devices, by the counters' names
-// (SuiteWithTruth::open_counts). Throws core::Error if the scene is not available on this machine,
-// and the record then has no open counters.
+// The allowed differences of the counters of a record between two correct devices, by the counters'
+// names (SuiteWithTruth::open_counts). Throws core::Error if the scene is not available on this
+// machine; the record then has no allowed differences.
 using FindOpenCounts = std::function<std::map<std::string, double>(const record::Record&)>;
 
-// What rounding and rasterization leave open in one record's counters; computed when it is first
-// needed.
+// The differences that rounding and rasterization allow in one record's counters, computed when
+// they are first needed.
 class OpenCounts {
  public:
   // `find` may be empty if rounding leaves nothing open.

@@ -29,7 +29,7 @@ bool is_open(const std::string& counter, const record::Record& record) {
 
 }  // namespace
 
-// How many fragments two right drivers may differ by.
+// The number of fragments by which two correct drivers may differ.
 //   - A driver moves each vertex to its grid of 2⁻ᵇ pixel by rounding or truncation, that is by
 //     less than one step. So an edge of a sprite lies up to 2⁻ᵇ + 2⁻⁸ pixel apart in the pictures
 //     of two drivers, plus the amount by which the sprite is larger on a coarse grid

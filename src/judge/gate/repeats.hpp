@@ -1,5 +1,5 @@
 #pragma once
-// Compares the results of a validation that was repeated: which cases do not always end alike.
+// Compares the results of a repeated validation, and finds the cases whose results differ.
 
 #include <compare>
 #include <cstddef>

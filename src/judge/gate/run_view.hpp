@@ -1,5 +1,5 @@
 #pragma once
-// What every check knows about a run, and the function of each check.
+// The data about a run that every check gets, and the function of each check.
 
 #include <map>
 #include <set>
@@ -20,8 +20,8 @@ struct RunView {
   std::vector<record::Record> records;               // of the requested devices
   std::map<std::string, record::Device> devices;     // by id
   std::vector<const record::Record*> measured;       // pointers into `records`
-  std::vector<const record::Record*> of_other_data;  // measured, but of data that are not
-                                                     // here, or not what was accepted
+  std::vector<const record::Record*> of_other_data;  // measured, but the data are missing
+                                                     // here, or differ from the accepted ones
 
   [[nodiscard]] const record::Device& device(const record::Record& record) const {
     return devices.at(record.device);
@@ -49,7 +49,7 @@ struct RunView {
 // The worst first, then by device and configuration.
 void sort_findings(std::vector<Finding>& findings);
 
-// (device, configuration) → what is wrong with its image. The time of such a record means nothing.
+// (device, configuration) → the error in its image. The time of such a record means nothing.
 using WrongImages = std::map<std::pair<std::string, std::string>, Observation>;
 
 struct ImageFindings {
@@ -81,8 +81,8 @@ struct AccuracyFindings {
 // One finding for each record that has a score, including records that failed.
 [[nodiscard]] std::vector<Finding> check_stress(const RunView& view);
 
-// Checks whether the run has everything that it set out to measure, on all devices that its machine
-// should have, and whether the plan requests all checks of its baselines.
+// Checks whether the run has all planned configurations, on all devices that its machine should
+// have, and whether the plan requests all checks of its baselines.
 void report_as_begun(const RunView& view, std::vector<Finding>& findings);
 
 // Whether waivers.json excuses today what this check may find about the record.
@@ -92,8 +92,8 @@ void report_as_begun(const RunView& view, std::vector<Finding>& findings);
 // expired.
 void apply_waivers(const RunView& view, std::vector<Finding>& findings);
 
-// Compares findings with GateRequest::known: what is known to fail becomes waived; what passes
-// although it is known to fail becomes improved; a skip that is not known cannot be judged.
+// Compares findings with GateRequest::known: a known failure becomes waived, a pass that is listed
+// as a failure becomes improved, and a skip that is not listed cannot be judged.
 void apply_known(const RunView& view, std::vector<Finding>& findings);
 
 }  // namespace triptych::judge

@@ -22,7 +22,8 @@ bool is_finite(const core::Image& image) {
          std::ranges::none_of(image.depth, [](float value) { return std::isnan(value); });
 }
 
-// A case that is being scored: for a picture that was drawn, its distance from the truth.
+// A case that is being scored. For an image that was drawn, it has the distance from the reference
+// image.
 struct Case {
   const record::Record* record = nullptr;
   StressScore score = {};
@@ -111,7 +112,7 @@ class Scoring {
     }
   }
 
-  // Of two pictures that differ, the one nearer to the truth keeps its point.
+  // Of two images that differ, the one nearer to the reference image keeps its point.
   void judge_agreement(Case& own, const std::vector<Case*>& cases) {
     if (!own.rmse) return;
     own.score.agreed = true;

@@ -1,6 +1,6 @@
 #pragma once
-// Scores a stress case on a device: one point for drawing a picture at all, one for the right
-// picture, and one for the picture that other devices show.
+// Scores a stress case on a device: one point for drawing an image at all, one for the right image,
+// and one for the image that other devices draw.
 
 #include <functional>
 #include <string>
@@ -27,8 +27,8 @@ struct StressTruths {
 
 struct StressScore {
   bool drawn = false;  // a finite picture, drawn without a crash, a hang or an error
-  bool right = false;  // within its bound of the truth, and everything that is expected of it holds
-  bool agreed = false;  // no device that is nearer to the truth shows another picture
+  bool right = false;  // the image is within its bound, and all expectations of the case hold
+  bool agreed = false;  // no device that is nearer to the reference image draws another image
   std::vector<Observation> lost = {};  // the reason for every point that is missing
 
   [[nodiscard]] int points() const {

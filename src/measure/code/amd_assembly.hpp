@@ -13,7 +13,7 @@ struct InstructionCounts {
   int memory = 0;  // loads, stores, image samples and local memory, scalar loads included
   int branch = 0;
   int wait = 0;     // waits, scheduling hints, the end of the program
-  int fetches = 0;  // of `memory`, reads of images and buffers: what a sample of a volume takes
+  int fetches = 0;  // of `memory`, reads of images and buffers, which a sample of a volume needs
   [[nodiscard]] int all() const { return vector + scalar + memory + branch + wait; }
 };
 

@@ -41,8 +41,8 @@ bool is_digit(char c) {
 
 void CompiledCode::add(const std::string& name, std::map<std::string, double> statistics,
                        std::string assembly) {
-  // Drivers report hashes among their statistics. A hash identifies the code, says nothing about its
-  // quality, and changes with a name in a shader.
+  // Drivers report hashes among their statistics. A hash identifies the code, does not describe its
+  // quality, and changes with the names in a shader.
   std::erase_if(statistics, [](const auto& each) {
     return each.first.find("hash") != std::string::npos ||
            each.first.find("Hash") != std::string::npos;

@@ -1,5 +1,5 @@
 #pragma once
-// Collects what a compiler reports of the executables of a configuration.
+// Collects a compiler's report about the executables of a configuration.
 
 #include <map>
 #include <string>
@@ -11,9 +11,9 @@ namespace triptych::measure {
 
 class CompiledCode {
  public:
-  // Adds an executable; a second one of the same name becomes "NAME#2". What Triptych counts in the
-  // disassembly of a GPU whose instructions it knows is added to the statistics: "Instructions"
-  // where the driver does not report them, and "Loop …" of the loop that samples the volume.
+  // Adds an executable; a second one with the same name becomes "NAME#2". If Triptych knows the
+  // GPU's instructions, it counts them in the disassembly and adds statistics: "Instructions" if
+  // the driver does not report them, and "Loop …" for the loop that samples the volume.
   void add(const std::string& name, std::map<std::string, double> statistics,
            std::string assembly);
 
@@ -24,12 +24,12 @@ class CompiledCode {
   Compiled compiled_;
 };
 
-// Reads "Name: NUMBER" pairs of one line, as Mesa's drivers print statistics; text before the first
-// pair, and what is in parentheses, is left out.
+// Reads the "Name: NUMBER" pairs of one line, as Mesa's drivers print statistics. Text before the
+// first pair and text in parentheses is left out.
 [[nodiscard]] std::map<std::string, double> parse_statistics(std::string_view line);
 
-// The same of "NUMBER name" pairs, as in "Used 32 registers, 8 bytes stack frame" (NVIDIA) or
-// "55 inst, 0 loops, 328 cycles" (Intel): each number with the words up to the next comma.
+// Reads "NUMBER name" pairs, as in "Used 32 registers, 8 bytes stack frame" (NVIDIA) or "55 inst, 0
+// loops, 328 cycles" (Intel): each number with the words up to the next comma.
 [[nodiscard]] std::map<std::string, double> parse_counts(std::string_view line);
 
 }  // namespace triptych::measure

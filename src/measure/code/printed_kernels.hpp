@@ -1,6 +1,6 @@
 #pragma once
-// Reads what rusticl on radeonsi prints to standard error while it builds a program, with the
-// variables RUSTICL_DEBUG=nir and AMD_DEBUG=cs,asm: the names of kernels, their disassembly and
+// Reads the text that rusticl on radeonsi prints to standard error while it builds a program, with
+// the variables RUSTICL_DEBUG=nir and AMD_DEBUG=cs,asm: the names of kernels, their disassembly and
 // their statistics.
 
 #include <map>

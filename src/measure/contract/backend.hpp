@@ -43,7 +43,8 @@ struct ParticleWork {
   }
 };
 
-// What is to be drawn, and how. The catalogue says which kind of scene the technique's suite has.
+// The scene to draw, and the technique with its options. The catalogue states which kind of scene
+// the technique's suite has.
 struct Work {
   std::string technique;  // catalogue id
   std::variant<VolumeWork, ParticleWork> scene;
@@ -73,10 +74,10 @@ class Prepared {
   Prepared& operator=(const Prepared&) = delete;
   virtual ~Prepared() = default;
 
-  // Overwrites everything that a frame leaves behind (image, ids, depth, counters) with values that
-  // no frame leaves: until the next frame is drawn, image() returns NaN in every channel. This
-  // reveals a frame that was not drawn and left the values of an earlier one. It is never called
-  // within what is timed or counted.
+  // Overwrites all outputs of a frame (image, ids, depth, counters) with values that no frame
+  // produces: until the next frame is drawn, image() returns NaN in every channel. This reveals a
+  // frame that was not drawn and left the values of an earlier one. It is never called within the
+  // timed or counted part of a frame.
   virtual void poison() = 0;
   // Draws one frame and waits for it without spinning. Throws ApiError, DeviceLost, NotDrawn.
   [[nodiscard]] virtual Frame frame(Purpose purpose) = 0;
@@ -93,7 +94,7 @@ struct VolumePath {
   technique::Sampler sampler = technique::Sampler::manual;
 };
 
-// What the choice of a path depends on.
+// The properties on which the choice of a path depends.
 struct VolumeKind {
   // The smallest format that represents the data exactly.
   scene::VoxelFormat native = scene::VoxelFormat::f32;
@@ -107,7 +108,8 @@ struct VolumeKind {
   }
 };
 
-// What the API leaves to the device's rasterizer: which fragments an edge covers.
+// The properties of the device's rasterizer that the API leaves open, which decide the fragments
+// that an edge covers.
 struct Rasterizer {
   int sub_pixel_bits = 8;  // vertices are moved to a grid of 2⁻ᵇ pixel
   // Pixels by which points are larger than their squares, and may be again.
@@ -163,11 +165,11 @@ class Device {
   }
 };
 
-// What a loader says about a platform or device that cannot be used.
+// A loader's report about a platform or device that cannot be used.
 struct Broken {
   std::string what;                          // "OpenCL platform Clover"
-  std::string reason;                        // what the loader or the driver said
-  std::optional<record::Reason> ended = {};  // how the process that asked has ended
+  std::string reason;                        // the message of the loader or the driver
+  std::optional<record::Reason> ended = {};  // how the process that listed it ended
 };
 
 struct Listing {

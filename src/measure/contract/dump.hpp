@@ -1,6 +1,6 @@
 #pragma once
-// Writes what drivers are given to files, for `render --dump FOLDER`. Backends call write_dump()
-// where device code is compiled and where buffers are uploaded.
+// Writes all input of drivers to files, for `render --dump FOLDER`. Backends call write_dump() when
+// device code is compiled and when buffers are uploaded.
 
 #include <cstddef>
 #include <filesystem>

@@ -1,5 +1,5 @@
 #pragma once
-// Configurations that are exactly the same work in a scene. One of them is measured, and the others
+// Configurations that do exactly the same work in a scene. One of them is measured, and the others
 // copy its results.
 
 #include <map>

@@ -1,5 +1,5 @@
 #pragma once
-// Shared by the factor lists of the suites.
+// Functions for the factor lists of all suites.
 
 #include <array>
 #include <string>
@@ -14,7 +14,7 @@ enum class Decides : std::uint8_t { the_picture, how_it_is_made };
 
 [[nodiscard]] Factor choice(std::string name, std::vector<std::string> levels, std::string standard,
                             Decides decides, std::string summary);
-// `words` are values that stand for a number, which the suite knows.
+// `words` are values that stand for a number. The suite knows their meaning.
 [[nodiscard]] Factor number(std::string name, double minimum, double maximum, std::string standard,
                             Decides decides, std::string summary,
                             std::vector<std::string> words = {});

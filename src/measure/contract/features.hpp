@@ -15,7 +15,7 @@ enum class FeatureVerdict : std::uint8_t { right, wrong, skipped };
 struct ProbedFeature {
   FeatureVerdict verdict = FeatureVerdict::right;
   std::string size = {};    // the largest size that was used: "100000 draws"
-  std::string detail = {};  // what is wrong, or the reason for the skip
+  std::string detail = {};  // the error, or the reason for the skip
 };
 
 // The verdict on a result of which `right` of `expected` values are right.

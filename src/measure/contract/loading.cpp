@@ -41,7 +41,7 @@ class Pace {
   Loading last_{.what = {}, .share = 1};
   std::chrono::steady_clock::time_point rested_since_;
   bool told_ = false;
-  std::set<std::string> notes_;  // that were passed on
+  std::set<std::string> notes_;  // notes that were passed on
 };
 
 }  // namespace

@@ -17,10 +17,9 @@ struct Loading {
 
 using OnLoading = std::function<void(const Loading&)>;
 
-// Passes on to `tell` only what is worth reporting: nothing for a load shorter than two seconds;
-// for others one report every two seconds at most, and the end (share 1) of those that were
-// reported. A load begins with another name or a smaller share than the previous report. `now` is
-// for tests.
+// Passes only useful reports on to `tell`: none for a load shorter than two seconds; for others at
+// most one report every two seconds, and the end (share 1) of those that were reported. A load
+// begins with another name or a smaller share than the previous report. `now` is for tests.
 [[nodiscard]] OnLoading paced(
     OnLoading tell,
     std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now);

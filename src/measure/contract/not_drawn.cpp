@@ -10,7 +10,8 @@ void check_counted(std::span<const std::uint32_t> counters) {
   });
   if (untouched) {
     throw NotDrawn(
-        "the frame of the counters: they still hold what they were filled with before it");
+        "the frame for the counters: the counters still have the value that they were filled with "
+        "before");
   }
 }
 

@@ -6,8 +6,8 @@
 
 namespace triptych::measure {
 
-// A frame that the driver reported as finished did not draw: what it writes still holds the values
-// of Prepared::poison(), or differs from what an equal frame before it wrote.
+// A frame that the driver reported as finished was not drawn: its outputs still have the values of
+// Prepared::poison(), or differ from those of an equal frame before it.
 class NotDrawn : public core::Error {
  public:
   using core::Error::Error;

@@ -1,6 +1,5 @@
 #pragma once
-// The history of one pixel: what a device did to draw it, and what the reference expects.
-//
+// The history of one pixel: the device's results, and the results that the reference expects.
 // Prepared works and suites that can report it implement these interfaces in addition to their own.
 
 #include <cstdint>
@@ -13,7 +12,7 @@
 
 namespace triptych::measure {
 
-// A pixel, counted from the left upper corner.
+// A pixel, counted from the upper left corner.
 struct PixelPlace {
   int x = 0;
   int y = 0;
@@ -23,8 +22,8 @@ struct PixelPlace {
 inline constexpr const char* not_traced =
     "the history of a pixel is recorded for quadrature midpoint and preintegrated, not for cells";
 
-// A prepared work that can draw a frame with a build of its device code that records what it does
-// for one pixel. The build counts, and its control flow is that of the counting build.
+// A prepared work that can draw a frame with a build of its device code that records the samples of
+// one pixel. The build counts, and its control flow is that of the counting build.
 class TracesPixel {
  public:
   TracesPixel() = default;
@@ -52,7 +51,8 @@ class ExpectsRay {
       int y) = 0;
 };
 
-// A suite whose reference renderer can report what a pixel shows of some of the particles.
+// A suite whose reference renderer can report the visible surface in a pixel for a subset of the
+// particles.
 class ExpectsSprites {
  public:
   ExpectsSprites() = default;
@@ -65,7 +65,7 @@ class ExpectsSprites {
   [[nodiscard]] virtual std::vector<std::uint32_t> particles_near(
       const Configuration& configuration, const std::map<std::string, double>& precision, int x,
       int y) = 0;
-  // What the pixel shows of these particles, with the bounds of the whole scene.
+  // The result in the pixel for these particles, with the bounds of the whole scene.
   [[nodiscard]] virtual accuracy::ExpectedSurface expected_surface(
       const Configuration& configuration, const std::map<std::string, double>& precision,
       std::span<const std::uint32_t> particles, int x, int y) = 0;

@@ -48,7 +48,7 @@ struct Factor {
 // Factor → value in its one spelling ("0.5", "orbit_y:1/8"). Every factor of the suite is present.
 using Configuration = std::map<std::string, std::string>;
 
-// The work of a configuration, reduced to what makes a difference in its scene.
+// The work of a configuration, reduced to the levels that make a difference in its scene.
 struct PlainWork {
   // Every level that makes no difference in this scene is replaced by a simpler one, and the factor
   // that `ends_below` stands for is removed. Configurations with the same levels and the same end
@@ -67,7 +67,7 @@ class Suite {
 
   [[nodiscard]] virtual std::string_view name() const = 0;
   [[nodiscard]] virtual const std::vector<Factor>& factors() const = 0;
-  // Checks a value further than its kind does. Throws InputError with what was expected.
+  // Checks a value beyond the rules of its kind. Throws InputError with the expected form.
   virtual void check(const Factor& factor, std::string_view value) const = 0;
 
   // The names that "generate:NAME:…" may have in its data; empty if it takes no data.
@@ -123,7 +123,7 @@ class SuiteWithTruth : public Suite {
   // The data that another program needs to draw the same frame: "viewport", "camera" and the scene,
   // as in `frame.json` of `triptych render`.
   [[nodiscard]] virtual nlohmann::json describe(const Configuration& configuration) = 0;
-  // Lines that say what the data of a configuration are, for `render --describe`. Throws like
+  // Lines that describe the data of a configuration, for `render --describe`. Throws like
   // Suite::work.
   [[nodiscard]] virtual std::vector<std::string> describe_data(const Configuration& /*chosen*/) {
     return {};

@@ -14,12 +14,12 @@ struct Emulator {
   // The emulator and the processor that it simulates, "valgrind 3.19 AVX2". Counts of different
   // ones are not compared. Patch releases are left out, because they do not change counts.
   std::string name;
-  std::vector<std::string> command;      // is put before a worker's command
+  std::vector<std::string> command;      // the words before a worker's command
   std::vector<std::string> environment;  // "NAME=VALUE", for the command
 };
 
-// The emulator, or one line that says why nothing can be counted and what to install. It is
-// searched for once in a process.
+// The emulator, or one line with the reason why nothing can be counted and the package to install.
+// The search is made once per process.
 [[nodiscard]] const std::variant<Emulator, std::string>& find_emulator();
 
 // `command` with the emulator before it. Mapped files in the folder `device_files` count as device

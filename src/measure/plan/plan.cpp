@@ -49,7 +49,7 @@ void set_values(const Suite& suite, const std::vector<PlanEntry>& entries, Block
   }
 }
 
-// An override with its values as they were typed.
+// An override with its values as typed by the user.
 struct PlacedOverride {
   const Factor* factor;
   std::vector<PlacedText> values;
@@ -59,7 +59,7 @@ std::vector<PlacedOverride> placed(const Overrides& overrides, const Suite& suit
   std::vector<PlacedOverride> all;
   for (const auto& [name, texts] : overrides) {
     const core::FilePlace place{.file = "--set " + name};
-    // A separate variable, because GCC 14 takes the reference for one into the argument, and warns.
+    // A separate variable, because GCC 14 otherwise warns about a dangling reference, wrongly.
     const PlacedText placed_name{.text = name, .place = place};
     const Factor& factor = factor_of(suite, placed_name);
     if (std::ranges::find(all, &factor, &PlacedOverride::factor) != all.end()) {
@@ -141,7 +141,7 @@ struct PlanSource {
 
 PlanSource read_plan_file(const std::filesystem::path& file) {
   if (file.empty()) {
-    throw core::InputError("a plan needs a name: of a YAML file, or SUITE/PLAN");
+    throw core::InputError("a plan must be named: a YAML file or SUITE/PLAN");
   }
   try {
     return {.name = plan_name(file.string()),
@@ -181,7 +181,7 @@ PlanSource find_plan(std::string_view name_or_file, const FindSuite& find_suite)
 
 const Suite& suite_of(const PlanSource& source, const PlanText& text, const FindSuite& find_suite) {
   if (!source.suite.empty() && text.suite.text != source.suite) {
-    throw core::InputError(text.suite.place, fmt::format("a plan of suite '{}' says 'suite: {}'",
+    throw core::InputError(text.suite.place, fmt::format("a plan of suite '{}' states 'suite: {}'",
                                                          source.suite, text.suite.text));
   }
   try {
@@ -191,8 +191,8 @@ const Suite& suite_of(const PlanSource& source, const PlanText& text, const Find
   }
 }
 
-// The place at which the factor with the most values got them. It is what the user should shorten
-// if there are too many.
+// The place where the factor with the most values is defined. The user should shorten this list if
+// there are too many configurations.
 core::FilePlace longest_place(const PlanSource& source, const ValuesByFactor& values,
                               const std::vector<const std::vector<PlanEntry>*>& entries,
                               const Overrides& overrides) {
@@ -221,7 +221,7 @@ struct OpenPlan {
   Plan plan;  // without configurations
   const Suite& suite;
   Combinations combinations;
-  std::vector<core::FilePlace> places;  // of the longest list in each block
+  std::vector<core::FilePlace> places;  // places of the longest list in each block
 };
 
 Plan plan_of(const std::string& name, const Suite& suite, const Combinations& combinations) {
@@ -277,10 +277,10 @@ void require_few(const Combinations& combinations, const std::vector<core::FileP
     if (combinations.most_of(i) / static_cast<std::size_t>(std::max(1, shard.count)) <= most) {
       continue;
     }
-    throw core::InputError(
-        places[i], fmt::format("more than {} combinations, most of this factor; take shards of the "
-                               "plan (--shard i/n), or split it",
-                               most));
+    throw core::InputError(places[i],
+                           fmt::format("more than {} combinations, and this factor has the most "
+                                       "values; measure shards (--shard i/n), or split the plan",
+                                       most));
   }
 }
 

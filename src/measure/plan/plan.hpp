@@ -21,12 +21,12 @@ struct Plan {
   // In order: data vary slowest, then pipelines, then views.
   std::vector<Configuration> configurations;
   std::vector<std::string> varied;  // factors with more than one value
-  // The checks by which its runs are judged. Only what they need is measured: clocks are read only
-  // for timing, and workers run under the emulator only for cost.
+  // The checks by which its runs are judged. Only the measurements that they need are made: clocks
+  // are read only for timing, and workers run under the emulator only for cost.
   record::Checks checks = standard_checks();
-  // The hash of its text, which distinguishes plans of the same name. Empty if it has no text.
+  // The hash of its text, which distinguishes plans with the same name. Empty if it has no text.
   std::string hash;
-  std::string argument = {};         // as it was typed
+  std::string argument = {};         // as typed by the user
   std::set<std::string> named = {};  // factors that its text or an override names
   // The factors with the value "auto", which asks for the fastest of their levels.
   std::set<std::string> automatic = {};

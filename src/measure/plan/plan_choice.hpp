@@ -11,19 +11,19 @@ namespace triptych::measure {
 struct PlanChoice {
   std::vector<std::string> set = {};  // each is "factor=a,b"
   std::string shard = {};             // "i/n"; empty: the whole plan
-  // These select among the configurations: those that match one of the globs
-  // (record::names_configuration), those that the file lists, and an n-th of what is left.
+  // These select configurations: those that match one of the globs (record::names_configuration),
+  // those that the file lists, and one n-th of the remaining ones.
   std::vector<std::string> filter = {};
   std::string caselist = {};  // a file with a name or a key in each line
   std::string fraction = {};  // "1/n"
 
-  // Whether the plan is loaded as it is written.
+  // Whether the plan is loaded without a selection.
   [[nodiscard]] bool is_whole() const { return set.empty() && shard.empty() && !selects(); }
   // Whether configurations are selected by name or by chance, which may leave none of a plan.
   [[nodiscard]] bool selects() const {
     return !filter.empty() || !caselist.empty() || !fraction.empty();
   }
-  // The options that select, as they were typed.
+  // The options that select, as typed by the user.
   [[nodiscard]] std::string selection_text() const;
 
   // Like load_plan(). The fraction is the same every time: the configurations are chosen by the

@@ -11,8 +11,8 @@
 namespace triptych::measure {
 namespace {
 
-// Loading data takes longest, and mapping their values is a part of it; then follow building a
-// pipeline and moving the camera.
+// Loading data takes longest and includes mapping the values. Building a pipeline takes less time,
+// and moving the camera the least.
 int speed_of(const Factor& factor) {
   if (factor.name == "data" || factor.name == "window" || factor.name == "mapping") return 0;
   if (factor.name == "viewport") return 2;

@@ -44,9 +44,9 @@ class DocumentStarts : public YAML::EventHandler {
   YAML::Mark last_;
 };
 
-// If yaml-cpp finds a token at the root that begins nothing, such as a comma, it leaves the token
-// where it is and reports an empty document, again and again, with which LoadAll fills the memory.
-// So only the second document is asked for, and no third.
+// If yaml-cpp finds a token at the root that cannot begin a document, such as a comma, it does not
+// consume the token and reports an empty document again and again, so that LoadAll would fill the
+// memory. Therefore only a second document is requested, never a third.
 void refuse_second_document(const std::string& yaml, const std::string& file) {
   std::istringstream stream(yaml);
   YAML::Parser parser(stream);
@@ -55,9 +55,11 @@ void refuse_second_document(const std::string& yaml, const std::string& file) {
   const YAML::Mark& mark = starts.last();
   const auto position = static_cast<std::size_t>(std::max(mark.pos, 0));
   const bool said = position < yaml.size() && yaml.compare(position, 3, "---") == 0;
-  throw core::InputError(place_of(file, mark), said ? "a second document; a plan is one"
-                                                    : "not valid YAML: nothing can begin so, and "
-                                                      "the plan is over");
+  throw core::InputError(
+      place_of(file, mark),
+      said
+          ? "a second YAML document; a plan is a single document"
+          : "not valid YAML: the plan has ended here, and this text cannot begin another document");
 }
 
 YAML::Node load(std::string_view yaml, const std::string& file) {
@@ -112,13 +114,13 @@ record::Checks checks_of(const std::vector<PlacedText>& names) {
   }
   if (checks.contains(record::Check::cost) && checks.contains(record::Check::timing)) {
     throw core::InputError(names.front().place,
-                           "'checks': cost and timing exclude each other, as instructions are "
+                           "'checks': cost and timing cannot be combined, because instructions are "
                            "counted in an emulator; make two plans");
   }
   if (checks.contains(record::Check::code) && checks.size() > 1) {
     throw core::InputError(names.front().place,
-                           "'checks': code excludes every other check, as nothing is drawn where "
-                           "only compilers are asked; make two plans");
+                           "'checks': code cannot be combined with other checks, because nothing "
+                           "is drawn for it; make two plans");
   }
   return checks;
 }

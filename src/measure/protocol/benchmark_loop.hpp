@@ -14,7 +14,7 @@ namespace triptych::measure {
 void initialize_benchmarks();
 
 struct BenchmarkResult {
-  double total_ns = 0;  // of all iterations and repetitions together
+  double total_ns = 0;  // total time of all iterations and repetitions
   nlohmann::json
       entries;  // array: the repetitions, then mean, median, minimum, quartiles, maximum, …
 };

@@ -14,10 +14,10 @@ namespace {
 
 constexpr int most_frames = 8;
 constexpr int least_frames = 3;
-// For all calibration frames; a slow device draws as few as possible.
+// The time for all calibration frames; a slow device draws as few as possible.
 constexpr double budget_ns = 0.5e9;
 
-// Stands for the ratio of a clock that was never written.
+// Represents the ratio of a clock that was never written.
 constexpr double never_written = -1;
 
 record::ClockTrust without_time(technique::Work kind, std::string verdict) {
@@ -37,8 +37,8 @@ std::string percent(double ratio) {
   return fmt::format("{:.1f} %", 100 * ratio);
 }
 
-// The scheduler may wake the thread up late once, which makes a ratio smaller. Nothing excuses a
-// clock that shows too much.
+// The scheduler may wake up the thread late once, which makes a ratio smaller. A clock that reports
+// too much time has no excuse.
 bool believable(const std::vector<double>& ratios) {
   const auto low = std::ranges::count_if(
       ratios, [](double ratio) { return !(ratio >= ClockLimits::least_ratio); });
@@ -96,7 +96,8 @@ std::unique_ptr<Prepared> prepare_long_enough(Device& device, Work work) {
       frame_ns = prepared->frame(Purpose::timing).wall_ns;
       if (!(frame_ns < ClockLimits::least_frame_ns)) break;
     }
-    // Half as much again as is missing, because the frame also contains a part that does not grow.
+    // The frame is made half as much longer again as necessary, because it also contains a part
+    // that does not grow.
     const double missing = 1.5 * ClockLimits::least_frame_ns / std::max(frame_ns, 1e3);
     if (!lengthen(work, std::clamp(missing, 2.0, 64.0)) || device.unsupported(work)) break;
     prepared.reset();
@@ -158,7 +159,7 @@ record::ClockTrust calibrate_clock(Device& device, Suite& suite, technique::Work
   } catch (const core::DeviceLost&) {
     throw;
   } catch (const core::Error& error) {
-    // The wall clock can still be used. If something else is wrong, the configurations will show
+    // The wall clock can still be used. If there is another problem, the configurations will show
     // it.
     return without_time(kind, fmt::format("not calibrated: {}", error.what()));
   }

@@ -31,14 +31,14 @@ struct ClockLimits {
 };
 
 // Prepares the suite's calibration work, makes it longer on a fast device until a frame lasts
-// ClockLimits::least_frame_ns, and calibrates. For a device that cannot do this kind of work the
-// verdict says so. Throws DeviceLost.
+// ClockLimits::least_frame_ns, and calibrates. If a device cannot do this kind of work, the verdict
+// states it. Throws DeviceLost.
 [[nodiscard]] record::ClockTrust calibrate_clock(Device& device, Suite& suite,
                                                  technique::Work kind);
 
-// What is wrong with the clock beyond launches and waits that it may leave out: it was never
-// written, reads 0, or its ticks are not as long as the device says. Nothing for a clock that is
-// trusted, or whose error has no such cause.
+// The fault of a clock beyond the launches and waits that it may leave out: it was never written,
+// reads 0, or its ticks do not have the length that the device reports. nullopt for a trusted
+// clock, or if the error has no such cause.
 [[nodiscard]] std::optional<record::DeviceFault> clock_fault(const record::ClockTrust& trust);
 
 // Whether the device times of one configuration's frames are possible at all: present for each

@@ -13,7 +13,7 @@
 namespace triptych::measure {
 namespace {
 
-// By bits, so that a NaN equals itself.
+// The comparison is of bits, so that a NaN equals itself.
 template <class Value>
 std::size_t pixels_that_differ(const std::vector<Value>& one, const std::vector<Value>& other,
                                std::size_t per_pixel) {
@@ -71,8 +71,8 @@ void FrameProof::read(std::string_view what) {
   }
   if (without_value_ > first_without_value_) {
     throw NotDrawn(
-        fmt::format("{}: {} of {} pixels still hold what they were filled with before it, {} in "
-                    "the first frame",
+        fmt::format("{}: {} of {} pixels still have the value that they were filled with before, "
+                    "compared with {} in the first frame",
                     what, without_value_, pixels, first_without_value_));
   }
 }
@@ -101,10 +101,10 @@ void check_loop(const std::vector<double>& loop_wall_ns,
   const double proven = std::ranges::min(proven_wall_ns);
   const double fastest = std::ranges::min(loop_wall_ns);
   if (proven < least_judged_ns || fastest >= least_share * proven) return;
-  throw NotDrawn(fmt::format(
-      "a frame of the wall-clock loop was not drawn: it took {:.3g} ms, and the fastest "
-      "of {} frames that were checked {:.3g} ms",
-      fastest * 1e-6, proven_wall_ns.size(), proven * 1e-6));
+  throw NotDrawn(
+      fmt::format("a frame of the wall-clock loop was not drawn: it took {:.3g} ms, but the "
+                  "fastest of the {} checked frames took {:.3g} ms",
+                  fastest * 1e-6, proven_wall_ns.size(), proven * 1e-6));
 }
 
 }  // namespace triptych::measure

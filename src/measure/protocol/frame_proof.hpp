@@ -13,9 +13,10 @@
 
 namespace triptych::measure {
 
-// Draws frames of one prepared technique. Each starts from overwritten outputs
-// (Prepared::poison()), and what it leaves is compared with the first frame's, bit for bit: the
-// scene and the camera stand still. Both happen outside of what the frame times.
+// Draws frames of one prepared technique. Each frame starts from overwritten outputs
+// (Prepared::poison()), and its outputs are compared with those of the first frame, bit for bit,
+// because neither the scene nor the camera moves. Both happen outside of the timed part of the
+// frame.
 class FrameProof {
  public:
   explicit FrameProof(Prepared& prepared) : prepared_(prepared) {}
@@ -33,11 +34,12 @@ class FrameProof {
   // Throws NotDrawn if no pixel has a value, or fewer have one than in the first frame.
   void check_drawn(std::string_view what);
 
-  // The image of the next check() is the one that later ones have to repeat, instead of the
-  // first's: what is warmed up may differ from the very first frame. It still has to be drawn.
+  // Later frames have to repeat the image of the next check() instead of the first one, because a
+  // frame after the warm-up may differ from the very first frame. The next frame still has to be
+  // drawn.
   void begin_again() { renewed_ = true; }
 
-  // start() and one frame; the check is the caller's.
+  // Calls start() and draws one frame; the caller checks it.
   [[nodiscard]] Frame draw(Purpose purpose) {
     start();
     return prepared_.frame(purpose);
@@ -60,10 +62,10 @@ class FrameProof {
   std::size_t without_value_ = 0;
 };
 
-// Frames of the wall-clock loop follow each other at once, so only its last is checked. Throws
-// NotDrawn where one of them lasted less than a tenth of the fastest frame that was proven: a
-// factor of ten is more than clocks that rise under load, or caches, explain. Frames below 2 ms are
-// not judged: a tenth of them is within the cost of a launch.
+// Frames of the wall-clock loop follow each other without a pause, so only the last one is checked.
+// Throws NotDrawn if one of them took less than a tenth of the fastest proven frame, because
+// neither rising clock rates nor caches explain a factor of ten. Frames below 2 ms are not judged,
+// because a tenth of them is within the cost of a launch.
 void check_loop(const std::vector<double>& loop_wall_ns, const std::vector<double>& proven_wall_ns);
 
 }  // namespace triptych::measure

@@ -50,7 +50,8 @@ auto named(const Faults& faults, std::string_view name) {
   return found == faults.end() ? std::nullopt : std::optional(found->second);
 }
 
-// Every stride-th row twice is 1/stride more work. Empty when `text` is no percentage in (0, 100].
+// Drawing every stride-th row twice is 1/stride more work. Empty if `text` is not a percentage in
+// (0, 100].
 std::optional<int> stride_of(std::string_view text) {
   double percent = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), percent);

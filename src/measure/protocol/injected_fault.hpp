@@ -1,5 +1,5 @@
 #pragma once
-// Injected faults prove that the gate finds them, and that the death of a worker costs one
+// Injected faults prove that the gate finds them, and that the death of a worker affects only one
 // configuration.
 
 #include <span>
@@ -12,8 +12,8 @@
 
 namespace triptych::measure {
 
-// A fault that is put into what is measured: the name of a technique::Fault, "slowdown:PERCENT"
-// (real extra work), "crash", "hang", "device_lost" or "lost_counter".
+// A fault that is injected into the work: the name of a technique::Fault, "slowdown:PERCENT" (real
+// extra work), "crash", "hang", "device_lost" or "lost_counter".
 struct InjectedFault {
   std::string fault;
   // Levels, such as "technique=raycast,step=2", or a glob over configuration keys and device ids;
@@ -36,9 +36,9 @@ struct InjectedFault {
 // Throws InputError with the known faults for an unknown name.
 void check_fault(std::string_view fault);
 
-// Puts the fault into what is drawn, or executes it immediately: "crash" ends this process with
-// SIGSEGV, "hang" never returns, "device_lost" throws DeviceLost. Throws NotSupported if this kind
-// of work does not have the fault.
+// Puts the fault into the work, or executes it immediately: "crash" ends this process with SIGSEGV,
+// "hang" never returns, "device_lost" throws DeviceLost. Throws NotSupported if this kind of work
+// does not have the fault.
 void inject(std::string_view fault, Work& work);
 
 // "lost_counter" removes the first of Triptych's counters. Other faults change nothing here.

@@ -27,9 +27,9 @@ struct WarmUp {
   double fastest_ns = std::numeric_limits<double>::infinity();
 };
 
-// The first frames compile, fault pages in and wake threads. Frames too short for four of them to
-// have warmed anything are repeated until a tenth of the loop's time has gone by. The fastest
-// predicts, so that the loop lasts no less than asked.
+// The first frames compile, fault pages in and wake threads. If frames are so short that four of
+// them warm up nothing, they are repeated for a tenth of the loop's time. The fastest frame
+// predicts the number of frames, so that the loop does not end too early.
 WarmUp warm_up(FrameProof& proof, const Protocol& protocol) {
   WarmUp result;
   const double enough_ns = protocol.least_loop_ns / 10;
@@ -121,7 +121,8 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
     work_ns += drawing.ns();
     return frame;
   };
-  // Frames after a jump of the camera draw what the frame before did not show, in another order.
+  // After the camera jumps, a frame draws cells that the previous frame did not show, in another
+  // order.
   const auto check = [&](std::string_view what) {
     if (protocol.camera_jumps) {
       proof.check_drawn(what);
@@ -133,11 +134,11 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
   result.image = proof.check("the first frame");
   if (protocol.statistics) {
     record.statistics = draw(Purpose::statistics).counts;
-    check("the frame of the statistics");
+    check("the frame for the statistics");
   }
   if (protocol.counters) {
     record.counters = draw(Purpose::counters).counts;
-    proof.check_drawn("the frame of the counters");
+    proof.check_drawn("the frame for the counters");
   }
   // The same commands are submitted again, because a driver that executes them only once has been
   // right so far.
@@ -173,7 +174,7 @@ Measurement count_instructions(Prepared& prepared, const Protocol& protocol,
   }
   if (protocol.counters) {
     record.counters = proof.draw(Purpose::counters).counts;
-    proof.check_drawn("the frame of the counters");
+    proof.check_drawn("the frame for the counters");
   }
   record.kernel_hash = prepared.kernel_hash();
   record.outcome = record::Outcome::measured;
@@ -212,12 +213,12 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
   if (protocol.statistics) {
     proof.start();
     record.statistics = counted([&] { return prepared.frame(Purpose::statistics); }).counts;
-    proof.check("the frame of the statistics");
+    proof.check("the frame for the statistics");
   }
   if (protocol.counters) {
     proof.start();
     record.counters = counted([&] { return prepared.frame(Purpose::counters); }).counts;
-    proof.check_drawn("the frame of the counters");
+    proof.check_drawn("the frame for the counters");
   }
   std::vector<double> loop_wall_ns;
   loop_wall_ns.reserve(static_cast<std::size_t>(record.loop_frames));

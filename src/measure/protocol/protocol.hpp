@@ -1,6 +1,6 @@
 #pragma once
-// How one configuration is measured. This code knows no API; it is tested with the scripted clock
-// of the null backend.
+// Measures one configuration. This code does not depend on an API; it is tested with the scripted
+// clock of the null backend.
 
 #include <cstdint>
 #include <optional>
@@ -51,7 +51,7 @@ inline constexpr Protocol brief_protocol{
     .warm_up_frames = 2, .timed_frames = 5, .least_loop_ns = 0, .most_loop_frames = 1};
 
 struct Measurement {
-  record::Record record;  // everything that is known without the plan: times, counts, hashes
+  record::Record record;  // everything that does not depend on the plan: times, counts, hashes
   core::Image image;      // the image of the last timed frame
 };
 

@@ -36,8 +36,8 @@ std::shared_ptr<const scene::ParticleSet> particles_of(std::vector<std::array<fl
   return set;
 }
 
-// As seen from the origin along −z. Without culling, because its compute pass would be counted with
-// the draw by one API and not by the other.
+// The camera is at the origin and looks along −z. Culling is off, because one API would count its
+// compute pass together with the draw and the other would not.
 ParticleWork seen_from_origin(std::vector<std::array<float, 4>> spheres, int width, int height,
                               double fov_y_deg) {
   ParticleWork work;
@@ -82,7 +82,7 @@ ParticleWork many_small() {
   return seen_from_origin(std::move(spheres), width, height, fov_y_deg);
 }
 
-// A technique that makes a quad from a sphere, with what the pipeline counts for each visible quad,
+// A technique that makes a quad from a sphere, with the pipeline's counts for each visible quad,
 // apart from the two primitives that are clipped.
 struct QuadTechnique {
   std::string_view id;
@@ -290,7 +290,7 @@ Calibration calibrate_statistics(Device& device, technique::Work kind,
                            .subject = std::string(technique::name_of(kind)),
                            .detail = error.what()});
       }
-      // The configurations that follow will show what else is wrong.
+      // If the device has another problem, the following configurations will show it.
       for (const auto& [name, value] : scene.expected) {
         unknown.emplace(name, record::StatisticWorth{
                                   .worth = record::Worth::unknown,
@@ -308,7 +308,7 @@ Calibration calibrate_statistics(Device& device, technique::Work kind,
                        .detail = fmt::format("every one of {} statistics", readings.size())});
   }
   for (const auto& [name, each] : readings) calibration[name] = calibration_verdict(each);
-  // If one scene failed, the others prove nothing about its statistics.
+  // If one scene failed, the other scenes prove nothing about its statistics.
   for (const auto& [name, reason] : unknown) calibration[name] = reason;
   return calibration;
 }

@@ -1,7 +1,7 @@
 #pragma once
-// What a driver's pipeline statistics are worth. Vulkan and GL leave most of these numbers to the
-// implementation, and drivers make use of that. So when a device is opened, scenes are drawn of
-// which every number is known, and each statistic gets a verdict. Numbers of two drivers are
+// Determines how exactly a driver counts pipeline statistics. Vulkan and GL leave most of these
+// numbers to the implementation, and drivers differ. When a device is opened, scenes with known
+// numbers are therefore drawn, and each statistic gets a verdict. Statistics of two drivers are
 // compared only if both count exactly (judge/gate/check_statistics.cpp).
 
 #include <cstdint>
@@ -38,7 +38,7 @@ struct CalibrationReading {
   record::Counts ours = {};  // Triptych's counters for the scene
 };
 
-// What the statistic is worth. `proportional` needs at least two scenes, and `inflated` is never
+// The verdict on the statistic. `proportional` needs at least two scenes, and `inflated` is never
 // too low. There must be at least one reading, and expected > 0 in each.
 [[nodiscard]] record::StatisticWorth calibration_verdict(
     const std::vector<CalibrationReading>& readings);

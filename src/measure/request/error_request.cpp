@@ -32,8 +32,7 @@ const Factor& factor_of(const Suite& suite, std::string_view name) {
   return *found;
 }
 
-// The levels of a factor, except for "own", with which data choose their own value: that is one of
-// the other levels.
+// The levels of a factor, except for "own", which stands for one of the other levels.
 std::vector<std::string> levels_of(const Suite& suite, std::string_view name) {
   std::vector<std::string> levels = factor_of(suite, name).levels;
   std::erase(levels, "own");
@@ -46,7 +45,7 @@ std::string scene_of(const Suite& suite, Configuration configuration) {
   return configuration_key(suite, configuration);
 }
 
-// Rounded down, with no more digits than a plan needs.
+// Rounds down to as few digits as a plan needs.
 double rounded_down(double value) {
   const double unit = std::exp2(std::floor(std::log2(value)) - 8);
   return std::floor(value / unit) * unit;
@@ -78,11 +77,12 @@ class Search {
     }
     const auto nothing = accuracy::errors_of_nothing(limit->image);
     if (nothing.of(request_.metric) <= request_.error) {
-      result.out_of_reach.push_back(fmt::format(
-          "{}: drawing nothing keeps {}, it errs by {:.3g}; {} of {} pixels show anything: ask for "
-          "less, by another metric, or for what shows more",
-          name, text_of(request_), nothing.of(request_.metric), nothing.covered,
-          limit->image.pixel_count()));
+      result.out_of_reach.push_back(
+          fmt::format("{}: an empty image already meets {}, because its error is {:.3g} and only "
+                      "{} of {} pixels show anything: request a smaller error, another metric, or "
+                      "a scene that covers more pixels",
+                      name, text_of(request_), nothing.of(request_.metric), nothing.covered,
+                      limit->image.pixel_count()));
       return;
     }
     search_on_few_pixels(scene);
@@ -94,16 +94,17 @@ class Search {
       const Found found = longest_step(candidate, limit->image);
       candidate["step"] = text_of_step(found.step);
       const bool keeps = found.error <= step_error_;
-      tell_(fmt::format("{}: {} {} with step {}, which errs by {:.2g} ({})", name, quadrature,
-                        keeps ? "keeps it" : "does not keep it even", candidate.at("step"),
-                        found.error, name_of(request_.metric)));
+      tell_(fmt::format("{}: {} {} with step {}, whose error is {:.2g} ({})", name, quadrature,
+                        keeps ? "meets the error" : "does not meet the error even",
+                        candidate.at("step"), found.error, name_of(request_.metric)));
       if (keeps) add_candidates(candidate, result.plan);
       if (!least || found.error < least->error) least = found;
     }
     if (result.plan.configurations.size() > before) return;
-    result.out_of_reach.push_back(fmt::format(
-        "{}: no step keeps {:.3g}, the step's share of {}; the least error is {:.3g}, on {} pixels",
-        name, step_error_, text_of(request_), least->error, least->viewport));
+    result.out_of_reach.push_back(
+        fmt::format("{}: no step has an error of at most {:.3g}, the step's share of {}; the "
+                    "smallest error is {:.3g}, on {} pixels",
+                    name, step_error_, text_of(request_), least->error, least->viewport));
   }
 
  private:
@@ -146,8 +147,8 @@ class Search {
       candidate["step"] = text_of_step(step);
       return error(limit_of_few_pixels_, suite_.truth(candidate, {}).truth);
     });
-    // Few pixels say little about many. But an error that exceeds the request by this factor
-    // exceeds it for all pixels.
+    // A result for a few pixels says little about all pixels. But an error that exceeds the request
+    // by this factor exceeds it for all pixels.
     constexpr double far = 4;
     if (!(guess.error <= far * step_error_)) return {guess.step, guess.error, few_pixels_};
     candidate["viewport"] = viewport;
@@ -212,8 +213,8 @@ ErrorAnswer answer_of(const Group& group, const RequestedError& request) {
 ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite, const RequestedError& request,
                            Truths& truths, const std::function<void(const std::string&)>& tell) {
   if (plan.counted()) {
-    throw core::InputError(fmt::format(
-        "--error asks for the fastest, and {} counts instructions in place of times", plan.name));
+    throw core::InputError(
+        fmt::format("--error compares times, but {} counts instructions instead", plan.name));
   }
   ErrorRequest result{.plan = plan, .out_of_reach = {}};
   result.plan.checks.insert(record::Check::timing);
@@ -241,7 +242,7 @@ std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records
   std::map<std::pair<std::string, std::string>, Group> groups;
   for (const record::Record& record : records) {
     if (record.outcome == record::Outcome::skipped) continue;
-    // As it was requested. Candidates may have other levels for factors that are "auto".
+    // The factor as it was requested. Candidates may have other levels for factors that are "auto".
     const auto asked = record::parse_factor_list(record.configuration);
     Group& group = groups[{record.device, scene_of(suite, asked)}];
     if (record.outcome != record::Outcome::measured || record.image.empty()) continue;
@@ -269,18 +270,19 @@ std::string describe(const ErrorAnswer& answer, const RequestedError& request) {
   const double error = answer.errors.of(request.metric);
   const double nothing = answer.nothing.of(request.metric);
   if (answer.record == nullptr) {
-    const std::string why = nothing > 0 ? fmt::format("the least error is {:.3g}", error)
+    const std::string why = nothing > 0 ? fmt::format("the smallest error is {:.3g}", error)
                                         : std::string("no image was drawn");
-    return fmt::format("{} {}: no candidate keeps {}; {}", answer.device, answer.scene,
+    return fmt::format("{} {}: no candidate meets {}; {}", answer.device, answer.scene,
                        text_of(request), why);
   }
   std::string factors;
   for (const char* name : chosen_factors) {
     factors += fmt::format("{}={}, ", name, answer.record->factors.at(name));
   }
-  std::string text = fmt::format(
-      "{} {}: {}{:.3f} ms, error {:.3g} of {}, {:.2g} % of drawing nothing", answer.device,
-      answer.scene, factors, answer.time_ns / 1e6, error, text_of(request), 100 * error / nothing);
+  std::string text =
+      fmt::format("{} {}: {}{:.3f} ms, error {:.3g} of {}, {:.2g} % of the error of an empty image",
+                  answer.device, answer.scene, factors, answer.time_ns / 1e6, error,
+                  text_of(request), 100 * error / nothing);
   for (const accuracy::Metric metric : accuracy::all_metrics) {
     if (metric == request.metric) continue;
     text += fmt::format(", {} {:.3g}", name_of(metric), answer.errors.of(metric));

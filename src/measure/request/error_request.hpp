@@ -1,6 +1,6 @@
 #pragma once
-// `--error E`: the configurations that keep a requested error, and the cheapest of them after they
-// were measured.
+// `--error E`: finds the configurations that meet a requested error, and after they were measured
+// the cheapest of them.
 
 #include <functional>
 #include <string>
@@ -32,13 +32,13 @@ struct ErrorRequest {
                                          const accuracy::RequestedError& request, Truths& truths,
                                          const std::function<void(const std::string&)>& tell);
 
-// For one scene and device, the fastest record whose image keeps the error.
+// For one scene and device, the fastest record whose image meets the error.
 struct ErrorAnswer {
   std::string device;
   std::string scene;                       // the factors that were not chosen
   const record::Record* record = nullptr;  // null if no candidate keeps the error on the device
-  accuracy::PictureErrors errors;          // of the record, otherwise of the closest candidate
-  accuracy::PictureErrors nothing;         // of an image in which nothing is drawn
+  accuracy::PictureErrors errors;   // errors of the record, otherwise of the closest candidate
+  accuracy::PictureErrors nothing;  // errors of an empty image
   double time_ns = 0;                      // of the record
 };
 // The records must outlive the result. If a device drew no candidate of a scene although the scene

@@ -141,7 +141,7 @@ FastestTried try_for_fastest(Plan plan, const Suite& suite,
 std::string describe(const FastestAnswer& answer, const std::set<std::string>& chosen) {
   std::string text = fmt::format("{} {}: ", answer.device, answer.scene);
   if (answer.contestants.empty()) {
-    text += "nothing was measured to choose by";
+    text += "no technique was measured, so none can be chosen";
   } else {
     const Contestant& best = answer.contestants.front();
     text += fmt::format("{} {}", chosen_levels(*best.record, chosen), praise(best, answer.ruler));

@@ -12,9 +12,9 @@
 
 namespace triptych::measure {
 
-// The measurement that decides: times, on the device clock if it is trusted for all competitors,
-// otherwise on the wall clock; or instructions of device code and driver, for plans that count
-// them.
+// The measurement that is compared: times, on the device clock if it is trusted for all
+// competitors, otherwise on the wall clock; or instructions of device code and driver, for plans
+// that count them.
 enum class Ruler : std::uint8_t { device_clock, wall_clock, instructions };
 
 struct Contestant {

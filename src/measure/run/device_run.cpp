@@ -133,7 +133,7 @@ Job DeviceRun::job(const Configuration& configuration, const std::string& key) c
           .faults = faults_for(context_.options.faults, key, device_)};
 }
 
-// Enters what the record is about.
+// Fills in the configuration, the scene and the device of a record.
 void DeviceRun::sign(const Job& job, const std::string& key, record::Record& record) const {
   record.run = context_.run;
   record.suite = context_.plan.suite;

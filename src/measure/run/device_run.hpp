@@ -18,7 +18,7 @@
 
 namespace triptych::measure {
 
-// What all parts of one run share.
+// Data that all parts of one run share.
 struct RunContext {
   const Plan& plan;
   const Suite& suite;
@@ -43,7 +43,7 @@ class DeviceRun {
  public:
   DeviceRun(const RunContext& context, std::string device);
 
-  // How a request ended that got no answer.
+  // How a request without an answer ended.
   struct Ended {
     record::Outcome outcome;
     record::Reason reason;
@@ -56,7 +56,7 @@ class DeviceRun {
   [[nodiscard]] Done perform(const Configuration& configuration, const std::string& key,
                              const OnLoading& on_loading);
 
-  // Records how the configuration is said to end, without asking the device.
+  // Records the expected end of the configuration without trying it on the device.
   [[nodiscard]] Done pass_by(const Configuration& configuration, const std::string& key,
                              const Ended& why) const;
 
@@ -76,14 +76,15 @@ class DeviceRun {
   [[nodiscard]] Job job(const Configuration& configuration, const std::string& key) const;
   void sign(const Job& job, const std::string& key, record::Record& record) const;
   [[nodiscard]] Done ask(const Job& job, const OnLoading& on_loading);
-  // If there is no answer, the worker is gone.
+  // If this returns no answer, the worker is gone.
   [[nodiscard]] std::variant<Answer, Ended> exchange(const Message& message,
                                                      const OnLoading& on_loading);
 
   // Reports a worker whose memory grows from configuration to configuration.
   void watch_memory(std::uint64_t peak_bytes);
   void only_counted(record::Record& record) const;
-  // For a plan that counts instructions, why that is not possible here; otherwise nullopt.
+  // For a plan that counts instructions, the reason why that is not possible here; otherwise
+  // nullopt.
   [[nodiscard]] std::optional<record::Reason> no_emulator() const;
 
   const RunContext& context_;

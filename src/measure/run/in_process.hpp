@@ -1,6 +1,6 @@
 #pragma once
-// Draws one frame in this process, with nothing before it, as debuggers and tools that record the
-// calls of an API need it.
+// Draws one frame in this process and nothing before it, for debuggers and for tools that record
+// the calls of an API.
 
 #include <optional>
 #include <span>
@@ -20,8 +20,8 @@ namespace triptych::measure {
 struct TracedPixel {
   PixelPlace place;
   technique::RayTrace trace;                            // of a volume
-  core::Image image;                                    // of the build that recorded the trace
-  std::optional<accuracy::SpriteHistory> sprites = {};  // of particles, instead of both
+  core::Image image;  // image of the build that recorded the trace
+  std::optional<accuracy::SpriteHistory> sprites = {};  // for particles, in place of both
 };
 
 struct FrameInProcess {

@@ -1,9 +1,9 @@
 #pragma once
-// Two workers that take turns on one machine, so that whatever slows down the machine slows down
-// both. A block has four batches in the random order A B B A or B A A B, so that a drift that is
-// linear over the four batches cancels out of the difference. If batches are short, a block takes
-// the four batches several times and uses the minimum for each of the four. What disturbs the
-// processor of only one side lasts for tens of milliseconds, and it can only make a batch slower.
+// Two workers that take turns on one machine, so that a disturbance slows down both. A block has
+// four batches in the random order A B B A or B A A B, so that a drift that is linear over the four
+// batches cancels out of the difference. If batches are short, a block repeats the four batches
+// several times and uses the minimum for each of the four. A disturbance of one side's processor
+// lasts for tens of milliseconds and can only make a batch slower, so the minimum removes it.
 
 #include <array>
 #include <chrono>
@@ -91,7 +91,7 @@ class Interleaved {
 
   // Both sides prepare the configuration, keep it and draw a few frames. This warms them up and
   // determines, with `clock`, the number of frames in a batch and how often a block repeats its
-  // batches. What was held before is released.
+  // batches. The previous configuration is released.
   void hold(const Configuration& configuration,
             const std::array<std::vector<std::string>, 2>& faults, SideClock clock,
             const OnLoading& on_loading = {});
@@ -102,12 +102,12 @@ class Interleaved {
   [[nodiscard]] Block block();
   void release();
 
-  // Both workers exit and new ones are started; nothing is held afterwards.
+  // Both workers exit and new ones are started. No configuration is kept.
   void restart();
 
  private:
   class Slot;
-  // Takes the four batches again, and stores each new time in `block` if it is smaller.
+  // Measures the four batches again, and stores each new time in `block` if it is smaller.
   void take_batches(Block& block);
   [[nodiscard]] Slot& slot(Side side) const { return *slots_.at(side == Side::a ? 0 : 1); }
 

@@ -8,8 +8,8 @@
 
 namespace triptych::measure {
 
-// Reports the progress of the plan, with the time left as it follows from the mean of what was
-// done.
+// Reports the progress of the plan, with the remaining time estimated from the mean of the finished
+// configurations.
 class Report {
  public:
   Report(std::size_t total, const PlanRun::Tell& tell)
@@ -69,8 +69,8 @@ void count(const record::Record& record, RunResult& result) {
   }
 }
 
-// Takes over the results of another configuration's frames, which are valid for this one too. The
-// entry of the other one's benchmark is not taken over.
+// Copies the results of another configuration's frames, which are valid for this one too. The other
+// one's benchmark entry is not copied.
 void take_over(record::Record& record, const record::Record& measured) {
   record.wall_ns = measured.wall_ns;
   record.device_ns = measured.device_ns;
@@ -176,7 +176,7 @@ void PlanRun::measure(const std::string& device, const Configuration& configurat
   report.done(done.record);
 }
 
-// A driver may crash the machine, and would do so again with each --resume.
+// A driver that crashes the machine would do so again with each --resume.
 Done PlanRun::attempt(const std::string& device, const Configuration& configuration,
                       const std::string& key, Report& report) {
   if (const auto end = failures_of(device).foretold(configuration)) {
@@ -192,19 +192,19 @@ Done PlanRun::attempt(const std::string& device, const Configuration& configurat
   try {
     return on(device).perform(
         configuration, key, [&](const Loading& loading) { report.loading(device, key, loading); });
-  } catch (...) {  // a known end that is no fault of the configuration
+  } catch (...) {  // an expected end, which is not a fault of the configuration
     context_.store.unbegin_record(context_.run, key, device);
     throw;
   }
 }
 
-// A record that uses other frames takes over their results. A record with its own frames is kept,
-// because others may use it.
+// A record that shares frames copies their results. A record with its own frames is kept, because
+// others may use it.
 void PlanRun::share_frames(record::Record& record) {
   if (record.same_as.empty()) {
     record::Record& kept = measured_[{record.device, record.configuration}];
     kept = record;
-    kept.benchmark_json.clear();  // the largest part, which is never taken over
+    kept.benchmark_json.clear();  // the largest part, which is never copied
   } else {
     take_over(record, measured_.at({record.device, record.same_as}));
   }

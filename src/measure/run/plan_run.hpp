@@ -27,7 +27,8 @@ class PlanRun {
   // All arguments must outlive this object.
   PlanRun(const RunContext& context, const std::vector<std::string>& devices, const Tell& tell);
 
-  // Measures everything by the complete protocol, except for what a resumed run already contains.
+  // Measures everything by the complete protocol, except for the records that a resumed run already
+  // contains.
   [[nodiscard]] RunResult measure_all();
 
  private:

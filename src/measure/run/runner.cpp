@@ -40,14 +40,14 @@ void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& 
   for (const record::Record& record : store.records(run.id)) {
     if (keys.contains(record.configuration)) continue;
     throw core::InputError(
-        fmt::format("run {} of {} holds {}, which this plan does not measure: it has changed since "
-                    "or is another of that name; without --resume it begins a run of its own",
+        fmt::format("run {} of {} has {}, which this plan does not measure: the plan has changed, "
+                    "or it is another plan of that name; leave out --resume to begin a new run",
                     run.id, plan.name, record.configuration));
   }
 }
 
 // The id of the run to which records are added: a new one, or the plan's latest if it is resumed.
-// The store knows what is to be measured before anything is measured.
+// The planned configurations are stored before anything is measured.
 std::string open_run(const PlannedRun& planned, const std::vector<std::string>& devices,
                      record::Store& store) {
   const auto& [plan, suite, options] = planned;
@@ -267,7 +267,7 @@ std::string describe(const RunResult& result, const std::string& plan, const std
       plan, result.run, store, result.measured, result.skipped, result.failed, result.wall_ns / 1e9,
       result.devices_ns > 0 ? 100 * result.overhead_ns / result.devices_ns : 0.0);
   if (result.there_before > 0) {
-    text += fmt::format("{} of them were there before\n", result.there_before);
+    text += fmt::format("{} of them were already in the store\n", result.there_before);
   }
   if (result.taken_over > 0) {
     text += fmt::format(

@@ -37,7 +37,7 @@ struct RunOptions {
   int jobs = 0;
   std::vector<std::string> worker_command;           // see SideOptions::command
   std::vector<std::string> worker_environment = {};  // see SideOptions::environment
-  // What the command was asked for and what it found. Its devices are the ones that are measured.
+  // The devices that the command requested and those that it found. The devices in it are measured.
   record::Beginning begun = {};
   // The version with its commit, which is written to the run; empty: the version only.
   std::string program = {};
@@ -55,9 +55,10 @@ struct Progress {
 
 struct RunResult {
   std::string run;  // id in the store
-  // What the run contains about the plan on its devices; with `resume`, including earlier records.
+  // The records of the plan's run on its devices; with `resume`, including earlier ones.
   int measured = 0;
-  // Of those, taken over from another configuration's frames (measure/contract/equivalents.hpp).
+  // The number of those that were copied from another configuration's frames
+  // (measure/contract/equivalents.hpp).
   int taken_over = 0;
   int skipped = 0;
   int failed = 0;        // failed, crashed, hung or lost

@@ -1,7 +1,7 @@
 #pragma once
-// A fault in a driver that ends the worker concerns many configurations, and each of them costs a
-// worker or the whole time limit. What two configurations have shown is therefore not tried with
-// the rest.
+// A fault in a driver that ends the worker usually affects many configurations, and each of them
+// costs a worker or the whole time limit. If two configurations have failed in the same way,
+// similar ones are therefore not tried.
 
 #include <map>
 #include <optional>
@@ -28,10 +28,10 @@ class SameFailure {
     record::Reason reason;  // that of the configurations that were tried, marked as not tried, with
                             // the levels that they share
   };
-  // How the configuration would end. It is foretold to end like one that crashed, hung or lost the
-  // device if two conditions hold: it differs from that one only in factors that do not matter
+  // The predicted end of the configuration. It is predicted to end like one that crashed, hung or
+  // lost the device under two conditions: it differs from that one only in irrelevant factors
   // (those in which two configurations differ that ended in the same way), and no configuration
-  // that differs only in such factors was measured. nullopt: try it.
+  // that differs only in such factors was measured. nullopt: it has to be tried.
   [[nodiscard]] std::optional<Foretold> foretold(const Configuration& configuration) const;
 
  private:
@@ -40,7 +40,7 @@ class SameFailure {
     Configuration configuration;
     record::Outcome outcome;
     record::Reason reason;
-    std::string kind;  // of outcome and reason
+    std::string kind;  // kind of outcome and reason
   };
   [[nodiscard]] bool is_refuted(const Configuration& configuration, const Factors& but_for) const;
 

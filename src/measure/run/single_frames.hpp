@@ -19,7 +19,7 @@ class SingleFrames {
   // Throws Interrupted, and IoError if the store cannot be written.
   [[nodiscard]] record::Record draw(const Configuration& configuration);
 
-  // The device as it was when it was opened. Throws InputError if it never was.
+  // The device as it was when it was opened. Throws InputError if it was never opened.
   [[nodiscard]] record::Device device() const;
 
  private:

@@ -45,7 +45,7 @@ class SpriteDraws {
                                      place_.x, place_.y);
   }
 
-  // What the device shows of these particles.
+  // The device's image of these particles in the pixel.
   [[nodiscard]] accuracy::ShownSurface shown(const Particles& particles) {
     std::get<ParticleWork>(work_.scene).scene.particles =
         std::make_shared<const scene::ParticleSet>(scene::particle_subset(*all_, particles));

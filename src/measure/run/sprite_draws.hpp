@@ -11,7 +11,7 @@
 
 namespace triptych::measure {
 
-// What the reference depends on.
+// The data on which the reference depends.
 struct Described {
   const Configuration& configuration;
   const std::map<std::string, double>& precision;  // Record::precision
@@ -19,9 +19,9 @@ struct Described {
 
 [[nodiscard]] accuracy::ShownSurface shown_at(const core::Image& image, PixelPlace place);
 
-// `whole` is what the frame with all particles shows. If it is wrong and no sphere alone is, the
-// device draws ever fewer particles as long as the pixel is still wrong. Throws NotSupported if the
-// suite does not implement ExpectsSprites, and what the device throws.
+// `whole` is the result of the frame with all particles. If it is wrong but no sphere alone is
+// wrong, the device draws fewer and fewer particles as long as the pixel is still wrong. Throws
+// NotSupported if the suite does not implement ExpectsSprites, and the errors of the device.
 [[nodiscard]] accuracy::SpriteHistory sprite_history(Device& device, const Work& work, Suite& suite,
                                                      const Described& described, PixelPlace place,
                                                      const accuracy::ShownSurface& whole);

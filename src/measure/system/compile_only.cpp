@@ -144,9 +144,9 @@ void add_stub(const Driver& driver, const std::string& family,
   }
   const auto* const chip = std::ranges::find(chips, family, &Chip::family);
   if (chip == chips.end()) {
-    throw core::NotSupported(
-        fmt::format("the stub of nouveau is known to have 'turing' and 'ampere', not '{}'",
-                    family));
+    throw core::NotSupported(fmt::format(
+        "the stub of the nouveau kernel driver supports 'turing' and 'ampere', but not '{}'",
+        family));
   }
   environment.push_back(fmt::format("NOUVEAU_CHIPSET={}", chip->chipset));
   environment.emplace_back("NVK_I_WANT_A_BROKEN_VULKAN_DRIVER=1");

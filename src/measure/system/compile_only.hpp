@@ -11,7 +11,7 @@
 
 namespace triptych::measure {
 
-// Why such a device can be used only for compiling.
+// The reason why such a device can be used only for compiling.
 inline constexpr std::string_view only_compiles =
     "this device only compiles: nothing is executed on it";
 
@@ -28,8 +28,8 @@ struct CompileOnly {
 [[nodiscard]] std::vector<std::string> usual_compile_only_devices();
 
 // The variables ("NAME=VALUE") that a worker of such a device needs; none for other devices.
-// `overrides` are the variables that a worker gets anyway, which may say where drivers are. Throws
-// core::NotSupported with the package that has what is missing.
+// `overrides` are the worker's other variables, which may state where drivers are. Throws
+// core::NotSupported with the name of the package that is missing.
 [[nodiscard]] std::vector<std::string> compile_only_environment(
     std::string_view device_id, std::span<const std::string> overrides = {});
 

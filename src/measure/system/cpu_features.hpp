@@ -1,6 +1,6 @@
 #pragma once
-// The properties of the processor that decide which code a driver generates, on a device that is
-// the processor.
+// The properties of the processor on which a driver's generated code depends, for devices that
+// compute on the processor.
 
 #include <map>
 #include <span>

@@ -57,9 +57,9 @@ Children& children() {
   return all;
 }
 
-// Kills the processes that were inherited. What one of them leaves behind is inherited in its turn,
-// so this repeats until there are none, but not for ever: somebody may start processes faster than
-// they can be killed.
+// Kills the inherited processes. The children of each are inherited in turn, so this repeats until
+// there are none, but only for a limited time, because processes may be started faster than they
+// can be killed.
 void kill_orphans(const Children& all) {
   constexpr int most_rounds = 200;
   for (int round = 0; round < most_rounds; ++round) {

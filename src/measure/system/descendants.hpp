@@ -9,16 +9,16 @@
 
 namespace triptych::measure {
 
-// Makes this process the one that inherits what its descendants leave behind. Call it before a
-// worker is started. Processes that are already children of this process are never touched.
+// Makes this process inherit the orphaned processes of its descendants. Call it before a worker is
+// started. Processes that are already children of this process are never touched.
 void inherit_orphans();
 
 // Calls spawn(&pid), which starts a child that the caller reaps. Returns the result of spawn: 0, or
 // an error code if nothing was started.
 [[nodiscard]] int start_child(const std::function<int(pid_t*)>& spawn, pid_t& pid);
-// The child was reaped. If it was the last one, every process that was inherited in the meantime is
-// killed and reaped. While other workers live, nobody can tell to which of them such a process
-// belongs.
+// Call this after the child was reaped. If it was the last child, every process that was inherited
+// in the meantime is killed and reaped. While other workers live, it is not known to which of them
+// such a process belongs.
 void forget_child(pid_t pid) noexcept;
 
 }  // namespace triptych::measure

@@ -183,8 +183,8 @@ std::optional<std::string> forbids_measuring(std::span<const std::string> enviro
   for (const std::string& entry : environment) {
     if (name_in(entry) != "LP_PERF") continue;
     return fmt::format(
-        "{} is set: it turns off parts of llvmpipe's and lavapipe's work, so that times and images "
-        "would be of something else; unset it",
+        "{} is set, which makes llvmpipe and lavapipe skip work, so that times and images would be "
+        "wrong; unset it",
         entry);
   }
   return std::nullopt;

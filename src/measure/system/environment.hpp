@@ -39,7 +39,7 @@ class CacheFolder {
   FileDescriptor lock_;
 };
 
-// The folder of that name beside those of the workers, in the first of these places that can be
+// The folder with that name next to those of the workers, in the first of these places that can be
 // used. Throws IoError as CacheFolder does.
 [[nodiscard]] core::PrivateFolder cache_folder(const std::string& name);
 
@@ -55,8 +55,8 @@ class CacheFolder {
 [[nodiscard]] std::vector<std::string> parse_environment(std::string_view text,
                                                          const std::string& where);
 
-// Why nothing may be measured with the environment variables of this process; nullopt if it may.
-// (LP_PERF turns off parts of llvmpipe's work, so what is timed would not be what is drawn.)
+// The reason why nothing may be measured with the environment variables of this process; nullopt if
+// there is none. (LP_PERF makes llvmpipe skip work, so that times and images would be wrong.)
 [[nodiscard]] std::optional<std::string> forbids_measuring();
 // The same for the environment of a worker, as "NAME=VALUE".
 [[nodiscard]] std::optional<std::string> forbids_measuring(

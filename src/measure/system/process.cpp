@@ -186,8 +186,8 @@ Process::Process(const std::vector<std::string>& command,
 Process::~Process() {
   if (exit_) return;
   kill();
-  // A process that sleeps inside a driver cannot be reaped even then, and that is no reason to hang
-  // here.
+  // A process that sleeps inside a driver cannot be reaped even after SIGKILL. The program must not
+  // wait for it here.
   constexpr std::chrono::seconds patience{10};
   try {
     if (wait(patience)) return;

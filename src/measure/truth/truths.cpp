@@ -24,7 +24,7 @@ std::string memory_key(const record::Record& record) {
   return key;
 }
 
-// The value for the key; it is made if there is none.
+// Returns the value for the key, which is created if it does not exist.
 template <typename Value, typename Make>
 const Value& known_or_made(std::map<std::string, Value>& known, const std::string& key,
                            const Make& make) {
@@ -58,7 +58,7 @@ std::string Truths::data_hash_of(const record::Record& record) {
     try {
       return suite_(record.suite).data_hash(record.factors);
     } catch (const core::Error&) {
-      return {};  // the caller that asks for the reference image reports why there are none
+      return {};  // the caller that requests the reference image reports why there are none
     }
   });
 }

@@ -45,7 +45,7 @@ class Truths {
   [[nodiscard]] accuracy::TruthPair find_or_render(const record::Record& record);
   [[nodiscard]] accuracy::LimitPicture find_or_render_limit(const record::Record& record,
                                                             const std::string& key);
-  // The pair that is kept under these names; rendered if there is none.
+  // The pair that is stored under these names; it is rendered if there is none.
   [[nodiscard]] accuracy::TruthPair kept(const std::string& scene, const std::string& version,
                                          const std::function<accuracy::TruthPair()>& render);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Probes the features of a device in a process of its own (own_program.hpp), so that a driver that
-// crashes or hangs affects only the probe that made it do so.
+// Probes the features of a device in a separate process (own_program.hpp), so that a driver that
+// crashes or hangs affects only one probe.
 
 #include <chrono>
 #include <optional>
@@ -18,13 +18,15 @@ struct FeatureRow {
   std::optional<record::Reason> ended = {};  // if the process crashed or was too slow
 };
 
-// All probes of the device in their order; with `only`, the one of that name. One row without a
-// name says why the device cannot be opened. `limit` applies to each probe.
+// All probes of the device in their order; with `only`, the one with that name. If the device
+// cannot be opened, there is one row without a name that has the reason. `limit` applies to each
+// probe.
 [[nodiscard]] std::vector<FeatureRow> probe_features(const std::string& device,
                                                      const std::string& only,
                                                      std::chrono::seconds limit);
 
-// What that process does: it opens the device and answers requests until there are no more.
+// The main function of that process: it opens the device and answers requests until there are no
+// more.
 void answer_features(const Backend& backend, const std::string& device);
 
 }  // namespace triptych::measure

@@ -80,7 +80,7 @@ bool any_matches(const std::vector<std::string>& globs, const std::string& id) {
 // Asks the driver whether it compiles for the family of this device, and adds the result.
 void list_compiler(const std::string& id, Listing& listing) {
   constexpr const char* newer =
-      "but a newer one may: Mesa 25.0 of Debian 13 knows AMD's up to gfx1201";
+      "but a newer one may: Mesa 25.0 of Debian 13 supports AMD's families up to gfx1201";
   const std::string api = id.substr(0, id.find(':'));
   const auto refuse = [&](std::string reason) {
     listing.broken.push_back({.what = id, .reason = std::move(reason)});
@@ -91,30 +91,29 @@ void list_compiler(const std::string& id, Listing& listing) {
                  listing_limit);
     const auto* answer = std::get_if<Message>(&reply);
     if (answer == nullptr) {
-      // RADV aborts when it is asked for a family that it does not know.
-      listing.broken.push_back(
-          {.what = id,
-           .reason = std::string("the driver that is installed ended without an answer; it may not "
-                                 "know this family, ") +
-                     newer,
-           .ended = reason_of(reply)});
+      // RADV aborts if the requested family is not known to it.
+      listing.broken.push_back({.what = id,
+                                .reason = std::string("the installed driver exited without an "
+                                                      "answer; it may not know this family, ") +
+                                          newer,
+                                .ended = reason_of(reply)});
       return;
     }
     for (record::Device& device : from_json(answer->json).devices) {
       if (device.id == id) return listing.devices.push_back(std::move(device));
     }
-    refuse(std::string("the driver that is installed does not know this family, ") + newer);
+    refuse(std::string("the installed driver does not know this family, ") + newer);
   } catch (const core::NotSupported& error) {
     refuse(error.what());
   }
 }
 
-// Throws an error that says why no device of the listing matches `glob`.
+// Throws an error with the reason why no device of the listing matches `glob`.
 [[noreturn]] void refuse_devices(const Listing& listing, std::string_view glob) {
   if (listing.devices.empty()) {
     throw core::NotSupported(
-        "no device at all: no OpenCL, Vulkan or OpenGL driver answers; ci/setup installs software "
-        "drivers, `triptych devices` says what each loader found");
+        "there is no device: no OpenCL, Vulkan or OpenGL driver answers; ci/setup installs "
+        "software drivers, and `triptych devices` prints what each loader found");
   }
   std::string known;
   for (const record::Device& device : listing.devices) known += " " + device.id;

@@ -1,5 +1,5 @@
 #pragma once
-// Lists the devices of this machine. Every API is asked in a process of its own (own_program.hpp),
+// Lists the devices of this machine. Every API is listed in a separate process (own_program.hpp),
 // so that a driver that crashes or hangs while it is listed affects nothing else.
 
 #include <optional>
@@ -19,7 +19,7 @@ namespace triptych::measure {
 [[nodiscard]] Listing list_devices(const std::vector<std::string>& apis);
 
 // The ids of the usual devices that only compile and whose driver is installed. No driver is
-// started: list_compilers() tells whether the driver knows the family.
+// started: list_compilers() determines whether the driver supports the family.
 [[nodiscard]] std::vector<std::string> installed_compilers();
 
 // Lists the devices that only compile (measure/system/compile_only.hpp): the usual ones that match
@@ -40,7 +40,7 @@ namespace triptych::measure {
 [[nodiscard]] std::string choose_device(const Listing& listing, std::string_view option,
                                         const std::string& glob);
 
-// What a device reports when it is open. Its clocks are calibrated with the work of the suite.
+// The report of a device that was opened. Its clocks are calibrated with the work of the suite.
 struct Greeting {
   record::Device device;
   std::vector<record::ClockTrust> clocks;
@@ -48,7 +48,7 @@ struct Greeting {
 };
 [[nodiscard]] Greeting greet(const record::Device& device, const std::string& suite);
 
-// What the process for one API does: it waits until it is asked, and then sends its listing.
+// The main function of the process for one API: it waits for a request and then sends its listing.
 void answer_listing(const Backend& backend);
 
 }  // namespace triptych::measure

@@ -89,7 +89,7 @@ bool is(const Message& message, std::string_view type) {
 }
 
 // If a message lacks something, its sender is wrong and not the reader, so the error is a typed one
-// and not one of JSON.
+// and not a JSON error.
 template <typename Read>
 auto reading(std::string_view type, Read read) {
   try {

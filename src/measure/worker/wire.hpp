@@ -56,9 +56,10 @@ class MessageBuffer {
 struct Start {
   std::string suite;
   std::vector<std::string> kinds;  // see technique::name_of
-  // A worker that replaces another one need not calibrate again.
+  // The clocks that are known already, so that a replaced worker need not calibrate them again.
   std::vector<record::ClockTrust> clocks;
-  bool statistics = true;  // false: the driver crashed when they were read, so nobody asks for them
+  // False: the driver crashed when statistics were read, so they are not requested.
+  bool statistics = true;
 };
 
 struct Hello {
@@ -82,13 +83,14 @@ struct Job {
 };
 
 struct Answer {
-  record::Record record;  // what is known without the plan; in `factors` every "auto" is resolved
+  // Everything that does not depend on the plan; in `factors` every "auto" is resolved.
+  record::Record record;
   double worker_ns = 0;   // from reading the job until the answer is ready
   std::map<std::string, std::string> listings = {};  // disassembly by the hash of its content
   std::vector<std::byte> exr;
 };
 
-// Replaces what is held at that time.
+// Replaces the configuration that is kept at that time.
 struct Hold {
   Configuration configuration;
   std::vector<std::string> faults;
@@ -100,7 +102,7 @@ struct Frames {
 
 struct Release {};
 
-// The answer to one of them. After a failure nothing is held any longer.
+// The answer to one of these requests. After a failure no configuration is kept any longer.
 struct Batch {
   record::Outcome outcome = record::Outcome::measured;
   record::Reason reason;          // for every outcome except measured
@@ -119,7 +121,7 @@ struct Batch {
 [[nodiscard]] Message to_message(const Release& release);
 [[nodiscard]] Message to_message(const Batch& batch);
 
-// nullopt if the message has another type. They throw InputError if it lacks something.
+// nullopt if the message has another type. Throws InputError if a member is missing.
 [[nodiscard]] std::optional<Start> as_start(const Message& message);
 [[nodiscard]] std::optional<Hello> as_hello(const Message& message);
 [[nodiscard]] std::optional<Refused> as_refused(const Message& message);

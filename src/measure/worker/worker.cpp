@@ -51,7 +51,7 @@ technique::Work kind_named(std::string_view name) {
   throw core::InputError(fmt::format("unknown kind of work '{}'", name));
 }
 
-// Adds what only the work decides to the protocol.
+// Adds the settings that depend only on the work to the protocol.
 Protocol protocol_for(const Job& job, const Work& work, bool has_statistics) {
   Protocol protocol = job.protocol;
   protocol.statistics = protocol.statistics && has_statistics;
@@ -92,8 +92,8 @@ record::Reason api_reason(record::Cause cause, const core::ApiError& error) {
   return {.cause = cause, .subject = error.call(), .code = error.code(), .detail = error.what()};
 }
 
-// Turns every typed error into the outcome of one configuration. `data` is what may have needed too
-// much memory.
+// Converts every typed error to the outcome of one configuration. `data` is the data set that may
+// have needed too much memory.
 template <typename Act, typename OnFailure>
 void outcome_of(const Act& act, const std::string& data, const OnFailure& on_failure) {
   using record::Cause;
@@ -203,7 +203,7 @@ class Worker {
         [&] { act(batch); }, data_,
         [&](record::Outcome outcome, record::Reason reason) {
           batch = {.outcome = outcome, .reason = std::move(reason), .wall_ns = {}, .device_ns = {}};
-          // Freeing the objects of a lost device is what drivers do worst.
+          // Freeing the objects of a lost device is where drivers fail most often.
           if (outcome == record::Outcome::lost) {
             static_cast<void>(held_.release());
           } else {
@@ -250,8 +250,8 @@ class Worker {
     return work;
   }
 
-  // Broken input is not the device's fault: the configuration is skipped, and the reason says where
-  // the input is broken.
+  // Broken input is not the device's fault: the configuration is skipped, and the reason names the
+  // place in the input.
   Work work_or_skip(Configuration& configuration, const std::vector<std::string>& faults) {
     try {
       return supported_work(configuration, faults);
@@ -352,7 +352,7 @@ class Worker {
   std::optional<FrameProof> proof_;  // for the configuration that is held
   Equivalents equivalents_;
   bool has_statistics_ = true;  // the driver reports statistics without a fault
-  // What the driver changed while the device was opened and calibrated.
+  // The driver's change while the device was opened and calibrated.
   std::string changed_arithmetic_;
   std::string data_;         // the data of the current configuration
   double measuring_ns_ = 0;  // for the last job: the time that measure() accounts for itself
@@ -407,8 +407,8 @@ int serve(const Backend& backend, std::string_view device_id, const FindSuite& f
   send(answer_fd, to_message(Hello{.device = worker.info(), .clocks = worker.clocks()}));
 
   while (const auto message = receive(request_fd)) {
-    // Freeing the objects of a lost device is what drivers do worst, so the process exits without
-    // it.
+    // Freeing the objects of a lost device is where drivers fail most often, so the process exits
+    // without it.
     if (serve_one(worker, *message, answer_fd) == record::Outcome::lost) ::_exit(0);
   }
   return 0;
@@ -453,7 +453,7 @@ int serve_worker(const Backend& backend, std::string_view device_id, const FindS
   try {
     send(answer_fd, to_message(refused));
   } catch (const core::Error&) {
-    // Nobody is left who could be told.
+    // The supervisor is gone, so the error cannot be reported.
   }
   return static_cast<int>(core::ExitCode::usage);
 }

@@ -14,8 +14,7 @@ namespace triptych::measure {
 [[nodiscard]] int serve_worker(const Backend& backend, std::string_view device_id,
                                const FindSuite& find_suite, int request_fd, int answer_fd);
 
-// Records what is known about the data and the path that is used, which is needed to judge the
-// image.
+// Records the facts about the data and the path that are needed to judge the image.
 void describe_work(const Work& work, const Device& device, record::Record& record);
 
 }  // namespace triptych::measure

@@ -182,7 +182,8 @@ bool WorkerLink::wait_for_event(Deadline deadline) {
 }
 
 std::optional<Exit> WorkerLink::reap() {
-  // A worker that closed its pipe for answers is about to end, and gets some time to show how.
+  // A worker that closed its answer pipe is about to exit. It gets some time, so that its exit
+  // status can be read.
   constexpr std::chrono::seconds patience{2};
   auto exit = process_.wait(patience);
   if (!exit) {
@@ -216,8 +217,8 @@ record::Reason WorkerLink::bury_for(record::Reason reason) {
   return reason;
 }
 
-// Whoever ends a whole job, as a batch system does, ends the worker and this process at the same
-// time. That the worker ended first is then no fault of its configuration.
+// A batch system that ends a whole job ends the worker and this process at the same time. If the
+// worker ends first, this is not a fault of its configuration.
 void WorkerLink::await_own_end() {
   const Deadline deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
   for (;;) {

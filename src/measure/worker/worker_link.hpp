@@ -1,6 +1,6 @@
 #pragma once
-// The supervisor's side of one worker: it asks, and gets an answer, the worker's death or a
-// timeout.
+// The supervisor's side of one worker: it sends a request, and gets an answer, the worker's death
+// or a timeout.
 
 #include <chrono>
 #include <cstddef>

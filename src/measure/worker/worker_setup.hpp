@@ -1,6 +1,6 @@
 #pragma once
-// How the worker of a device is started: its command (natively or under the emulator), its
-// environment and its cache folder.
+// Starts the worker of a device: its command (native or under the emulator), its environment and
+// its cache folder.
 
 #include <chrono>
 #include <string>
@@ -24,9 +24,9 @@ struct SideOptions {
 // Compiling for the first time takes minutes under the emulator, where it takes seconds natively.
 inline constexpr std::chrono::seconds counted_limit{600};
 
-// The name of a cache folder. Code has a folder of its own if it is compiled for another processor,
-// as under the emulator, or with other environment variables: drivers do not include everything
-// that changes the code in the keys of their caches.
+// The name of a cache folder. Code that is compiled for another processor, as under the emulator,
+// or with other environment variables is kept in a separate folder, because drivers do not include
+// everything that changes the code in the keys of their caches.
 [[nodiscard]] std::string cache_name(const SideOptions& side, bool counted);
 
 // `counted`: under the emulator, if there is one. `limit`: the time for opening the device; under

@@ -39,8 +39,8 @@ bool WorkerSlot::open(const std::function<Start()>& start,
     });
     if (!refused.is_one()) continue;
     if (!refused.unsupported() && attempt + 1 < most_attempts) continue;
-    // A driver that dies each time may do all else without pipeline statistics. Where it does not,
-    // they are not to blame.
+    // A driver that crashes each time may work without pipeline statistics. If it crashes without
+    // them, too, they are not the cause.
     if (reads_statistics && died(refused.reason)) {
       statistics_fault_ = statistics_crash(refused.reason);
     } else {

@@ -1,5 +1,5 @@
 #pragma once
-// The place of a device's worker. A worker that is gone is replaced when the next one is needed.
+// A slot for a device's worker. A worker that is gone is replaced when the next one is needed.
 
 #include <chrono>
 #include <functional>
@@ -45,7 +45,8 @@ class WorkerSlot {
   [[nodiscard]] double opening_ns() const noexcept { return opening_ns_; }
 
  private:
-  // The result has no reason if a worker has greeted; otherwise it says why not.
+  // The result has no reason if a worker has sent its greeting; otherwise it has the reason why
+  // there is none.
   [[nodiscard]] Refused try_to_open(const Start& start,
                                     const std::function<void(const Hello&)>& greeted);
 

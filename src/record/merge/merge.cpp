@@ -56,7 +56,7 @@ class Aside {
   std::vector<fs::path> files_;
 };
 
-// Errors of writing name the file that was asked for, because intermediate files are removed.
+// Errors of writing name the requested file, because intermediate files are removed.
 template <typename Action>
 decltype(auto) on_new_store(const fs::path& out, Action&& action) {
   try {
@@ -94,7 +94,7 @@ class Writing {
     }
   }
 
-  // Returns what became of the records of each run.
+  // Returns how many records of each run were taken and left out.
   std::vector<RecordCounts> write(const std::vector<Input>& inputs, const std::vector<Run>& runs,
                                   DataSeen& data, const RecordCopy::Tell& tell) {
     return on_new_store(out_file_, [&] {
@@ -175,13 +175,14 @@ void require_no_store(const fs::path& out) {
   std::error_code ignored;
   if (fs::exists(out, ignored)) {
     throw core::InputError({.file = out.string()},
-                           "is there already: give another name, or remove it when all that it "
-                           "holds is in the stores that are merged");
+                           "exists already: choose another name, or remove it if the stores that "
+                           "are merged contain all of its records");
   }
-  // SQLite would take it for the log of the new store.
+  // SQLite would treat it as the log of the new store.
   if (fs::exists(out.string() + "-wal", ignored) && !fs::is_empty(out.string() + "-wal", ignored)) {
-    throw core::InputError({.file = out.string() + "-wal"},
-                           "is the log of a store that is gone: remove it, or give another name");
+    throw core::InputError(
+        {.file = out.string() + "-wal"},
+        "is the log of a store that no longer exists: remove it, or choose another name");
   }
 }
 
@@ -204,7 +205,7 @@ struct Stepwise {
   const fs::path& out;
   Aside& aside;
   DataSeen data;
-  // What was left out in any step, and the records of the last one.
+  // The records that were left out in any step, and the records of the last step.
   std::vector<RecordCounts> counts;
 
   fs::path merge(std::vector<Input> inputs) {

@@ -12,12 +12,13 @@
 
 namespace triptych::record {
 
-// The part of a plan of which a store's latest run has no record yet.
+// The part of a plan that is missing in a store's latest run.
 struct Gap {
   std::string plan;
   std::string device;  // empty: no run was begun
   std::uint64_t records = 0;
-  std::uint64_t configurations = 0;       // to be measured; 0: the run was to measure nothing
+  // The number to be measured; 0 if the run had nothing to measure.
+  std::uint64_t configurations = 0;
   std::vector<std::string> missing = {};  // the keys of the missing ones, if the run lists them
 };
 // A complete shard has none. A store whose shards are all empty has a gap for each plan.

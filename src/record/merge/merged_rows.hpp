@@ -30,10 +30,10 @@ class MergedRows {
   MergedRows(const std::vector<Source>& sources, std::string_view select, int keys, Before before,
              const std::vector<std::string>& parameters = {});
 
-  // One row of the next key.
+  // One row with the next key.
   struct Row {
     std::size_t source;             // the source whose query it is
-    std::vector<std::size_t> rest;  // the sources whose rows of the same key were not taken
+    std::vector<std::size_t> rest;  // the other sources whose rows have the same key
   };
   // nullptr after the last key. The row is valid until the next call. Throws as reading a Store
   // does.

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Separates what several machines say about themselves.
+// Separates the facts of several machines.
 constexpr std::string_view separator = " | ";
 
 void add_parts(std::string_view text, std::set<std::string>& parts) {
@@ -29,7 +29,7 @@ void add_parts(std::string_view text, std::set<std::string>& parts) {
   }
 }
 
-// Everything that either text contains, once.
+// Everything that either text contains, without duplicates.
 std::string all_of(const std::string& a, const std::string& b) {
   if (a == b) return a;
   std::set<std::string> parts;
@@ -49,8 +49,8 @@ void require_same_plan(const Found<Run>& known, const Run& run, const fs::path& 
   if (run.plan_hash != known.value.plan_hash) {
     throw core::InputError(
         {.file = file.string()},
-        fmt::format("measured another text of plan {} (hash {}) than {} (hash {}): merge only "
-                    "stores of one text, and measure the others again with it",
+        fmt::format("measured another version of plan {} (hash {}) than {} (hash {}): merge only "
+                    "stores of one version, and measure the others again with it",
                     run.plan, run.plan_hash, known.file.string(), known.value.plan_hash));
   }
   if (run.checks != known.value.checks) {
@@ -88,8 +88,8 @@ void add(Store::DeviceEntry entry, const fs::path& file, Devices& devices) {
   if (entry.device.key() != known.device.key()) {
     throw core::InputError(
         {.file = file.string()},
-        fmt::format("{} is not the one of {} (here {}; there {}): merge the stores of each driver "
-                    "and machine by themselves; `triptych diff` compares what comes out",
+        fmt::format("{} differs from that of {} (here {}; there {}): merge the stores of each "
+                    "driver and machine separately; `triptych diff` compares the results",
                     id, known_file.string(), entry.device.key(), known.device.key()));
   }
   if (seal_of(entry.device, entry.clocks) < seal_of(known.device, known.clocks)) {

@@ -1,5 +1,5 @@
 #pragma once
-// Which runs and devices a merge contains, and what must not be merged.
+// The runs and devices of a merge, and the conditions under which stores must not be merged.
 
 #include <cstdint>
 #include <filesystem>

@@ -54,9 +54,10 @@ bool has_fault(const Query& record) {
   return !record.text(column::injected).empty();
 }
 
-// A record without an injected fault is preferred to one with it, whether it was measured or not.
-// Then a record that was measured is preferred to one that was not, because a job is sent again for
-// that reason. For the rest any rule will do that does not depend on the order of the stores.
+// A record without an injected fault is preferred to one with an injected fault, whether it was
+// measured or not. Next, a measured record is preferred, because a job is repeated in order to
+// measure it. Any rule for the remaining records is possible that does not depend on the order of
+// the stores.
 bool is_before(const Query& a, const Query& b) {
   if (has_fault(a) != has_fault(b)) return has_fault(b);
   const int rank_a = rank_of(a.text(column::outcome));
@@ -85,9 +86,10 @@ void DataSeen::saw(const std::string& name, std::string_view hash,
   if (is_new || known->second.hash == hash) return;
   throw core::InputError(
       {.file = file.string()},
-      fmt::format("measured other data under one name: {} has content hash {}, in {} it has {}; "
-                  "give all machines the same files and measure the shards of one of them again",
-                  name, hash, known->second.file.string(), known->second.hash));
+      fmt::format(
+          "measured other data under the same name: {} has content hash {}, in {} it has {}; give "
+          "all machines the same files and measure the shards of one machine again",
+          name, hash, known->second.file.string(), known->second.hash));
 }
 
 std::size_t RecordCopy::Batch::bytes() const {

@@ -15,7 +15,7 @@
 
 namespace triptych::record {
 
-// The content that each data set had, and the store in which it was seen first. There is one object
+// The content hash of each data set, and the store in which it was seen first. There is one object
 // per merge.
 class DataSeen {
  public:
@@ -30,14 +30,14 @@ class DataSeen {
   std::map<std::string, Content> contents_;
 };
 
-// How many records were taken, and why others were not.
+// The number of records that were taken, and of those that were not, by reason.
 struct RecordCounts {
   std::uint64_t configurations = 0;
   std::map<std::string, std::uint64_t> records;  // by device
   // Not taken, because another record of the same configuration and device was taken:
   std::uint64_t repeated = 0;       // the same record
   std::uint64_t injected = 0;       // had an injected fault, and the other one has none
-  std::uint64_t not_chosen = 0;     // differs from the other one, and is no worse an outcome
+  std::uint64_t not_chosen = 0;     // differs from the other one, and its outcome is not worse
   std::uint64_t measured_anew = 0;  // failed or was skipped, and the other one did not
 };
 
@@ -86,7 +86,7 @@ class RecordCopy {
   std::vector<std::vector<std::optional<Query>>> queries_;  // by source and part; empty: no rows
   RowWriter record_writer_;
   std::vector<RowWriter> part_writers_;
-  std::int64_t seq_ = 0;  // of the record that was added last
+  std::int64_t seq_ = 0;  // number of the record that was added last
   std::string last_configuration_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Rows on their way from one store into another.
+// Rows that are copied from one store to another.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 

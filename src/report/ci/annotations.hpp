@@ -1,5 +1,5 @@
 #pragma once
-// What CI systems show beside a commit.
+// Annotations of a commit for CI systems.
 
 #include <span>
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace triptych::report {
 
-// Workflow commands of GitHub Actions, one a line: an error for each cause of a regression, a
-// warning for each cause of what could not be judged, the worst first. GitHub shows at most ten of
-// each for a step, and more are not written.
+// Workflow commands of GitHub Actions, one on each line: an error for each cause of a regression,
+// and a warning for each cause that could not be judged, the worst first. GitHub shows at most ten
+// of each for a step, so no more are written.
 [[nodiscard]] std::string github_annotations(std::span<const judge::GateResult> results,
                                              const FindingPlaces& places);
 

@@ -37,13 +37,15 @@ struct File {
 };
 constexpr std::array files{
     File{"frame.json", "camera, scene, transfer function and every factor"},
-    File{"image.png", "what was drawn; `image.exr`: as floats, linear and premultiplied"},
+    File{"image.png", "the device's image; `image.exr`: as floats, linear and premultiplied"},
     File{"truth.png", "the reference image, rendered in double precision; `truth.exr`: as floats"},
-    File{"difference.png", "the difference between image and reference; white is the largest error"},
+    File{"difference.png",
+         "the difference between image and reference; white is the largest error"},
     File{"dump",
-         "what the driver was given: device code, options, buffers, a program in C for some "
-         "techniques; `compile.sh` compiles the device code"},
-    File{"dump/pixel.txt", "what the device did for the worst pixel, and what differs first"},
+         "all input of the driver: device code, options, buffers, for some techniques a program in "
+         "C; `compile.sh` compiles the device code"},
+    File{"dump/pixel.txt",
+         "the device's results for the worst pixel, with the first difference marked"},
 };
 
 std::string list_of_files(const BugReport& report) {

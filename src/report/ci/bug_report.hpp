@@ -11,7 +11,7 @@
 namespace triptych::report {
 
 struct BugReport {
-  std::string message;  // how it fails, in one line
+  std::string message;  // how the frame fails, in one line
   record::Device device;
   std::map<std::string, std::string> system;  // Run::system
   std::string command;                        // shows the failure again

@@ -28,7 +28,7 @@ std::string number(std::string_view name, double value) {
 // with that name.
 std::string picture(std::string_view name, std::string test, std::string_view what,
                     const core::Image& image) {
-  // Names come from a store, and must not lead to another folder.
+  // Names come from a store, so they must not contain a path to another folder.
   std::ranges::replace_if(
       test, [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-'; }, '_');
   const core::PrivateFolder folder = core::private_temporary_folder("ctest");
@@ -78,7 +78,7 @@ std::optional<std::string> reason_to_skip(const judge::GateResult& result) {
   for (const judge::Finding& finding : result.findings) {
     const bool idle =
         finding.verdict == judge::Verdict::advisory || finding.verdict == judge::Verdict::skipped;
-    // A pass of a whole device is a summary; one of a correlation is a result.
+    // A pass of a whole device is a summary, and a pass of a correlation is a result.
     const bool sums_up = finding.verdict == judge::Verdict::pass && finding.configuration.empty() &&
                          finding.check != judge::Check::correlation;
     if (!idle && !sums_up) return std::nullopt;

@@ -11,7 +11,7 @@
 
 namespace triptych::report {
 
-// The contents of files that are made from more than the verdicts.
+// The contents of files that need other data than the verdicts.
 struct FolderTexts {
   std::string page;          // report.html
   std::string benchmark;     // benchmark.json

@@ -51,7 +51,7 @@ std::string bounds(const Overview& all) {
   return text + "\n</details>\n";
 }
 
-// Skips and advice are on the page. In a summary they would hide what is new.
+// Skips and advice are only on the page, because they would hide new findings in a summary.
 std::string counted(const std::map<std::string_view, std::size_t>& remarks) {
   if (remarks.empty()) return {};
   std::size_t all = 0;

@@ -11,7 +11,7 @@ namespace triptych::report {
 // it is taken for markup, HTML or a control character. The result has at most `limit` characters.
 [[nodiscard]] std::string markdown_escaped(std::string_view text, std::size_t limit = 500);
 
-// A command as a block of code that no part of the command can end.
+// A command as a code block that no text within the command can close.
 [[nodiscard]] std::string fenced(std::string_view command, std::string_view indent);
 
 // A summary for a pull request, with the rows and causes of the last screen: the worst are visible,

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 using judge::Check;
 using judge::Layout;
 
-// The file of a plan's baselines that holds what the check compares; empty if it depends on a
-// device that is not known.
+// The file of a plan's baselines with the values of the check; empty if it depends on a device that
+// is not known.
 std::string stored_in(Check check, const record::Device* device) {
   switch (check) {
     case Check::image:
@@ -57,7 +57,7 @@ std::size_t line_of(const std::string& text, const std::string& key) {
 FindingPlaces::FindingPlaces(Sources sources) : sources_(std::move(sources)) {}
 
 std::string FindingPlaces::in_repository(const fs::path& file) const {
-  std::error_code error;  // a file that cannot be resolved is in no repository
+  std::error_code error;  // a file that cannot be resolved is not in a repository
   const fs::path found = fs::weakly_canonical(file, error);
   if (error) return {};
   const fs::path root = fs::weakly_canonical(sources_.repository, error);

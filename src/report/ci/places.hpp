@@ -1,5 +1,5 @@
 #pragma once
-// Where a finding is shown in a repository: the line of a stored value, or a file.
+// The place in a repository to which a finding is attached: the line of a stored value, or a file.
 
 #include <cstddef>
 #include <filesystem>
@@ -20,8 +20,8 @@ class FindingPlaces {
  public:
   struct Sources {
     std::filesystem::path repository;                    // its top folder
-    std::filesystem::path baselines;                     // the folder that was judged by
-    std::map<std::string, record::Device> devices = {};  // of all results, by id
+    std::filesystem::path baselines;  // the folder of the baselines that were used
+    std::map<std::string, record::Device> devices = {};  // devices of all results, by id
     std::string job = {};  // the file that defines the CI job, relative to the repository
   };
 

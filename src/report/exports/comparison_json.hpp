@@ -19,7 +19,7 @@ namespace triptych::report {
 [[nodiscard]] core::Json to_json(const comparison::Difference& difference);
 // As for its difference, with {"configuration", "configurations", "ratio_low", "ratio_high"}.
 [[nodiscard]] core::Json to_json(const comparison::DifferenceGroup& group);
-// {"cause", "text"}, and what comes with the cause: {"side", "outcome", "reason", "suspected",
+// {"cause", "text"}, and the data of the cause: {"side", "outcome", "reason", "suspected",
 // "numbers"}.
 [[nodiscard]] core::Json to_json(const comparison::TimeReason& reason);
 

@@ -36,7 +36,7 @@ struct Field {
   std::string operator()(std::uint64_t number) const { return fmt::format("{}", number); }
   std::string operator()(const std::string& text) const {
     const std::string_view mark = is_marked(text) ? "'" : "";
-    // Semicolons and tabs separate fields where a spreadsheet is set up so.
+    // Semicolons and tabs are included, because they separate fields in some spreadsheet settings.
     if (text.find_first_of(",;\t\"\r\n") == std::string::npos) return std::string(mark) + text;
     std::string quoted = "\"";
     quoted += mark;

@@ -49,12 +49,12 @@ Columns<RecordSource> what_it_was() {
     return [member](const RecordSource& s) { return text(s.record.*member); };
   };
   return {
-      {{"record", "integer", "", "number of the record in this export, which other tables name"},
+      {{"record", "integer", "", "number of the record in this export; other tables refer to it"},
        [](const RecordSource& s) { return s.number; }},
       {{"run", "text", "", "the run, see runs"}, of(&Record::run)},
       {{"suite", "text", "", "volume or particles"}, of(&Record::suite)},
       {{"plan", "text", "", "the plan that was run"}, of(&Record::plan)},
-      {{"configuration", "text", "", "what the plan named, factor=value,…"},
+      {{"configuration", "text", "", "the factors that the plan names: factor=value,…"},
        of(&Record::configuration)},
       {{"name", "text", "", "the configuration's short name"},
        [](const RecordSource& s) { return record::short_name(s.record); }},
@@ -91,7 +91,7 @@ Columns<RecordSource> what_it_took() {
       {{"clock", "text", "",
         "the clock whose times are used: device if it is trusted, otherwise wall"},
        [](const RecordSource& s) { return when_timed(s, std::string(s.record.clock())); }},
-      {{"frames", "integer", "frames", "timed on that clock"},
+      {{"frames", "integer", "frames", "number of frames timed on that clock"},
        [](const RecordSource& s) { return when_timed(s, s.record.time_ns().size()); }},
       {{"median_ns", "number", "ns", "median time of a frame on that clock"},
        [](const RecordSource& s) { return median(s.record.time_ns()); }},
@@ -103,19 +103,20 @@ Columns<RecordSource> what_it_took() {
        [](const RecordSource& s) {
          return when_timed(s, std::uint64_t{s.record.device_clock_trusted});
        }},
-      {{"warm_up_frames", "integer", "frames", "drawn before those that were timed"},
+      {{"warm_up_frames", "integer", "frames", "number of frames drawn before the timed ones"},
        [](const RecordSource& s) { return when_timed(s, integer(s.record.warm_up_frames)); }},
-      {{"frames_per_100ms", "integer", "frames", "as the warm-up found"},
+      {{"frames_per_100ms", "integer", "frames",
+        "number of frames that fill 100 ms, estimated during warm-up"},
        [](const RecordSource& s) { return positive(s.record.frames_per_100ms); }},
-      {{"loop_wall_ns", "number", "ns", "the closing loop, whole"},
+      {{"loop_wall_ns", "number", "ns", "time of the whole wall-clock loop"},
        [](const RecordSource& s) { return positive(s.record.loop_wall_ns); }},
-      {{"loop_frames", "integer", "frames", "of the closing loop"},
+      {{"loop_frames", "integer", "frames", "number of frames in the wall-clock loop"},
        [](const RecordSource& s) { return positive(s.record.loop_frames); }},
-      {{"prepare_ns", "number", "ns", "data, pipelines and upload"},
+      {{"prepare_ns", "number", "ns", "time of preparing data and pipelines and of the upload"},
        [](const RecordSource& s) { return positive(s.record.prepare_ns); }},
-      {{"overhead_ns", "number", "ns", "of the configuration outside device work and warm-up"},
+      {{"overhead_ns", "number", "ns", "time of the configuration outside device work and warm-up"},
        [](const RecordSource& s) { return positive(s.record.overhead_ns); }},
-      {{"peak_memory_bytes", "integer", "bytes", "of the worker's process so far"},
+      {{"peak_memory_bytes", "integer", "bytes", "peak memory of the worker process so far"},
        [](const RecordSource& s) { return positive(s.record.peak_memory_bytes); }},
   };
 }
@@ -157,9 +158,9 @@ Columns<RunSource> run_columns() {
        [](const RunSource& s) { return text(s.run.started_at); }},
       {{"plan_hash", "text", "", "hash of the plan's text"},
        [](const RunSource& s) { return text(s.run.plan_hash); }},
-      {{"configurations", "integer", "", "to be measured on each device"},
+      {{"configurations", "integer", "", "number of configurations to be measured on each device"},
        [](const RunSource& s) { return positive(s.run.configurations); }},
-      {{"processor", "text", "", "of the machine"},
+      {{"processor", "text", "", "processor of the machine"},
        [](const RunSource& s) { return value_in(s.run.system, "processor"); }},
       {{"system", "text", "", "JSON: cores, memory, operating system, …"},
        [](const RunSource& s) { return as_json(s.run.system); }},
@@ -175,19 +176,20 @@ Columns<DeviceSource> device_columns() {
       {{"run", "text", "", "the run, see runs"}, [](const DeviceSource& s) { return text(s.run); }},
       {{"device", "text", "", "<api>:<driver>"}, of(&Device::id)},
       {{"api", "text", "", "opencl, vulkan, gl or null"}, of(&Device::api)},
-      {{"name", "text", "", "as the driver gives it"}, of(&Device::name)},
-      {{"vendor", "text", "", "as the driver gives it"}, of(&Device::vendor)},
+      {{"name", "text", "", "as reported by the driver"}, of(&Device::name)},
+      {{"vendor", "text", "", "as reported by the driver"}, of(&Device::vendor)},
       {{"driver", "text", "", "name of the driver"}, of(&Device::driver)},
-      {{"driver_version", "text", "", "as the driver gives it"}, of(&Device::driver_version)},
-      {{"api_version", "text", "", "as the driver gives it"}, of(&Device::api_version)},
-      {{"cpu_features", "text", "", "that code is generated for"}, of(&Device::cpu_features)},
-      {{"device_key", "text", "", "all that times and bits depend on"},
+      {{"driver_version", "text", "", "as reported by the driver"}, of(&Device::driver_version)},
+      {{"api_version", "text", "", "as reported by the driver"}, of(&Device::api_version)},
+      {{"cpu_features", "text", "", "processor features that code is generated for"},
+       of(&Device::cpu_features)},
+      {{"device_key", "text", "", "everything that times and the bits of images depend on"},
        [](const DeviceSource& s) { return text(s.device.key()); }},
       {{"environment", "text", "", "JSON: variables that change code generation"},
        [](const DeviceSource& s) { return as_json(s.device.environment); }},
       {{"limits", "text", "", "JSON: limits in the API's own names"},
        [](const DeviceSource& s) { return as_json(s.device.limits); }},
-      {{"statistics_calibration", "text", "", "JSON: what each pipeline statistic is worth"},
+      {{"statistics_calibration", "text", "", "JSON: how far each pipeline statistic is exact"},
        [](const DeviceSource& s) { return as_json(s.device.statistics_calibration); }},
   };
 }
@@ -208,10 +210,11 @@ Columns<ClockSource> clock_columns() {
        [](const ClockSource& s) { return std::uint64_t{s.clock.offered}; }},
       {{"trusted", "integer", "", "1: it follows the wall clock"},
        [](const ClockSource& s) { return std::uint64_t{s.clock.trusted}; }},
-      {{"ratio", "number", "", "device over wall clock, median"}, ratio(&ClockTrust::ratio)},
-      {{"ratio_low", "number", "", "the least seen"}, ratio(&ClockTrust::ratio_low)},
-      {{"ratio_high", "number", "", "the largest seen"}, ratio(&ClockTrust::ratio_high)},
-      {{"verdict", "text", "", "in words"},
+      {{"ratio", "number", "", "device time divided by wall time, median"},
+       ratio(&ClockTrust::ratio)},
+      {{"ratio_low", "number", "", "the smallest ratio"}, ratio(&ClockTrust::ratio_low)},
+      {{"ratio_high", "number", "", "the largest ratio"}, ratio(&ClockTrust::ratio_high)},
+      {{"verdict", "text", "", "the verdict as a sentence"},
        [](const ClockSource& s) { return text(s.clock.verdict); }},
   };
 }
@@ -221,11 +224,12 @@ Columns<RecordSource> record_columns(const RecordNames& names) {
   for (Column<RecordSource>& each : what_it_took()) columns.push_back(std::move(each));
   append(columns, names.factors, "factor_", {"", "text", "", "level of the factor "},
          &Record::factors);
-  append(columns, names.cost, "cost_", {"", "integer", "", "of one frame, "}, &Record::cost);
+  append(columns, names.cost, "cost_", {"", "integer", "", "cost of one frame: "}, &Record::cost);
   append(columns, names.memory, "memory_bytes_",
-         {"", "integer", "bytes", "on the device for this configuration, "}, &Record::memory);
+         {"", "integer", "bytes", "memory on the device for this configuration: "},
+         &Record::memory);
   append(columns, names.energy, "energy_uj_",
-         {"", "integer", "microjoules", "of a frame, by meter "}, &Record::energy);
+         {"", "integer", "microjoules", "energy of a frame by the meter "}, &Record::energy);
   return columns;
 }
 

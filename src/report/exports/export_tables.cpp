@@ -79,15 +79,18 @@ Columns<SampleSource> sample_columns() {
       {{"record", "integer", "", numbers}, [](const SampleSource& s) { return s.record; }},
       {{"clock", "text", "", "wall or device"},
        [](const SampleSource& s) { return std::string(s.clock); }},
-      {{"frame", "integer", "", "from 0"}, [](const SampleSource& s) { return s.frame; }},
-      {{"time_ns", "number", "ns", "of the frame"}, [](const SampleSource& s) { return s.ns; }},
+      {{"frame", "integer", "", "number of the frame, from 0"},
+       [](const SampleSource& s) { return s.frame; }},
+      {{"time_ns", "number", "ns", "time of the frame"},
+       [](const SampleSource& s) { return s.ns; }},
   };
 }
 
 Columns<ValueSource> value_columns(const std::string& description) {
   return {
       {{"record", "integer", "", numbers}, [](const ValueSource& s) { return s.record; }},
-      {{"name", "text", "", "what is counted"}, [](const ValueSource& s) { return s.name; }},
+      {{"name", "text", "", "name of the counter or statistic"},
+       [](const ValueSource& s) { return s.name; }},
       {{"count", "integer", "events", description}, [](const ValueSource& s) { return s.value; }},
   };
 }
@@ -95,11 +98,12 @@ Columns<ValueSource> value_columns(const std::string& description) {
 Columns<ValueSource> cost_columns() {
   return {
       {{"record", "integer", "", numbers}, [](const ValueSource& s) { return s.record; }},
-      {{"of", "text", "", "frame, or prepare: data, pipelines and upload"},
+      {{"of", "text", "", "frame, or prepare (data, pipelines and upload)"},
        [](const ValueSource& s) { return std::string(s.of); }},
-      {{"part", "text", "", "whose code: device_code, driver, libc, program; allocations, misses"},
+      {{"part", "text", "",
+        "group of instructions (device_code, driver, libc, program), or allocations, or misses"},
        [](const ValueSource& s) { return s.name; }},
-      {{"unit", "text", "", "of the count"},
+      {{"unit", "text", "", "unit of the count"},
        [](const ValueSource& s) { return cost_unit(s.name); }},
       {{"count", "integer", "see unit", "the count"}, [](const ValueSource& s) { return s.value; }},
   };
@@ -117,7 +121,7 @@ Columns<CodeSource> code_columns() {
       {{"record", "integer", "", numbers}, [](const CodeSource& s) { return s.record; }},
       {{"executable", "text", "", "shader stage or kernel"},
        [](const CodeSource& s) { return s.executable; }},
-      {{"name", "text", "", "statistic, by the driver's name"},
+      {{"name", "text", "", "the driver's name of the statistic"},
        [](const CodeSource& s) { return s.name; }},
       {{"value", "number", "", "as the compiler reports it"},
        [](const CodeSource& s) { return s.value; }},
@@ -138,7 +142,7 @@ Columns<ErrorSource> error_columns() {
        [](const ErrorSource& s) { return s.error.against; }},
       {{"metric", "text", "",
         "rms: over all pixels and channels; covered: over the pixels that show something; p99.9: "
-        "percentile over the pixels; max: the largest"},
+        "percentile over the pixels; max: largest error"},
        [](const ErrorSource& s) { return s.error.metric; }},
       {{"error", "number", "full scale", "difference of linear color, 1 is white"},
        [](const ErrorSource& s) { return s.error.error; }},
@@ -154,8 +158,8 @@ struct EnergySource {
 Columns<EnergySource> energy_columns() {
   return {
       {{"record", "integer", "", numbers}, [](const EnergySource& s) { return s.record; }},
-      {{"meter", "text", "", "what was metered"}, [](const EnergySource& s) { return s.meter; }},
-      {{"energy_uj", "integer", "microjoules", "of one frame"},
+      {{"meter", "text", "", "name of the meter"}, [](const EnergySource& s) { return s.meter; }},
+      {{"energy_uj", "integer", "microjoules", "energy of one frame"},
        [](const EnergySource& s) { return s.microjoules; }},
   };
 }
@@ -164,17 +168,18 @@ class Tables {
  public:
   Tables(const std::filesystem::path& folder, const RecordNames& names,
          const ExportRequest& request)
-      : runs_(folder, "runs", "one `triptych run` a row", run_columns()),
-        devices_(folder, "devices", "a device of a run a row", device_columns()),
-        clocks_(folder, "clocks", "a device's clock for one kind of work a row", clock_columns()),
-        records_(folder, "records", "a configuration on a device in a run a row",
+      : runs_(folder, "runs", "one `triptych run` per row", run_columns()),
+        devices_(folder, "devices", "one device of a run per row", device_columns()),
+        clocks_(folder, "clocks", "one clock of a device for one kind of work per row",
+                clock_columns()),
+        records_(folder, "records", "one configuration on one device in one run per row",
                  record_columns(names)),
-        samples_(folder, "samples", "a timed frame on a clock a row", sample_columns()),
-        counters_(folder, "counters", "a counter of ours a row",
-                  value_columns("of one frame, counted by our device code")),
-        statistics_(folder, "statistics", "a pipeline statistic a row",
-                    value_columns("of one frame, by the driver")),
-        cost_(folder, "cost", "a part of a cost a row", cost_columns()),
+        samples_(folder, "samples", "one timed frame on one clock per row", sample_columns()),
+        counters_(folder, "counters", "one counter of Triptych per row",
+                  value_columns("count in one frame, by Triptych's device code")),
+        statistics_(folder, "statistics", "one pipeline statistic per row",
+                    value_columns("count in one frame, by the driver")),
+        cost_(folder, "cost", "one part of a cost per row", cost_columns()),
         code_(folder, "code", "one statistic of one executable per row", code_columns()),
         energy_(folder, "energy", "one meter of a record per row", energy_columns()),
         errors_of_(request.errors) {

@@ -1,5 +1,5 @@
 #pragma once
-// Writes one frame as files: what was drawn, what is right, and where they differ.
+// Writes one frame as files: the device's image, the reference image, and the difference.
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>

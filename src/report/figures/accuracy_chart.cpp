@@ -57,7 +57,7 @@ std::optional<double> cost_of(const accuracy::AccuracyCase& each, Cost cost) {
   return std::nullopt;
 }
 
-// What the colours stand for. For configurations without a family it is the technique, because
+// The meaning of the colours. For configurations without a family it is the technique, because
 // otherwise there would be as many colours as points.
 std::string colour_name(const accuracy::AccuracyFamily& family,
                         const accuracy::AccuracyCase& each) {

@@ -109,7 +109,7 @@ class Figure::Drawing {
   }
 
  private:
-  // The measure for everything that is drawn.
+  // The scale for everything that is drawn.
   [[nodiscard]] Measure measure(const Axis& axis, double Place::*coordinate) const {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
@@ -276,7 +276,7 @@ class Figure::Drawing {
     std::string path;
     double last = -1;
     for (const Place& place : shape.places) {
-      // Two strokes at the same position become one.
+      // Two strokes at the same position are drawn as one.
       const double x = std::round(2 * x_of(place.x)) / 2;
       if (x == last) continue;
       last = x;

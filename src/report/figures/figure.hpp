@@ -64,7 +64,8 @@ class Figure {
   void strokes(std::span<const double> across, double row, double half, const Style& style);
   // A dashed vertical line across the whole frame. The axis is not extended for it.
   void upright(double across);
-  // A label beside a point, inside the frame. It is left out if another label is already there.
+  // A label next to a point, inside the frame. It is left out if another label is already at this
+  // place.
   void label(Place at, std::string_view text);
   void legend(std::string_view text, const Style& style, bool line = false);
 

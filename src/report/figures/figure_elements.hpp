@@ -17,7 +17,7 @@ namespace triptych::report {
 inline constexpr std::size_t longest_name = 34;
 inline constexpr std::size_t longest_entry = 64;
 
-// A name with more characters than that, without its middle, which says least.
+// A name with more characters is shortened in the middle, which is its least important part.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t longest = longest_name);
 
 // The text that is shown when the pointer is over the element; nothing if it is empty.

@@ -13,7 +13,7 @@ struct ScatterFigure {
     std::string name;       // the name of the configuration
     std::string technique;  // determines the colour
     double across, up;
-    double deviation = 0;   // from the line, as a share: 0.1 is a tenth more
+    double deviation = 0;   // deviation from the line, as a share: 0.1 is 10 % more
     std::string flag = {};  // "slower", …: drawn as a cross with its name; empty: as expected
   };
   struct Line {
@@ -26,8 +26,8 @@ struct ScatterFigure {
   std::optional<double> shows_from = {};  // a single point is visible from this deviation on
 };
 
-// HTML: both values on logarithmic axes with the line, and next to it what remains without the
-// line, with the deviation of flagged points. Without a line, only the first part.
+// HTML: both values on logarithmic axes with the line, and next to it the deviations from the line,
+// with labels for flagged points. Without a line, only the first part.
 [[nodiscard]] Html scatter_chart(const ScatterFigure& scatter);
 
 }  // namespace triptych::report

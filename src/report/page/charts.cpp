@@ -21,8 +21,8 @@ struct Scene {
   std::vector<Row> rows;
 };
 
-// Scenes in the order of their first configuration. Configurations that differ only in something
-// that no title contains share a row.
+// Scenes in the order of their first configuration. Configurations that differ only in factors that
+// no title contains share a row.
 std::vector<Scene> scenes_of(const PlanData& plan) {
   std::vector<Scene> scenes;
   for (const record::Record& record : plan.records) {

@@ -1,12 +1,12 @@
 #pragma once
-// Shows how cost and time changed over stores, as one self-contained page.
+// Shows the development of cost and time over stores, as one self-contained page.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace triptych::report {
 
-// `history` is what exports/comparison_json.hpp makes of a history.
+// `history` is the JSON form of a history from exports/comparison_json.hpp.
 [[nodiscard]] std::string history_page(const nlohmann::json& history);
 
 }  // namespace triptych::report

@@ -40,7 +40,7 @@ class Lengths {
   std::vector<std::uint32_t> lengths_;
 };
 
-// Puts each removed line beside the line that was added in its place.
+// Puts each removed line next to the line that was added in its place.
 void pair_up(std::vector<LinePair>& pairs, Lines& removed, Lines& added) {
   for (std::size_t i = 0; i < std::max(removed.size(), added.size()); ++i) {
     pairs.push_back({i < removed.size() ? std::string(removed[i]) : std::string(),

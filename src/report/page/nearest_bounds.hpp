@@ -1,5 +1,5 @@
 #pragma once
-// How close pictures come to their bounds. A bound to which no picture comes close is a weak test.
+// How close images come to their bounds. A bound that no image comes close to is a weak test.
 
 #include <cstddef>
 #include <span>
@@ -20,7 +20,7 @@ struct NearestBound {
   std::string configuration;  // the configuration of that pixel
 };
 
-// By plan, then by device. The texts are of unknown origin and need escaping.
+// By plan, then by device. The texts are of unknown origin and must be escaped.
 [[nodiscard]] std::vector<NearestBound> nearest_bounds(
     std::span<const judge::GateResult* const> results);
 

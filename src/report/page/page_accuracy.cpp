@@ -62,7 +62,7 @@ std::optional<double> instructions_of(const accuracy::AccuracyCase& each) {
   return each.instructions;
 }
 
-// In time if it was measured, otherwise in instructions.
+// The cost is time if it was measured, otherwise instructions.
 std::string to_error(const AccuracyScene& scene, double goal) {
   if (!scene.front.empty()) {
     const auto time = accuracy::time_to_error(scene.cases, scene.families, goal);
@@ -134,8 +134,8 @@ class Parts {
     const accuracy::AccuracyCase& least = scene_.cases[accuracy::most_accurate(scene_.cases)];
     add("the most accurate: " + least.configuration, "", least.rmse, error_text(least.largest),
         time_text(least));
-    if (least.factors.contains("step")) add("its step alone", "", least.lattice);
-    add("its rounding, storage and early termination", "", least.arithmetic);
+    if (least.factors.contains("step")) add("error caused by its step", "", least.lattice);
+    add("error caused by its rounding, storage and early termination", "", least.arithmetic);
     for (const accuracy::Switched& each : accuracy::switched_alone(scene_.cases)) {
       add(each, scene_.cases[each.to], "");
     }
@@ -145,7 +145,8 @@ class Parts {
       if (each) add(*each, other.cases[each->to], ", another picture");
     }
     add("output with 8 bits a channel", "", scene_.eight_bits);
-    if (scene_.representation) add("voxel size and table", "", *scene_.representation);
+    if (scene_.representation)
+      add("error caused by the voxel size and the table", "", *scene_.representation);
     add("the limit’s own uncertainty, at most", "", scene_.uncertainty);
   }
 
@@ -187,24 +188,24 @@ Html dominated_table(const std::vector<AccuracyScene>& scenes) {
   return table(rows);
 }
 
-// Another cost besides the time, which is drawn if it was recorded. It is folded if it has a title.
+// Another cost than the time, which is plotted if it was recorded. It is folded if it has a title.
 struct Beside {
   Cost cost;
   std::string_view title;
   std::string_view text;
 };
 constexpr Beside beside_time[]{
-    {Cost::samples, "", "Against the samples taken, which no clock disturbs."},
+    {Cost::samples, "", "Against the number of samples, which repeats exactly."},
     {Cost::instructions, "",
-     "Against the instructions of a frame, the device’s code and the driver’s."},
+     "Against the instructions of a frame, in device code and in the driver."},
     {Cost::fetched, "Bytes fetched against error",
-     "Against what the device’s code fetched past a simulated cache of 32 KiB."},
+     "Against the bytes that the device code fetched past a simulated cache of 32 KiB."},
     {Cost::memory, "Memory against error",
-     "Against the bytes that a configuration holds on the device: data, tables, bricks "
-     "and pictures. Cells packed for fetching take four or eight times the voxels’."},
+     "Against the bytes that a configuration occupies on the device: data, tables, bricks and "
+     "images. Packed cells take four or eight times the memory of the voxels."},
     {Cost::energy, "Energy against error",
-     "Against the joules that the machine’s meters told of a frame, its idle share and "
-     "other programs’ included."}};
+     "Against the energy of a frame by the machine’s meters, which includes idle power and other "
+     "programs."}};
 
 Html charts_beside(const std::vector<AccuracyScene>& scenes) {
   Html text;
@@ -226,20 +227,18 @@ Html accuracy_section(const PlanData& plan) {
       markup(
           "<h3>Run time against error</h3><p>The error is the root mean square over all channels, "
           "in "
-          "linear float, against the picture that the scene tends to as its sampling is refined. A "
-          "line joins configurations that differ by their step alone; the thick line is the front, "
-          "which nothing beats on both axes; dashed: 1/255, 1/1024 and 1e-4. What an error takes "
-          "is "
-          "read off between two neighbours of a line. The hypervolume is the area between the "
-          "front "
-          "and one second by the error of an empty picture, in natural logarithms; beside it how "
-          "many "
-          "times as long the device with the largest may take on every frame before its area is no "
-          "larger. It rests on times of one run and decides nothing.</p>") +
+          "linear float, against the limit image, to which the scene tends as its sampling is "
+          "refined. A line joins configurations that differ only in their step. The thick line is "
+          "the front, which no configuration beats on both axes. Dashed lines: 1/255, 1/1024 and "
+          "1e-4. The cost of an error is interpolated between two neighbours on a line. The "
+          "hypervolume is the area between the front and the point of one second and the error of "
+          "an empty image, in natural logarithms. The number next to it states by what factor the "
+          "device with the largest area could be slower before its area is no longer larger. It is "
+          "based on the times of one run and does not affect the verdict.</p>") +
       summary_table(scenes);
   text += accuracy_chart(scenes, Cost::time) + charts_beside(scenes);
   text += folded("Orders of all families", order_table(scenes)) +
-          folded("What an error is made of: each factor switched alone", parts_table(scenes));
+          folded("Parts of the error: each factor changed alone", parts_table(scenes));
   const bool timed =
       std::ranges::any_of(scenes, [](const AccuracyScene& scene) { return !scene.front.empty(); });
   if (timed) text += folded("Dominated configurations", dominated_table(scenes));

@@ -129,7 +129,7 @@ Html values_table(std::span<const ChangedValue> values) {
 }
 
 // The values of every check that differ from the stored ones, the largest change first. Cost has
-// bars of its own.
+// separate bars.
 Html changed_values(const PlanData& plan) {
   std::map<Check, std::vector<ChangedValue>> by_check;
   for (const Finding& finding : plan.verdict->findings) {

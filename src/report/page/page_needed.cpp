@@ -1,5 +1,5 @@
-// What remains after skipping. A perfect method would take only the samples that contribute to the
-// image.
+// The samples that remain after skipping. A perfect method would take only the samples that
+// contribute to the image.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

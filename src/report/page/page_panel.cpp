@@ -27,8 +27,8 @@ std::string technique_names(const SameBits& group) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-// How an image was made, as far as that differs from others of its scene: each factor of which the
-// group does not have every level that the scene has. The technique has its own line.
+// How an image was made, as far as that differs from other images of its scene: each factor for
+// which the group lacks some level of the scene. The technique has its own line.
 std::vector<std::string> made_by(const SameBits& group, const PictureScene& scene) {
   std::map<std::string, std::set<std::string>> seen;
   std::map<std::string, std::set<std::string>> here;
@@ -46,15 +46,15 @@ std::vector<std::string> made_by(const SameBits& group, const PictureScene& scen
   return differences;
 }
 
-// What distinguishes it from the other images of the scene.
+// The factors that distinguish it from the other images of the scene.
 std::string name_of(const PictureScene& scene, const SameBits& group) {
   std::string name = group.front()->device + ", " + technique_names(group);
   for (const std::string& difference : made_by(group, scene)) name += ", " + difference;
   return name;
 }
 
-// The reference image, or why there is none, for example because the data file is missing and the
-// store does not contain the image.
+// The reference image, or the reason why there is none: for example, the data file is missing and
+// the store does not contain the image.
 std::variant<judge::TruthPair, std::string> truth_or_reason(const PictureSources& sources,
                                                             const record::Record& record) {
   try {
@@ -88,7 +88,7 @@ Html figure(const Html& content, std::string_view caption) {
   return markup("<figure>{}<figcaption>{}</figcaption></figure>", content, caption);
 }
 
-// What filters and the comparison need to know, and the targets of links.
+// The data that filters and the comparison need, and the targets of links.
 Html opening(const PictureScene& scene, const SameBits& group, const ShareOfBound* shares) {
   Html ids;
   std::set<std::string_view> checks;
@@ -120,7 +120,7 @@ Html finding_link(const PictureScene& scene, const SameBits& group) {
   return {};
 }
 
-// `about` is what has to be said about the image, before how it was made.
+// `about` is a text about the image, which precedes how it was made.
 Html titled(const PictureScene& scene, const SameBits& group, const Html& figures,
             const Html& about, const ShareOfBound* shares = nullptr) {
   std::string made = "technique: " + technique_names(group);
@@ -146,7 +146,7 @@ Html verdict_text(const accuracy::ImageComparison& result, const ShareOfBound& s
                 right ? "pass" : "regression", text, worst, result.largest.error, result.rmse);
 }
 
-// Shown where the image would be: what ended the program.
+// Shown in place of an image: how the program ended.
 Html tile(const record::Record& record) {
   const std::string_view what = record::name_of(record.outcome);
   return figure(markup("<div class=\"tile\" role=\"img\" aria-label=\"{}: {}, no picture\">{}"

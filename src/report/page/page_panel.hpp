@@ -1,5 +1,5 @@
 #pragma once
-// A device's image of a scene beside the reference image, or what is shown if there is none.
+// A device's image of a scene next to the reference image, or a text if there is no image.
 
 #include <cstddef>
 #include <string>
@@ -12,14 +12,14 @@ namespace triptych::report {
 // The records of one device whose images have the same bits.
 using SameBits = std::vector<const record::Record*>;
 
-// What the panels of one scene have in common. Contains pointers into the data from which it was
+// The common data of the panels of one scene. Contains pointers into the data from which it was
 // made.
 struct PictureScene {
   const PictureSources& sources;
   const PlanData& plan;
   const std::vector<const record::Record*>& records;
   std::string title;
-  std::size_t number;  // its number among those of the page
+  std::size_t number;  // number of the panel on the page
 };
 
 struct Panel {

@@ -53,7 +53,8 @@ struct Pictures {
 };
 [[nodiscard]] Pictures pictures_section(const PictureSources& sources,
                                         std::span<const PlanData> plans);
-// Whether the record has an image, or shows what ended the program instead of an image.
+// Whether the page has a panel for the record: with its image, or with the way in which the program
+// ended.
 [[nodiscard]] bool has_tile(const record::Record& record);
 // Two images of a scene under a slider; closed until the script opens it.
 [[nodiscard]] Html comparison_dialog();
@@ -70,7 +71,7 @@ struct Pictures {
 [[nodiscard]] Html code_section(const record::Store& store, const PlanData& plan);
 // The samples and spheres that remain after skipping and culling, and how many of them are visible.
 [[nodiscard]] Html needed_section(const PlanData& plan);
-// For each pair of devices, what is on the line and what is off it.
+// For each pair of devices, the configurations on the line and off the line.
 [[nodiscard]] Html correlation_section(const PlanData& plan);
 // The scenes whose accuracy is part of the verdict.
 [[nodiscard]] Html accuracy_section(const PlanData& plan);
@@ -79,7 +80,7 @@ struct Pictures {
 // Empty if nothing was recorded.
 [[nodiscard]] std::string suite_of(const PlanData& plan);
 
-// The element id for what a device drew of a configuration.
+// The element id of the panel for a configuration on a device.
 [[nodiscard]] std::string picture_id(const PlanData& plan, const std::string& device,
                                      const std::string& configuration);
 
@@ -90,7 +91,7 @@ struct Pictures {
 // The same without factors that decide only how the image is made.
 [[nodiscard]] std::string picture_title(const PlanData& plan, const record::Record& record);
 
-// What all scenes of the plan have in common; empty if there is nothing.
+// The factors that all scenes of the plan have in common; empty if there are none.
 [[nodiscard]] std::string common_factors(const PlanData& plan);
 
 }  // namespace triptych::report

@@ -56,7 +56,7 @@ std::string_view clock_of_both(const record::Record& a, const record::Record& b)
   return a.clock() == b.clock() ? a.clock() : "wall";
 }
 
-// Records that took over the frames of another configuration, and why they could.
+// Records that copied the frames of another configuration, and the reasons.
 Html taken_over(const PlanData& plan) {
   Rows rows{{"configuration", "device", "measured as", "why"}};
   for (const record::Record& record : plan.records) {
@@ -70,7 +70,7 @@ Html taken_over(const PlanData& plan) {
                 table(rows));
 }
 
-// Whether its technique only fetches, as a bound on speed.
+// Whether its technique only fetches, so that it is a lower bound for the time.
 bool is_bound(const record::Record& record) {
   return !record::has_picture(record) && record.code.empty();
 }
@@ -89,7 +89,7 @@ Html devices_section(const PlanData& plan) {
                     device.api_version});
     witnesses.push_back({device.id, clock_text(clocks), calibration_text(device), environment});
   }
-  return folded("Devices: drivers, what their clocks and statistics are worth, what they ran on",
+  return folded("Devices: drivers, trust in their clocks and statistics, machines",
                 table(rows) + table(witnesses));
 }
 
@@ -117,7 +117,7 @@ Html times_section(const PlanData& plan) {
 }
 
 Html speed_of_light_section(const PlanData& plan) {
-  // The bare fetches (speed_of_light), by device and scene.
+  // The records of speed_of_light, by device and scene.
   std::map<std::pair<std::string, std::string>, const record::Record*> bounds;
   for (const record::Record* record : measured(plan)) {
     if (is_bound(*record)) {
@@ -136,7 +136,7 @@ Html speed_of_light_section(const PlanData& plan) {
                     fmt::format("{:.2f}", time / bound)});
   }
   if (rows.size() == 1) return {};
-  return folded("Speed of light: times over those of the bare fetches",
+  return folded("Speed of light: times relative to memory fetches alone",
                 markup("<p>The same fetches and transfer-function look-ups alone, with "
                        "the same skipping but without early termination: a technique can be faster "
                        "than that if rays end early, and hardly faster if they do not.</p>") +
@@ -170,9 +170,9 @@ Html counts_section(const PlanData& plan) {
       [](const record::Record& r) -> const record::Counts& { return r.cost; });
   section("Memory allocated on the device, bytes",
           [](const record::Record& r) -> const record::Counts& { return r.memory; });
-  section("Energy of a frame, microjoules by meter, the machine’s other work included",
+  section("Energy of a frame in microjoules by meter, including other work of the machine",
           [](const record::Record& r) -> const record::Counts& { return r.energy; });
-  section("Counters of our own, from a build that is never timed",
+  section("Triptych’s own counters, from a build that is never timed",
           [](const record::Record& r) -> const record::Counts& { return r.counters; });
   section("Pipeline statistics as the drivers report them; an empty cell: not reported",
           [](const record::Record& r) -> const record::Counts& { return r.statistics; });

@@ -44,7 +44,7 @@ Html circumstances_of(const Overview& all) {
   return text;
 }
 
-// Nothing is wrong, but nothing is stored either: somebody explores.
+// Nothing is wrong, but there are no baselines either: the user only explores.
 bool has_no_baselines(const Overview& all) {
   return !all.open.empty() && std::ranges::all_of(all.open, [](const Cause& cause) {
     return cause.group.first->cause == judge::Cause::no_baselines;
@@ -58,12 +58,12 @@ std::string heading(const Overview& all) {
 
 std::string lead(const Overview& all) {
   if (has_no_baselines(all)) {
-    return "Images were compared with the reference image. Nothing is stored to compare the rest "
-           "with:";
+    return "Images were compared with the reference image. There are no stored values to compare "
+           "the rest with:";
   }
   if (all.open.size() == 1) return "One cause:";
   if (!all.open.empty()) return fmt::format("{} causes, the worst first:", all.open.size());
-  return all.code == core::ExitCode::pass ? "All that was asked for is right."
+  return all.code == core::ExitCode::pass ? "Everything that was requested is right."
                                           : "Nothing was decided.";
 }
 
@@ -168,7 +168,7 @@ Html card(const Overview& all, std::span<const PlanData> plans) {
       all.part ? " · a part of the plans" : "", names, tested(plans));
 }
 
-// With a link to the first cause of this kind.
+// Each row has a link to the first cause of its kind.
 Html word_of(const KindRow& row, const Overview& all) {
   const bool work = row.check == judge::Check::counters || row.check == judge::Check::statistics;
   const auto first = std::ranges::find_if(all.open, [&](const Cause& cause) {
@@ -280,10 +280,11 @@ Html findings(const Overview& all, std::span<const PlanData> plans) {
   }
   text += folded(fmt::format("{} more causes", open.size() - shown),
                  listed(open.subspan(shown), plans, shown));
-  return text + folded(fmt::format("{} remarks that decide nothing: advice, what devices cannot "
-                                   "do, known deviations",
-                                   all.aside.size()),
-                       listed(all.aside, plans, std::nullopt));
+  return text +
+         folded(fmt::format(
+                    "{} findings that do not affect the verdict: advice, skips, known deviations",
+                    all.aside.size()),
+                listed(all.aside, plans, std::nullopt));
 }
 
 }  // namespace

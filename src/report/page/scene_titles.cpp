@@ -42,7 +42,8 @@ std::string joined(const Factors& factors) {
   return text;
 }
 
-// What distinguishes it from the other scenes of the plan, or all factors if nothing does.
+// The factors that distinguish the scene from the other scenes of the plan, or all factors if there
+// is only one scene.
 std::string without_shared(const PlanData& plan, const Factors& factors) {
   Factors own = factors;
   for (const auto& [name, value] : shared(plan)) own.erase(name);

@@ -1,5 +1,5 @@
 #pragma once
-// The distance of a picture from the truth, as a picture.
+// The error of an image as an image.
 
 #include <vector>
 
@@ -15,8 +15,8 @@ struct ShareOfBound {
   core::Image image;
   int x = -1;  // the first pixel with the largest share; -1 if no pixel has an error
   int y = -1;
-  // Pixels beyond the bound to be ringed, the worst first, because a single pixel is easily missed.
-  // They are far enough from each other that their rings do not cover each other.
+  // Pixels beyond the bound that get a ring, the worst first, because a single pixel is easily
+  // missed. They are so far from each other that their rings do not overlap.
   struct Mark {
     int x;
     int y;

@@ -40,7 +40,7 @@ std::string milliseconds_of(const Compared& compared) {
   return fmt::format("{} → {}  ", side((*compared.times)[0]), side((*compared.times)[1]));
 }
 
-// "+1.20 % samples, +0.31 % time for each", with the second part if it has a time; empty if the
+// "+1.20 % samples, +0.31 % time for each", with the second part if there is a time; empty if the
 // work is the same.
 std::string work_of(const Compared& compared) {
   const auto& work = compared.work;
@@ -119,7 +119,7 @@ std::string number(const std::optional<double>& value) {
   return value ? fmt::format("{:.4f}", *value) : "–";
 }
 
-// The mark of a point with injected faults, so that nobody blames a driver.
+// The mark of a point with injected faults, so that nobody blames the driver for them.
 std::string injected_text(const HistoryPoint& point) {
   if (point.injected.empty()) return {};
   return fmt::format(" [injected: {}]", fmt::join(point.injected, ", "));

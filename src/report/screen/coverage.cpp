@@ -68,9 +68,10 @@ double largest_bound(const core::Image& bound) {
 }
 
 std::string bounds_text(std::vector<WideBound> bounds) {
-  if (bounds.empty()) return "no bound of an image is above 1/255\n";
+  if (bounds.empty()) return "no image has a bound above 1/255\n";
   std::ranges::sort(bounds, std::greater{}, &WideBound::bound);
-  std::string text = "bounds of images above 1/255, with the mean number of samples of a ray\n";
+  std::string text =
+      "images with a bound above 1/255: the bound, and the mean number of samples of a ray\n";
   for (const WideBound& each : bounds) {
     text += fmt::format("  {:<12.4g}{:>10.0f}  {} {}\n", each.bound, each.samples_per_ray,
                         each.device, each.configuration);
@@ -86,7 +87,7 @@ std::string coverage_text(const std::map<std::string, Coverage>& coverage) {
     for (const auto& [factor, levels] : covered.levels) {
       text += fmt::format("  {:<30}{}\n", factor, fmt::join(levels, ", "));
     }
-    text += "  and at most, in one frame\n";
+    text += "  largest values in one frame\n";
     for (const auto& [name, largest] : covered.largest) {
       if (largest.value == 0) continue;
       text += fmt::format("  {:<40}{:>16}  {}\n", name, grouped_digits(largest.value),

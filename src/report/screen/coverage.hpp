@@ -1,5 +1,6 @@
 #pragma once
-// What the records of a validation have exercised, so that a pass states what it covers.
+// The coverage of a validation: the levels and sizes that its records have drawn, so that a pass
+// states what it covers.
 
 #include <cstdint>
 #include <map>
@@ -21,8 +22,10 @@ struct Largest {
 
 struct Coverage {
   std::size_t configurations = 0;                       // that were measured
-  std::map<std::string, std::set<std::string>> levels;  // by factor; factors with few levels
-  std::map<std::string, Largest> largest;  // by counter, statistic or kind of memory; per frame
+  // Levels by factor, for factors with few levels.
+  std::map<std::string, std::set<std::string>> levels;
+  // Largest value of one frame, by counter, statistic or kind of memory.
+  std::map<std::string, Largest> largest;
 };
 
 // By device. Records that were not measured do not count.
@@ -32,8 +35,8 @@ struct Coverage {
 struct WideBound {
   std::string device;
   std::string configuration;
-  double bound = 0;            // of any channel, where the pixel is certain
-  double samples_per_ray = 0;  // each may be rounded; 0: the scene has no rays
+  double bound = 0;            // bound of any channel, where the pixel is certain
+  double samples_per_ray = 0;  // each sample may be rounded; 0 if the scene has no rays
 };
 inline constexpr double one_step = 1.0 / 255;
 

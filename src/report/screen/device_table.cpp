@@ -24,7 +24,7 @@ std::string text_of(const SideBySide::Cell& cell) {
   return text;
 }
 
-// A bound on speed is not a technique that a user can choose.
+// speed_of_light is a bound and not a technique that a user can choose.
 bool is_a_choice(const std::string& technique) {
   return std::ranges::none_of(technique::catalogue(), [&](const technique::Technique& each) {
     return each.id == technique && !each.picture;

@@ -119,7 +119,7 @@ class Screen {
     return coloured(finding.verdict == Verdict::regression ? "✗" : "?", finding.verdict);
   }
 
-  // Lines that are also true of a pass.
+  // Lines that a pass can have, too.
   void circumstances(const Overview& all) {
     const std::size_t shown = std::min(most_circumstances, all.circumstances.size());
     for (std::size_t i = 0; i < shown; ++i) {
@@ -135,7 +135,7 @@ class Screen {
     if (shown > 0) add("");
   }
 
-  // One line for each, because a reader of a pass has to know what it excuses.
+  // One line for each waiver, because a reader of a pass has to know what is excused.
   void waived(const Overview& all) {
     std::size_t shown = 0;
     for (const Cause& cause : all.aside) {
@@ -147,7 +147,7 @@ class Screen {
     if (shown > 0) add("");
   }
 
-  // As many as there is space for above the last lines.
+  // As many findings as fit above the last lines.
   void causes(const Overview& all, std::span<const std::string> files) {
     const std::size_t below = files.empty() ? 5 : 7;  // with the next steps
     std::size_t shown = 0;
@@ -174,7 +174,7 @@ class Screen {
                         width_ - 4))};
     append_wrapped(lines, message_of(cause), "");
     const std::string command = command_of(first, *cause.result);
-    // If it were cut, it would be another command.
+    // A command is never cut, because it would then be another command.
     if (width_of(command) > longest_command) {
       lines.emplace_back("    (its command is in the page: it is too long for a terminal)");
     } else if (!command.empty()) {
@@ -189,7 +189,7 @@ class Screen {
     return lines;
   }
 
-  // Shortens a long description of the finding, but neither the party at fault nor the advice.
+  // Shortens a long description of the finding, but neither the component at fault nor the advice.
   [[nodiscard]] std::string message_of(const Cause& cause) const {
     std::string rest;
     for (const std::string& each : {words::advice(*cause.group.first), words::blame(cause.group)}) {

@@ -24,7 +24,8 @@ std::string interval(const Allowed& allowed) {
   return fmt::format("{:.7g} to {:.7g}", allowed.lo, allowed.hi);
 }
 
-// What the device did, and what the reference allows, for numbers that have an interval.
+// The device's number and the interval that the reference allows, for numbers that have an
+// interval.
 std::string outside(std::string_view what, double number, const Allowed& allowed) {
   return fmt::format("{} is {:.7g}; allowed are {}", what, number, interval(allowed));
 }
@@ -45,11 +46,11 @@ std::string about_take(const SampleRow& row) {
     return fmt::format("the device did not take this sample, whose opacity is {:.7g}",
                        row.expected->opacity.value);
   }
-  return row.expected ? "the device took this sample out of its order"
+  return row.expected ? "the device took this sample out of order"
                       : "the device took a sample that the ray does not have";
 }
 
-// The sentence behind a row that differs.
+// The sentence after a row that differs.
 std::string difference(const SampleRow& row) {
   const Operation what = row.differs.value();
   if (what == Operation::take) return about_take(row);
@@ -105,7 +106,7 @@ std::string reference_line(const SampleRow& row) {
               expected.length.value, expected.opacity.value));
 }
 
-// Rows that need no line of their own: samples without opacity, and those that were left out
+// Rows that need no line of their own: samples without opacity, and samples that were skipped
 // because they have none.
 bool is_quiet(const SampleRow& row) {
   return !row.differs && (!row.taken || row.taken->opacity == 0);
@@ -117,7 +118,7 @@ std::string quiet_line(std::int64_t first, std::int64_t last, std::size_t taken,
       first == last ? std::to_string(first) : fmt::format("{}–{}", first, last);
   return fmt::format("{:>7} {}", which,
                      taken == count ? "without opacity"
-                     : taken == 0   ? "not taken, and nothing is missing"
+                     : taken == 0   ? "not taken, and none of them matters"
                                     : fmt::format("without opacity, {} of {} taken", taken, count));
 }
 
@@ -221,7 +222,7 @@ void add_sprite(const accuracy::SpriteHistory& history, std::size_t at, PixelTex
       surface("reference", expected.id, expected.depth, expected.colour,
               expected.certain ? fmt::format("depth within {:.3g}, colour within {:.3g}",
                                              expected.depth_bound, expected.colour_bound)
-                               : "its edge: a device may show it or not")));
+                               : "the sphere's edge: a device may show it or not")));
   if (first) text.marked = text.table.size();
   text.table.push_back(
       fmt::format("{:>8} {}", first ? "======>" : "",

@@ -18,14 +18,14 @@ using PixelColour = std::array<float, 4>;  // premultiplied RGBA
 struct PixelInImage {
   int x = 0;
   int y = 0;
-  PixelColour image{};                    // of the timed build
-  std::optional<PixelColour> recorded{};  // of the build that records what it does
+  PixelColour image{};                    // image of the timed build
+  std::optional<PixelColour> recorded{};  // of the build that records the samples
   PixelColour reference{};
   double bound = 0;        // of any channel
-  std::uint64_t lost = 0;  // records for which there was no room
+  std::uint64_t lost = 0;  // records that did not fit into the buffer
 };
 
-// The colours of the pixel, what differs first, and the table of its samples.
+// The colours of the pixel, the first difference, and the table of its samples.
 struct PixelText {
   std::vector<std::string> summary;
   std::vector<std::string> table;  // the heading is the first line
@@ -36,8 +36,8 @@ struct PixelText {
 [[nodiscard]] PixelText pixel_text(const PixelInImage& pixel,
                                    const accuracy::SpriteHistory& history);
 
-// The heading and at most `most` lines of the table around the marked one, with a line that names
-// what was left out.
+// The heading and at most `most` lines of the table around the marked one, with a line about the
+// lines that were left out.
 [[nodiscard]] std::vector<std::string> part_of_table(const PixelText& text, std::size_t most);
 
 }  // namespace triptych::report

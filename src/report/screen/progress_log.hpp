@@ -36,14 +36,14 @@ class ProgressLog {
  public:
   using Clock = std::chrono::steady_clock;
   struct Options {
-    std::size_t width = 0;                                // of the terminal; 0: a log
+    std::size_t width = 0;                                // width of the terminal; 0 for a log
     bool verbose = false;                                 // a line for each configuration
     std::function<Clock::time_point()> now = Clock::now;  // for tests
   };
   struct Step {
     std::string_view plan;
     std::string_view device;
-    int done = 0;  // of the plan, over all devices
+    int done = 0;  // progress of the plan, over all devices
     int total = 0;
     std::chrono::seconds left{0};
     const record::Record* record = nullptr;  // the configuration that was just done
@@ -78,7 +78,7 @@ class ProgressLog {
   SignsOfLife signs_;
   Clock::time_point last_;  // when the last configuration was done
   std::string plan_;
-  std::map<std::pair<std::string, std::string>, Tally> tallies_;  // by plan and device
+  std::map<std::pair<std::string, std::string>, Tally> tallies_;  // counts by plan and device
 };
 
 // "34 s", "12 min", "3 h": rounded up. For the time that is left.

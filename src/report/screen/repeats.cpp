@@ -27,10 +27,10 @@ std::string repeats_text(std::span<const judge::RepeatedCase> cases, std::size_t
                           each.verdicts.size());
     }
   }
-  return text + fmt::format(
-                    "{} repetitions of {} cases: {} fail in some of them only, {} have different "
-                    "images\n",
-                    repetitions, cases.size(), flaking, changing);
+  return text +
+         fmt::format(
+             "{} repetitions of {} cases: {} fail in only some of them, {} have different images\n",
+             repetitions, cases.size(), flaking, changing);
 }
 
 std::string repeats_json_lines(std::span<const judge::RepeatedCase> cases) {

@@ -1,5 +1,5 @@
 #pragma once
-// What `validate --repeat` says about its cases.
+// The results of `validate --repeat` for its cases.
 
 #include <cstddef>
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace triptych::report {
 
-// One line of text for each case that fails in some repetitions only, or whose image changes, and
-// a last line with the totals.
+// One line of text for each case that fails in only some repetitions, or whose image changes, and a
+// last line with the totals.
 [[nodiscard]] std::string repeats_text(std::span<const judge::RepeatedCase> cases,
                                        std::size_t repetitions);
 

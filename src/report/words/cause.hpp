@@ -16,13 +16,13 @@ namespace triptych::report::words {
 [[nodiscard]] std::string place(const Cause& cause);
 // The finding for the worst configuration, and the devices that are right.
 [[nodiscard]] std::string found(const Cause& cause);
-// The party at fault; empty if the other devices do not show it.
+// The component at fault; empty if the other devices do not show it.
 [[nodiscard]] std::string blame(const FindingGroup& group);
-// The finding, the party at fault and the advice.
+// The finding, the component at fault and the advice.
 [[nodiscard]] std::string text_of(const Cause& cause);
 
-// Two lines about what to do after a regression, with commands that apply to it; none if there is
-// no regression. `store_option` is " --store FILE", or empty for the default.
+// Two lines about the next steps after a regression, with suitable commands; none if there is no
+// regression. `store_option` is " --store FILE", or empty for the default.
 [[nodiscard]] std::vector<std::string> next_steps(const Overview& all,
                                                   std::string_view store_option);
 

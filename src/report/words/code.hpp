@@ -11,8 +11,8 @@ namespace triptych::report::words {
 // "occupancy 16 → 12 (VGPRs 84 → 100), inverse throughput 332 → 368 (+11 %)"; for several
 // executables each with its name.
 [[nodiscard]] std::string text_of(const judge::CodeComparison& comparison);
-// In the form that Mesa's developers use: "35678819 -> 35361617 (-0.89%); split: -0.91%, +0.02%;
-// helped: 2, hurt: 1; worst: CONFIGURATION (657 -> 660)".
+// The totals in the format of Mesa's shader-db: "35678819 -> 35361617 (-0.89%); split: -0.91%,
+// +0.02%; helped: 2, hurt: 1; worst: CONFIGURATION (657 -> 660)".
 [[nodiscard]] std::string text_of(const judge::CodeTotal& total);
 
 }  // namespace triptych::report::words

@@ -28,7 +28,7 @@ using comparison::TimeReason;
 using comparison::WallClockCause;
 using measure::Side;
 
-// "b crashed: …; a failed: …", with b first, because b is what is examined.
+// "b crashed: …; a failed: …", with b first, because b is the side under test.
 template <typename T>
 std::string by_side(const BySide<T>& sides, std::string_view between) {
   std::string text;
@@ -61,7 +61,7 @@ std::string all_changes(const Difference& difference) {
   return text;
 }
 
-// The values of a counter or statistic, whose name stands before them already.
+// The values of a counter or statistic, whose name precedes them already.
 std::string values(const Difference& difference) {
   const judge::Change& change = difference.changes.at(0);
   if (!change.before || !change.now) {

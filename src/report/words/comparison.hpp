@@ -22,18 +22,18 @@ namespace triptych::report::words {
 [[nodiscard]] std::string text_of(const comparison::DifferenceGroup& group);
 // One line for each group: "regression    cost: +1.2 % to +40 % in 27 configurations, …".
 [[nodiscard]] std::string lines_of(const std::vector<comparison::DifferenceGroup>& groups);
-// Why there is no verdict on a time; empty if there is one.
+// The reason why there is no verdict on a time; empty if there is one.
 [[nodiscard]] std::string text_of(const comparison::TimeReason& reason);
 [[nodiscard]] std::string text_of(comparison::WallClockCause cause);
 // "plan volume/quick: only a has it".
 [[nodiscard]] std::string text_of(const comparison::OnlyOne& only);
-// What is measured at the moment: "fresh process run 2 of 5".
+// The current measurement: "fresh process run 2 of 5".
 [[nodiscard]] std::string stage_of(const comparison::ComparisonProgress& progress);
 
 // For a comparison without differences because nothing was measured. `first` is the reason of the
 // first configuration.
 [[nodiscard]] std::string nothing_compared(const comparison::TimeReason& first);
-// The two sides in two lines, with what both have in common only once.
+// The two sides in two lines. Their common part appears only once.
 [[nodiscard]] std::string sides(const record::Device& a, const record::Device& b);
 // "FAIL: 18 slower, 3 same; 2 deterministic regressions, 0 fixed, 1 changed; 64 s"
 [[nodiscard]] std::string headline(const comparison::ComparisonResult& result);

@@ -33,7 +33,7 @@ std::string excuse(const Finding& finding) {
                  : fmt::format("known {}: ", judge::name_of(excuse.known));
     case Excuse::Of::unexpected:
       return finding.verdict == Verdict::improved
-                 ? fmt::format("passes, but it is expected as a {} ({}): ",
+                 ? fmt::format("passes, but the file of expectations lists it as a {} ({}): ",
                                judge::name_of(excuse.known), excuse.reason)
                  : "skipped, which is not expected: ";
     case Excuse::Of::expired:
@@ -139,7 +139,7 @@ std::string advice(const Finding& finding) {
     case Advice::count:
       return "count instructions, or leave cost out of --check";
     case Advice::judge_more:
-      return fmt::format("judge more checks, or accept what is new with {}", command);
+      return fmt::format("judge more checks, or accept the new values with {}", command);
     case Advice::more_time:
       return "give it more time with --limit";
     case Advice::times:

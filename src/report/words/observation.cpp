@@ -226,7 +226,7 @@ std::string sentence_of(const Observation& what) {
     case Cause::injected_memory:
       return "not compared, because an injected slowdown allocates memory itself";
     case Cause::other_executables:
-      return fmt::format("compiled in other parts than when it was accepted: {}",
+      return fmt::format("consists of other executables than when it was accepted: {}",
                          fmt::join(what.names, ", "));
     case Cause::other_disassembly:
       return fmt::format("the disassembly of {} changed, the statistics did not",
@@ -264,8 +264,10 @@ std::string sentence_of(const Observation& what) {
     case Cause::no_line:
       return no_line(what);
     case Cause::no_partner:
-      return fmt::format("its cost cannot be correlated: no other device's cost by {} is stored",
-                         what.fact("counted_by"));
+      return fmt::format(
+          "its cost cannot be correlated, because no cost of another device that was counted by {} "
+          "is stored",
+          what.fact("counted_by"));
     case Cause::error:
       return error(what);
     case Cause::unknown_error:

@@ -1,6 +1,6 @@
 #pragma once
-// English texts about how a configuration or a device ended, and about what a driver's statistics
-// are worth. All texts quote drivers, so they are of unknown origin.
+// English texts about how a configuration or a device ended, and about how exactly a driver counts
+// a statistic. All texts quote drivers, so they are of unknown origin.
 
 #include <string>
 

@@ -14,7 +14,7 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
   const bool in_tiles = tiles || rasterizer == SpriteRasterizer::in_tiles;
   switch (options.fault) {
     case ParticleFault::wrong_sense:
-      // tiles rejects whole spheres by their front, whatever the option says.
+      // tiles always rejects whole spheres by their front, whatever the option.
       if (tiles || options.conservative_depth) return std::nullopt;
       return "the fault wrong_sense needs conservative depth: without it nothing is rejected early";
     case ParticleFault::culled_visible:
@@ -26,7 +26,7 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
              "covers";
     case ParticleFault::missing_barrier:
       if (rasterizer == SpriteRasterizer::in_tiles) return std::nullopt;
-      return "the fault missing_barrier needs work groups that wait for each other: here none does";
+      return "the fault missing_barrier needs work groups with barriers, which are not used here";
     case ParticleFault::small_box:
       return "the fault small_box needs a hierarchy of boxes, which only rays have";
     case ParticleFault::none:
@@ -43,11 +43,11 @@ std::optional<std::string> fault_of_rays(ParticleFault fault) {
     case ParticleFault::small_sprite:
       return "the fault small_sprite needs sprites: rays need none";
     case ParticleFault::culled_visible:
-      return "the fault culled_visible needs culling: rays leave no cells out";
+      return "the fault culled_visible needs culling: rays do not cull cells";
     case ParticleFault::lost_at_border:
-      return "the fault lost_at_border needs tiles: rays put no sphere into any";
+      return "the fault lost_at_border needs tiles: rays do not use tiles";
     case ParticleFault::missing_barrier:
-      return "missing_barrier is a fault of work groups that wait for each other: here none does";
+      return "the fault missing_barrier needs work groups with barriers, which rays do not use";
     case ParticleFault::none:
     case ParticleFault::unresolved_ties:
     case ParticleFault::reversed_depth:
@@ -65,18 +65,18 @@ std::optional<std::string> option_reason(std::string_view id, const ParticleOpti
   const Technique& technique = technique::technique(id);
   if (options.ray == ComputedAt::vertex) {
     if (technique.vertices == Vertices::one) {
-      return fmt::format("a {} has one vertex: its rays are made per pixel", id);
+      return fmt::format("a {} has one vertex: its rays are computed per pixel", id);
     }
     if (technique.vertices == Vertices::none) {
-      return fmt::format("{} draws no vertices: rays are made per pixel", id);
+      return fmt::format("{} draws no vertices: rays are computed per pixel", id);
     }
   }
   if (technique.asks_corners && options.corners < 4) {
-    return fmt::format("polygons of {} corners; 4 is the least", options.corners);
+    return fmt::format("polygons have {} corners, but the minimum is 4", options.corners);
   }
   if (technique.method == Method::rays) return fault_of_rays(options.fault);
   if (options.structure != Structure::built_once) {
-    return fmt::format("{} has no hierarchy that could be built in every frame", id);
+    return fmt::format("{} uses no hierarchy, so none can be built in every frame", id);
   }
   return fault_of_sprites(technique, options, rasterizer);
 }

@@ -10,12 +10,13 @@
 
 namespace triptych::technique {
 
-// What finds the pixels of a sprite: the rasterizer of the API, or kernels that bin sprites into
-// tiles with work groups. The possible faults depend on that.
+// Determines the pixels of a sprite: either the rasterizer of the API, or kernels that bin sprites
+// into tiles with work groups. The possible faults depend on this.
 enum class SpriteRasterizer : std::uint8_t { of_the_api, in_tiles };
 
-// The reason why the technique (a name in the catalogue) does not have the part that these options
-// request or inject a fault into; empty if it has. The backends check the capabilities of a device.
+// The reason why the technique (a name in the catalogue) lacks the part that these options request
+// or inject a fault into; empty if it has the part. The backends check the capabilities of a
+// device.
 [[nodiscard]] std::optional<std::string> option_reason(std::string_view technique,
                                                        const ParticleOptions& options,
                                                        SpriteRasterizer rasterizer);

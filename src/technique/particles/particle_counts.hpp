@@ -38,7 +38,7 @@ inline constexpr std::size_t particle_counter_bytes =
 
 struct CountedFrame {
   Method method = Method::sprites;
-  // Without culling, all particles are submitted and nothing counts them.
+  // Without culling, all particles are submitted and the shaders do not count them.
   Culling culling = Culling::none;
   std::uint64_t cells = 0;
   std::uint64_t particles = 0;

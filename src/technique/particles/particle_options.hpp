@@ -1,12 +1,13 @@
 #pragma once
-// How particles may be drawn: the factors that do not determine the image.
+// Options for drawing particles: the factors that do not determine the image.
 
 #include <cstdint>
 #include <string_view>
 
 namespace triptych::technique {
 
-// Where something is computed that could be computed in the vertex stage or in the fragment stage.
+// The stage that computes something that both the vertex stage and the fragment stage could
+// compute.
 enum class ComputedAt : std::uint8_t { vertex, pixel };
 // Which cells are left out: none, those outside the view, or also those that are hidden.
 enum class Culling : std::uint8_t { none, frustum, occlusion };
@@ -30,9 +31,9 @@ enum class ParticleFault : std::uint8_t {
   reversed_depth = 3,   // of two depths the farther one is kept
   wrong_sense = 4,      // early rejection takes the sphere's back for its front; the shader
                         // promises the opposite of what conservative depth does
-  culled_visible = 5,   // the view is taken to be half as wide as it is
+  culled_visible = 5,   // the view is assumed to be half as wide as it is
   lost_at_border = 6,   // a particle is not put into the last tile that it reaches
-  missing_barrier = 7,  // a work group does not wait for what it shares
+  missing_barrier = 7,  // a work group does not wait for data that its invocations share
   small_box = 8         // the box around a sphere is made for half its radius
 };
 

@@ -19,7 +19,7 @@ struct Need {
   double entries = 0;  // entries of large spheres, one for each tile
   std::uint64_t large = 0;
   bool small = false;  // whether one may be small
-  // Of the invocation with most, over pixels of small and tiles of large spheres.
+  // The largest number of any invocation, over pixels of small spheres and tiles of large spheres.
   double passes = 0;
 
   void add(const Need& more) {
@@ -144,8 +144,8 @@ std::optional<std::string> passes_reason(const TileRounds& rounds) {
   constexpr std::uint64_t most = 65'000;
   if (rounds.passes <= most) return std::nullopt;
   return fmt::format(
-      "tiles would make {} passes through a loop, as spheres cover so many of its tiles, and some "
-      "drivers end loops of so many: take a smaller viewport, or another technique",
+      "tiles would need {} iterations of a loop, because spheres cover so many of its tiles, and "
+      "some drivers end such long loops early: use a smaller viewport or another technique",
       rounds.passes);
 }
 

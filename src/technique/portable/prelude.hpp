@@ -1,6 +1,6 @@
 #pragma once
-// What volume_math.h needs to be C++: for use on the host, and for testing the same vectors with
-// which the shading languages are tested.
+// The definitions that volume_math.h needs to compile as C++: for use on the host, and for testing
+// it with the same vectors as in the shading languages.
 
 #include <bit>
 #include <cmath>

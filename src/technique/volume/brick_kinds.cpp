@@ -183,9 +183,12 @@ std::optional<std::string> adapt_reason(std::string_view technique, const scene:
     return fmt::format("{} takes every sample of the lattice, but adapt merges some", technique);
   }
   if (scene.quadrature != scene::Quadrature::midpoint) {
-    return "adapt merges samples of the midpoint rule: other quadratures have none in the middle";
+    return "adapt merges samples of quadrature midpoint: other quadratures have no sample in the "
+           "middle of a step";
   }
-  if (options.skip == Skip::none) return "adapt merges samples by bricks, and skip none has none";
+  if (options.skip == Skip::none) {
+    return "adapt merges samples by bricks, but skip none has no bricks";
+  }
   if (options.skip == Skip::distance) {
     return "adapt needs skip bricks: leaps cross cubes of bricks whose values differ from one to "
            "the next";

@@ -12,7 +12,7 @@
 
 namespace triptych::technique {
 
-// What a ray does in a brick. The kernels use the same numbers.
+// The action of a ray in a brick. The kernels use the same numbers.
 enum class BrickKind : std::int32_t {
   invisible = 0,  // skips the brick
   sampled = 1,    // takes the samples of the lattice

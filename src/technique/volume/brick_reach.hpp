@@ -1,5 +1,5 @@
 #pragma once
-// How far a ray may leap from a brick without looking at the next one.
+// The distance that a ray may leap from a brick without looking at the next one.
 
 #include <array>
 #include <cstdint>

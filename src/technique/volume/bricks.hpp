@@ -11,7 +11,7 @@
 
 namespace triptych::technique {
 
-// How a volume is divided into bricks, in voxels.
+// The division of a volume into bricks, in voxels.
 struct BrickLayout {
   int edge = 8;
   int border = 1;  // voxels beyond the brick that samples inside it may read

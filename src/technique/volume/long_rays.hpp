@@ -9,9 +9,10 @@
 
 namespace triptych::technique {
 
-// A ray crosses at most as many planes of voxels as all axes have. It makes one pass for each cell
-// and for each piece of one: its parts, and one more for a kink or an extremum. Half of all passes
-// are reserved for cells with more of them. `more` is the number of passes of loops within a piece.
+// A ray crosses at most as many planes of voxels as all axes have together. It needs one iteration
+// for each cell and for each piece of a cell: its parts, and one more for a kink or an extremum.
+// Half of all iterations are reserved for cells with more pieces. `more` is the number of loop
+// iterations within a piece.
 inline constexpr std::int64_t most_cell_passes = 32'768;
 [[nodiscard]] inline std::int64_t cell_passes(const scene::VolumeScene& scene, int more) {
   const auto [nx, ny, nz] = scene.grid->size;
@@ -45,7 +46,7 @@ inline constexpr std::int64_t most_cell_passes = 32'768;
 // The reason why shaders cannot draw such rays in parts of a volume: their loop takes one sample
 // per pass.
 inline constexpr std::string_view long_rays_in_parts =
-    "in parts of a volume a ray may take only so many samples as some drivers let a loop make "
-    "passes: take a longer step";
+    "a ray through a volume in parts may not need more samples than the number of loop iterations "
+    "that some drivers allow: use a longer step";
 
 }  // namespace triptych::technique

@@ -65,8 +65,8 @@ std::optional<std::string> why_whole_only(std::string_view technique,
 
 bool is_read(const Part& part, const scene::VolumeScene& scene, const RaycastOptions& options,
              std::span<const std::int32_t> map) {
-  // Walking through bricks may take a last sample behind the exit for a visible brick; leaps do
-  // not.
+  // With steps from brick to brick, a ray may take a last sample behind its exit for a visible
+  // brick; leaps do not.
   if (options.skip != Skip::distance) return true;
   const BrickLayout layout = brick_layout(scene, options.skip, options.adapt);
   const auto counts = brick_counts(scene.grid->size, layout);
@@ -113,7 +113,7 @@ Cut cut_into_parts(std::string_view technique, const scene::VolumeScene& scene,
   const int cells = cells_of(scene);
   if (layers.whole <= room.bytes) return {};
   const std::string too_large =
-      fmt::format("the volume takes {} bytes, {} is {}", layers.whole, room.limit, room.bytes);
+      fmt::format("the volume takes {} bytes, but {} is {}", layers.whole, room.limit, room.bytes);
   if (const auto reason = why_whole_only(technique, options)) {
     return {.parts = {}, .reason = too_large + "; " + *reason};
   }

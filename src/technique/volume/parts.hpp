@@ -23,7 +23,7 @@ namespace triptych::technique {
 struct Part {
   int begin = 0;  // a pass takes the samples in these cells
   int end = 0;
-  int first_held = 0;  // range of cells on the device, which these samples may read
+  int first_held = 0;  // range of cells on the device, which the samples may read
   int end_held = 0;
 
   [[nodiscard]] int held() const noexcept { return end_held - first_held; }
@@ -60,7 +60,8 @@ struct Room {
 
 struct Cut {
   std::vector<Part> parts;  // in the order of their passes; empty if the whole volume fits
-  std::optional<std::string> reason;  // why it can be drawn neither as a whole nor in parts
+  // The reason why it can be drawn neither as a whole nor in parts.
+  std::optional<std::string> reason;
 };
 // A part contains additional cells beyond those of its samples: one for rounding, with shading one
 // for gradients, and as many as a preintegrated step may be long. The first part takes the samples

@@ -23,7 +23,7 @@ inline constexpr std::size_t ray_trace_record_words = 16;
 // Two words before the records, and two after them, because uploads are multiples of 16 bytes.
 inline constexpr std::size_t ray_trace_words = 4 + ray_trace_records * ray_trace_record_words;
 
-// What a record describes.
+// The contents of a record.
 enum class TracedKind : std::uint8_t {
   sample = 1,  // one sample; or a run of samples that were merged into one
   step = 2     // a step of quadrature preintegrated, or a part of one

@@ -17,7 +17,7 @@ struct RaycastBuffers {
   std::uint64_t picture = 0;   // including the output of injected work (extra_work.hpp)
   std::uint64_t counters = 0;  // for the frame that counts
   std::uint64_t bricks = 0;    // one word for each brick; exists even if nothing is skipped
-  std::uint64_t table = 0;     // of the quadrature (quadrature_table.hpp)
+  std::uint64_t table = 0;     // table of the quadrature (quadrature_table.hpp)
   std::uint64_t pauses = 0;    // state of rays, if the volume is drawn in parts (parts.hpp)
 
   [[nodiscard]] std::uint64_t all() const { return picture + counters + bricks + table + pauses; }

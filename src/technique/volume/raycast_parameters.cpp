@@ -87,8 +87,8 @@ std::optional<std::string> cells_reason(const scene::VolumeScene& scene,
   }
   if (cell_passes(scene, 0) <= most_cell_passes) return std::nullopt;
   return fmt::format(
-      "quadrature cells would cut a ray into {} pieces, and some drivers end loops of so many "
-      "passes: take a longer step",
+      "quadrature cells would cut a ray into {} pieces, and some drivers end such long loops "
+      "early: use a longer step",
       cell_passes(scene, 0));
 }
 
@@ -98,7 +98,8 @@ std::optional<std::string> count_reason(const scene::VolumeScene& scene) {
   const double samples = most_samples(scene);
   if (samples < 1 << 30) return std::nullopt;
   return fmt::format(
-      "rays would take up to {:.2g} samples, devices count to 2³⁰: take a longer step", samples);
+      "rays would take up to {:.2g} samples, but devices count only to 2³⁰: use a longer step",
+      samples);
 }
 
 }  // namespace

@@ -97,7 +97,8 @@ static_assert(offsetof(BasicRaycastParameters<double>, volume_size) == std::size
 // have errors of voxels, while those of a point on the plane are as exact as the box's own. 0: rays
 // begin at the eye.
 [[nodiscard]] double ray_plane(const scene::VolumeScene& scene);
-// In diagonals of the box. For a closer eye the error is less than 1e-4 of the box's size.
+// The distance from which on rays begin on that plane, in diagonals of the box. For a closer eye
+// the error is less than 1e-4 of the box's size.
 inline constexpr double far_in_diagonals = 16;
 
 // The bytes of the parameters in the options' precision. The stored integer of a u8 or u16 grid

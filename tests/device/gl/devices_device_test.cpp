@@ -1,4 +1,4 @@
-// Listing and opening devices, and what a device reports about itself.
+// Listing and opening devices, and the properties that a device reports.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -157,7 +157,7 @@ TEST(GlDevices, CountersAndBrickMapsFitAStorageBlock) {
       if (most < 0x1p27) {
         EXPECT_THAT(reason, AllOf(HasSubstr("brick map"), HasSubstr(limit)));
       } else {
-        EXPECT_EQ(reason, "");  // with bricks of more cells
+        EXPECT_EQ(reason, "");  // here bricks have more cells
       }
       EXPECT_FALSE(
           device.unsupported(make_work("raycast", scene, {.skip = technique::Skip::bricks})));

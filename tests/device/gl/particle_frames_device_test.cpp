@@ -1,4 +1,4 @@
-// What frames of particles count, how long they take, and what is refused.
+// The counts and times of particle frames, and the frames that are refused.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -166,7 +166,7 @@ std::uint64_t invocations(measure::Device& device, const scene::ParticleScene& s
 struct InOnePlace {
   double radius;
   std::size_t spheres;
-  std::uint64_t tiles;  // that each of them may reach
+  std::uint64_t tiles;  // the number of tiles that each of them may reach
   bool at_once;
 };
 

@@ -17,7 +17,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-// Sources, with the suffix that tells the compiler their stage.
+// Sources, with the suffix from which the compiler recognizes their stage.
 using Sources = std::set<std::pair<std::string, std::string>>;
 
 std::string suffix_of(GLint type) {

@@ -1,4 +1,4 @@
-// Listing and opening devices, and what a device reports about itself.
+// Listing and opening devices, and the properties that a device reports.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

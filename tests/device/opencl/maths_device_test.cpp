@@ -1,4 +1,4 @@
-// The portable maths has the same results as OpenCL C and as C++.
+// The portable maths gives the same results in OpenCL C and in C++.
 #include <algorithm>
 #include <bit>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// What a frame returns besides its image: times, counters, pipeline statistics.
+// The results of a frame besides its image: times, counters, pipeline statistics.
 #include <gmock/gmock.h>
 
 #include <cstdint>

@@ -1,5 +1,4 @@
-// What happens on a device with smaller limits: the limits of the devices of this machine are
-// lowered.
+// Devices with smaller limits: the limits of this machine's devices are lowered.
 #include <gmock/gmock.h>
 
 #include <algorithm>

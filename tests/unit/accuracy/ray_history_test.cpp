@@ -30,7 +30,7 @@ ExpectedRay four_samples() {
   return ray;
 }
 
-// What a device without faults records.
+// The record of a device without faults.
 std::vector<TakenSample> taken_from(const ExpectedRay& ray) {
   std::vector<TakenSample> samples;
   TakenSample sample{.transmittance = 1};
@@ -84,7 +84,8 @@ TEST(RayHistory, TellsALeftOutSampleFromOneWithoutOpacity) {
   ExpectedRay ray = four_samples();
   std::vector<TakenSample> taken = taken_from(ray);
   taken.erase(taken.begin() + 1);
-  // What follows is consistent with itself, because compositing starts from the recorded light.
+  // The following samples are consistent with it, because compositing starts from the recorded
+  // light.
   RayHistory history = compare(ray, taken);
   EXPECT_EQ(history.first, 1);
   EXPECT_EQ(history.rows[1].differs, Operation::take);

@@ -268,7 +268,7 @@ TEST(Confirm, WhatOneProcessRunAloneSaidIsTakenBack) {
             PairVerdict::undecided);
 }
 
-// A configuration that is no suspect is no hypothesis: nothing can be said about it any more.
+// A configuration that is not a suspect is not tested any more, so nothing can be said about it.
 TEST(Confirm, CountsTheSuspectsAsHypotheses) {
   std::vector<Suspect> suspects{{{0.0135, 0.0175, 0.0095, 0.0155, 0.0115}, true}};
   EXPECT_EQ(confirm(suspects, 0.05, SequentialDesign::standard())[0].verdict, PairVerdict::slower);

@@ -1,4 +1,4 @@
-// A child does the worst that a driver can do.
+// A child process behaves like the worst possible driver.
 #include "backends/gl/isolate.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-// A run that has less than it set out to measure, a machine that lost a device, a plan that lost a
-// check.
+// A run that has less than it planned to measure, a machine that lost a device, and a plan that
+// lost a check.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
@@ -138,8 +138,8 @@ TEST_F(AsBegunTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
   EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
 }
 
-// A machine of another kind: it has no driver version that was accepted, or the run asked for some
-// devices only.
+// A machine of another kind: it has none of the accepted driver versions, or the run requested only
+// some devices.
 TEST_F(AsBegunTest, OtherMachinesLackNothing) {
   accept_begun();
   const record::Beginning asked{
@@ -171,7 +171,8 @@ TEST_F(AsBegunTest, AListingThatEndedCannotBeJudgedAndIsShown) {
                        .found = all_devices,
                        .devices = all_devices,
                        .unusable = {crashed}});
-  EXPECT_EQ(gate("others").exit_code(), core::ExitCode::pass);  // no Vulkan device was asked for
+  // The run requested no Vulkan device.
+  EXPECT_EQ(gate("others").exit_code(), core::ExitCode::pass);
 }
 
 TEST_F(AsBegunTest, APlanThatLostAcceptedChecksCannotBeJudged) {

@@ -45,7 +45,8 @@ class BaselinesTest : public JudgeTest {
 
 TEST_F(BaselinesTest, AsAcceptedTheyPass) {
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
-  EXPECT_GE(names().size(), 4U + 2 + 3 + 3 + 2);  // of plans, images, cost, times, statistics
+  // The folders for plans, images, cost, times and statistics.
+  EXPECT_GE(names().size(), 4U + 2 + 3 + 3 + 2);
 }
 
 TEST_F(BaselinesTest, EveryFileThatIsGoneIsNamed) {
@@ -68,7 +69,7 @@ TEST_F(BaselinesTest, EveryFileThatIsEmptiedIsNamed) {
 
 TEST_F(BaselinesTest, AFileThatWasNotAcceptedIsNamed) {
   core::write_file(std::string_view("{}"), baseline("timings/other.json"));
-  EXPECT_THAT(verdict(), HasSubstr("timings/other.json is none of its files"));
+  EXPECT_THAT(verdict(), HasSubstr("timings/other.json is not one of its files"));
 }
 
 TEST_F(BaselinesTest, WithoutAManifestNothingIsJudged) {
@@ -84,7 +85,7 @@ TEST_F(BaselinesTest, ABrokenManifestIsNamedWithItsLine) {
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
 }
 
-// What a careless merge leaves, even if its checksum was corrected.
+// The result of a careless merge, even if its checksum was corrected.
 TEST_F(BaselinesTest, AWrongValueIsAnErrorWithItsLine) {
   rewrite("counters.json", "{\n \"x\": {\n  \"samples\": {\"gl:a\": \"many\"}}}\n");
   try {
@@ -102,7 +103,7 @@ TEST_F(BaselinesTest, APictureIsStillJudgedWithoutThem) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
 }
 
-// The ones of this repository, which a careless merge of two branches could damage.
+// The baselines of this repository, which a careless merge of two branches could damage.
 TEST(OurBaselines, AreWhole) {
   const std::filesystem::path root = std::filesystem::path(TRIPTYCH_SOURCE_FOLDER) / "baselines";
   int plans = 0;
@@ -115,7 +116,7 @@ TEST(OurBaselines, AreWhole) {
   EXPECT_GE(plans, 10);
 }
 
-// A number that is none, or infinite, would let any error pass.
+// NaN or an infinite number would allow any error.
 TEST_F(BaselinesTest, NumbersThatAreNoneAreRefused) {
   for (const char* number : {"NaN", "nan", "1e999", "-1", "null", "\"0.1\""}) {
     rewrite("accuracy.json", fmt::format(R"({{"{}": {{"gl:x": {{"rmse": {}, "arithmetic": 0}}}}}})",

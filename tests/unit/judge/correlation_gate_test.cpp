@@ -1,4 +1,4 @@
-// What the correlation finds about injected slowdowns, and what it does not report.
+// The findings of the correlation about injected slowdowns, and changes that it must not report.
 
 #include <gmock/gmock.h>
 
@@ -130,7 +130,7 @@ TEST(AcceptedDevices, WhatBothChangedAlikeLeavesTheResidual) {
   EXPECT_TRUE(named(world.judge()).empty()) << text(world.judge());
 }
 
-// If a run has only one device, it is compared with the stored costs of others.
+// If a run has only one device, that device is compared with the stored costs of others.
 TEST(AcceptedDevices, OneAloneIsHeldAgainstWhatIsStored) {
   CorrelationWorld world(8);
   world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.01));

@@ -1,4 +1,4 @@
-// The line of one device against another, and when it can tell something.
+// The line of one device against another, and the conditions under which it is meaningful.
 
 #include <gmock/gmock.h>
 

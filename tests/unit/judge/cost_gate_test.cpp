@@ -1,4 +1,4 @@
-// What the gate finds about instructions per frame.
+// The findings of the gate about instructions per frame.
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// What the gate finds about images.
+// The findings of the gate about images.
 
 #include <gmock/gmock.h>
 

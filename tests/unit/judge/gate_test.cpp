@@ -1,4 +1,4 @@
-// What the gate finds about counters and statistics, and the verdict on the whole.
+// The findings of the gate about counters and statistics, and the verdict on the whole run.
 
 #include <gmock/gmock.h>
 
@@ -234,7 +234,7 @@ TEST(GateResultTest, Precedence) {
   EXPECT_EQ(code({waived}), ExitCode::pass);
 }
 
-// A decision about one device says nothing about another.
+// A verdict about one device says nothing about another.
 TEST(GateResultTest, EveryDeviceNeedsADecision) {
   GateResult result{.devices = {"gl:a", "vulkan:b"}};
   Finding passed;
@@ -262,7 +262,8 @@ TEST(GateResultTest, NamesReadBack) {
   EXPECT_THROW((void)check("colour"), core::InputError);
 }
 
-// A file was replaced under the same name. That is no regression of the driver, and never a pass.
+// A file was replaced under the same name. This is not a regression of the driver, and never a
+// pass.
 TEST_F(GateTest, OtherDataUnderTheSameNameIsNamed) {
   const auto with_data = [](const std::string& hash) {
     return [hash](record::Record& record, core::Image&) { record.data_hash = hash; };

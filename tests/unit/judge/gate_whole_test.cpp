@@ -1,4 +1,4 @@
-// What the gate finds about runs and baselines that are not complete.
+// The findings of the gate about incomplete runs and baselines.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// What the gate finds about bytes allocated on a device.
+// The findings of the gate about bytes allocated on a device.
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// What the gate finds about times: they are shown, and decide on request.
+// The findings of the gate about times: they are shown, and affect the verdict only on request.
 
 #include <gmock/gmock.h>
 

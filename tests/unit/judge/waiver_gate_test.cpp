@@ -1,4 +1,4 @@
-// What excuses a finding, and until when.
+// Which findings are excused, and until when.
 
 #include <gmock/gmock.h>
 

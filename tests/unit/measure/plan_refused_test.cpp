@@ -112,7 +112,7 @@ TEST_F(PlanTest, WhatIsNoPlan) {
   EXPECT_THAT(refusal(""), HasSubstr("empty"));
   EXPECT_THAT(refusal("# nothing\n"), HasSubstr("empty"));
   EXPECT_THAT(refusal("- suite\n"), StartsWith(at(1, 1)));
-  EXPECT_THAT(refusal("suite: fake\n---\nsuite: fake\n"), HasSubstr("second document"));
+  EXPECT_THAT(refusal("suite: fake\n---\nsuite: fake\n"), HasSubstr("second YAML document"));
   EXPECT_THAT(refusal("suite: fake\nstep: [0.5\n"), HasSubstr("not valid YAML"));
   EXPECT_THAT(refusal("suite: fake\nname: x\n"), HasSubstr("unknown factor 'name'"));
 }

@@ -157,7 +157,7 @@ TEST_F(PlantedCache, AFolderOfAnotherUserIsRefused) {
 
 TEST_F(PlantedCache, APlaceInWhichOthersCanRenameIsRefused) {
   ASSERT_EQ(::chmod(scratch_.path().c_str(), 0777), 0);
-  EXPECT_THAT(refusal(), testing::HasSubstr("not sticky"));
+  EXPECT_THAT(refusal(), testing::HasSubstr("no sticky bit"));
   ASSERT_EQ(::chmod(scratch_.path().c_str(), 01777), 0);
   EXPECT_THAT(refusal(), StartsWith("used: "));
 }

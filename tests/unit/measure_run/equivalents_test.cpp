@@ -1,4 +1,4 @@
-// What counts as the same work, and what runs do with it.
+// Which configurations do the same work, and how runs use this.
 
 #include "measure/contract/equivalents.hpp"
 

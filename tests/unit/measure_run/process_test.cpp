@@ -119,7 +119,7 @@ TEST(Process, WhatItLeftBehindDiesWhereItEndsByItself) {
   EXPECT_TRUE(dies(daemon));
 }
 
-// While two processes are running, nobody can tell whose daemon it is, so neither loses one that it
+// While two processes are running, it is not known whose daemon it is, so neither loses one that it
 // may need.
 TEST(Process, WhatWasLeftBehindDiesWithTheLastAndHarmsNoOther) {
   pid_t daemon = 0;

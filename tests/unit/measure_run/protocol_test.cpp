@@ -161,7 +161,7 @@ TEST(Protocol, ATrustedClockThatLeavesOutTheWorkOfThisConfigurationIsNotBelieved
 }
 
 TEST(Protocol, AnErrorOfAFrameComesOutAsItWas) {
-  // During warm-up, a timed frame, the frame for the counters.
+  // The frames are one during warm-up, a timed one, and the one for the counters.
   for (const int failing : {2, 7, 13}) {
     ScriptedPrepared prepared([=](int n) {
       if (n == failing) throw core::ApiError("vkQueueSubmit", "VK_ERROR_UNKNOWN");

@@ -17,7 +17,7 @@
 
 namespace triptych::measure {
 
-// How long a wait for a hang lasts. What does not hang has to answer within this time.
+// The time limit in tests with a hang. All other workers have to answer within this time.
 inline constexpr std::chrono::seconds hang_limit{MEASURE_RUN_PATIENCE};
 
 class RunTest : public testing::Test {

@@ -1,4 +1,4 @@
-// What shows whether a reference image belongs to the present scene.
+// The keys that show whether a reference image belongs to the current scene.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Do the hostile scenes show what they are meant to test? Their reference images are compared with
-// closed forms, and with the data from which they were made.
+// Tests that the hostile scenes show what they are meant to test. Their reference images are
+// compared with closed forms, and with the data from which they were made.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Merges for which there is no space on the disk: none looks complete.
+// Merges for which the disk has no space: no incomplete store looks complete.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

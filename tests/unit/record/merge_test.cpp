@@ -192,7 +192,8 @@ TEST_F(Merge, OfTwoRecordsOneThatWasMeasuredIsKept) {
   EXPECT_EQ(merged_records().at(0).outcome, Outcome::measured);
 }
 
-// An injected fault is not what the device does, whether it was measured or not.
+// A record with an injected fault does not show the behaviour of the device, whether it was
+// measured or not.
 TEST_F(Merge, OneWithoutAnInjectedFaultIsKept) {
   const auto clean = [](Record record) {
     record.injected = "";
@@ -219,8 +220,9 @@ TEST_F(Merge, OtherTextOfAPlanIsRefused) {
   record::Run run = sample_run("run-002");
   run.plan_hash = "another";
   Store(files[1], Mode::append).add_run(run);
-  expect_refused(files, AllOf(HasSubstr("shard-2.sqlite: measured another text of plan fake/quick"),
-                              HasSubstr("shard-1.sqlite"), HasSubstr("measure the others again")));
+  expect_refused(files,
+                 AllOf(HasSubstr("shard-2.sqlite: measured another version of plan fake/quick"),
+                       HasSubstr("shard-1.sqlite"), HasSubstr("measure the others again")));
   run.plan_hash = "text";
   run.checks = {Check::timing};
   Store(files[1], Mode::append).add_run(run);
@@ -231,8 +233,8 @@ TEST_F(Merge, AnotherDriverUnderOneDeviceIsRefused) {
   Device newer = sample_device();
   newer.driver_version = "2.0";
   expect_refused({shard(1, {record_of(1)}), shard(2, {record_of(2)}, newer)},
-                 AllOf(HasSubstr("shard-2.sqlite: null:scripted is not the one of"),
-                       HasSubstr("driver 2.0"), HasSubstr("by themselves")));
+                 AllOf(HasSubstr("shard-2.sqlite: null:scripted differs from that of"),
+                       HasSubstr("driver 2.0"), HasSubstr("separately")));
 }
 
 TEST_F(Merge, OtherDataUnderOneNameAreRefused) {
@@ -240,10 +242,10 @@ TEST_F(Merge, OtherDataUnderOneNameAreRefused) {
   other.data_hash = "other";
   const fs::path first = shard(1, {record_of(1)});
   expect_refused({first, shard(2, {other})},
-                 AllOf(HasSubstr("shard-2.sqlite: measured other data under one name"),
+                 AllOf(HasSubstr("shard-2.sqlite: measured other data under the same name"),
                        HasSubstr("data=b"), HasSubstr("content hash other"), HasSubstr("4567")));
   other.configuration = configuration(1);
-  expect_refused({first, shard(3, {other})}, HasSubstr("measured other data under one name"));
+  expect_refused({first, shard(3, {other})}, HasSubstr("measured other data under the same name"));
 }
 
 TEST_F(Merge, FactorsThatChangeTheVoxelsTellContentsApart) {
@@ -270,11 +272,11 @@ TEST_F(Merge, WhatIsThereIsNeverReplaced) {
   const Files files{shard(1, {record_of(1)}), shard(2, {record_of(2)})};
   const auto before = core::read_file(files[0]);
   EXPECT_THAT([&] { static_cast<void>(merge(files, "shard-1.sqlite")); },
-              ThrowsMessage<core::InputError>(HasSubstr("is there already")));
+              ThrowsMessage<core::InputError>(HasSubstr("exists already")));
   EXPECT_EQ(core::read_file(files[0]), before);
   core::write_file("a log", folder_ / "gone-wal");
   EXPECT_THAT([&] { static_cast<void>(merge(files, "gone")); },
-              ThrowsMessage<core::InputError>(HasSubstr("log of a store that is gone")));
+              ThrowsMessage<core::InputError>(HasSubstr("log of a store that no longer exists")));
 }
 
 TEST_F(Merge, TheLatestRunOfEachPlanCounts) {
@@ -310,7 +312,7 @@ TEST_F(Merge, NamesWhatAShardLacks) {
   EXPECT_EQ(gaps[0].configurations, 2U);
 }
 
-// The merged run must contain what each part was to measure.
+// The merged run must contain the planned configurations of each part.
 TEST_F(Merge, NamesWhatWasNeverBegun) {
   const fs::path file = shard(1, {record_of(1)});
   {

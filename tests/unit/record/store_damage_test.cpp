@@ -39,7 +39,7 @@ class StoreDamage : public StoreTest {
     ASSERT_GT(database.exec(sql), 0) << sql << " changes nothing";
   }
 
-  // What gate, accept and report read from it.
+  // The data that gate, accept and report read from it.
   void read_all() const {
     const Store store(file_, Mode::read);
     store.require_whole();

@@ -1,4 +1,4 @@
-// What can go wrong with a store: other files, access rights, other processes, kills, full disks.
+// Failures of a store: other files, access rights, other processes, kills, full disks.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fcntl.h>

@@ -98,7 +98,7 @@ TEST(Pdb, FramesWithoutModelsEndWithEnd) {
 TEST(Pdb, RefusesBrokenFiles) {
   expect_refused("a.pdb", replaced(pdb, "12.784", "12.x84"),
                  ":3:", "y in columns 39 to 46: expected a number, found '12.x84'");
-  expect_refused("a.pdb", pdb.substr(0, 190), ":3:", "expected an atom with its place");
+  expect_refused("a.pdb", pdb.substr(0, 190), ":3:", "expected an atom with its position");
   expect_refused("a.pdb", replaced(pdb, "END\n", ""), ":5:", "END was expected");
   expect_refused("a.pdb", "REMARK\n", ":1:", "found none");
   const std::string atom = "ATOM      1  CA  THR A   1       1.000   2.000   3.000\n";
@@ -206,7 +206,7 @@ TEST(Gro, RefusesBrokenFiles) {
   expect_refused("a.gro", replaced(gro, " 4\n", " 4294967295\n"),
                  ":2:", "too many; at most 4294967294");
   expect_refused("a.gro", replaced(gro, "-2.000", "-2.0o0"), ":4:", "y: expected a number");
-  expect_refused("a.gro", gro.substr(0, 90), ":4:", "expected an atom with its place");
+  expect_refused("a.gro", gro.substr(0, 90), ":4:", "expected an atom with its position");
   expect_refused("a.gro", gro.substr(0, gro.size() - 31), ":6:", "the box was expected");
   expect_refused("a.gro", "Title\n", ":1:", "where the number of atoms was expected");
 }
@@ -244,7 +244,7 @@ TEST(Xyz, TakesColumnsFromProperties) {
               ElementsAre(Sphere{1, 2, 3, 1.52F}));
 
   expect_refused("a.xyz", with("Properties=" + list + ":mass:R:1"),
-                 ":3:", "expected 7 columns, as Properties says, found 6");
+                 ":3:", "expected 7 columns, as Properties states, found 6");
   expect_refused("a.xyz", with("Properties=id:I:1:pos:R:3"),
                  ":2:", "expected Properties with species or Z (1 column) and pos (3)");
   expect_refused("a.xyz", with("Properties=species:S:1:pos:R:2"), ":2:", "and pos (3)");

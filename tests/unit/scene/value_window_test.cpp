@@ -174,7 +174,7 @@ TEST(LosslessFormat, IsThatOfTheIntegersUnlessAMappingChangesThem) {
   EXPECT_EQ(lossless_format(mapped(volume, "full", Mapping::logarithmic)), VoxelFormat::f32);
 }
 
-// What a window is for where storage is short: the steps of the format span it alone.
+// A window helps formats with few steps: all steps of the format lie within it.
 TEST(LosslessFormat, IntegersThatAreClampedAreRoundedToStepsOfTheWindow) {
   std::vector<std::uint16_t> values;
   for (int v = 0; v < 2000; ++v) values.push_back(static_cast<std::uint16_t>(v));

@@ -55,7 +55,8 @@ TEST(LoadVolume, TellsAbsentFromUnknown) {
                   testing::AllOf(HasSubstr("none.nrrd"), HasSubstr(folder.path().string()))));
   folder.write("a.tiff", "x");
   EXPECT_THAT([&] { (void)load_volume("a.tiff", {folder.path()}); },
-              ThrowsMessage<core::InputError>(HasSubstr("the nearest format that is read is .raw and its size")));
+              ThrowsMessage<core::InputError>(
+                  HasSubstr("the nearest supported format is .raw and its size")));
 }
 
 TEST(LoadVolume, KnowsFilesByTheirEnding) {

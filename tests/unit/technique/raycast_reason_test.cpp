@@ -24,7 +24,7 @@ TEST(RaycastReason, SamplesAreCountedInIntegersOfADevice) {
   EXPECT_FALSE(raycast_reason("raycast", scene_of(1e-8), {}));
   scene::VolumeScene scene = scene_of(1e-10);
   EXPECT_THAT(raycast_reason("raycast", scene, {}).value_or(""),
-              HasSubstr("1.4e+10 samples, devices count to 2³⁰: take a longer step"));
+              HasSubstr("1.4e+10 samples, but devices count only to 2³⁰: use a longer step"));
   scene.step_voxels = 4096;
   EXPECT_FALSE(raycast_reason("raycast", scene, {}));
 }

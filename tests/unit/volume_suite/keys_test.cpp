@@ -1,4 +1,4 @@
-// What shows whether a reference image belongs to the present scene.
+// The keys that show whether a reference image belongs to the current scene.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ TEST(Keys, SayNothingOfTablesThatCannotChange) {
   }
 }
 
-// What was stored before windows existed must still be found.
+// Entries that were stored before windows existed must still be found.
 TEST(Keys, NameAWindowAndAMappingOnlyWhereThereIsOne) {
   const auto suite = make_suite({});
   measure::Configuration configuration = configuration_of(*suite, "haze");

@@ -151,7 +151,7 @@ class RandomWords : public GateTest {
     return json;
   }
 
-  // What compare and diff decide about this run and a right one. There is no suite, so the
+  // The verdicts of compare and diff about this run and a correct one. There is no suite, so the
   // reference images are missing for a reason that is a text.
   std::string differences(const std::string& run, Words* words) {
     const std::string unknown = words ? (*words)() : "no such suite";
