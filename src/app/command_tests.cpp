@@ -1,5 +1,5 @@
-// What CTest needs: the list of tests, which is made when tests are run by asking which devices
-// this machine has, and the command of each test.
+// The commands for CTest: the list of tests, which is created when tests are run by listing the
+// devices of this machine, and the command of each test.
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
-// What is counted is what is timed: compares the counters, which come from a build of their own,
-// with what the image of the timed build shows about its samples, and the images of both builds
-// with each other.
+// The counting build does the same work as the timed build: compares the counters with what the
+// image of the timed build shows about its samples, and the images of both builds with each other.
 
 #include <cmath>
 

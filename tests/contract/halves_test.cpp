@@ -1,5 +1,5 @@
-// Voxels that are stored as half floats: within the bound of the data that they round, the same
-// image where they round nothing, and half of the memory of floats.
+// Voxels that are stored as half floats: within the bound of the rounded data, the same image if
+// nothing is rounded, and half of the memory of floats.
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// The counters are consistent with each other and show what the paper found.
+// The counters are consistent with each other and reproduce the paper's finding.
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
-// Compares spheres drawn by every technique with the reference image, and checks what must not
-// change the image.
+// Compares spheres drawn by every technique with the reference image, and checks the options that
+// must not change the image.
 
 #include "scene/particles.hpp"
 
@@ -251,7 +251,7 @@ ParticleWork jump_of_the_eye() {
   return work;
 }
 
-// The first frame from another position, when everything that is known about hidden cells is wrong.
+// The first frame from another position, for which all information about hidden cells is wrong.
 TEST(Particles, AfterAJumpOfTheEyeNothingIsStale) {
   const ParticleWork work = jump_of_the_eye();
   on_every_driver([&](measure::Device& device) { expect_all_true(device, work); });

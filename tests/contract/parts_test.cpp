@@ -231,7 +231,7 @@ TEST(Parts, OfWhatNoImageHoldsAreWithinTheTruthsBound) {
   });
 }
 
-// The reason contains both numbers, and what would help.
+// The reason contains both numbers, and a remedy.
 TEST(Parts, ThatCannotBeAreRefused) {
   on_every_driver([](measure::Device& device) {
     measure::Work work = work_of("mandelbulb", small_scene("surfaces"));

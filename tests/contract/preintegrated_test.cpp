@@ -42,8 +42,8 @@ double rms_error(const core::Image& image, const reference::AnalyticScene& analy
   return std::sqrt(sum / (4.0 * static_cast<double>(image.pixel_count())));
 }
 
-// What remains is the rounding of positions, values and sums. Its root mean square is that of V1,
-// which has no other error either (1.3e-7), and the curvature of the table within an entry:
+// The remaining error is the rounding of positions, values and sums. Its root mean square is that
+// of V1, which has no other error either (1.3e-7), and the curvature of the table within an entry:
 // table_error in the header of the problems, 1e-6 for the worst pixel. A midpoint with the same
 // step has an error of 1e-4 or more.
 TEST(Preintegrated, V3IsExactForEveryStepUpToItsPlateaus) {

@@ -18,7 +18,8 @@ struct Fault {
   const char* plan;
   const char* told;  // the first cause that is reported
   int causes = 1;
-  bool undrawn = false;  // some configurations get no pixel, which fails before images are compared
+  // Some configurations lose all pixels, which is detected before images are compared.
+  bool undrawn = false;
 };
 
 const std::vector<Fault>& faults() {

@@ -21,7 +21,8 @@ struct Test {
   std::string lock = {};
 };
 
-// A bracket argument of CMake takes every text literally that does not contain its own end.
+// A bracket argument of CMake takes every text literally, as long as the text does not contain the
+// closing bracket.
 std::string bracketed(const std::string& text) {
   std::string equals = "=";
   while ((text + "]").find("]" + equals + "]") != std::string::npos) equals += '=';

@@ -13,7 +13,7 @@ namespace triptych::report {
 
 struct PlanTests {
   std::string suite;
-  std::string plan;   // as commands accept it
+  std::string plan;   // the plan in the form that commands accept
   std::string stem;   // the names of its tests begin with it
   std::string store;  // the store of its records
   record::Checks checks;
