@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "scene/exact_math.hpp"
+#include "scene/free_view.hpp"
 #include "scene/text_lines.hpp"
 
 namespace triptych::scene {
@@ -81,6 +82,16 @@ Pose orbit(const Stage& stage, char axis, double turns) {
       break;
   }
   return {stage.centre + radius * outward, -outward, up};
+}
+
+Pose free_pose(const Stage& stage, const FreeView& view) {
+  const double across = sine_turns(view.azimuth_deg / 360);
+  const double ahead = cosine_turns(view.azimuth_deg / 360);
+  const double rise = sine_turns(view.elevation_deg / 360);
+  const double level = cosine_turns(view.elevation_deg / 360);
+  const double radius = view.distance * (0.5 * stage.largest + stage.distance);
+  const dvec3 outward(level * across, rise, level * ahead);
+  return {stage.centre + radius * outward, -outward, {-rise * across, level, -rise * ahead}};
 }
 
 Pose diagonal(const Stage& stage, const dvec3& signs, double lambda) {
@@ -185,7 +196,7 @@ Pose on_path(const Stage& stage, std::string_view path, double lambda) {
 
 Pose pose_of(std::string_view spec, const Stage& stage) {
   const std::size_t colon = spec.find(':');
-  if (colon == std::string_view::npos) reject(spec, "PATH:i/n or random:SEED");
+  if (colon == std::string_view::npos) reject(spec, "PATH:i/n, random:SEED or view:AZIMUTH/ELEVATION/DISTANCE");
   const std::string_view path = spec.substr(0, colon);
   const std::string_view rest = spec.substr(colon + 1);
   if (path == "random") {
@@ -193,8 +204,18 @@ Pose pose_of(std::string_view spec, const Stage& stage) {
     if (!seed) reject(spec, "random:SEED with a whole number of at most 64 bits");
     return random_view(stage, *seed);
   }
+  if (path == "view") {
+    const auto view = parse_free_view(rest);
+    if (!view) {
+      reject(spec,
+             fmt::format("view:AZIMUTH/ELEVATION/DISTANCE with an azimuth within 360 degrees, an "
+                         "elevation within {} and a distance from {} to {}",
+                         FreeView::steepest_deg, FreeView::nearest, FreeView::farthest));
+    }
+    return free_pose(stage, *view);
+  }
   if (std::find(paths.begin(), paths.end(), path) == paths.end()) {
-    std::string known = "random";
+    std::string known = "random, view";
     for (const std::string_view name : paths) known += fmt::format(", {}", name);
     reject(spec, "a path of " + known);
   }

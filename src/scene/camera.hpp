@@ -34,8 +34,8 @@ struct Box {
   glm::dvec3 hi{1, 1, 1};
 };
 
-// The `camera` factor: "PATH:i/n", 0 ≤ i < n, λ = i/n, or "random:SEED". With c the box's centre, s
-// its size, L its largest extent and D = (L/2)/tan(fov/2):
+// The `camera` factor: "PATH:i/n", 0 ≤ i < n, λ = i/n; "random:SEED"; or "view:…" (free_view.hpp).
+// With c the box's centre, s its size, L its largest extent and D = (L/2)/tan(fov/2):
 // clang-format off
 //   orbit_x|y|z      a circle of radius L/2 + D about that axis, at the angle 2πλ, looking at c;
 //   orbit_-x|-y|-z   the same the other way round. x and y start on the +z side, z on the +x side, all

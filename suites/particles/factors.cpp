@@ -47,7 +47,8 @@ const std::vector<Factor>& particle_factors() {
       number("radius_scale", 1e-6, 1e6, "1", Decides::the_picture,
              "factor by which every radius is multiplied"),
       text("camera", "orbit_y:1/8",
-           "PATH:i/n (orbit_y:1/8, path_z:3/36, …) or random:SEED; own: that of the stress case"),
+           "PATH:i/n (orbit_y:1/8, path_z:3/36, …), random:SEED or view:AZIMUTH/ELEVATION/DISTANCE "
+           "(degrees, and radii of the orbits: view:45/20/0.8); own: that of the stress case"),
       number("fov", 0.0005, 179, "60", Decides::the_picture,
              "vertical field of view in degrees; own: that of the stress case",
              {std::string(own_level)}),

@@ -84,7 +84,8 @@ const std::vector<Factor>& volume_factors() {
              "MiB of device memory for voxels: a larger volume is drawn in parts, front to back, "
              "which are uploaded in every frame; none: as much as the device's limits allow",
              {std::string(no_budget)}),
-      text("camera", "orbit_y:1/8", "PATH:i/n (orbit_y:1/8, path_z:3/36, …), random:SEED, or own"),
+      text("camera", "orbit_y:1/8", "PATH:i/n (orbit_y:1/8, path_z:3/36, …), random:SEED, view:AZIMUTH/ELEVATION/DISTANCE "
+           "(degrees, and radii of the orbits: view:45/20/0.8), or own"),
       text("viewport", "256", "N for NxN, or WxH, in pixels, or own"),
   };
   return factors;

@@ -271,7 +271,20 @@ TEST(Camera, RejectsEverythingElse) {
                           "random:x",
                           "random:-1",
                           "random:18446744073709551616",
-                          "random:1/8"}) {
+                          "random:1/8",
+                          "view",
+                          "view:",
+                          "view:1",
+                          "view:1/2",
+                          "view:1/2/",
+                          "view:1/2/3/4",
+                          "view:nan/0/1",
+                          "view:361/0/1",
+                          "view:0/90.5/1",
+                          "view:0/-91/1",
+                          "view:0/0/0",
+                          "view:0/0/1e4",
+                          "view: 0/0/1"}) {
     EXPECT_THROW((void)camera_at(bad, cube, 60), core::InputError) << bad;
   }
   EXPECT_THAT([] { (void)camera_at("orbit_w:1/8", cube, 60); },
