@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_io.hpp"
+#include "core/rgb_picture.hpp"
 
 namespace triptych::core {
 namespace {
@@ -19,12 +20,15 @@ std::uint8_t srgb8(float linear) {
   return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
 }
 
+}  // namespace
+
 // A premultiplied colour over black is the colour itself.
-std::vector<std::uint8_t> to_srgb(const Image& image) {
-  std::vector<std::uint8_t> rgb(3 * image.pixel_count());
+RgbPicture to_srgb(const Image& image) {
+  RgbPicture picture{image.width, image.height, {}};
+  picture.rgb.resize(3 * image.pixel_count());
   for (std::size_t i = 0; i < image.pixel_count(); ++i) {
     const float* in = image.rgba.data() + 4 * i;
-    std::uint8_t* out = rgb.data() + 3 * i;
+    std::uint8_t* out = picture.rgb.data() + 3 * i;
     if (std::any_of(in, in + 4, [](float c) { return std::isnan(c); })) {
       out[0] = 255;
       out[1] = 0;
@@ -33,29 +37,38 @@ std::vector<std::uint8_t> to_srgb(const Image& image) {
       std::transform(in, in + 3, out, srgb8);
     }
   }
-  return rgb;
+  return picture;
 }
 
-}  // namespace
+std::vector<std::byte> encode_png(const RgbPicture& picture) {
+  const auto pixels =
+      static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+  if (picture.width < 1 || picture.height < 1 || picture.rgb.size() != 3 * pixels) {
+    throw InputError(
+        fmt::format("a picture of {}x{} pixels with {} values cannot be written as PNG",
+                    picture.width, picture.height, picture.rgb.size()));
+  }
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(picture.width);
+  png.height = static_cast<png_uint_32>(picture.height);
+  png.format = PNG_FORMAT_RGB;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+  std::vector<std::byte> bytes(size);
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, picture.rgb.data(), 0, nullptr) ==
+      0) {
+    throw InputError(fmt::format("libpng cannot encode the image: {}", png.message));
+  }
+  bytes.resize(size);
+  return bytes;
+}
 
 std::vector<std::byte> encode_png(const Image& image) {
   if (image.width < 1 || image.height < 1 || image.rgba.size() != 4 * image.pixel_count()) {
     throw InputError(fmt::format("an image of {}x{} pixels with {} values cannot be written as PNG",
                                  image.width, image.height, image.rgba.size()));
   }
-  const std::vector<std::uint8_t> rgb = to_srgb(image);
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  png.width = static_cast<png_uint_32>(image.width);
-  png.height = static_cast<png_uint_32>(image.height);
-  png.format = PNG_FORMAT_RGB;
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
-  std::vector<std::byte> bytes(size);
-  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, rgb.data(), 0, nullptr) == 0) {
-    throw InputError(fmt::format("libpng cannot encode the image: {}", png.message));
-  }
-  bytes.resize(size);
-  return bytes;
+  return encode_png(to_srgb(image));
 }
 
 void write_png(const Image& image, const std::filesystem::path& file) {

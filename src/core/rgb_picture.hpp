@@ -1,0 +1,26 @@
+#pragma once
+// Images in the form in which they are shown.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/image.hpp"
+
+namespace triptych::core {
+
+// 8-bit sRGB, row-major, top row first.
+struct RgbPicture {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgb;  // three values for each pixel
+};
+
+// Converts an image to the pixels that write_png() writes: over a black background, clamped to
+// [0, 1], with NaN as magenta.
+[[nodiscard]] RgbPicture to_srgb(const Image& image);
+
+// Throws InputError if the picture is empty or lacks values.
+[[nodiscard]] std::vector<std::byte> encode_png(const RgbPicture& picture);
+
+}  // namespace triptych::core
