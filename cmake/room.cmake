@@ -1,7 +1,7 @@
 # The layers (floors) of the source code: a room (library) may link only rooms of lower floors.
 set(TRIPTYCH_FLOORS
   core=0 scene=1 record=1 estimation=1 technique=2 reference=2 accuracy=2 judge=3 measure=3
-  comparison=4 reduction=4 report=5 backend=4 suite=4 app=6)
+  comparison=4 reduction=4 report=5 backend=4 suite=4 view=6 app=6)
 
 function(triptych_floor room out)
   string(REGEX REPLACE "^(backend|suite)_.*" "\\1" kind "${room}")

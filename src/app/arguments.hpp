@@ -92,6 +92,7 @@ void add_devices_command(Commands& commands);
 void add_list_command(Commands& commands);
 void add_run_commands(Commands& commands);  // run and worker
 void add_render_command(Commands& commands);
+void add_view_command(Commands& commands);
 void add_code_command(Commands& commands);
 void add_reduce_command(Commands& commands);
 void add_gate_commands(Commands& commands);     // gate and accept

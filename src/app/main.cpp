@@ -62,11 +62,11 @@ ExitCode run(int argc, char** argv) {
   app::Commands commands{.program = program, .chosen = {}};
   for (const auto add :
        {app::add_devices_command, app::add_list_command, app::add_run_commands,
-        app::add_render_command, app::add_code_command, app::add_reduce_command,
-        app::add_gate_commands, app::add_compare_commands, app::add_report_command,
-        app::add_merge_command, app::add_history_command, app::add_validate_command,
-        app::add_features_command,
-        app::add_export_command, app::add_test_commands, app::add_document_commands}) {
+        app::add_render_command, app::add_view_command, app::add_code_command,
+        app::add_reduce_command, app::add_gate_commands, app::add_compare_commands,
+        app::add_report_command, app::add_merge_command, app::add_history_command,
+        app::add_validate_command, app::add_features_command, app::add_export_command,
+        app::add_test_commands, app::add_document_commands}) {
     add(commands);
   }
   give_options_one_value(program);

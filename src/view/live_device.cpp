@@ -1,0 +1,185 @@
+#include "view/live_device.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+#include <variant>
+
+#include "core/error.hpp"
+#include "core/image_io.hpp"
+#include "measure/worker/own_program.hpp"
+#include "record/factor_list.hpp"
+#include "technique/catalogue.hpp"
+
+namespace triptych::view {
+namespace {
+
+constexpr std::chrono::seconds opening_limit{60};
+
+// A still frame is measured like one whose times are only shown. A moving one needs one frame to
+// warm up and one time.
+measure::Protocol protocol_of(const Wanted& wanted) {
+  measure::Protocol protocol = measure::brief_protocol;
+  protocol.measure_every = true;
+  if (wanted.moving) {
+    protocol.warm_up_frames = 1;
+    protocol.timed_frames = 1;
+    protocol.statistics = false;
+    protocol.counters = false;
+  }
+  return protocol;
+}
+
+measure::WorkerSetup setup_of(const measure::ViewSide& side, const std::string& program,
+                              const measure::CacheFolder& cache) {
+  const measure::SideOptions options{.device = side.device,
+                                     .command = measure::worker_command(program),
+                                     .environment = side.environment};
+  return measure::worker_setup(options, false, cache, opening_limit);
+}
+
+std::string cache_of(const measure::ViewSide& side) {
+  return measure::cache_name(
+      {.device = side.device, .command = {}, .environment = side.environment}, false);
+}
+
+record::Record ended(record::Outcome outcome, record::Reason reason) {
+  record::Record record;
+  record.outcome = outcome;
+  record.reason = std::move(reason);
+  return record;
+}
+
+}  // namespace
+
+LiveDevice::LiveDevice(const measure::ViewSide& side, LiveOptions options,
+                       measure::InterruptGuard& interrupts, std::function<void()> changed)
+    : options_(std::move(options)),
+      device_(side.device),
+      changed_(std::move(changed)),
+      cache_(cache_of(side)),
+      slot_(setup_of(side, options_.program, cache_), interrupts),
+      thread_([this] { serve(); }) {}
+
+LiveDevice::~LiveDevice() {
+  retire();
+  thread_.join();
+}
+
+void LiveDevice::retire() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_one();
+}
+
+void LiveDevice::draw(Wanted wanted) {
+  {
+    const std::lock_guard lock(mutex_);
+    wanted_ = std::move(wanted);
+  }
+  wake_.notify_one();
+}
+
+LiveDevice::State LiveDevice::state() const {
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
+void LiveDevice::publish(const std::function<void(State&)>& change) {
+  {
+    const std::lock_guard lock(mutex_);
+    change(state_);
+  }
+  changed_();
+}
+
+std::optional<Wanted> LiveDevice::next() {
+  std::unique_lock lock(mutex_);
+  wake_.wait(lock, [this] { return stop_ || wanted_; });
+  if (stop_) return std::nullopt;
+  return std::exchange(wanted_, std::nullopt);
+}
+
+void LiveDevice::serve() {
+  try {
+    while (const auto wanted = next()) {
+      publish([](State& state) { state.drawing = true; });
+      auto answer = std::make_shared<const Drawn>(drawn(*wanted));
+      publish([&](State& state) { state = {.drawn = std::move(answer), .loading = {}}; });
+    }
+    static_cast<void>(slot_.finish());
+  } catch (const measure::Interrupted&) {
+    slot_.vacate();  // the window is being closed
+  }
+  gone_ = true;
+  changed_();
+}
+
+Drawn LiveDevice::drawn(const Wanted& wanted) {
+  Drawn answer{.wanted = wanted, .record = {}, .image = {}, .picture = {}};
+  std::vector<std::byte> exr;
+  try {
+    answer.record = measured(wanted, exr);
+    if (!exr.empty()) {
+      answer.image = core::decode_exr(exr, "the image of " + device_);
+      answer.picture = core::to_srgb(answer.image);
+    }
+  } catch (const measure::Interrupted&) {
+    throw;
+  } catch (const core::Error& error) {
+    answer.record = ended(record::Outcome::failed,
+                          {.cause = record::Cause::bad_answer, .detail = error.what()});
+  }
+  answer.record.device = device_;
+  answer.record.suite = options_.suite;
+  answer.record.configuration = wanted.key;
+  answer.record.technique = wanted.configuration.at("technique");
+  if (answer.record.factors.empty()) answer.record.factors = wanted.configuration;
+  return answer;
+}
+
+measure::Job LiveDevice::job(const Wanted& wanted) const {
+  return {.name = device_ + "/" + wanted.key,
+          .configuration = wanted.configuration,
+          .protocol = protocol_of(wanted),
+          .faults = measure::faults_for(options_.faults, wanted.key, device_)};
+}
+
+bool LiveDevice::open_for(const std::string& kind) {
+  const bool known = std::ranges::find(clocks_, kind, &record::ClockTrust::work) != clocks_.end();
+  if (slot_.occupied() && !known) static_cast<void>(slot_.finish());
+  return slot_.open(
+      [&] { return measure::Start{.suite = options_.suite, .kinds = {kind}, .clocks = clocks_}; },
+      [&](const measure::Hello& hello) { clocks_ = hello.clocks; });
+}
+
+record::Record LiveDevice::measured(const Wanted& wanted, std::vector<std::byte>& exr) {
+  const auto& technique = technique::technique(wanted.configuration.at("technique"));
+  if (!open_for(std::string(technique::name_of(technique.work)))) {
+    return ended(slot_.unsupported() ? record::Outcome::skipped : record::Outcome::failed,
+                 slot_.why_closed());
+  }
+  auto reply = slot_.worker().ask(
+      to_message(job(wanted)), options_.limit,
+      [&](const auto& loading) { publish([&](State& state) { state.loading = loading; }); });
+  if (auto* died = std::get_if<measure::WorkerLink::Died>(&reply)) {
+    slot_.vacate();
+    return ended(record::Outcome::crashed, std::move(died->reason));
+  }
+  if (auto* late = std::get_if<measure::WorkerLink::Late>(&reply)) {
+    slot_.vacate();
+    return ended(record::Outcome::hung, std::move(late->reason));
+  }
+  auto answer = measure::as_answer(std::move(std::get<measure::Message>(reply)));
+  if (!answer) {
+    slot_.vacate();
+    return ended(record::Outcome::failed, {.cause = record::Cause::bad_answer});
+  }
+  if (answer->record.outcome == record::Outcome::lost) slot_.vacate();
+  exr = std::move(answer->exr);
+  return std::move(answer->record);
+}
+
+}  // namespace triptych::view

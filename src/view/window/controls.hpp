@@ -1,0 +1,31 @@
+#pragma once
+// The controls at the left: one for each factor of the suite, made from the list of factors.
+
+#include <map>
+#include <string>
+
+#include "view/session.hpp"
+
+namespace triptych::view {
+
+class Controls {
+ public:
+  // The width that the names of the suite's factors and their values need.
+  [[nodiscard]] static float width(const Session& session);
+  // Draws the controls into the current ImGui window and applies what the user changes.
+  void draw(Session& session);
+
+ private:
+  void draw_factor(Choices& choices, const measure::Factor& factor);
+  void draw_text(Choices& choices, const measure::Factor& factor, float width);
+  void apply(Choices& choices, const std::string& factor, const std::string& value);
+  static void draw_against(Session& session);
+  void draw_columns(Session& session) const;
+
+  float labels_ = 0;                          // width of the names
+  std::map<std::string, std::string> typed_;  // what is being typed, by factor
+  std::string refused_factor_;
+  std::string refusal_;  // why the last change was refused
+};
+
+}  // namespace triptych::view

@@ -1,0 +1,60 @@
+#pragma once
+// The columns: for each device its image, its error, its times and its counters.
+
+#include <imgui.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "view/session.hpp"
+#include "view/window/window.hpp"
+
+namespace triptych::view {
+
+class Panels {
+ public:
+  // `copy` is called with a command for the clipboard.
+  explicit Panels(std::function<void(const std::string&)> copy) : copy_(std::move(copy)) {}
+
+  // Draws all columns into the current ImGui window. With `reference`, the reference image is shown
+  // in the place of each image.
+  void draw(Session& session, bool reference);
+
+  // Draws the meaning of the colours in the lower pictures.
+  void draw_legend(float width);
+
+  // Where a column's image was drawn, in pixels of the window.
+  struct Place {
+    ImVec2 from;
+    ImVec2 to;
+  };
+  [[nodiscard]] const std::vector<Place>& images() const noexcept { return images_; }
+
+ private:
+  // The pictures of a column that are on the graphics card, and what they were made from.
+  struct Uploaded {
+    const void* frame = nullptr;
+    const void* reference = nullptr;
+    const void* error = nullptr;
+    Texture image;
+    Texture truth;
+    Texture difference;
+  };
+  void upload(const Column& column, Uploaded& uploaded);
+  void draw_column(Session& session, std::size_t index, bool reference, float side);
+  void draw_header(Session& session, std::size_t index);
+  void draw_image(Session& session, std::size_t index, bool reference, ImVec2 area);
+  void draw_error(Session& session, std::size_t index, ImVec2 area);
+  void steer(Session& session, const Column& column, const Place& place);
+  void offer_commands(Session& session, const Column& column, const Place& place);
+
+  std::function<void(const std::string&)> copy_;
+  std::vector<Uploaded> uploaded_;
+  std::vector<Place> images_;
+  Texture scale_;
+  std::pair<int, int> clicked_;  // the pixel for which commands are offered
+};
+
+}  // namespace triptych::view

@@ -1,0 +1,13 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "view/session.hpp"
+
+namespace triptych::view {
+
+// Two suites of this name, which look for files in the folders. Throws InputError for an unknown
+// name.
+[[nodiscard]] Suites make_suites(const std::string& name, const std::vector<std::string>& folders);
+
+}  // namespace triptych::view

@@ -1,0 +1,79 @@
+// The controls of the window offer, accept and refuse the right values.
+
+#include "view/choices.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "measure/plan/plan.hpp"
+#include "suites/particles/suite.hpp"
+#include "suites/volume/suite.hpp"
+
+namespace triptych::view {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+class ViewChoices : public testing::Test {
+ protected:
+  [[nodiscard]] static Choices choices_of(const measure::Suite& suite) {
+    return {suite, measure::default_plan(suite, {}).configurations.front()};
+  }
+  std::unique_ptr<measure::SuiteWithTruth> volume = volume_suite::make_suite({});
+  std::unique_ptr<measure::SuiteWithTruth> particles = particles_suite::make_suite({});
+};
+
+TEST_F(ViewChoices, AValueIsKeptInItsOneSpelling) {
+  Choices choices = choices_of(*volume);
+  EXPECT_EQ(choices.set("step", "0.50"), "");
+  EXPECT_EQ(choices.value("step"), "0.5");
+  EXPECT_THAT(choices.key(), HasSubstr("step=0.5"));
+  EXPECT_EQ(choices.set("camera", "view:1/2/3"), "");
+  choices.reset();
+  EXPECT_EQ(choices.configuration(), measure::default_plan(*volume, {}).configurations.front());
+}
+
+TEST_F(ViewChoices, WhatIsRefusedChangesNothing) {
+  Choices choices = choices_of(*volume);
+  const measure::Configuration before = choices.configuration();
+  EXPECT_THAT(choices.set("step", "0"), HasSubstr("step"));
+  EXPECT_THAT(choices.set("camera", "view:0/100/1"), HasSubstr("elevation"));
+  EXPECT_NE(choices.set("camera", "orbit_y:*/8"), "");
+  EXPECT_NE(choices.set("technique", "auto"), "");
+  EXPECT_THAT(choices.set("data", "nowhere.nrrd"), HasSubstr("nowhere.nrrd"));
+  EXPECT_EQ(choices.configuration(), before);
+}
+
+// Nothing that is offered may be refused, unless its file is not here.
+TEST_F(ViewChoices, EveryOfferIsAccepted) {
+  for (const measure::Suite* suite : {static_cast<const measure::Suite*>(volume.get()),
+                                      static_cast<const measure::Suite*>(particles.get())}) {
+    Choices choices = choices_of(*suite);
+    for (const measure::Factor& factor : suite->factors()) {
+      const std::vector<std::string>& offers = choices.offers(factor.name);
+      EXPECT_THAT(offers, Contains(choices.standard(factor.name))) << factor.name;
+      for (const std::string& offer : offers) {
+        if (factor.name == "data" && offer.find(':') == std::string::npos) continue;
+        EXPECT_EQ(choices.set(factor.name, offer), "") << factor.name << '=' << offer;
+        choices.reset();
+      }
+    }
+  }
+}
+
+TEST_F(ViewChoices, OffersComeFromPlansAndGenerators) {
+  const Choices choices = choices_of(*volume);
+  EXPECT_THAT(choices.offers("technique"), Not(Contains("auto")));
+  EXPECT_THAT(choices.offers("transfer_function"), Contains("surfaces"));
+  for (const scene::GeneratorInfo& each : volume->generators()) {
+    EXPECT_THAT(choices.offers("data"), Contains(HasSubstr(std::string(each.name)))) << each.name;
+  }
+  const std::vector<std::string>& steps = choices.offers("step");
+  ASSERT_GT(steps.size(), 2U);
+  EXPECT_LT(std::stod(steps[0]), std::stod(steps[1]));
+}
+
+}  // namespace
+}  // namespace triptych::view
