@@ -37,8 +37,8 @@ TEST(Error, IsKeptByTheFastestOfItsCandidates) {
   const Result kept = program.run("run volume/quick " + std::string(tiny) + " --error 0.001",
                                   drawing_the_limit(program, {blob}, "16"));
   EXPECT_EQ(kept.code, 0) << kept.output;
-  EXPECT_NE(kept.output.find("midpoint keeps it with step"), std::string::npos) << kept.output;
-  EXPECT_NE(kept.output.find("preintegrated keeps it with step"), std::string::npos);
+  EXPECT_NE(kept.output.find("midpoint meets the error with step"), std::string::npos) << kept.output;
+  EXPECT_NE(kept.output.find("preintegrated meets the error with step"), std::string::npos);
   EXPECT_EQ(kept.output.find("own keeps it"), std::string::npos) << kept.output;
   EXPECT_NE(kept.output.find("of 0.001:rms"), std::string::npos) << kept.output;
   EXPECT_NE(kept.output.find("% of the error of an empty image, covered"), std::string::npos)
@@ -102,7 +102,7 @@ TEST(Error, OfASceneHasOneAnswerWhateverSamplerItsCandidatesTake) {
   const Result kept = program.run("run volume/quick " + std::string(tiny) + " --error 0.0001",
                                   drawing_the_limit(program, {blob}, "16"));
   EXPECT_EQ(kept.code, 0) << kept.output;
-  EXPECT_NE(kept.output.find("cells keeps it with step"), std::string::npos) << kept.output;
+  EXPECT_NE(kept.output.find("cells meets the error with step"), std::string::npos) << kept.output;
   const std::string answer = ": adapt=0, ";
   const std::size_t first = kept.output.find(answer);
   EXPECT_NE(first, std::string::npos) << kept.output;

@@ -277,7 +277,7 @@ TEST(Nrrd, BrokenHeadersNameTheirLine) {
       {with_line("a line of nothing"), ":3: expected 'field: value', 'key:=value' or a comment"},
       {with_line("byte skip: -2"), ":3: '-2'; expected a whole number, 0 or more, or -1"},
       {with_line("byte skip: x"), ":3: 'x'"},
-      {with_line("line skip: -1"), ":3: '-1'; expected a whole number from 0 on"},
+      {with_line("line skip: -1"), ":3: '-1'; expected a whole number, 0 or more"},
       {with_line("line skip: 5"), ":3: a.nrrd has only 0 lines to skip"},
       {with_line("data file: nothing.raw"), ":3: the data file 'nothing.raw' does not exist"},
       {with_line("data file: LIST"), ": the header has no field 'type'"},

@@ -331,7 +331,7 @@ TEST(ParticleFiles, UnpackNoMoreThanIsAllowed) {
   EXPECT_EQ(read_content(file, {}, std::uint64_t{3} << 20).size(), std::size_t{3} << 20);
   EXPECT_THAT([&] { static_cast<void>(read_content(file, {}, (std::uint64_t{3} << 20) - 1)); },
               ThrowsMessage<core::InputError>(
-                  HasSubstr("a.pdb.gz: unpacks to more than 3145727 bytes; where that is meant")));
+                  HasSubstr("a.pdb.gz: unpacks to more than 3145727 bytes; if that is intended")));
 }
 
 // A message is a line that a terminal can show, whatever the file holds.
