@@ -40,7 +40,7 @@ TEST_F(AbsentData, IsASkipForCTestAndNotToBeJudgedForTheGate) {
   for (const char* name : {"image", "counters"}) {
     const Result result = check(name);
     EXPECT_EQ(result.code, 77) << result.output;
-    EXPECT_NE(result.output.find("'field.nrrd' is not here"), std::string::npos) << result.output;
+    EXPECT_NE(result.output.find("'field.nrrd' was not found"), std::string::npos) << result.output;
   }
   const Result gate = program.run("gate plan --baselines baselines --store s.sqlite");
   EXPECT_EQ(gate.code, 2) << gate.output;
