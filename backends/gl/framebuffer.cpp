@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <limits>
+#include <bit>
 
 #include "core/error.hpp"
+#include "measure/contract/not_drawn.hpp"
 
 namespace triptych::gl_backend {
 
@@ -42,7 +43,7 @@ void check_framebuffer(const Api& gl) {
 }
 
 void poison_colour(const Api& gl) {
-  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  constexpr auto none = std::bit_cast<float>(measure::poison_word);
   constexpr std::array values{none, none, none, none};
   gl.ClearBufferfv(GL_COLOR, 0, values.data());
 }

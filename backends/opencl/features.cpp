@@ -127,6 +127,37 @@ ProbedFeature probe_launch_offset(const Bench& bench) {
       fmt::format("offset of {}", begin));
 }
 
+// After clFinish every command has completed, and its event must have the status CL_COMPLETE. A
+// driver that completes events late does so by a race, so there are several rounds. Their commands
+// last some milliseconds, so that the last one has not yet ended when clFinish is called.
+ProbedFeature probe_event_status(const Bench& bench) {
+  constexpr std::size_t numbers = std::size_t{1} << 22U;
+  constexpr std::size_t commands = 4;
+  constexpr std::size_t rounds = 16;
+  const cl::Buffer buffer = result_buffer(bench, numbers);
+  const Launch launch =
+      make_launch(bench.program(), "write_numbers", cl::NDRange(numbers), cl::NullRange, buffer);
+  std::uint64_t complete = 0;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    std::vector<cl::Event> events(commands);
+    checked([&] {
+      for (cl::Event& event : events) {
+        bench.session.queue.enqueueNDRangeKernel(launch.kernel, cl::NullRange, launch.global,
+                                                 cl::NullRange, nullptr, &event);
+      }
+      bench.session.queue.finish();
+    });
+    std::vector<cl_int> statuses;
+    for (const cl::Event& event : events) {
+      statuses.push_back(
+          checked([&] { return event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>(); }));
+    }
+    complete += count_right(statuses, [](std::size_t) { return CL_COMPLETE; });
+  }
+  return judged_feature(complete, commands * rounds,
+                        fmt::format("events of {} commands after clFinish", commands * rounds));
+}
+
 // ---- Images
 // ---------------------------------------------------------------------------------------
 
@@ -211,6 +242,7 @@ std::vector<measure::FeatureProbe> feature_probes(const Session& session, Progra
       probe("16-bit-storage",
             [](const Bench& on) { return probe_small_storage<cl_ushort>(on, "add_shorts", 3); }),
       probe("launch-offset", probe_launch_offset),
+      probe("event-status", probe_event_status),
       probe("repeat", [](const Bench& on) { return probe_addressing(on, "sample_repeat"); }),
       probe("mirrored-repeat",
             [](const Bench& on) { return probe_addressing(on, "sample_mirrored"); }),

@@ -139,8 +139,19 @@ void throw_api_error(const cl::Error& error, core::CodePlace place, const std::s
 
 void check_executed(const cl::Event& event, const std::string& call, const std::string& detail,
                     core::CodePlace place) {
-  const auto status =
-      checked([&] { return event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>(); }, place);
+  const auto read = [&] {
+    return checked([&] { return event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>(); }, place);
+  };
+  cl_int status = read();
+  if (status > CL_COMPLETE) {
+    // Some drivers complete events a little after clFinish has returned. The feature `event-status`
+    // reports it.
+    if (const cl_int code = ::clWaitForEvents(1, &event());
+        code != CL_SUCCESS && code != CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST) {
+      throw_api_error(cl::Error(code, "clWaitForEvents"), place, detail);
+    }
+    status = read();
+  }
   if (status == CL_COMPLETE) return;
   if (status < 0) {
     const std::string ended = "the command was enqueued, then ended abnormally";
@@ -149,7 +160,7 @@ void check_executed(const cl::Event& event, const std::string& call, const std::
   }
   throw core::ApiError(
       call, fmt::format("execution status {}", status),
-      fmt::format("{}{}the command has not completed although the program waited for the queue",
+      fmt::format("{}{}the command has not completed although the program waited for its event",
                   detail, detail.empty() ? "" : ": "),
       place);
 }

@@ -1,7 +1,9 @@
 #include "backends/vulkan/colour_target.hpp"
 
 #include <array>
-#include <limits>
+#include <bit>
+
+#include "measure/contract/not_drawn.hpp"
 
 namespace triptych::vulkan_backend {
 
@@ -44,7 +46,7 @@ vk::raii::Framebuffer colour_framebuffer(const Gpu& gpu, const vk::raii::RenderP
 
 void mark_unwritten(const Gpu& gpu, vk::Format format, const vk::raii::Framebuffer& framebuffer,
                     vk::Extent3D extent) {
-  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  constexpr auto none = std::bit_cast<float>(measure::poison_word);
   const vk::ClearValue clear(vk::ClearColorValue(std::array{none, none, none, none}));
   const vk::raii::RenderPass pass = colour_pass(gpu, format, vk::AttachmentLoadOp::eClear);
   run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {

@@ -17,7 +17,6 @@
 #include "judge/gate/repeats.hpp"
 #include "measure/run/runner.hpp"
 #include "measure/system/stopwatch.hpp"
-#include "measure/worker/listing.hpp"
 #include "report/screen/coverage.hpp"
 #include "report/screen/repeats.hpp"
 #include "report/words/finding.hpp"
@@ -126,6 +125,15 @@ class Validation {
         if (flakes.contains({each.device, each.configuration})) store_.add_record(each);
       }
     }
+  }
+
+  // The devices that were opened, also those that measured nothing.
+  [[nodiscard]] std::vector<std::string> devices() const {
+    std::set<std::string> ids;
+    for (const judge::GateResult& result : results_) {
+      for (const auto& entry : store_.devices(result.run)) ids.insert(entry.device.id);
+    }
+    return {ids.begin(), ids.end()};
   }
 
   // The results of this repetition, with the hash of each image.
@@ -276,11 +284,10 @@ void tell_repeats(const ValidateArguments& arguments,
 }
 
 // Only the first of several shards probes the features.
-FeatureTable features_of(const ValidateArguments& arguments) {
+FeatureTable features_of(const ValidateArguments& arguments, const Validation& validation) {
   const std::string& shard = arguments.choice.shard;
   if (!shard.empty() && !shard.starts_with("1/")) return {};
-  const measure::Listing listing = make_registry().devices(arguments.devices);
-  return probe_devices(measure::choose_devices(listing, arguments.devices), "", arguments.limit_s);
+  return probe_devices(validation.devices(), "", arguments.limit_s);
 }
 
 core::ExitCode validate(const ValidateArguments& arguments) {
@@ -303,7 +310,7 @@ core::ExitCode validate(const ValidateArguments& arguments) {
   if (whole && arguments.repeat > 1) {
     tell_repeats(arguments, repeat(arguments, file, known, validation), validation);
   }
-  const FeatureTable features = whole ? features_of(arguments) : FeatureTable{};
+  const FeatureTable features = whole ? features_of(arguments, validation) : FeatureTable{};
   validation.tell_coverage(features);
   const core::ExitCode told = validation.tell(since.seconds());
   if (verdict_of(features) != core::ExitCode::regression) return told;

@@ -27,6 +27,7 @@ Function* real(const char* name) {
 std::mutex mutex;
 std::map<cl_kernel, int> launches;
 std::set<cl_event> abnormal;  // never removed: a handle that is used again also belongs to a launch
+std::set<cl_event> late;      // launches that nobody has waited for by their event
 
 // Whether the fault concerns this launch of a kernel: all launches except the first.
 bool repeated(cl_kernel kernel) {
@@ -51,17 +52,30 @@ clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensi
     }
     return code;
   }
-  return real<decltype(clEnqueueNDRangeKernel)>("clEnqueueNDRangeKernel")(
+  const cl_int code = real<decltype(clEnqueueNDRangeKernel)>("clEnqueueNDRangeKernel")(
       queue, kernel, dimensions, offset, global, local, waits, wait_list, event);
+  if (asked("late_events") && event != nullptr) {
+    const std::lock_guard lock(mutex);
+    late.insert(*event);
+  }
+  return code;
+}
+
+// Drivers that complete events only after clFinish has returned.
+extern "C" CL_API_ENTRY cl_int CL_API_CALL clWaitForEvents(cl_uint count, const cl_event* events) {
+  const cl_int code = real<decltype(clWaitForEvents)>("clWaitForEvents")(count, events);
+  const std::lock_guard lock(mutex);
+  for (cl_uint i = 0; i < count; ++i) late.erase(events[i]);
+  return code;
 }
 
 extern "C" CL_API_ENTRY cl_int CL_API_CALL clGetEventInfo(cl_event event, cl_event_info name,
                                                           size_t size, void* value,
                                                           size_t* size_out) {
-  if (name == CL_EVENT_COMMAND_EXECUTION_STATUS && value != nullptr && asked("abnormal_end")) {
+  if (name == CL_EVENT_COMMAND_EXECUTION_STATUS && value != nullptr) {
     const std::lock_guard lock(mutex);
-    if (abnormal.contains(event)) {
-      *static_cast<cl_int*>(value) = CL_INVALID_MEM_OBJECT;
+    if (abnormal.contains(event) || late.contains(event)) {
+      *static_cast<cl_int*>(value) = late.contains(event) ? CL_SUBMITTED : CL_INVALID_MEM_OBJECT;
       if (size_out != nullptr) *size_out = sizeof(cl_int);
       return CL_SUCCESS;
     }

@@ -38,6 +38,8 @@ class Shims : public testing::Test {
     return result.output.find("no device matches") != std::string::npos;
   }
 
+  [[nodiscard]] std::string folder() const { return folder_.path().string(); }
+
  private:
   test::TemporaryFolder folder_;
 };
@@ -75,6 +77,19 @@ TEST_F(Shims, OpenclLaunchesThatAreRefusedNameTheKernelAndThePlace) {
   EXPECT_THAT(drawn.output, HasSubstr("volume_frames.cpp"));
 }
 
+// Everything is measured, and the feature probe names what is wrong.
+TEST_F(Shims, OpenclEventsThatAreCompletedLateAreAWrongFeature) {
+  const test::Result drawn = opencl("late_events", "volume");
+  if (lacks_device(drawn)) GTEST_SKIP() << "needs PoCL";
+  EXPECT_THAT(drawn.output, HasSubstr(" 0 failed"));
+  const test::Result probed = test::run_command(fmt::format(
+      "LD_PRELOAD='{}' TRIPTYCH_SHIM=late_events '{}' features --device opencl:pocl --only "
+      "event-status",
+      TRIPTYCH_OPENCL_SHIM, TRIPTYCH_PROGRAM));
+  EXPECT_EQ(probed.code, 1);
+  EXPECT_THAT(probed.output, HasSubstr("64 of 64 values are wrong"));
+}
+
 #ifdef TRIPTYCH_EGL_SHIM_FOLDER
 class GlShims : public Shims {
  protected:
@@ -106,6 +121,16 @@ TEST_F(GlShims, ProgramsThatWereNeverCompiledAreNotTakenForWrongImages) {
   if (lacks_device(drawn)) GTEST_SKIP() << "needs llvmpipe";
   EXPECT_THAT(drawn.output, HasSubstr(" 0 measured"));
   EXPECT_THAT(drawn.output, HasSubstr("was not drawn: none of"));
+}
+
+TEST_F(GlShims, AFrameInProcessThatWasNotDrawnIsNotKept) {
+  const test::Result drawn = test::run_command(
+      fmt::format("cd '{}' && LD_LIBRARY_PATH='{}' TRIPTYCH_SHIM=never_compiled '{}' render volume "
+                  "--in-process --device gl:llvmpipe-egl --set viewport=16 --out frame",
+                  folder(), TRIPTYCH_EGL_SHIM_FOLDER, TRIPTYCH_PROGRAM));
+  if (lacks_device(drawn)) GTEST_SKIP() << "needs llvmpipe";
+  EXPECT_THAT(drawn.output, HasSubstr("was not drawn: none of 256 pixels"));
+  EXPECT_THAT(drawn.output, Not(HasSubstr("image.exr")));
 }
 
 TEST_F(GlShims, AnInfoLogOfANegativeLengthIsRead) {

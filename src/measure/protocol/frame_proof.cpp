@@ -32,13 +32,17 @@ std::size_t pixels_that_differ(const core::Image& one, const core::Image& other)
                    pixels_that_differ(one.ids, other.ids, 1)});
 }
 
-std::size_t pixels_without_value(const core::Image& image) {
+template <class Predicate>
+std::size_t count_pixels(const core::Image& image, const Predicate& counts) {
   std::size_t count = 0;
   for (std::size_t at = 0; at + 4 <= image.rgba.size(); at += 4) {
-    const std::span pixel = std::span(image.rgba).subspan(at, 4);
-    if (std::ranges::all_of(pixel, [](float each) { return std::isnan(each); })) ++count;
+    if (counts(std::span<const float, 4>(&image.rgba[at], 4))) ++count;
   }
   return count;
+}
+
+bool is_overwritten(std::span<const float, 4> pixel) {
+  return std::ranges::all_of(pixel, [](float each) { return std::isnan(each); });
 }
 
 }  // namespace
@@ -48,13 +52,21 @@ void FrameProof::start() {
   if (started_) return;
   started_ = true;
   const core::Image before = prepared_.image();
-  const std::size_t kept = before.pixel_count() - pixels_without_value(before);
+  const std::size_t kept = before.pixel_count() - count_pixels(before, is_overwritten);
   if (kept > 0) {
     throw NotDrawn(fmt::format(
         "the image could not be overwritten before the first frame: {} of {} pixels kept a value "
         "although the driver reported the commands that fill it as finished",
         kept, before.pixel_count()));
   }
+  if (before.pixel_count() > 0) std::copy_n(before.rgba.begin(), filling_.size(), filling_.begin());
+}
+
+// A NaN that the device computed has other bits than the filling, so it counts as a value.
+std::size_t FrameProof::pixels_without_value(const core::Image& image) const {
+  return count_pixels(image, [this](std::span<const float, 4> pixel) {
+    return std::memcmp(pixel.data(), filling_.data(), sizeof filling_) == 0;
+  });
 }
 
 void FrameProof::read(std::string_view what) {

@@ -3,6 +3,8 @@
 // frame. A driver may report a command buffer as finished that it executed only the first time; the
 // image of an earlier frame is still there and looks right.
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -52,10 +54,13 @@ class FrameProof {
 
  private:
   void read(std::string_view what);
+  [[nodiscard]] std::size_t pixels_without_value(const core::Image& image) const;
 
   Prepared& prepared_;
   bool started_ = false;
   bool renewed_ = false;
+  // A pixel after poison(), as the device returned it: it may have changed the bits of a NaN.
+  std::array<float, 4> filling_{};
   std::optional<core::Image> first_;
   core::Image last_;
   std::size_t first_without_value_ = 0;

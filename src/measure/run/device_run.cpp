@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 #include <variant>
 
@@ -29,6 +30,14 @@ bool has_statistics_fault(const record::Device& device) {
   });
 }
 
+bool has_failed_calibration(const Hello& hello) {
+  const auto& statistics = hello.device.statistics_calibration;
+  return std::ranges::any_of(hello.clocks, std::logical_not{}, &record::ClockTrust::offered) ||
+         std::ranges::any_of(statistics, [](const auto& each) {
+           return each.second.worth == record::Worth::unknown;
+         });
+}
+
 }  // namespace
 
 DeviceRun::DeviceRun(const RunContext& context, std::string device)
@@ -49,8 +58,8 @@ Done DeviceRun::perform(const Configuration& configuration, const std::string& k
   const Job job = this->job(configuration, key);
   Done done;
   if (!context_.plan.compiled() && compile_only(device_)) {
-    done = {ended(record::Outcome::skipped, {.cause = record::Cause::not_supported,
-                                            .detail = std::string(only_compiles)})};
+    done = {ended(record::Outcome::skipped,
+                  {.cause = record::Cause::not_supported, .detail = std::string(only_compiles)})};
   } else if (const auto reason = no_emulator()) {
     done = {ended(record::Outcome::skipped, *reason)};
   } else if (!ensure_worker()) {
@@ -170,15 +179,27 @@ void DeviceRun::watch_memory(std::uint64_t peak_bytes) {
   context_.store.add_device(context_.run, *known_, clocks_);
 }
 
+// A scene of the calibration that failed may have left the driver in a state in which it draws
+// nothing more. The configurations are therefore drawn by another worker, which does not calibrate.
 bool DeviceRun::ensure_worker() {
-  return slot_.open(
-      [this] {
-        return Start{.suite = context_.plan.suite,
-                     .kinds = context_.kinds,
-                     .clocks = clocks_,
-                     .statistics = !known_ || !has_statistics_fault(*known_)};
-      },
-      [this](const Hello& hello) { greet(hello); });
+  bool is_spoilt = false;
+  const auto open = [&] {
+    return slot_.open(
+        [this] {
+          return Start{.suite = context_.plan.suite,
+                       .kinds = context_.kinds,
+                       .clocks = clocks_,
+                       .statistics = !known_ || !has_statistics_fault(*known_)};
+        },
+        [&](const Hello& hello) {
+          is_spoilt = clocks_.size() < hello.clocks.size() && has_failed_calibration(hello);
+          greet(hello);
+        });
+  };
+  if (!open()) return false;
+  if (!is_spoilt) return true;
+  slot_.vacate();
+  return open();
 }
 
 void DeviceRun::greet(const Hello& hello) {
@@ -199,7 +220,11 @@ Done DeviceRun::ask(const Job& job, const OnLoading& on_loading) {
   auto reply = exchange(to_message(job), on_loading);
   if (const auto* lost = std::get_if<Ended>(&reply)) return {ended(lost->outcome, lost->reason)};
   Answer& answer = std::get<Answer>(reply);
-  if (answer.record.outcome == record::Outcome::lost) slot_.vacate();
+  // Drivers ignore all further commands after some errors without reporting any of them.
+  if (answer.record.outcome == record::Outcome::lost ||
+      answer.record.reason.cause == record::Cause::not_drawn) {
+    slot_.vacate();
+  }
   watch_memory(answer.record.peak_memory_bytes);
   Done done{.record = std::move(answer.record),
             .exr = std::move(answer.exr),

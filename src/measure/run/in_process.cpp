@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "measure/protocol/frame_proof.hpp"
 #include "measure/protocol/protocol.hpp"
 #include "measure/run/sprite_draws.hpp"
 #include "measure/system/frame_capture.hpp"
@@ -41,12 +42,15 @@ FrameInProcess draw_in_process(const Backend& backend, std::string_view device_i
   for (const std::string& fault : faults_for(faults, key, device->info().id)) inject(fault, work);
   if (const auto reason = device->unsupported(work)) throw core::NotSupported(*reason);
   const auto prepared = device->prepare(work);
+  FrameProof proof(*prepared);
+  proof.start();
   {
     const FrameCapture captured(capture);
     static_cast<void>(prepared->frame(Purpose::timing));
   }
+  proof.check_drawn("the frame");
   FrameInProcess drawn{
-      .record = {}, .image = prepared->image(), .device = device->info(), .traced = {}};
+      .record = {}, .image = proof.take_image(), .device = device->info(), .traced = {}};
   record::Record& record = drawn.record;
   describe_work(work, *device, record);
   if (pixel) {

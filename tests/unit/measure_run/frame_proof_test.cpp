@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <bit>
+#include <cstdint>
+
 #include "measure/contract/not_drawn.hpp"
 #include "measure/protocol/clock.hpp"
 #include "measure/protocol/protocol.hpp"
@@ -79,6 +82,16 @@ TEST(FrameProof, FindsAnImageThatIsNeverDrawn) {
   for (const bool is_timed : {true, false}) {
     EXPECT_THROW(measure_all(prepared, {.timed = is_timed}), NotDrawn) << is_timed;
   }
+}
+
+// It is a wrong image, which the comparison with the reference image finds.
+TEST(FrameProof, TakesNaNsThatAFrameComputedForItsImage) {
+  static constexpr std::uint32_t computed_nan = 0xFFC00000;  // what a processor makes of 0/0
+  ScriptedPrepared prepared = steady(50 * ms);
+  prepared.picture = [](int) { return std::bit_cast<float>(computed_nan); };
+  EXPECT_NO_THROW(measure_all(prepared));
+  prepared.draws = [](int n) { return n == 1; };
+  EXPECT_THROW(measure_all(prepared), NotDrawn);
 }
 
 TEST(FrameProof, FindsAnImageThatCannotBeOverwritten) {
