@@ -39,9 +39,18 @@ Advised without(const std::string& device) {
   return {Advice::repair_driver, "--without-device " + core::shell_quoted(device)};
 }
 
+// If every requested device is named in full and was found, no other device would have been
+// measured.
+bool found_all_that_was_asked(const record::Beginning& begun) {
+  return !begun.asked.empty() && std::ranges::all_of(begun.asked, [&](const std::string& id) {
+    return std::ranges::find(begun.found, id) != begun.found.end();
+  });
+}
+
 // A process that crashed or hung during the listing may have missed devices.
 void report_failed_listings(const RunView& view, std::vector<Finding>& findings) {
   for (const record::Beginning& begun : view.run.begun) {
+    if (found_all_that_was_asked(begun)) continue;
     for (const record::Unusable& each : begun.unusable) {
       const std::string api = each.api();
       const bool matters = each.ended && begun.asks_for_api(api);

@@ -173,6 +173,15 @@ TEST_F(AsBegunTest, AListingThatEndedCannotBeJudgedAndIsShown) {
                        .unusable = {crashed}});
   // The run requested no Vulkan device.
   EXPECT_EQ(gate("others").exit_code(), core::ExitCode::pass);
+  // A device that is named in full and was found hides no other one; a glob may.
+  for (const bool whole : {true, false}) {
+    const std::string run = whole ? "named" : "glob";
+    add_begun(run, {.asked = {whole ? "vulkan:lavapipe" : "vulkan:*"},
+                    .found = all_devices,
+                    .devices = all_devices,
+                    .unusable = {crashed}});
+    EXPECT_EQ(gate(run).exit_code(), whole ? core::ExitCode::pass : core::ExitCode::cannot_judge);
+  }
 }
 
 TEST_F(AsBegunTest, APlanThatLostAcceptedChecksCannotBeJudged) {
