@@ -111,9 +111,10 @@ void list_compiler(const std::string& id, Listing& listing) {
 // Throws an error with the reason why no device of the listing matches `glob`.
 [[noreturn]] void refuse_devices(const Listing& listing, std::string_view glob) {
   if (listing.devices.empty()) {
-    throw core::NotSupported(
-        "there is no device: no OpenCL, Vulkan or OpenGL driver answers; ci/setup installs "
-        "software drivers, and `triptych devices` prints what each loader found");
+    throw core::NotSupported(fmt::format(
+        "no device matches {}: no driver answers that could have one; ci/setup installs "
+        "software drivers, and `triptych devices` prints what each loader found",
+        glob));
   }
   std::string known;
   for (const record::Device& device : listing.devices) known += " " + device.id;
