@@ -196,7 +196,8 @@ Pose on_path(const Stage& stage, std::string_view path, double lambda) {
 
 Pose pose_of(std::string_view spec, const Stage& stage) {
   const std::size_t colon = spec.find(':');
-  if (colon == std::string_view::npos) reject(spec, "PATH:i/n, random:SEED or view:AZIMUTH/ELEVATION/DISTANCE");
+  if (colon == std::string_view::npos)
+    reject(spec, "PATH:i/n, random:SEED or view:AZIMUTH/ELEVATION/DISTANCE");
   const std::string_view path = spec.substr(0, colon);
   const std::string_view rest = spec.substr(colon + 1);
   if (path == "random") {

@@ -161,25 +161,15 @@ record::Record LiveDevice::measured(const Wanted& wanted, std::vector<std::byte>
     return ended(slot_.unsupported() ? record::Outcome::skipped : record::Outcome::failed,
                  slot_.why_closed());
   }
-  auto reply = slot_.worker().ask(
-      to_message(job(wanted)), options_.limit,
-      [&](const auto& loading) { publish([&](State& state) { state.loading = loading; }); });
-  if (auto* died = std::get_if<measure::WorkerLink::Died>(&reply)) {
-    slot_.vacate();
-    return ended(record::Outcome::crashed, std::move(died->reason));
+  auto reply = slot_.ask(to_message(job(wanted)), options_.limit, [&](const auto& loading) {
+    publish([&](State& state) { state.loading = loading; });
+  });
+  if (auto* lost = std::get_if<measure::WorkerSlot::Ended>(&reply)) {
+    return ended(lost->outcome, std::move(lost->reason));
   }
-  if (auto* late = std::get_if<measure::WorkerLink::Late>(&reply)) {
-    slot_.vacate();
-    return ended(record::Outcome::hung, std::move(late->reason));
-  }
-  auto answer = measure::as_answer(std::move(std::get<measure::Message>(reply)));
-  if (!answer) {
-    slot_.vacate();
-    return ended(record::Outcome::failed, {.cause = record::Cause::bad_answer});
-  }
-  if (answer->record.outcome == record::Outcome::lost) slot_.vacate();
-  exr = std::move(answer->exr);
-  return std::move(answer->record);
+  measure::Answer& answer = std::get<measure::Answer>(reply);
+  exr = std::move(answer.exr);
+  return std::move(answer.record);
 }
 
 }  // namespace triptych::view

@@ -217,14 +217,12 @@ void DeviceRun::greet(const Hello& hello) {
 
 Done DeviceRun::ask(const Job& job, const OnLoading& on_loading) {
   const Stopwatch stopwatch;
-  auto reply = exchange(to_message(job), on_loading);
+  const std::chrono::seconds limit = context_.plan.counted()
+                                         ? std::max(counted_limit, context_.options.limit)
+                                         : context_.options.limit;
+  auto reply = slot_.ask(to_message(job), limit, on_loading);
   if (const auto* lost = std::get_if<Ended>(&reply)) return {ended(lost->outcome, lost->reason)};
   Answer& answer = std::get<Answer>(reply);
-  // Drivers ignore all further commands after some errors without reporting any of them.
-  if (answer.record.outcome == record::Outcome::lost ||
-      answer.record.reason.cause == record::Cause::not_drawn) {
-    slot_.vacate();
-  }
   watch_memory(answer.record.peak_memory_bytes);
   Done done{.record = std::move(answer.record),
             .exr = std::move(answer.exr),
@@ -232,30 +230,6 @@ Done DeviceRun::ask(const Job& job, const OnLoading& on_loading) {
             .work_ns = answer.worker_ns - answer.record.overhead_ns};
   done.record.overhead_ns = stopwatch.ns() - done.work_ns;
   return done;
-}
-
-std::variant<Answer, DeviceRun::Ended> DeviceRun::exchange(const Message& message,
-                                                           const OnLoading& on_loading) {
-  const std::chrono::seconds limit = context_.plan.counted()
-                                         ? std::max(counted_limit, context_.options.limit)
-                                         : context_.options.limit;
-  WorkerLink::Reply reply = slot_.worker().ask(message, limit, on_loading);
-  std::optional<Ended> ended;
-  if (auto* died = std::get_if<WorkerLink::Died>(&reply)) {
-    ended = {record::Outcome::crashed, std::move(died->reason)};
-  } else if (auto* late = std::get_if<WorkerLink::Late>(&reply)) {
-    ended = {record::Outcome::hung, std::move(late->reason)};
-  } else {
-    try {
-      if (auto answer = as_answer(std::move(std::get<Message>(reply)))) return std::move(*answer);
-      ended = {record::Outcome::failed, {.cause = record::Cause::bad_answer}};
-    } catch (const core::InputError& error) {
-      ended = {record::Outcome::failed,
-               {.cause = record::Cause::bad_answer, .detail = error.what()}};
-    }
-  }
-  slot_.vacate();
-  return std::move(*ended);
 }
 
 }  // namespace triptych::measure

@@ -7,7 +7,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "measure/run/runner.hpp"
@@ -43,11 +42,7 @@ class DeviceRun {
  public:
   DeviceRun(const RunContext& context, std::string device);
 
-  // How a request without an answer ended.
-  struct Ended {
-    record::Outcome outcome;
-    record::Reason reason;
-  };
+  using Ended = WorkerSlot::Ended;
 
   // All functions throw Interrupted, and InputError if the device is no longer the one with which
   // the run began.
@@ -76,10 +71,6 @@ class DeviceRun {
   [[nodiscard]] Job job(const Configuration& configuration, const std::string& key) const;
   void sign(const Job& job, const std::string& key, record::Record& record) const;
   [[nodiscard]] Done ask(const Job& job, const OnLoading& on_loading);
-  // If this returns no answer, the worker is gone.
-  [[nodiscard]] std::variant<Answer, Ended> exchange(const Message& message,
-                                                     const OnLoading& on_loading);
-
   // Reports a worker whose memory grows from configuration to configuration.
   void watch_memory(std::uint64_t peak_bytes);
   void only_counted(record::Record& record) const;

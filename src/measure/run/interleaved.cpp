@@ -112,9 +112,7 @@ class Interleaved::Slot {
   // Throws SideEnded unless the outcome is that of a measured configuration.
   void require_measured(record::Outcome outcome, const record::Reason& reason) {
     if (outcome == record::Outcome::measured) return;
-    if (outcome == record::Outcome::lost || reason.cause == record::Cause::not_drawn) {
-      slot_.vacate();
-    }
+    slot_.vacate_after(outcome, reason);
     throw SideEnded(side_, outcome, reason);
   }
 

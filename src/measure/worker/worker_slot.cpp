@@ -51,6 +51,33 @@ bool WorkerSlot::open(const std::function<Start()>& start,
   return occupied();
 }
 
+std::variant<Answer, WorkerSlot::Ended> WorkerSlot::ask(const Message& job,
+                                                        std::chrono::milliseconds limit,
+                                                        const OnLoading& on_loading) {
+  WorkerLink::Reply reply = worker().ask(job, limit, on_loading);
+  Ended ended{record::Outcome::failed, {.cause = record::Cause::bad_answer}};
+  if (auto* died = std::get_if<WorkerLink::Died>(&reply)) {
+    ended = {record::Outcome::crashed, std::move(died->reason)};
+  } else if (auto* late = std::get_if<WorkerLink::Late>(&reply)) {
+    ended = {record::Outcome::hung, std::move(late->reason)};
+  } else {
+    try {
+      if (auto answer = as_answer(std::move(std::get<Message>(reply)))) {
+        vacate_after(answer->record.outcome, answer->record.reason);
+        return std::move(*answer);
+      }
+    } catch (const core::InputError& error) {
+      ended.reason.detail = error.what();
+    }
+  }
+  vacate();
+  return ended;
+}
+
+void WorkerSlot::vacate_after(record::Outcome outcome, const record::Reason& reason) noexcept {
+  if (outcome == record::Outcome::lost || reason.cause == record::Cause::not_drawn) vacate();
+}
+
 std::optional<record::DeviceFault> WorkerSlot::finish() {
   std::optional<record::DeviceFault> fault;
   if (worker_) fault = worker_->finish();

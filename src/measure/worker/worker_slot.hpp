@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "measure/system/interrupt.hpp"
@@ -37,9 +38,22 @@ class WorkerSlot {
   [[nodiscard]] WorkerLink& worker() const { return *worker_; }
   [[nodiscard]] bool occupied() const noexcept { return worker_ != nullptr; }
 
+  // The end of a worker that gave no answer.
+  struct Ended {
+    record::Outcome outcome;
+    record::Reason reason;
+  };
+  // Sends a job to the worker. The slot must be open. It is vacated if the worker has ended, and as
+  // vacate_after() says.
+  [[nodiscard]] std::variant<Answer, Ended> ask(const Message& job, std::chrono::milliseconds limit,
+                                                const OnLoading& on_loading);
+
   // Lets the worker exit normally. Returns the fault of a driver that appears while it does so.
   std::optional<record::DeviceFault> finish();
   void vacate() noexcept { worker_.reset(); }  // the worker has ended or ends now
+  // Vacates the slot if the device is lost or a frame was not drawn: drivers ignore all further
+  // commands after some errors without reporting any of them.
+  void vacate_after(record::Outcome outcome, const record::Reason& reason) noexcept;
 
   // The time for opening the device, over all workers.
   [[nodiscard]] double opening_ns() const noexcept { return opening_ns_; }

@@ -129,57 +129,6 @@ TEST_F(AcceptTest, WhatADeviceSkipsNowIsDropped) {
   EXPECT_EQ(counters[plain_]["samples"].size() + 1, counters[bricks_]["samples"].size());
 }
 
-// Counters belong to the device. A driver version without the feature must not be expected to have
-// them, and one that was accepted with it must.
-TEST_F(AcceptTest, ADriverVersionMayLackWhatAnotherOneHas) {
-  driver_versions_["vulkan:lavapipe"] = "25";
-  accept_first();
-  const auto without = [&](record::Cause cause) {
-    return [&, cause](record::Record& record, core::Image&) {
-      if (record.device != "vulkan:lavapipe" || record.configuration != bricks_) return;
-      record.outcome = record::Outcome::skipped;
-      record.reason.cause = cause;
-    };
-  };
-  driver_versions_["vulkan:lavapipe"] = "22";
-  add_run("22 without", without(record::Cause::not_supported));
-  EXPECT_EQ(with(gate("22 without"), Cause::ended).at(0).verdict, Verdict::cannot_judge);
-  const core::Json counters = read(baseline("counters.json"));
-  (void)accept_run("22 without");
-  EXPECT_EQ(read(baseline("counters.json")), counters);
-  EXPECT_EQ(read(baseline("lacking.json")).size(), 1U);
-  add_run("22 again", without(record::Cause::not_supported));
-  EXPECT_EQ(with(gate("22 again"), Cause::ended).at(0).verdict, Verdict::skipped);
-  driver_versions_["vulkan:lavapipe"] = "25";
-  add_run("25 without", without(record::Cause::not_supported));
-  EXPECT_EQ(with(gate("25 without"), Cause::ended).at(0).verdict, Verdict::cannot_judge);
-  // A version that never had it is accepted with it: nothing is lacking any more.
-  driver_versions_["vulkan:lavapipe"] = "22";
-  add_run("22 with");
-  (void)accept_run("22 with");
-  EXPECT_FALSE(std::filesystem::exists(baseline("lacking.json")));
-}
-
-// A skip for another reason, or on the only version, stays what it was: something is gone.
-TEST_F(AcceptTest, OnlyWhatIsNotSupportedIsLacking) {
-  driver_versions_["vulkan:lavapipe"] = "25";
-  accept_first();
-  const auto skip = [&](record::Cause cause) {
-    return [&, cause](record::Record& record, core::Image&) {
-      if (record.device != "vulkan:lavapipe" || record.configuration != bricks_) return;
-      record.outcome = record::Outcome::skipped;
-      record.reason.cause = cause;
-    };
-  };
-  add_run("same version", skip(record::Cause::not_supported));
-  (void)accept_run("same version");
-  EXPECT_FALSE(std::filesystem::exists(baseline("lacking.json")));
-  driver_versions_["vulkan:lavapipe"] = "22";
-  add_run("memory", skip(record::Cause::out_of_memory));
-  (void)accept_run("memory");
-  EXPECT_FALSE(std::filesystem::exists(baseline("lacking.json")));
-}
-
 // Concerns the same files: dropping does not restore what was there before.
 TEST_F(AcceptTest, DroppingKeepsWhatIsAcceptedBesides) {
   add_run("b", [&](record::Record& record, core::Image&) {
