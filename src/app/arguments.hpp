@@ -47,7 +47,7 @@ using measure::PlanChoice;
 void add_choice_options(CLI::App& command, PlanChoice& choice);
 // Adds --filter, --caselist and --fraction.
 void add_selection_options(CLI::App& command, PlanChoice& choice);
-// The error if these options select nothing in any plan.
+// The error to throw if these options match no configuration of any plan.
 [[nodiscard]] core::InputError nothing_selected(const PlanChoice& choice);
 
 // Adds the positional argument PLAN. At least one plan is required.
@@ -59,7 +59,7 @@ void add_plan_option(CLI::App& command, Plans& plans) {
 
 inline constexpr const char* standard_store = "triptych.sqlite";
 
-// The exit code by which `git bisect run` skips a commit.
+// `git bisect run` skips a commit if its command exits with this code.
 inline constexpr auto bisect_skips = static_cast<core::ExitCode>(125);
 
 // Adds --baselines. An empty name is refused, because it would mean the current folder.

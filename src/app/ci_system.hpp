@@ -25,7 +25,8 @@ inline constexpr const char* standard_ci = "auto";
 // Appends Markdown to the summary of the job, where the system has one.
 void add_to_job_summary(CiSystem system, const std::string& markdown);
 
-// Everything that is written while it lives is one section of the log, which readers can fold.
+// While an object of this class exists, all output goes to one section of the log, which readers
+// can fold.
 class LogSection {
  public:
   LogSection(CiSystem system, std::string title);

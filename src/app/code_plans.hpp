@@ -19,15 +19,16 @@ struct JudgedCompilers {
   std::vector<std::string> not_stored;  // "ID (DRIVER VERSION)" of the devices without stored code
 };
 
-// Selects from `found`, the devices that the machine has or that a run describes. Also in `devices`
-// are those with stored code that were not found, because the gate reports them if another device
-// of the same driver is there. `globs`: the devices that the user named; empty: all.
+// Selects devices from `found`, which are the devices of the machine or of a run. `devices` also
+// contains devices that have stored code but were not found, because the gate reports them as
+// missing if another device of the same driver is present. `globs`: the devices that the user
+// named; empty: all.
 [[nodiscard]] JudgedCompilers judged_compilers(const measure::Plan& plan,
                                                const std::vector<record::Device>& found,
                                                const std::vector<std::string>& globs,
                                                const std::string& baselines);
 
-// Prints, in one line each, why devices are not judged.
+// Prints one line for each reason why devices are not judged.
 void print_not_judged(const JudgedCompilers& compilers, const std::string& plan);
 
 }  // namespace triptych::app

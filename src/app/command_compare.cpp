@@ -51,8 +51,9 @@ measure::SideOptions parse_side(std::string_view option, const std::string& text
   return side;
 }
 
-// The records of the latest run, and for each device that it does not have, those of the latest
-// earlier run of the same plan that has it: `compare --store` writes a run for each side.
+// The records of the latest run. A device that this run does not contain is taken from the latest
+// earlier run of the same plan that contains it, because `compare --store` writes a run for each
+// side.
 std::vector<record::Record> records_of_all_devices(const record::Store& store,
                                                    const record::Run& latest) {
   std::vector<record::Record> records;

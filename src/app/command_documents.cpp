@@ -1,5 +1,5 @@
 // The manual page and the shell completion. Both are generated from the commands, so they cannot
-// lack an option. The build writes them beside the program, and `cmake --install` installs them.
+// lack an option. The build writes them next to the program, and `cmake --install` installs them.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -30,8 +30,8 @@ struct ExportArguments {
   bool json = false;
 };
 
-// The errors of images against their reference images and limits. A store that cannot be written
-// gives its images, but the reference images are drawn each time.
+// Computes the errors of images against their reference and limit images. If a store is read-only,
+// reference images cannot be saved in it, so they are drawn again for each export.
 class Errors {
  public:
   explicit Errors(const std::vector<std::string>& files) : registry_(make_registry()) {
@@ -75,7 +75,8 @@ class Errors {
   std::map<std::string, measure::Truths> truths_;  // by run
 };
 
-// The plan's name in the stores, or the name of the file that was run.
+// The plan's name in the stores. If the user named a YAML file, that is the name with which the
+// file was run.
 std::string plan_in(const std::vector<record::Store>& stores, const std::string& plan) {
   const bool named = std::ranges::any_of(
       stores, [&](const record::Store& each) { return each.latest_run(plan).has_value(); });

@@ -113,7 +113,8 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
                                const Registry& registry, measure::Truths& truths) {
   judge::GateRequest request = request_of(truths, judged.plan, registry.suite(judged.plan.suite));
   request.devices = judged.devices.empty() ? arguments.devices : judged.devices;
-  // Devices that only compile appear in no other plan, and the other devices need not report code.
+  // A device that only compiles appears only in plans that check code, and other devices need not
+  // report code.
   for (const std::string& glob : arguments.required) {
     const bool compiles = measure::compile_only(glob).has_value();
     if (compiles == judged.plan.compiled()) request.required_devices.push_back(glob);
@@ -126,7 +127,7 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
   return request;
 }
 
-// No baselines are used: each device is compared with itself under the base build or driver.
+// Compares each device with itself under the base build or driver, without baselines.
 core::ExitCode judge_by_base(const GateArguments& arguments) {
   const Registry registry = make_registry();
   const measure::Listing listing = measure::name_a_compiler(arguments.devices)

@@ -123,7 +123,8 @@ core::ExitCode merge(const MergeArguments& arguments) {
     put("{} older runs were left out: each store contributes the latest run of a plan\n",
         result.older_runs);
   }
-  // A configuration that no device of a shard has is not a gap in the whole run.
+  // A gap of one shard need not be a gap of the merged run, because another shard may contain the
+  // configuration.
   if (!gaps.empty()) {
     put_lines(gaps);
     put("These records are missing in {} unless another store has them\n", arguments.out);

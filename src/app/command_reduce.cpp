@@ -32,7 +32,8 @@ struct ReduceArguments {
   std::string against;
   int limit_s = 0;  // 0: determined by the first frame
   int frames = 500;
-  bool truth = true;  // an option of `render` that `reduce` always uses
+  // `render` needs --truth, but `reduce` always compares with the reference image
+  bool truth = true;
 };
 
 measure::RunOptions options_of(const ReduceArguments& arguments) {
@@ -43,8 +44,8 @@ measure::RunOptions options_of(const ReduceArguments& arguments) {
           .program = version()};
 }
 
-// Counters are wrong only in comparison with those of the other device, which `render` does not
-// draw on.
+// Wrong counters are found by comparison with the other device. `render` draws on one device only,
+// so the command for them is `reduce`.
 std::string command_for(const OneFrame& frame, const ReduceArguments& arguments,
                         const reduction::Failure& failure, const record::Record& record,
                         const record::Device& device) {
@@ -148,7 +149,7 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   const Registry registry = make_registry();
   const OneFrame frame = choose_frame(registry, arguments.frame);
   const fs::path out(arguments.frame.out);
-  // A README without frame.json next to it belongs to somebody else.
+  // A README without frame.json next to it was not written by `reduce`, so it is kept.
   if (fs::exists(out / "frame.json")) fs::remove(out / "README.md");
   report::remove_frame(out);
   const core::TemporaryFolder folder;

@@ -82,8 +82,8 @@ Drawn draw_one(const Drawing& drawing, const measure::Plan& plan) {
   return {run, drawing.store.records(run).at(0)};
 }
 
-// Draws with the fastest technique, found by short trials. If none can be drawn, the result is that
-// of the first.
+// Draws with the fastest technique, which is found by short trials. If the device can draw with
+// none of them, returns the result of the first.
 Drawn draw_the_fastest(const Drawing& drawing, const measure::Plan& plan) {
   if (drawing.arguments.error) {
     throw core::InputError(
@@ -103,7 +103,7 @@ Drawn draw_the_fastest(const Drawing& drawing, const measure::Plan& plan) {
 }
 
 // Draws with the fastest settings that keep the requested error. If the device could draw nothing,
-// the result has the reason.
+// the result contains the reason.
 Drawn draw_within_error(const Drawing& drawing, const measure::Plan& plan,
                         measure::Truths& truths) {
   const auto wanted = accuracy::parse_requested_error(*drawing.arguments.error);
@@ -134,8 +134,8 @@ void require_option(const std::string& value, std::string_view name) {
   if (value.empty()) throw core::InputError(fmt::format("{} is required", name));
 }
 
-// Names objects and passes for tools, and makes the backends write the drivers' input to the
-// folder.
+// Switches on names of objects and passes for debugging tools, and makes the backends write the
+// driver's input to the folder.
 void prepare_process(const RenderArguments& arguments) {
   ::setenv("TRIPTYCH_LABELS", "1", 1);
   if (arguments.dump.empty()) return;

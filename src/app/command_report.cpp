@@ -18,7 +18,7 @@ struct ReportArguments {
   std::string benchmark_json;
 };
 
-// Called before anything is written, so that either both files are written or none.
+// Is called before anything is written, so that either both files are written or neither.
 void require_file(std::string_view option, const std::string& file) {
   if (file.empty()) return;
   if (std::filesystem::is_directory(file)) {

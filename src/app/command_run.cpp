@@ -17,7 +17,7 @@ namespace {
 
 using measure::RunResult;
 
-// If nothing of a plan was measured, there is nothing to judge.
+// Returns cannot_judge if no configuration of some plan was measured.
 core::ExitCode run(const Measuring& measuring) {
   const auto [scored, results, error_kept] = measure_resumably(measuring);
   const bool measured =

@@ -35,7 +35,7 @@ core::ExitCode list_tests(const TestsArguments& arguments) {
   const auto add = [&](const std::string& plan, bool one_per_driver) {
     const measure::Plan loaded = measure::load_plan(plan, {}, registry.find_suite());
     const std::string stem = report::ctest_stem(loaded.suite, loaded.name);
-    // CTest works in another folder.
+    // CTest runs the tests in another folder, so the path of a YAML file becomes absolute.
     const bool named = loaded.name.find('/') != std::string::npos;
     tests.push_back({.suite = loaded.suite,
                      .plan = named ? plan : fs::absolute(plan).string(),

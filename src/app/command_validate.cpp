@@ -48,8 +48,9 @@ struct ValidateArguments {
   std::string ci = standard_ci;
 };
 
-// Times, image bits and statistics differ between devices. Any device must draw the right image
-// from the right amount of work. The score of a stress case includes its image.
+// A validation checks images and counters only, because every device must draw the right image with
+// the right amount of work, whereas times, image bits and statistics differ between devices. A
+// stress case is judged by its score, which includes its image.
 record::Checks checks_of(const record::Checks& of_plan) {
   const bool scored = of_plan.contains(judge::Check::stress);
   return {scored ? judge::Check::stress : judge::Check::image, judge::Check::counters};
@@ -152,8 +153,8 @@ class Validation {
     judge::add_flakes(cases, results_);
   }
 
-  // Prints and writes the coverage of the images and the features that were probed, so that a pass
-  // states what it covers.
+  // Prints and writes which levels and features the validation has covered, so that readers know
+  // what a pass means.
   void tell_coverage(const FeatureTable& features) {
     std::vector<record::Record> records;
     for (const judge::GateResult& result : results_) {

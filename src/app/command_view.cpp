@@ -1,4 +1,5 @@
-// The command view: finds out what is to be shown, and becomes the program that has the window.
+// The command view: determines what to show, and then replaces this process by the program that
+// opens the window.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -77,7 +78,7 @@ std::vector<measure::ViewSide> one_of_each_api(const measure::Listing& listing) 
 
 std::vector<measure::ViewSide> sides_of(const ViewArguments& arguments,
                                         const measure::Listing& listing) {
-  static_cast<void>(measure::choose_devices(listing, {}));  // refuses an empty list
+  static_cast<void>(measure::choose_devices(listing, {}));  // throws if the list is empty
   if (arguments.devices.empty()) return one_of_each_api(listing);
   std::vector<measure::ViewSide> sides;
   for (const std::string& each : arguments.devices) add_sides(listing, each, sides);

@@ -30,7 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A log gets a line for each stage, and a sign of life from time to time.
+// Prints the progress of a comparison. A log gets a line for each stage, and a sign of life from
+// time to time.
 class ComparisonPrinter {
  public:
   explicit ComparisonPrinter(bool verbose) : verbose_(verbose) {}
@@ -58,8 +59,8 @@ report::ComparisonCommand command_of(const Comparing& comparing, const std::stri
   report::ComparisonCommand command{.plan = typed, .sides = comparing.sides, .varied = plan.varied};
   for (const std::string& each : comparing.faults)
     command.sides += " --inject " + core::shell_quoted(each);
-  // A factor that the command line sets to one value no longer varies, but printed commands must
-  // repeat it.
+  // A factor that has one value on the command line no longer varies in the plan, but the printed
+  // commands must contain it.
   for (const auto& [factor, values] : comparing.choice.overrides()) {
     if (std::ranges::find(command.varied, factor) == command.varied.end()) {
       command.varied.push_back(factor);

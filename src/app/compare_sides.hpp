@@ -32,7 +32,8 @@ struct Comparing {
 [[nodiscard]] core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool json);
 
 // The measure::worker_command of another build. Throws InputError with the option's name if the
-// file is not a program or not triptych; otherwise its device would be blamed for a missing answer.
+// file is not an executable build of triptych. Without this check, the missing answer would be
+// reported as a failure of the device.
 [[nodiscard]] std::vector<std::string> worker_of(const std::string& option,
                                                  const std::string& program);
 

@@ -29,7 +29,7 @@ constexpr const char* footer =
     "A PLAN is a YAML file or a short name such as volume/quick. `triptych list PLAN` prints its "
     "configurations.";
 
-// CLI11 would report that a command is required, whatever word is in its place.
+// Reports an unknown command. CLI11 would only report that a command is required.
 void refuse_unknown_command(const CLI::App& program, std::string_view name) {
   if (name.starts_with('-')) return;
   std::vector<std::string> known;
@@ -41,8 +41,8 @@ void refuse_unknown_command(const CLI::App& program, std::string_view name) {
       fmt::format("unknown command '{}'{}", name, measure::suggestion(name, known)));
 }
 
-// An option takes one value each time, even if it may be repeated. Otherwise `run --device GLOB
-// PLAN` would have two devices and no plan.
+// Lets each option take one value at a time, even if it may be repeated. Otherwise `run --device
+// GLOB PLAN` would have two devices and no plan.
 void give_options_one_value(CLI::App& program) {
   for (CLI::App* command : program.get_subcommands({})) {
     for (CLI::Option* option : command->get_options()) {
@@ -79,7 +79,7 @@ ExitCode run(int argc, char** argv) {
       return ExitCode::pass;
     }
     app::say("triptych: {}\nRun with --help for more information.\n", error.what());
-    // Another commit may lack an option, which is not a verdict on that commit.
+    // An older commit may not have an option, which must not count as a verdict on that commit.
     const auto arguments = std::span(argv, static_cast<std::size_t>(argc));
     const bool bisects =
         std::ranges::find(arguments, std::string_view("--bisect")) != arguments.end();

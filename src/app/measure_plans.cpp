@@ -113,7 +113,7 @@ struct Bench {
   record::Store& store;
 };
 
-// Families whose compiler is not installed are of interest only if the user named one.
+// GPU families whose compiler is not installed are recorded only if the user named one of them.
 record::Beginning begun_with(const measure::Listing& listing,
                              const std::vector<std::string>& asked) {
   record::Beginning begun{.host = measure::host_name(), .asked = asked};
@@ -188,9 +188,9 @@ void tell_the_fastest(const Bench& bench, const measure::Plan& plan, const std::
   }
 }
 
-// Devices that only compile are used by plans that check their code, and by no others. Such a plan
-// leaves out devices that are the processor, unless the user names no others: the plans that check
-// cost count their instructions.
+// Devices that only compile are used only by plans that check their code. Such a plan leaves out
+// devices that run on the processor, because the plans that check cost count their instructions,
+// unless the user names only such devices.
 std::vector<std::string> devices_of(const measure::Listing& listing,
                                     const std::vector<std::string>& globs, bool compiled) {
   std::vector<std::string> chosen = measure::choose_devices(listing, globs);
@@ -213,7 +213,7 @@ measure::Listing listing_for(const Measuring& measuring, const Registry& registr
              : registry.devices(measuring.devices);
 }
 
-// Plans that only compile have other devices than plans that draw.
+// Plans that only compile use other devices than plans that draw.
 std::vector<measure::RunResult> measure_each(const Measuring& measuring, const Registry& registry,
                                              const std::vector<measure::Plan>& plans,
                                              const measure::Listing& listing,

@@ -39,7 +39,7 @@ struct Measuring {
 };
 
 struct Measured {
-  bool scored = false;                           // failures of some plan are reported by its scores
+  bool scored = false;                           // the scores of some plan report its failures
   std::vector<measure::RunResult> results = {};  // in the order of the plans
   bool error_kept = true;  // whether every device keeps the requested error in every scene
 };
@@ -47,7 +47,7 @@ struct Measured {
 // Measures and prints a few lines about the result. Throws what measure::run_plans throws.
 Measured measure_and_tell(const Measuring& measuring);
 
-// The same for commands with --resume, which an interruption mentions.
+// The same for commands with --resume. If the run is interrupted, the message mentions that option.
 Measured measure_resumably(const Measuring& measuring);
 
 }  // namespace triptych::app

@@ -45,7 +45,7 @@ OwnBaselines::OwnBaselines(const std::string& named)
 }
 
 OwnBaselines::~OwnBaselines() {
-  std::error_code ignored;  // files that remain are replaced by the next one
+  std::error_code ignored;  // the next call replaces files that remain
   if (working_ != name_) fs::remove_all(working_, ignored);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Default locations.
+// Default locations of data and baselines.
 
 #include <filesystem>
 #include <vector>

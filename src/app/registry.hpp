@@ -23,7 +23,8 @@ struct Registry {
   // The devices of this machine, of those APIs in which any of the globs may match a device (all
   // APIs if there are no globs). Opening the drivers of an API takes a quarter of a second.
   [[nodiscard]] measure::Listing devices(const std::vector<std::string>& globs) const;
-  // The same with those that only compile, as measure::list_compilers finds them for the globs.
+  // The same devices, and those that only compile, which measure::list_compilers finds for the
+  // globs.
   [[nodiscard]] measure::Listing devices_and_compilers(const std::vector<std::string>& globs) const;
 };
 

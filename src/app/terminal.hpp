@@ -62,7 +62,7 @@ inline void put_lines(std::string_view text, std::FILE* to = stdout) {
 [[nodiscard]] bool watched();
 // The columns of that terminal; 0 without a terminal.
 [[nodiscard]] std::size_t columns();
-// On a terminal, removes the line that show() has left.
+// On a terminal, removes the progress line that show_line() has printed.
 void clear_line();
 
 // Shows progress: one line that is rewritten on a terminal and cut to its width, and a line for

@@ -192,7 +192,7 @@ report::JunitFacts junit_facts(const record::Store& store,
   return facts;
 }
 
-// Writes the output for a CI system that is not a file in the folder.
+// Writes annotations and the job summary, which a CI system does not read from the folder.
 void tell_ci(const std::vector<judge::GateResult>& results, const report::FindingPlaces& places,
              CiSystem ci) {
   if (ci != CiSystem::github) return;

@@ -15,9 +15,9 @@ namespace triptych::app {
 // Throws core::NotSupported with the command that measures if the store does not exist.
 void require_store(const std::filesystem::path& file);
 
-// Opens the store to judge from: for appending, so that reference images are kept for the next
-// time, or for reading if it is read-only. Throws NotSupported if it does not exist, and what
-// record::Store throws.
+// Opens the store to judge its runs. It is opened for appending, so that reference images are saved
+// for the next time, or for reading if it is read-only. Throws NotSupported if it does not exist,
+// and any error that record::Store throws.
 [[nodiscard]] record::Store open_to_judge(const std::string& file);
 
 // The id of the plan's latest run. Throws NotSupported (nothing to judge) if there is none. `plan`
@@ -41,8 +41,8 @@ void require_store(const std::filesystem::path& file);
 [[nodiscard]] judge::GateRequest request_of(measure::Truths& truths, const measure::Plan& plan,
                                             const measure::Suite& suite);
 
-// Findings that could not be judged only because data files are not here become skips: for a
-// machine that is meant to lack them. A failure of a device is never excused.
+// Turns findings that could not be judged only because data files are missing into skips, for
+// machines that are meant to lack these files. A failure of a device is never excused.
 void excuse_absent_data(const record::Store& store, judge::GateResult& result);
 
 // The files to which a verdict is written; empty: not written.

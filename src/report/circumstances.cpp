@@ -14,7 +14,7 @@ namespace triptych::report {
 
 namespace {
 
-// Names one file, because the others are in the same folder.
+// Names one missing file, because the others are usually in the same folder.
 std::string absent_data(std::span<const judge::GateResult* const> results) {
   std::set<std::string> files;
   std::set<std::tuple<std::string, std::string, std::string>> missing;

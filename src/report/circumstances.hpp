@@ -1,5 +1,5 @@
 #pragma once
-// Facts that a reader of any verdict has to know.
+// Facts that readers of any verdict must know.
 
 #include <span>
 #include <string>
@@ -9,13 +9,14 @@
 
 namespace triptych::report {
 
-// A line about the faults that were injected into the runs, one for each program that measured and
-// is not the one that judges, and one for each reason why loaders and drivers could not be used
-// while devices were listed.
+// Returns a line about the faults that were injected into the runs, a line for each build of
+// Triptych that measured and is not the one that judges, and a line for each reason why a loader or
+// driver could not be used while devices were listed.
 [[nodiscard]] std::vector<std::string> circumstances(
     std::span<const judge::GateResult* const> results);
 
-// Whether a record was skipped because its data file, which is the reason's subject, is not here.
+// Whether a record was skipped because its data file, which is the reason's subject, is missing on
+// this machine.
 [[nodiscard]] bool lacks_data(record::Outcome outcome, const record::Reason& reason);
 
 }  // namespace triptych::report

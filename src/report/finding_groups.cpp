@@ -64,8 +64,8 @@ double size_of(const Finding& finding) {
   return size;
 }
 
-// Whether a configuration left the line because its own instructions increased: another finding
-// already names that cause.
+// Whether a configuration left the line because its own instructions increased. A finding of the
+// check cost already reports that cause.
 bool is_told_by_cost(const Finding& finding, std::span<const Finding> findings) {
   if (finding.check != Check::correlation || finding.verdict != Verdict::regression) return false;
   return std::ranges::any_of(findings, [&](const Finding& other) {
@@ -98,7 +98,7 @@ bool is_smaller(const Finding* a, const Finding* b) {
   return key(a) < key(b);
 }
 
-// The size of a finding's error, for comparing findings of one kind.
+// The size of a finding's error. It is used to compare findings of one kind.
 double severity_of(const Finding& finding) {
   if (finding.cause == judge::Cause::pixels_over_bound) return finding.number("pixels_over");
   double largest = 0;
@@ -110,7 +110,7 @@ double severity_of(const Finding& finding) {
   return largest;
 }
 
-// The first one, if they are equally bad.
+// If both are equally bad, returns the first one.
 const Finding* worse_of(const Finding* a, const Finding* b) {
   if (a == nullptr || b == nullptr) return a == nullptr ? b : a;
   return severity_of(*b) > severity_of(*a) ? b : a;
@@ -154,7 +154,7 @@ class Grouping {
       const auto techniques = known.find("technique");
       const bool all_say_it =
           techniques == known.end() || techniques->second.size() == by_technique.size();
-      // This many techniques do not fail in the same way by chance.
+      // If at least this many techniques fail in the same way, they have one cause.
       constexpr std::size_t several = 3;
       if (all_say_it || by_technique.size() >= several) by_technique = {{"", members}};
       for (const auto& [technique, same] : by_technique) all.push_back(group_of(same));
@@ -217,8 +217,8 @@ class Grouping {
     return {wrong.begin(), wrong.end()};
   }
 
-  // For each factor at most two affected levels, or one unaffected level. More would not help the
-  // reader.
+  // Returns at most two affected levels, or one unaffected level, for each factor. More would not
+  // help the reader.
   [[nodiscard]] std::string signature_of(const Members& members) const {
     Levels here;
     for (const Finding* each : members) {
@@ -249,24 +249,25 @@ class Grouping {
   std::map<std::tuple<Verdict, Check, std::string_view, std::string>, Members> by_kind_;
 };
 
-// This includes a hang, because `render` accepts a time limit.
+// Whether drawing the image again shows the finding. This includes a hang, because `render` accepts
+// a time limit.
 bool is_told_by_a_picture(const Finding& finding) {
   return finding.check == Check::image || finding.check == Check::stress || finding.reason.limit();
 }
 
 // A finding that compares with stored values can be reproduced only by measuring and judging again,
-// with a separate store.
+// into a separate store.
 void judge_again(const Finding& finding, const judge::GateResult& result, Command& command) {
   command.command = "gate";
   command.object = result.argument.empty() ? result.plan : result.argument;
   if (finding.check == Check::correlation) {
-    // The line is drawn through all configurations of all devices.
+    // The line is fitted to the configurations of all devices, so all devices are measured.
     command.device.clear();
     command.factors.clear();
   } else {
     command.factors.insert(result.defaults.begin(), result.defaults.end());
   }
-  // The order needs all steps.
+  // The order is fitted to errors at several steps, so all steps are measured.
   if (finding.check == Check::accuracy) command.factors.erase("step");
   command.more = {"--measure", "--check", std::string(judge::name_of(finding.check)), "--store",
                   "repro.sqlite"};
@@ -296,7 +297,7 @@ Blame FindingGroup::blame() const {
   const auto by_its_api = [&](const std::vector<std::string>& devices) {
     std::vector<std::string> same;
     for (const std::string& each : devices) {
-      const bool itself = each == first->device;  // another version of it
+      const bool itself = each == first->device;  // the same device with another driver version
       const bool other = record::family_of(each) != record::family_of(first->device);
       if (each.starts_with(api) && (itself || other)) same.push_back(each);
     }
@@ -350,7 +351,7 @@ bool is_open(const Finding& finding) {
 }
 
 std::string command_of(const Finding& finding, const judge::GateResult& result) {
-  // A command would only repeat a skip.
+  // A command could only reproduce the skip.
   if (finding.device.empty() || finding.verdict == Verdict::skipped) return {};
   if (finding.configuration.empty() && finding.check != Check::correlation) return {};
   Command command{.command = "render",

@@ -11,13 +11,13 @@
 
 namespace triptych::report {
 
-// The component at fault, as far as the other devices show it.
+// The component at fault, which follows from the results of the other devices.
 struct Blame {
   enum class Of : std::uint8_t {
     unknown,
-    driver,                 // `devices` are right with the same API
-    driver_since_accepted,  // devices with the same API were right when they were accepted
-    not_the_driver          // `devices` of other families of drivers are wrong too
+    driver,                 // `devices` with the same API pass
+    driver_since_accepted,  // devices with the same API passed when they were accepted
+    not_the_driver          // `devices` of other driver families fail too
   };
   Of of = Of::unknown;
   std::vector<std::string> devices = {};
@@ -54,18 +54,18 @@ struct FindingGroup {
 // is counted in changed_with_it.
 [[nodiscard]] std::vector<FindingGroup> grouped(std::span<const judge::Finding> findings);
 
-// Whether groups of two plans have one cause: they have the same device, verdict, check and
-// technique, and are of one kind. Ending a program in the same way is one cause under every check.
+// Whether groups of two plans have one cause: they have the same device, verdict, check, technique
+// and kind. If the program ended in the same way, the check does not matter.
 [[nodiscard]] bool have_one_cause(const FindingGroup& a, const FindingGroup& b);
 
-// Adds a group with the same cause. Returns true if its smallest case became that of the whole
-// group.
+// Adds another group with the same cause. Returns true if the smallest case of that group became
+// the smallest case of the result.
 bool take_in(FindingGroup& group, const FindingGroup& other);
 
-// Neither a pass nor advisory, so that somebody has to look at it.
+// Whether somebody has to look at the finding: it is neither a pass nor advisory.
 [[nodiscard]] bool is_open(const judge::Finding& finding);
 
-// A command that reproduces a finding of the result, ready to be pasted. It contains the settings
+// A command that reproduces a finding of the result and can be pasted. It contains the settings
 // that were made for the device. Empty if no such command is known.
 [[nodiscard]] std::string command_of(const judge::Finding& finding,
                                      const judge::GateResult& result);

@@ -91,11 +91,11 @@ class Content {
 using TableRow = std::vector<Content>;
 using Rows = std::vector<TableRow>;
 
-// Text in which lines may be broken after the characters that separate the parts of a test's id or
-// of a configuration.
+// A "data:image/png;base64,…" URI.
 [[nodiscard]] Html breakable(std::string_view text);
 
-// "data:image/png;base64,…"
+// The style sheet and the script that are built into the program, and their hashes for a
+// Content-Security-Policy: SHA-256 in base64.
 [[nodiscard]] Html data_uri(std::span<const std::byte> png);
 
 // The style sheet and the script that are built into the program, and their names in a

@@ -58,7 +58,8 @@ KindRow row_of(const words::CheckWords& kind, std::span<const GateResult* const>
   for (const GateResult* result : results) {
     for (const Finding& finding : result->findings) {
       if (finding.check != kind.check) continue;
-      // A reference image that has its stored hash is not an image within its bound.
+      // A finding without a device is about the reference image: it has its stored hash, which does
+      // not mean that an image is within its bound.
       const bool of_truth = finding.check == Check::image && finding.device.empty();
       const bool is_right =
           finding.verdict == Verdict::pass || finding.verdict == Verdict::improved;
@@ -104,7 +105,7 @@ bool was_checked(const words::CheckWords& kind, std::span<const GateResult* cons
   });
 }
 
-// Findings of several plans with one cause become one.
+// Merges findings of several plans that have one cause.
 void add(std::vector<Cause>& causes, const GateResult& result, FindingGroup group) {
   const auto same = std::ranges::find_if(
       causes, [&](const Cause& cause) { return have_one_cause(cause.group, group); });

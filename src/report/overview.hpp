@@ -1,6 +1,6 @@
 #pragma once
-// The verdict over all plans in a few rows, with which the last screen, the page and the Markdown
-// summary begin.
+// The verdict over all plans in a few rows. The last screen, the page and the Markdown summary
+// begin with it.
 
 #include <span>
 #include <string>
@@ -23,7 +23,7 @@ struct KindRow {
 };
 
 struct Cause {
-  const judge::GateResult* result;  // that of the smallest case
+  const judge::GateResult* result;  // the result of the plan that contains the smallest case
   FindingGroup group;
   std::size_t plans = 1;
 };

@@ -78,7 +78,8 @@ std::optional<std::string> reason_to_skip(const judge::GateResult& result) {
   for (const judge::Finding& finding : result.findings) {
     const bool idle =
         finding.verdict == judge::Verdict::advisory || finding.verdict == judge::Verdict::skipped;
-    // A pass of a whole device is a summary, and a pass of a correlation is a result.
+    // A pass about a whole device only summarises other findings, so it judges nothing itself. A
+    // pass of a correlation does.
     const bool sums_up = finding.verdict == judge::Verdict::pass && finding.configuration.empty() &&
                          finding.check != judge::Check::correlation;
     if (!idle && !sums_up) return std::nullopt;

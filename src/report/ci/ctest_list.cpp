@@ -26,7 +26,7 @@ struct Test {
 std::string bracketed(const std::string& text) {
   std::string equals = "=";
   while ((text + "]").find("]" + equals + "]") != std::string::npos) equals += '=';
-  // CMake leaves out a line break at the start.
+  // CMake ignores a line break right after the opening bracket, so it is written twice.
   return fmt::format("[{0}[{1}{2}]{0}]", equals, text.starts_with('\n') ? "\n" : "", text);
 }
 
@@ -86,7 +86,8 @@ std::vector<Test> tests_of(const PlanTests& plan, std::span<const record::Device
            .command = {"test-check", argument, "--check", check, "--device", device.id, "--store",
                        store},
            .labels = {suite, check, "device", device.api, device.id},
-           // A score compares the device with all others, and so does a correlation.
+           // A score compares a device with all others, and so does a correlation, so all of them
+           // must be measured before.
            .requires_fixtures = is_of_all(each) ? measured : std::vector<std::string>{fixture}});
     }
   }

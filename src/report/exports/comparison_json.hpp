@@ -17,7 +17,8 @@ namespace triptych::report {
 // "side", "numbers", "facts", "changes", "a" and "b" (observations), "worths", "code", "total",
 // "injected"}.
 [[nodiscard]] core::Json to_json(const comparison::Difference& difference);
-// As for its difference, with {"configuration", "configurations", "ratio_low", "ratio_high"}.
+// The members of its difference, and {"configuration", "configurations", "ratio_low",
+// "ratio_high"}.
 [[nodiscard]] core::Json to_json(const comparison::DifferenceGroup& group);
 // {"cause", "text"}, and the data of the cause: {"side", "outcome", "reason", "suspected",
 // "numbers"}.

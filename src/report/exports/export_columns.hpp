@@ -45,7 +45,7 @@ struct RecordSource {
   const record::Record& record;
 };
 
-// The names that become columns of their own.
+// The names of factors, costs and other values that get a column each.
 struct RecordNames {
   std::set<std::string> factors, cost, memory, energy;
 };

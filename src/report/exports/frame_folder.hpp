@@ -16,8 +16,8 @@ namespace triptych::report {
 [[nodiscard]] nlohmann::json frame_json(nlohmann::json scene, const record::Record& record,
                                         const record::Device& device);
 
-// Removes the files that the functions below write, and frame.json. Otherwise, the pictures of an
-// earlier frame could be taken for those of a frame that cannot be drawn.
+// Removes frame.json and the files that the functions below write. Otherwise, if a frame cannot be
+// drawn, a reader could take the images of an earlier frame for its images.
 void remove_frame(const std::filesystem::path& folder);
 
 // Writes image.exr and image.png, or truth.exr and truth.png. Throws IoError.
@@ -27,8 +27,8 @@ void write_picture(const std::filesystem::path& folder, const std::string& name,
 // An image compared with its reference image.
 struct HeldAgainstTruth {
   judge::Observation what;
-  double white = 0;  // the error that is white in difference.png; 0: there is no such file, because
-                     // the sizes differ
+  // The error that is shown as white; 0: no difference.png, because the sizes differ.
+  double white = 0;
   [[nodiscard]] bool right() const { return what.cause == judge::Cause::within_bound; }
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 using core::Json;
 
-// JSON has neither infinities nor NaN.
+// Infinities and NaN become null, because JSON cannot represent them.
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }

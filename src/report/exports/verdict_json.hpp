@@ -19,8 +19,8 @@ namespace triptych::report {
 [[nodiscard]] core::Json to_json(const judge::Finding& finding);
 // [{"name", "unit", "before", "now", "accepted", "allowed"}]
 [[nodiscard]] core::Json changes_json(const std::vector<judge::Change>& changes);
-// The members of a finding that describe what was observed. Empty ones are left out, except for
-// "cause" and "numbers".
+// The members of a finding that describe what was observed. Empty ones are left out, except "cause"
+// and "numbers".
 [[nodiscard]] core::Json observation_json(const judge::Observation& what);
 // {"device_a", "device_b", "signal", "new_device", "line": {"configurations", "intercept", "slope",
 // "scale", "rho", "pearson", "admitted", "refusal"}, "points": [{"configuration", "x", "y",

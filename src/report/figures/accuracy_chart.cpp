@@ -95,8 +95,8 @@ class Diagram {
   }
 
  private:
-  // Finds the front for the cost that is shown, because the fastest configuration need not have the
-  // least memory.
+  // Finds the front again for the displayed cost, because the fastest configuration need not be the
+  // one with the least memory.
   void find_front() {
     front_ = accuracy::pareto_front(scene_.cases, [this](const accuracy::AccuracyCase& each) {
       const auto place = place_of(each);
@@ -118,7 +118,7 @@ class Diagram {
     if (!paid || !(*paid > 0) || !(each.rmse > 0)) return std::nullopt;
     return Figure::Place{each.rmse, *paid};
   }
-  // If there are more families than colours, those that reach the front get one.
+  // If there are more families than colours, only families on the front get a colour.
   std::string_view colour(const std::string& name) {
     const bool has_one = named_.contains(name) || colours_.contains(name);
     if (!has_one && (scene_.families.size() > colour_count || name.empty())) return "soft";

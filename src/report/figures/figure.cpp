@@ -15,7 +15,7 @@ namespace {
 constexpr double line_height = 16;
 constexpr double gap = 8;
 
-// One axis with its ends. It maps data to a share of the frame.
+// One axis with its ends. Maps a value to its position between them, from 0 to 1.
 class Measure {
  public:
   Measure(const Axis& axis, double low, double high) : axis_(axis), low_(low), high_(high) {
@@ -35,7 +35,7 @@ class Measure {
       low_ -= half;
       high_ += half;
     } else {
-      // Bars stand on 0, so nothing is added below it if there are no values below.
+      // Bars begin at 0, so the axis gets no margin below 0 if no value is negative.
       if (low_ != 0) low_ -= margin;
       high_ += margin;
     }
@@ -51,7 +51,7 @@ class Measure {
   struct Tick {
     double at;
     std::string text;
-    std::string whole = {};  // the whole text if it is shortened
+    std::string whole = {};  // the unshortened text, if it was shortened
   };
   [[nodiscard]] std::vector<Tick> ticks(int wanted) const {
     std::vector<Tick> all;
@@ -80,7 +80,7 @@ double longest(const std::vector<Measure::Tick>& ticks) {
 
 }  // namespace
 
-// The data that svg() needs while it draws.
+// The layout and scales that svg() needs while it draws.
 class Figure::Drawing {
  public:
   explicit Drawing(const Figure& figure)
@@ -109,7 +109,7 @@ class Figure::Drawing {
   }
 
  private:
-  // The scale for everything that is drawn.
+  // Computes the range of the axis that contains everything that is drawn.
   [[nodiscard]] Measure measure(const Axis& axis, double Place::*coordinate) const {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
@@ -173,7 +173,7 @@ class Figure::Drawing {
   [[nodiscard]] double x_of(double value) const {
     return left_ + figure_.width_ * across_.share(value);
   }
-  // Names run from top to bottom, numbers from bottom to top.
+  // Named bands are listed from top to bottom; numbers increase from bottom to top.
   [[nodiscard]] double y_of(double value) const {
     const double share = up_.share(value);
     return top_ + figure_.height_ * (figure_.up_.names.empty() ? 1 - share : share);
@@ -276,7 +276,7 @@ class Figure::Drawing {
     std::string path;
     double last = -1;
     for (const Place& place : shape.places) {
-      // Two strokes at the same position are drawn as one.
+      // Two strokes that are rounded to the same position are drawn as one.
       const double x = std::round(2 * x_of(place.x)) / 2;
       if (x == last) continue;
       last = x;

@@ -1,5 +1,5 @@
 #pragma once
-// Figures as SVG, which are drawn when a page is written: marks on two axes. The colours come from
+// Figures as SVG: marks on two axes. They are drawn when the page is written. The colours come from
 // the style sheet (classes c0…c7, ink, soft), so that a figure follows the page into dark mode.
 
 #include <optional>
@@ -16,15 +16,15 @@ struct Axis {
   std::string title = {};
   bool logarithmic = false;
   bool percent = false;                 // numbers are shares: 0.1 is "+10 %"
-  std::vector<std::string> names = {};  // bands in place of numbers: name i is at i, the first on
-                                        // top or on the left
-  // Ends of the axis; else it fits what is drawn.
+  // Bands instead of numbers: name i is at i, the first one at the top or at the left.
+  std::vector<std::string> names = {};
+  // The ends of the axis. By default, the axis fits the data.
   std::optional<double> low = {};
   std::optional<double> high = {};
 };
 
-// Multiples of 1, 2 or 5 times a power of ten within [low, high], about as many as wanted. On a
-// logarithmic axis they are powers of ten, or also their multiples if there would be too few.
+// Multiples of 1, 2 or 5 times a power of ten within [low, high], about `wanted` of them. On a
+// logarithmic axis these are powers of ten, or also their multiples if there would be too few.
 [[nodiscard]] std::vector<double> ticks(double low, double high, bool logarithmic, int wanted);
 // "0.05", "1e-6", "25k", "3M"
 [[nodiscard]] std::string short_number(double value);
@@ -62,7 +62,7 @@ class Figure {
   // Vertical strokes in one row, which extend by `half` of a band up and down: every sample of a
   // distribution.
   void strokes(std::span<const double> across, double row, double half, const Style& style);
-  // A dashed vertical line across the whole frame. The axis is not extended for it.
+  // A dashed vertical line across the whole frame. The axis is not extended to include it.
   void upright(double across);
   // A label next to a point, inside the frame. It is left out if another label is already at this
   // place.

@@ -12,8 +12,8 @@ namespace triptych::report {
 // The width of a text in the size of the style sheet, from the mean width of its letters.
 [[nodiscard]] double width_of(std::string_view text);
 
-// The largest number of characters of a name beside an axis, and of a name in a legend, which gets
-// a line of its own if necessary.
+// The largest number of characters of a name next to an axis, and of a name in a legend. A long
+// name in a legend gets a separate line.
 inline constexpr std::size_t longest_name = 34;
 inline constexpr std::size_t longest_entry = 64;
 

@@ -19,7 +19,7 @@ double nice_step(double step) {
   return 10 * power;
 }
 
-// One tick alone does not show the scale of an axis.
+// A single tick does not show the scale of an axis.
 constexpr std::size_t least_ticks = 2;
 
 std::vector<double> linear_ticks(double low, double high, int wanted) {
@@ -55,7 +55,7 @@ std::vector<double> ticks(double low, double high, bool logarithmic, int wanted)
   static constexpr std::array<double, 1> ones{1};
   static constexpr std::array<double, 3> some{1, 2, 5};
   if (decades > wanted) {
-    // Multiples of `every` may all lie outside of the axis but for one.
+    // If too few multiples of `every` lie on the axis, smaller steps are tried.
     for (int every = static_cast<int>(std::ceil(decades / wanted)); every > 0; --every) {
       std::vector<double> all = powers(low, high, ones, every);
       if (all.size() >= least_ticks) return all;

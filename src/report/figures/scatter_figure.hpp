@@ -14,7 +14,7 @@ struct ScatterFigure {
     std::string technique;  // determines the colour
     double across, up;
     double deviation = 0;   // deviation from the line, as a share: 0.1 is 10 % more
-    std::string flag = {};  // "slower", …: drawn as a cross with its name; empty: as expected
+    std::string flag = {};  // "more" or "less": drawn as a cross with its name; empty: as expected
   };
   struct Line {
     double intercept, slope;  // of natural logarithms: ln up = intercept + slope · ln across
@@ -23,7 +23,7 @@ struct ScatterFigure {
   std::string up;
   std::vector<Point> points;
   std::optional<Line> line = {};
-  std::optional<double> shows_from = {};  // a single point is visible from this deviation on
+  std::optional<double> shows_from = {};  // dashed lines: a single outlier is found from here on
 };
 
 // HTML: both values on logarithmic axes with the line, and next to it the deviations from the line,

@@ -20,7 +20,7 @@ std::string name_of_store(const Json& point) {
   return point.at("name").get<std::string>();
 }
 
-// The driver, and injected faults, which are not the driver's.
+// The driver version, followed by injected faults, because the driver did not cause those.
 std::string driver_of(const Json& point) {
   std::string text = point.at("driver_version").get<std::string>();
   if (const auto found = point.find("injected"); found != point.end()) {
@@ -29,7 +29,8 @@ std::string driver_of(const Json& point) {
   return text;
 }
 
-// A frame's cost may change by this share before the figure shows it as a slope.
+// The axis covers at least this relative change in both directions, so that smaller changes do not
+// look like a slope.
 constexpr double least_span = 0.01;
 
 // An axis around the values, which extends at least `least_span` in both directions.
@@ -54,7 +55,7 @@ std::string number_text(const Json& point, const char* key) {
   return point.contains(key) ? fmt::format("{:.4f}", point.at(key).get<double>()) : "–";
 }
 
-// Each store is a band. A missing point leaves a gap.
+// Each store has a band of the figure. A missing point leaves a gap.
 Html figure_of(const Json& device) {
   const Json& points = device.at("points");
   std::vector<std::string> names;

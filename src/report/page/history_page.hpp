@@ -1,5 +1,5 @@
 #pragma once
-// Shows the development of cost and time over stores, as one self-contained page.
+// Shows the development of cost and time over several stores on one self-contained page.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

@@ -1,5 +1,6 @@
 #pragma once
-// How close images come to their bounds. A bound that no image comes close to is a weak test.
+// Reports how close the errors of images come to their bounds. If no image comes close to a bound,
+// that bound is a weak test.
 
 #include <cstddef>
 #include <span>
@@ -20,7 +21,7 @@ struct NearestBound {
   std::string configuration;  // the configuration of that pixel
 };
 
-// By plan, then by device. The texts are of unknown origin and must be escaped.
+// Sorted by plan, then by device. The texts are of unknown origin and must be escaped.
 [[nodiscard]] std::vector<NearestBound> nearest_bounds(
     std::span<const judge::GateResult* const> results);
 

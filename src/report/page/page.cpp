@@ -31,7 +31,7 @@ std::string devices_of(const PlanData& plan) {
   return text;
 }
 
-// The data about the devices in the verdict.
+// The data about one plan that the sections of the page need.
 PlanData data_of(const record::Store& store, const PlanReport& report, std::size_t number) {
   PlanData plan{.prefix = fmt::format("plan{}", number),
                 .name = report.verdict.plan,
@@ -58,7 +58,7 @@ Html plan_part(const record::Store& store, const PlanReport& report, const PlanD
          needed_section(plan) + counts_section(plan) + markup("</section>\n");
 }
 
-// If any image is wrong, the findings are shown next to the images.
+// If an image is wrong, the findings are shown next to the images.
 Html first_part(const Overview& all, const PictureSources& sources,
                 std::span<const PlanData> plans) {
   const Pictures pictures = pictures_section(sources, plans);

@@ -1,7 +1,7 @@
 #pragma once
-// One self-contained HTML page with the verdict, the devices, for each scene the pictures beside
-// the reference image, the distributions of times, and the counters. It shows only what was
-// measured.
+// One self-contained HTML page with the verdict, the devices, the images of each scene next to the
+// reference image, the distributions of times, and the counters. Sections without data are left
+// out.
 
 #include <functional>
 #include <string>

@@ -1,5 +1,6 @@
-// Images that repeat, filters, the comparison of two images, links into what is folded, buttons that
-// copy commands, tables that can be sorted. Controls are hidden until this shows them.
+// Fills in repeated images and makes the page interactive: filters, the comparison of two images,
+// links into folded parts, buttons that copy commands, and sortable tables. Controls are hidden
+// until this script shows them.
 'use strict';
 const all = (selector, within = document) => [...within.querySelectorAll(selector)];
 const find = (selector, within = document) => within.querySelector(selector);
@@ -10,7 +11,7 @@ function showRepeated(images) {
   }
 }
 
-// A link into a folded part opens it.
+// Opens the folded part that the target of a link is in.
 function openTarget() {
   const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
   if (!target) return;
@@ -43,7 +44,7 @@ function startFilters(form) {
   apply();
 }
 
-// Every picture of a scene once, by its name.
+// The images of a scene by name, each once.
 function picturesOf(scene) {
   const named = new Map();
   for (const section of all(`[data-scene="${scene}"]`)) {
@@ -109,7 +110,8 @@ function startComparison(dialog) {
   }
 }
 
-// 16 pixels across, the worst in their middle unless it lies at the border.
+// Magnifies 16 x 16 pixels around the worst pixel, which is in the middle unless it lies near the
+// border.
 function magnifyAt(view, { x, y }, width, height) {
   const scale = Math.max(1, width / 16);
   const shift = share => Math.min(0, Math.max(1 - scale, 0.5 - share * scale));
@@ -125,7 +127,7 @@ function magnifyAt(view, { x, y }, width, height) {
   set('--mark-height', `${100 * scale / height}%`);
 }
 
-// Commands are copied as they are run, on one line.
+// Adds buttons that copy a command on one line, as it is run.
 function startCopying() {
   for (const block of all('article pre, header pre')) {
     const button = document.createElement('button');
@@ -154,7 +156,8 @@ function numberIn(cell) {
   return digits === undefined ? null : +digits * (scale[unit] ?? 1);
 }
 
-// A click on the head of a column sorts by it, and the next click in the other direction.
+// Sorts a table by a column when its heading is clicked, and in the other direction when it is
+// clicked again.
 function startSorting() {
   for (const table of all('.scroll > table')) {
     const [head, ...rows] = all('tr', table);
@@ -179,7 +182,7 @@ function startSorting() {
   }
 }
 
-// Paper has nothing to unfold.
+// Opens all folded parts before printing, because paper cannot unfold them.
 function startPrinting() {
   let folded = [];
   addEventListener('beforeprint', () => {

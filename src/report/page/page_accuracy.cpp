@@ -1,5 +1,5 @@
-// Run time against error: the diagrams, the orders, the cost of an accuracy, and the parts of an
-// error.
+// Shows run time against error: diagrams, orders of convergence, the cost of reaching an accuracy,
+// and the parts of an error.
 
 #include <fmt/format.h>
 
@@ -36,7 +36,7 @@ const accuracy::AccuracyFamily& family_of(const AccuracyScene& scene, std::size_
   });
 }
 
-// The front with the largest area for the same image on any device.
+// The front with the largest area among all devices, for the same image.
 const accuracy::FrontArea& widest(const std::vector<AccuracyScene>& scenes,
                                   const AccuracyScene& scene) {
   const accuracy::FrontArea* best = &*scene.area;
@@ -62,7 +62,7 @@ std::optional<double> instructions_of(const accuracy::AccuracyCase& each) {
   return each.instructions;
 }
 
-// The cost is time if it was measured, otherwise instructions.
+// The cost of reaching the error `goal`: time if it was measured, otherwise instructions.
 std::string to_error(const AccuracyScene& scene, double goal) {
   if (!scene.front.empty()) {
     const auto time = accuracy::time_to_error(scene.cases, scene.families, goal);
@@ -75,8 +75,9 @@ std::string to_error(const AccuracyScene& scene, double goal) {
   return cost ? fmt::format("{:.1f} M instructions", *cost / 1e6) : "not reached";
 }
 
-// The number of configurations on the front, and of those that are beaten, in time or otherwise in
-// instructions; nothing if neither was measured.
+// Appends the number of configurations on the front and the number of dominated ones. Both are
+// judged by time, or by instructions if no time was measured, and are empty if neither was
+// measured.
 void append_standing(TableRow& row, const AccuracyScene& scene) {
   const auto add = [&](std::size_t front, std::size_t beaten) {
     row.push_back(fmt::to_string(front));
@@ -188,7 +189,7 @@ Html dominated_table(const std::vector<AccuracyScene>& scenes) {
   return table(rows);
 }
 
-// Another cost than the time, which is plotted if it was recorded. It is folded if it has a title.
+// A cost other than time. It is plotted if it was recorded, and folded if it has a title.
 struct Beside {
   Cost cost;
   std::string_view title;

@@ -1,4 +1,4 @@
-// Values, cost and times compared with the stored ones.
+// Shows values, costs and times that differ from the stored ones.
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ using judge::Finding;
 struct Change {
   const Finding* finding;
   const record::Record* record;
-  double share;  // 0.01: one per cent more than stored
+  double share;  // 0.01: one per cent more than the stored value
 };
 
 std::vector<Change> changes_in(const PlanData& plan, Check check) {
@@ -49,14 +49,14 @@ std::string percent(double share) {
   return fmt::format("{:+.2f} %", 100 * share);
 }
 
-// The length is the change relative to the largest one. An increase and a decrease have different
-// colours.
+// The length of the bar is the change relative to the largest change. Increases and decreases have
+// different colours.
 Html bar(double share, double largest) {
   return markup("<span class=\"bar {}\" style=\"width:{:.1f}%\"></span>",
                 share > 0 ? "more" : "less", largest > 0 ? 100 * std::abs(share) / largest : 0);
 }
 
-// "1 000 → 1 010"; empty if it was not counted.
+// "1 000 → 1 010"; empty if this part was not counted.
 std::string counts_of(const Finding& finding, const std::string& part) {
   const auto now = finding.numbers.find(part);
   const auto stored = finding.numbers.find("stored_" + part);
@@ -128,8 +128,8 @@ Html values_table(std::span<const ChangedValue> values) {
   return table(rows, "values");
 }
 
-// The values of every check that differ from the stored ones, the largest change first. Cost has
-// separate bars.
+// The values that differ from the stored ones, by check, the largest change first. Cost and times
+// are left out, because they are shown as bars.
 Html changed_values(const PlanData& plan) {
   std::map<Check, std::vector<ChangedValue>> by_check;
   for (const Finding& finding : plan.verdict->findings) {

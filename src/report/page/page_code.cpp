@@ -19,8 +19,9 @@ namespace {
 
 using record::Check;
 
-// Sum of a statistic over the executables of a configuration that report it; of occupancy the
-// least, as the executable with the fewest waves hides the least latency.
+// The sum of a statistic over the executables of a configuration that report it. For occupancy, the
+// smallest value is used instead, because the executable with the fewest waves hides the least
+// latency.
 std::optional<double> in_all(const record::Code& code, std::string_view name) {
   std::optional<double> all;
   for (const auto& [executable, what] : code) {
@@ -78,7 +79,7 @@ const record::Record* record_of(const std::vector<record::Record>& records,
   return found == records.end() ? nullptr : &*found;
 }
 
-// Finds disassemblies of earlier runs, because the baselines hold only hashes.
+// Finds disassemblies in earlier runs, because the baselines contain only their hashes.
 class EarlierRuns {
  public:
   EarlierRuns(const record::Store& store, const PlanData& plan) : store_(store) {
@@ -87,7 +88,7 @@ class EarlierRuns {
     }
   }
 
-  // The latest other disassembly of this executable; nullopt where the store has none.
+  // The latest different disassembly of this executable; nullopt if the store contains none.
   std::optional<std::string> assembly(const judge::Finding& finding, const std::string& executable,
                                       const std::string& now) {
     for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {

@@ -1,5 +1,5 @@
-// The controls for the reader: filters, and two images under a slider. The script of the page makes
-// them visible.
+// The controls for the reader: filters, and a view with a slider between two images. The script of
+// the page makes them visible.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// How closely the costs of two devices are related: a scatter plot with a line for each pair, and
-// the configurations off the line.
+// Shows how closely the costs of two devices are related: a scatter plot with a line for each pair
+// of devices, and the configurations that are not on the line.
 
 #include <fmt/format.h>
 
@@ -37,7 +37,7 @@ Html fit_text(const CorrelationPair& pair) {
                       : markup("<b class=\"cannot_judge\">Refused</b>: {}", words::refusal(line)));
 }
 
-// Only this function knows the stored form of a pair.
+// Converts the stored form of a pair, which no other function knows.
 ScatterFigure scatter_of(const CorrelationPair& pair) {
   const bool cost = pair.signal == "cost";
   const double unit = std::log(1e-6);  // instructions in millions, nanoseconds in milliseconds

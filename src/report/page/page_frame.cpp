@@ -6,8 +6,8 @@ namespace triptych::report {
 
 namespace {
 
-// Allows only the contents of the page itself. The widths of bars are style attributes, for which
-// no hash can be given.
+// Allows nothing but the contents of the page itself. Inline styles are allowed because the widths
+// of bars are style attributes, for which no hash can be given.
 Html policy() {
   return markup(
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "

@@ -1,4 +1,4 @@
-// The samples that remain after skipping. A perfect method would take only the samples that
+// Shows the samples that remain after skipping. A perfect method would take only the samples that
 // contribute to the image.
 
 #include <fmt/format.h>
@@ -24,8 +24,8 @@ struct Work {
   auto operator<=>(const Work&) const = default;
 };
 
-// Samples, and those of them that are not transparent; spheres that are drawn, and those that some
-// pixel shows.
+// For volumes, all samples and those that are not transparent. For particles, the spheres that are
+// drawn and those that at least one pixel shows.
 std::optional<Work> work_of(const record::Counts& counters) {
   for (const auto& [taken, needed] :
        {std::pair{"samples", "samples_nonzero"}, std::pair{"particles_submitted", "visible_ids"}}) {

@@ -27,8 +27,9 @@ std::string technique_names(const SameBits& group) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-// How an image was made, as far as that differs from other images of its scene: each factor for
-// which the group lacks some level of the scene. The technique has its own line.
+// Describes how an image was made: each factor that has fewer levels in the group than in the
+// scene, because only such factors distinguish it from the scene's other images. The technique has
+// a separate line.
 std::vector<std::string> made_by(const SameBits& group, const PictureScene& scene) {
   std::map<std::string, std::set<std::string>> seen;
   std::map<std::string, std::set<std::string>> here;
@@ -120,7 +121,7 @@ Html finding_link(const PictureScene& scene, const SameBits& group) {
   return {};
 }
 
-// `about` is a text about the image, which precedes how it was made.
+// `about` describes the image and precedes the text about how it was made.
 Html titled(const PictureScene& scene, const SameBits& group, const Html& figures,
             const Html& about, const ShareOfBound* shares = nullptr) {
   std::string made = "technique: " + technique_names(group);
@@ -146,7 +147,7 @@ Html verdict_text(const accuracy::ImageComparison& result, const ShareOfBound& s
                 right ? "pass" : "regression", text, worst, result.largest.error, result.rmse);
 }
 
-// Shown in place of an image: how the program ended.
+// Shown instead of an image: the way in which the program ended.
 Html tile(const record::Record& record) {
   const std::string_view what = record::name_of(record.outcome);
   return figure(markup("<div class=\"tile\" role=\"img\" aria-label=\"{}: {}, no picture\">{}"

@@ -1,5 +1,5 @@
-// The reference image, a device's image and their difference next to each other, with wrong images
-// first.
+// Shows the reference image, a device's image and their difference next to each other, with wrong
+// images first.
 
 #include <fmt/format.h>
 
@@ -38,10 +38,10 @@ std::vector<SameBits> grouped_by_bits(const std::vector<const record::Record*>& 
 
 struct Scene {
   std::string title;
-  std::vector<Panel> panels;  // sorted by the distance from the right image, the farthest first
+  std::vector<Panel> panels;  // sorted by the error relative to the bound, the largest first
   [[nodiscard]] bool wrong() const { return panels.front().wrong; }
-  // Wrong images come before configurations that drew nothing, and those that are farthest beyond
-  // their bound come first.
+  // Sorts wrong images before configurations that drew nothing, and both by how far they are beyond
+  // the bound.
   [[nodiscard]] std::tuple<bool, bool, double> rank() const {
     return {wrong(), panels.front().drawn, wrong() ? panels.front().ratio : 0};
   }
@@ -79,7 +79,8 @@ Html part(const Scene& scene, std::size_t from, std::size_t to) {
 }
 
 constexpr std::size_t open_scenes = 6;
-constexpr std::size_t open_panels = 4;  // for a scene in which something is wrong
+// Panels that are not folded, for a scene with a wrong image.
+constexpr std::size_t open_panels = 4;
 
 Html scene_part(const Scene& scene, std::size_t from, std::size_t to) {
   if (from >= to) return {};

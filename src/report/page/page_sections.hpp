@@ -66,12 +66,12 @@ struct Pictures {
 [[nodiscard]] Html changes_section(const PlanData& plan);
 [[nodiscard]] Html times_section(const PlanData& plan);
 [[nodiscard]] Html speed_of_light_section(const PlanData& plan);
-// The compilers' reports, with the disassembly of code that got worse beside an earlier one from
-// the store.
+// The compilers' reports. The disassembly of code that got worse is shown next to an earlier one
+// from the store.
 [[nodiscard]] Html code_section(const record::Store& store, const PlanData& plan);
 // The samples and spheres that remain after skipping and culling, and how many of them are visible.
 [[nodiscard]] Html needed_section(const PlanData& plan);
-// For each pair of devices, the configurations on the line and off the line.
+// For each pair of devices, the configurations that are on the line and those that are not.
 [[nodiscard]] Html correlation_section(const PlanData& plan);
 // The scenes whose accuracy is part of the verdict.
 [[nodiscard]] Html accuracy_section(const PlanData& plan);
@@ -88,7 +88,7 @@ struct Pictures {
 // camera=…". If the plan has only one scene, all factors that the configuration names. The
 // technique is never among them.
 [[nodiscard]] std::string scene_title(const PlanData& plan, const record::Record& record);
-// The same without factors that decide only how the image is made.
+// The same without factors that only determine how the image is drawn.
 [[nodiscard]] std::string picture_title(const PlanData& plan, const record::Record& record);
 
 // The factors that all scenes of the plan have in common; empty if there are none.

@@ -1,4 +1,4 @@
-// The sections made of tables.
+// The sections that consist of tables.
 
 #include <fmt/format.h>
 
@@ -70,7 +70,8 @@ Html taken_over(const PlanData& plan) {
                 table(rows));
 }
 
-// Whether its technique only fetches, so that it is a lower bound for the time.
+// Whether the technique only fetches, so that its time is a lower bound for the times of the
+// others.
 bool is_bound(const record::Record& record) {
   return !record::has_picture(record) && record.code.empty();
 }

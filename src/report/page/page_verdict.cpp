@@ -44,7 +44,8 @@ Html circumstances_of(const Overview& all) {
   return text;
 }
 
-// Nothing is wrong, but there are no baselines either: the user only explores.
+// Whether nothing is wrong but nothing could be compared with baselines either, because the user
+// has none.
 bool has_no_baselines(const Overview& all) {
   return !all.open.empty() && std::ranges::all_of(all.open, [](const Cause& cause) {
     return cause.group.first->cause == judge::Cause::no_baselines;
@@ -222,8 +223,8 @@ Html links(const Cause& cause, const PlanData& plan) {
   return picture_link(plan, first) + markup(" <a href=\"#verdict\">verdict</a>");
 }
 
-// The checks by which a reader finds the cause. A wrong image whose counters or statistics changed
-// too is the cause of these findings as well.
+// The checks by which the filters find the cause. A wrong image also belongs to counters or
+// statistics that changed with it.
 std::string checks_of(const Cause& cause) {
   std::set<std::string_view> checks{judge::name_of(cause.group.first->check)};
   if (cause.group.changed_with_it > 0) {

@@ -16,8 +16,8 @@ Factors named_factors(const std::string& key) {
   return factors;
 }
 
-// The factors that have one value throughout the plan. A factor that some configurations leave at
-// its default is not among them.
+// The factors that have one value in all configurations of the plan. A factor that some
+// configurations leave at its default is not among them.
 Factors shared(const PlanData& plan) {
   std::map<std::string, std::set<std::string>> values;
   std::map<std::string, std::size_t> named;

@@ -11,7 +11,7 @@ namespace {
 
 using core::Image;
 
-// For the pixel whose first value is at index `i`.
+// The share of the bound for the pixel whose first value is at index `i`.
 double share_at(const Image& image, const Image& truth, const Image& bound, std::size_t i) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const bool certain = !truth.ids.empty() && bound.ids[i / 4] == 0;

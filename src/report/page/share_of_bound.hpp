@@ -1,5 +1,5 @@
 #pragma once
-// The error of an image as an image.
+// Shows the error of an image as an image.
 
 #include <vector>
 
@@ -7,10 +7,10 @@
 
 namespace triptych::report {
 
-// The error as a share of the bound: 0 is black, then blue and yellow follow, and the bound itself
-// is white. The pixel is cyan where the error exceeds the bound, where a value is not finite, and
-// where another particle is visible than there must be. Cyan differs from every color of the ramp
-// by lightness, or by blue against yellow, which readers without red or green cones distinguish.
+// The error of each pixel as a share of its bound: 0 is black, followed by blue and yellow, and the
+// bound itself is white. A pixel is cyan if its error exceeds the bound, if a value is not finite,
+// or if it shows another particle than the reference. Cyan differs from every colour of the ramp in
+// lightness, or by blue against yellow, which readers without red or green cones can distinguish.
 struct ShareOfBound {
   core::Image image;
   int x = -1;  // the first pixel with the largest share; -1 if no pixel has an error

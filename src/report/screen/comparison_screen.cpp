@@ -96,7 +96,8 @@ std::string clocks_of(const ComparisonResult& result) {
   return text;
 }
 
-// The text for a device without differences: there are none, or neither side measured anything.
+// The text for a device without differences: either there are none, or neither side measured
+// anything.
 std::string no_difference(const DeviceChange& change) {
   if (comparison::was_measured(change)) return "no differences\n";
   return words::nothing_compared(change.configurations.empty()

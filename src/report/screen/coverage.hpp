@@ -17,26 +17,27 @@ namespace triptych::report {
 
 struct Largest {
   std::uint64_t value = 0;
-  std::string configuration;  // the first one with this value
+  std::string configuration;  // the first configuration with this value
 };
 
 struct Coverage {
-  std::size_t configurations = 0;                       // that were measured
+  std::size_t configurations = 0;  // number of measured configurations
   // Levels by factor, for factors with few levels.
   std::map<std::string, std::set<std::string>> levels;
   // Largest value of one frame, by counter, statistic or kind of memory.
   std::map<std::string, Largest> largest;
 };
 
-// By device. Records that were not measured do not count.
+// Coverage by device. Records that were not measured do not count.
 [[nodiscard]] std::map<std::string, Coverage> coverage_of(std::span<const record::Record> records);
 
 // A scene in which a correct image may differ from the reference by more than a step of 8 bits.
 struct WideBound {
   std::string device;
   std::string configuration;
-  double bound = 0;            // bound of any channel, where the pixel is certain
-  double samples_per_ray = 0;  // each sample may be rounded; 0 if the scene has no rays
+  double bound = 0;  // the largest bound of a channel, over pixels whose particle is certain
+  // Explains a large bound, because each sample may be rounded; 0 without rays.
+  double samples_per_ray = 0;
 };
 inline constexpr double one_step = 1.0 / 255;
 

@@ -31,8 +31,8 @@ bool is_a_choice(const std::string& technique) {
   });
 }
 
-// "tiles 2.5 ms": a device's best technique among the rows with the largest number of
-// configurations; empty if it has none of these.
+// "tiles 2.5 ms": the device's cheapest technique among the rows with the largest number of
+// configurations; empty if it has none of these rows.
 std::string least_text(const SideBySide& table, const std::string& device) {
   std::size_t most = 0;
   for (const SideBySide::Row& row : table.rows) most = std::max(most, row.configurations);

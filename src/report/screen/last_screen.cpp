@@ -119,7 +119,7 @@ class Screen {
     return coloured(finding.verdict == Verdict::regression ? "✗" : "?", finding.verdict);
   }
 
-  // Lines that a pass can have, too.
+  // Adds the circumstances, which a pass can have, too.
   void circumstances(const Overview& all) {
     const std::size_t shown = std::min(most_circumstances, all.circumstances.size());
     for (std::size_t i = 0; i < shown; ++i) {
@@ -147,9 +147,10 @@ class Screen {
     if (shown > 0) add("");
   }
 
-  // As many findings as fit above the last lines.
+  // Adds as many findings as fit above the last lines.
   void causes(const Overview& all, std::span<const std::string> files) {
-    const std::size_t below = files.empty() ? 5 : 7;  // with the next steps
+    // Lines below the findings, more if next steps follow.
+    const std::size_t below = files.empty() ? 5 : 7;
     std::size_t shown = 0;
     for (const Cause& cause : all.open) {
       const std::vector<std::string> lines = lines_of(cause);
@@ -189,7 +190,7 @@ class Screen {
     return lines;
   }
 
-  // Shortens a long description of the finding, but neither the component at fault nor the advice.
+  // Shortens a long description of the finding, but never the component at fault or the advice.
   [[nodiscard]] std::string message_of(const Cause& cause) const {
     std::string rest;
     for (const std::string& each : {words::advice(*cause.group.first), words::blame(cause.group)}) {
@@ -200,7 +201,7 @@ class Screen {
     return core::printable(words::found(cause), left) + rest;
   }
 
-  // Breaks lines at spaces outside of quotation marks, and in a command never between an option and
+  // Breaks lines at spaces outside quotation marks, and never between an option of a command and
   // its value. `end` is added to every line except the last.
   void append_wrapped(std::vector<std::string>& lines, std::string_view text,
                       std::string_view end) const {

@@ -106,8 +106,8 @@ std::string reference_line(const SampleRow& row) {
               expected.length.value, expected.opacity.value));
 }
 
-// Rows that need no line of their own: samples without opacity, and samples that were skipped
-// because they have none.
+// Whether the row needs no line of its own: its sample has no opacity, or was skipped because it
+// has none.
 bool is_quiet(const SampleRow& row) {
   return !row.differs && (!row.taken || row.taken->opacity == 0);
 }

@@ -18,10 +18,10 @@ using PixelColour = std::array<float, 4>;  // premultiplied RGBA
 struct PixelInImage {
   int x = 0;
   int y = 0;
-  PixelColour image{};                    // image of the timed build
-  std::optional<PixelColour> recorded{};  // of the build that records the samples
+  PixelColour image{};                    // the colour in the image of the timed build
+  std::optional<PixelColour> recorded{};  // the colour from the build that records the samples
   PixelColour reference{};
-  double bound = 0;        // of any channel
+  double bound = 0;        // the bound for any channel
   std::uint64_t lost = 0;  // records that did not fit into the buffer
 };
 

@@ -13,14 +13,14 @@
 
 namespace triptych::report {
 
-// Whether a log that has been silent needs a sign of life. The intervals grow, so that a run of an
-// hour has about 20 of them.
+// Determines whether a log that has been silent needs a sign of life. The intervals grow, so that a
+// run of an hour has about 20 of them.
 class SignsOfLife {
  public:
   using Clock = std::chrono::steady_clock;
   explicit SignsOfLife(std::function<Clock::time_point()> now = Clock::now);
   [[nodiscard]] bool due();
-  // Something else was written.
+  // Call this when something else was written.
   void restart();
 
  private:
@@ -38,7 +38,7 @@ class ProgressLog {
   struct Options {
     std::size_t width = 0;                                // width of the terminal; 0 for a log
     bool verbose = false;                                 // a line for each configuration
-    std::function<Clock::time_point()> now = Clock::now;  // for tests
+    std::function<Clock::time_point()> now = Clock::now;  // replaced by tests
   };
   struct Step {
     std::string_view plan;
@@ -56,7 +56,7 @@ class ProgressLog {
   [[nodiscard]] std::string next(const Step& step);
   // A large data set is being loaded; `share` of it is done.
   [[nodiscard]] std::string loading(std::string_view data, double share);
-  // The lines that are still missing when measuring has ended. Removes the bar.
+  // Returns the lines that are still missing after the last configuration, and removes the bar.
   [[nodiscard]] std::string end();
 
  private:
@@ -81,7 +81,7 @@ class ProgressLog {
   std::map<std::pair<std::string, std::string>, Tally> tallies_;  // counts by plan and device
 };
 
-// "34 s", "12 min", "3 h": rounded up. For the time that is left.
+// The remaining time, rounded up: "34 s", "12 min", "3 h".
 [[nodiscard]] std::string rough_time(std::chrono::seconds time);
 
 }  // namespace triptych::report

@@ -14,9 +14,9 @@ namespace triptych::report::words {
 [[nodiscard]] std::string subject(const FindingGroup& group);
 // "vulkan:lavapipe, technique=raycast (12 configurations)"; the plans if neither is known.
 [[nodiscard]] std::string place(const Cause& cause);
-// The finding for the worst configuration, and the devices that are right.
+// The finding for the worst configuration, and the devices that pass it.
 [[nodiscard]] std::string found(const Cause& cause);
-// The component at fault; empty if the other devices do not show it.
+// The component at fault; empty if the other devices do not reveal it.
 [[nodiscard]] std::string blame(const FindingGroup& group);
 // The finding, the component at fault and the advice.
 [[nodiscard]] std::string text_of(const Cause& cause);

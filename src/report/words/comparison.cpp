@@ -61,7 +61,7 @@ std::string all_changes(const Difference& difference) {
   return text;
 }
 
-// The values of a counter or statistic, whose name precedes them already.
+// The values of a counter or statistic, without its name, which the caller writes before them.
 std::string values(const Difference& difference) {
   const judge::Change& change = difference.changes.at(0);
   if (!change.before || !change.now) {

@@ -22,7 +22,7 @@ namespace triptych::report::words {
 [[nodiscard]] std::string text_of(const comparison::DifferenceGroup& group);
 // One line for each group: "regression    cost: +1.2 % to +40 % in 27 configurations, …".
 [[nodiscard]] std::string lines_of(const std::vector<comparison::DifferenceGroup>& groups);
-// The reason why there is no verdict on a time; empty if there is one.
+// The reason why there is no verdict on a time; empty if there is a verdict.
 [[nodiscard]] std::string text_of(const comparison::TimeReason& reason);
 [[nodiscard]] std::string text_of(comparison::WallClockCause cause);
 // "plan volume/quick: only a has it".
@@ -42,8 +42,8 @@ namespace triptych::report::words {
 // techniques of both"; for two or more devices.
 [[nodiscard]] std::string sentence(const comparison::SideBySide& table);
 
-// For a failure that cannot be made smaller, because it fails in another way the second time;
-// `again` is empty if it did not fail then.
+// For a failure that cannot be made smaller, because it fails in another way when it is drawn
+// again. `again` is empty if it did not fail again.
 [[nodiscard]] std::string fails_differently(const judge::Observation& first,
                                             const std::optional<judge::Observation>& again);
 

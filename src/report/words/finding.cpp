@@ -21,7 +21,7 @@ using judge::GateResult;
 using judge::Known;
 using judge::Verdict;
 
-// The words before the sentence of the finding itself.
+// The words that precede the sentence of a finding if the finding is excused or expected.
 std::string excuse(const Finding& finding) {
   const Excuse& excuse = finding.excuse;
   switch (excuse.of) {

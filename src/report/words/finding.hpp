@@ -25,7 +25,7 @@ namespace triptych::report::words {
 
 // "instructions of generated code 1000 → 1001 (+0.1 %)".
 [[nodiscard]] std::string text_of(const judge::Change& change);
-// Why a line is not used; empty if it is used.
+// The reason why a line is not used; empty if it is used.
 [[nodiscard]] std::string refusal(const judge::CorrelationLine& line);
 
 // "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices".

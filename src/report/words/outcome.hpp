@@ -1,6 +1,6 @@
 #pragma once
-// English texts about how a configuration or a device ended, and about how exactly a driver counts
-// a statistic. All texts quote drivers, so they are of unknown origin.
+// Texts about how a configuration or a device ended, and about how exactly a driver counts a
+// statistic. All texts quote drivers, so they are of unknown origin.
 
 #include <string>
 

@@ -93,7 +93,7 @@ std::string values_changed(const Observation& what) {
   return text;
 }
 
-// Totals in the form that Mesa's developers use.
+// The totals in the format that Mesa's developers use.
 std::string other_compiler(const Observation& what) {
   std::string text = fmt::format("not compared, because {} is another compiler than the stored {}",
                                  what.fact("driver_version"), what.fact("other_version"));
