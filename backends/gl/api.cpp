@@ -45,8 +45,8 @@ Api::Api(GLADloadfunc load) : GladGLContext{} {
 void GLAD_API_PTR Api::on_message(GLenum /*source*/, GLenum type, GLuint /*id*/,
                                   GLenum /*severity*/, GLsizei length, const GLchar* message,
                                   const void* user) {
-  // Registered with the address of our own Messages, which are mutable; the signature of GL returns
-  // it as const.
+  // The callback was registered with the address of a mutable Messages object, which GL passes as
+  // const.
   auto* messages = static_cast<Messages*>(const_cast<void*>(user));
   const auto size =
       length < 0 ? std::string_view(message).size() : static_cast<std::size_t>(length);
@@ -72,7 +72,7 @@ void Api::only_compile() {
 
 void Api::keep_reports() const {
   if (!messages_) return;
-  // Reports have a severity that is off by default.
+  // Reports of generated code have a severity that is disabled by default.
   if (DebugMessageControl != nullptr) {
     DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
   }

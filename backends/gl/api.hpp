@@ -43,7 +43,7 @@ struct Api : GladGLContext {
     std::string text;
   };
   // Begins to store such messages. Does nothing without collect_messages(). take_reports() returns
-  // them, oldest first, and ends it.
+  // the stored messages, oldest first, and stops storing.
   void keep_reports() const;
   [[nodiscard]] bool can_keep_reports() const { return messages_ != nullptr; }
   [[nodiscard]] std::vector<Report> take_reports() const;
@@ -75,7 +75,7 @@ struct Api : GladGLContext {
   };
   static void GLAD_API_PTR on_message(GLenum source, GLenum type, GLuint id, GLenum severity,
                                       GLsizei length, const GLchar* message, const void* user);
-  std::unique_ptr<Messages> messages_;  // at an address that the driver keeps
+  std::unique_ptr<Messages> messages_;  // the driver stores its address
   bool executes_ = true;
 };
 

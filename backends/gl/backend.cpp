@@ -62,7 +62,7 @@ class Walk {
   }
 
  private:
-  // The default device of a platform comes first, and appears again when devices are enumerated.
+  // The default device of a platform comes first, and a second time when devices are enumerated.
   bool is_repeated(const record::Device& info) {
     if (at_ == 1) {
       first_ = info;

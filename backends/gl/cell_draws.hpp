@@ -28,7 +28,7 @@ class CellDraws {
   Buffer commands_;
 };
 
-// The same cells with about one of `stride` particles in each, evenly distributed.
+// The same cells, but each with only about one of `stride` particles, evenly distributed.
 [[nodiscard]] std::vector<technique::Cell> thinned(std::span<const technique::Cell> cells,
                                                    int stride);
 

@@ -11,7 +11,7 @@
 
 namespace triptych::gl_backend {
 
-// A GL context and its functions, which may be called only while there is a Current for it.
+// A GL context and its functions, which may be called only while a Current object for it exists.
 class Context {
  public:
   Context(const Context&) = delete;
@@ -20,7 +20,7 @@ class Context {
   [[nodiscard]] const Api& gl() const { return *gl_; }
   // Calls Api::only_compile().
   void only_compile() { gl_->only_compile(); }
-  // Whether its window system reports that it does.
+  // Whether the window system reports that the context renders on the processor.
   [[nodiscard]] virtual bool computes_on_the_processor() const = 0;
 
  protected:
@@ -38,8 +38,9 @@ class Context {
 };
 
 // Keeps a context current on this thread. EGL's Mesa and OSMesa share the variable that holds the
-// thread's current context, and do not know of each other. So each use binds and unbinds: a context
-// that was left current would be considered bound after the other library has replaced it.
+// thread's current context, but neither knows of the other. Therefore each use binds and unbinds: a
+// context that was left current would be considered bound even after the other library has replaced
+// it.
 class Current {
  public:
   explicit Current(Context& context) : context_(context) { context_.make_current(); }
@@ -53,7 +54,7 @@ class Current {
 
 // One device that a window system offers and that is not open yet.
 struct Candidate {
-  std::string what;  // for people: "EGL surfaceless"
+  std::string what;  // shown to users, such as "EGL surfaceless"
   // Throws core::NotSupported or core::ApiError.
   std::function<std::unique_ptr<Context>(bool debug)> open;
 };

@@ -108,7 +108,7 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
 
   [[nodiscard]] double filter_weight_error(const measure::VolumePath& path) const override {
     if (path.sampler != technique::Sampler::hardware) return 0;
-    // A wrong filter must not lead to a wide bound.
+    // The allowed error is an upper limit, because a wrong filter must not lead to a wide bound.
     return std::min(filter_error_.at(static_cast<std::size_t>(path.voxel)),
                     technique::allowed_filter_error(technique::least_weight_bits, path.voxel));
   }

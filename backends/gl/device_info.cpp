@@ -30,7 +30,8 @@ constexpr std::array<std::string_view, 11> code_variables{"GALLIUM_DRIVER",
                                                           "MESA_LOADER_DRIVER_OVERRIDE",
                                                           "TRIPTYCH_GL_DEBUG"};
 
-// Drivers that pass everything on to another one, by the first word of their renderer string.
+// Layered drivers, which forward all work to another driver. The first word of the renderer string
+// identifies them.
 struct Layered {
   std::string_view start;
   std::string_view name;
@@ -83,8 +84,8 @@ std::map<std::string, std::string> limits_of(const Api& gl) {
 
 }  // namespace
 
-// A short name, depending on what the vendor and renderer strings contain; otherwise the first word
-// of the renderer string.
+// A short name, if the vendor or renderer string contains a known word; otherwise the first word of
+// the renderer string.
 std::string driver_name(const std::string& vendor, const std::string& renderer) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> known{{
       {"llvmpipe", "llvmpipe"},

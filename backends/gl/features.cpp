@@ -268,7 +268,7 @@ ProbedFeature probe_instances(const Api& gl) {
                       [&] { gl.DrawArraysInstanced(GL_POINTS, 0, 1, count); });
 }
 
-// Indices from which the draw subtracts 1000.
+// The indices are 1000 too large, and the draw adds a base vertex of -1000.
 ProbedFeature probe_base_vertex(const Api& gl) {
   constexpr GLuint count = 100'000;
   constexpr GLint base = -1000;

@@ -15,7 +15,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-// Of shaders/filter_probe.comp.
+// The bindings of shaders/filter_probe.comp.
 constexpr GLuint unit_volume = 1;
 constexpr GLuint binding_probe = 4;
 constexpr int probe_group_size = 64;

@@ -30,8 +30,8 @@ bool write_all(int fd, std::string_view text) {
   return true;
 }
 
-// Everything that the child does. It exits by _exit, because it must not run the exit handlers of
-// the parent.
+// Runs in the child process. It ends with _exit, because it must not run the exit handlers of the
+// parent.
 [[noreturn]] void answer(const std::function<std::string()>& ask, int fd) {
   // The parent reports a crash. Handlers that it may have installed would report it a second time.
   for (const int fatal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}) std::signal(fatal, SIG_DFL);

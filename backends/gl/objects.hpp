@@ -9,7 +9,7 @@
 
 namespace triptych::gl_backend {
 
-// An object of a pair glGen…/glDelete…, which both take a count and names.
+// An object that glGen… creates and glDelete… deletes. Both functions take a count and names.
 template <auto Generate, auto Delete>
 class Object {
  public:
@@ -32,7 +32,7 @@ class Object {
   [[nodiscard]] GLuint get() const noexcept { return name_; }
   [[nodiscard]] GLuint release() noexcept { return std::exchange(name_, 0U); }
 
-  // The memory that was allocated for it.
+  // Records the memory that was allocated for the object.
   void holds(measure::MemoryLedger::Entry memory) { held_ = std::move(memory); }
 
  private:

@@ -1,4 +1,5 @@
-// Point sprites; spheres larger than the device's points on screen-aligned quads, in a second draw.
+// Draws point sprites. Spheres larger than the device's largest point are drawn as screen-aligned
+// quads in a second draw.
 #include <fmt/format.h>
 
 #include "backends/gl/large_points.hpp"

@@ -71,10 +71,11 @@ ParticleStage cull_stage(bool instanced, int pass) {
       fmt::format("#define TRI_INSTANCED {:d}\n#define TRI_OCCLUSION {}\n", int{instanced}, pass)};
 }
 
-// A draw with its two culling programs runs after the other draw. So a sphere that comes into sight
-// behind the cells of the first draw is drawn after them, although it may come before them in the
-// arrangement. The camera does not move, so what was hidden stays hidden and the second draw is
-// empty. Otherwise, only the order of exactly equal depths in different cells could differ.
+// With occlusion culling, a second draw follows the first, for the cells that came into sight. A
+// sphere of the second draw is therefore drawn after the cells of the first draw, although it may
+// come before them in the arrangement. Because the camera does not move, what was hidden stays
+// hidden, and the second draw is empty. If it were not empty, only the order of exactly equal
+// depths in different cells could differ.
 class SpriteDrawing final : public Drawing {
  public:
   SpriteDrawing(const Api& gl, const measure::ParticleWork& work, const Sprites& sprites,
@@ -158,7 +159,7 @@ class SpriteDrawing final : public Drawing {
     ParticleCounters counters;
   };
 
-  // Draws a frame that is not shown, so that in every other frame the previous one is known.
+  // Draws a frame that is not shown, so that every other frame has a previous one.
   void draw_before(const Api& gl, const measure::ParticleWork& work,
                    const technique::Arrangement& arrangement) {
     if (work.camera_before) data_.look_from(gl, work.before(), arrangement);

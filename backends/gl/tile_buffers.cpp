@@ -97,7 +97,8 @@ std::optional<std::string> TileBuffers::unsupported(const Api& gl,
         "{}x{} pixels need a storage block of {} bytes, but GL_MAX_SHADER_STORAGE_BLOCK_SIZE is {}",
         scene.width, scene.height, static_cast<std::int64_t>(planes * word) * pixels, most);
   }
-  // The largest single cell, if every sphere is in every tile.
+  // The largest number of entries that a single cell can need, which it does if each of its spheres
+  // is in every tile.
   const std::int64_t tiles = std::int64_t{parts(scene.width, technique::tile_edge)} *
                              parts(scene.height, technique::tile_edge);
   const auto crowd = std::min<std::int64_t>(4 * technique::particles_per_cell,

@@ -179,8 +179,9 @@ class TilesDrawing final : public Drawing {
     run_on(gl, programs, bin, round, round.cells);
   }
 
-  // All rounds compute the depth of every pixel. With extra work, a part of each round's particles
-  // is sorted twice, before the tiles could leave them out.
+  // Computes the depth of every pixel in all rounds. The injected extra work sorts a part of each
+  // round's particles a second time, before the tiles are resolved, because resolved tiles would
+  // reject them.
   void draw_depths(const Api& gl, const Programs& programs, bool extra) const {
     buffers_.clear(gl);
     for (const technique::TileRound& round : rounds_.rounds) {

@@ -1,43 +1,44 @@
 #pragma once
-// A backend without an API: devices that play a script. Measuring, supervising and judging are
-// tested with it, because its correct results are known. Nothing is rendered: images are patterns
-// that depend only on the factors that determine an image (data, camera, step, …), or images given
-// in the script; times and counts are computed from the work and a seed.
+// A backend without an API, whose devices play a script. Tests of measuring, supervising and judging
+// use it, because its correct results are known. Nothing is rendered: images are read from files
+// that the script names, or are patterns that depend only on the factors that determine an image
+// (data, camera, step, …). Times and counts are computed from the work and a seed.
 //
 // Its devices "null:scripted", "null:scripted#2", … are listed only when the environment variable
-// TRIPTYCH_NULL_SCRIPT contains a script ("{}" is enough), or when a Script is given: an ordinary
-// run does not list them, and a worker process inherits the script of its parent.
+// TRIPTYCH_NULL_SCRIPT contains a script ("{}" is enough), or when a Script is given. An ordinary
+// run therefore does not list them, and a worker process inherits the script of its parent.
 //
-// TRIPTYCH_NULL_SCRIPT is a JSON object; every key is optional, an unknown one is an error:
+// TRIPTYCH_NULL_SCRIPT is a JSON object; every key is optional, and an unknown key is an error:
 //   {
-//     "seed": 1,                  of noise and outliers
-//     "devices": [1, 1.7],        one device per entry: the factor on its times
+//     "seed": 1,                  seed of noise and outliers
+//     "devices": [1, 1.7],        one device per entry, which is a factor on its times
 //     "driver_version": "1",      part of the device's key
 //     "base_ns": 100000,          a frame takes base_ns + ns_per_sample · samples, where
 //     "ns_per_sample": 1,           samples = width · height · longest edge in voxels / step
-//     "factors": {"GLOB": 1.25},  on the times of some work; the first match counts
-//     "warm_up_factor": 1,        on the first frame after a prepare
-//     "prepare_factors": [],      factors on all frames after the first, second, … prepare of one
-//                                 work; those after the last: 1
+//     "factors": {"GLOB": 1.25},  factors on the times of matching work; the first match counts
+//     "warm_up_factor": 1,        factor on the time of the first frame after a prepare
+//     "prepare_factors": [],      factors on the times of all frames after the first, second, …
+//                                 prepare of one work; after the last of them, the factor is 1
 //     "noise": 0,                 relative standard deviation of every time
 //     "outlier_share": 0,         share of frames that take outlier_factor as long
 //     "outlier_factor": 3,
-//     "device_over_wall": 0.98,   what the device's clock tells, over the wall time: a clock that
-//                                 lies says 0, 0.1 or 3; null: it tells no time
-//     "counts": true,             false: neither counters nor statistics are told
-//     "sleep": false,             true: a frame really lasts what it says
-//     "filter_weight_error": 0,   of the hardware sampler
-//     "images": {"GLOB": "FILE.exr"},           replayed instead of the pattern
+//     "device_over_wall": 0.98,   ratio of device time to wall time; a wrong clock has 0, 0.1 or 3;
+//                                 null: the device has no clock
+//     "counts": true,             false: neither counters nor statistics are reported
+//     "sleep": false,             true: a frame really lasts as long as its reported time
+//     "filter_weight_error": 0,   error of the hardware sampler
+//     "images": {"GLOB": "FILE.exr"},           files that replace the pattern
 //     "failures": [{"kind": "crash", "at": "frame", "frame": 2, "only": "GLOB", "once": "FILE"}]
 //   }
 // Kinds of failure: crash (abort), exit (the process ends with code 0), hang (never returns),
-// device_lost, api_error, not_supported (thrown; at "supports": the reason given), wrong_image (the
-// picture is off by 0.25), nan_image, stale_image (every frame but the first leaves nothing),
-// garbage (something is written where answers are). Places ("at"): list, open, supports, prepare,
-// frame, image. "frame" counts a Prepared's frames from 0, at "prepare" the prepares of one work,
-// and is any when left out. With "once" it happens only where there is no such file, which it
-// leaves. GLOBs, as fnmatch(3) has them, match describe(work); at "open" they match the device id,
-// at "list" the API.
+// device_lost, api_error, not_supported (these are thrown; at "supports", not_supported is returned
+// as the reason), wrong_image (the image is off by 0.25), nan_image, stale_image (only the first
+// frame draws anything), garbage (invalid bytes are written to the pipe of the worker's answers).
+// Places ("at"): list, open, supports, prepare, frame, image. "frame" is the number of the frame
+// since its work was prepared, from 0; at "prepare" it is the number of the work's preparation. If
+// it is left out, every frame fails. A failure with "once" creates that file, and does not happen
+// if the file exists. GLOBs have the form of fnmatch(3) and match describe(work); at "open" they
+// match the device id, and at "list" the API.
 
 #include <cstdint>
 #include <functional>

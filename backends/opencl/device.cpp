@@ -192,7 +192,7 @@ measure::VolumePath Device::default_path(const measure::VolumeKind& volume) cons
 
 double Device::filter_weight_error(const measure::VolumePath& path) const {
   if (path.sampler != Sampler::hardware) return 0;
-  // A wrong filter must not lead to a wide bound.
+  // The allowed error is an upper limit, because a wrong filter must not lead to a wide bound.
   return std::min(sampler_error(path.voxel),
                   technique::allowed_filter_error(technique::least_weight_bits, path.voxel));
 }
@@ -208,7 +208,8 @@ double Device::sampler_error(scene::VoxelFormat format) const {
 std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
   if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
   if (const auto* particles = std::get_if<measure::ParticleWork>(&work.scene)) {
-    // Another volume, such as the one for calibrating statistics, is not a part of the frame.
+    // Frees the cached volume, such as the one for calibrating statistics, because its memory does
+    // not belong to the frame.
     volumes_ = {};
     return particle_techniques.at(work.technique)(session_, programs_, *particles);
   }

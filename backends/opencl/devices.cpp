@@ -27,8 +27,8 @@ constexpr auto variables = std::to_array<std::string_view>(
 
 std::map<std::string, std::string> environment() {
   auto set = measure::set_variables(variables);
-  // Workers are started with this variable set to 1. A listing outside of a worker is about the
-  // same device.
+  // A worker is started with this variable set to 1, but the device is the same as in a listing
+  // outside of a worker, so the variable is left out.
   if (const auto found = set.find("POCL_PTHREAD_MIN_WGS");
       found != set.end() && found->second == "1") {
     set.erase(found);
@@ -61,7 +61,8 @@ std::map<std::string, std::string> limits_of(const cl::Device& device) {
 #undef TRI_LIMIT
 }
 
-// Drivers that pass everything on to another one, which determines the results as much as they do.
+// Layered drivers, which forward all work to another driver. That driver determines the results as
+// much as they do.
 bool is_layered(std::string_view driver) {
   return driver == "rusticl" || driver == "clvk" || driver == "clon12";
 }

@@ -11,7 +11,8 @@
 namespace triptych::opencl_backend {
 namespace {
 
-// Uses a small piece of memory, because mapping the whole buffer may make the driver copy it.
+// Uploads through a small piece of memory, because a driver may copy a buffer that is mapped as a
+// whole.
 cl::Buffer upload_property(const Session& session, const technique::Arrangement& arrangement,
                            technique::Property property) {
   constexpr std::size_t smallest = 16;  // OpenCL does not allow an empty buffer

@@ -18,8 +18,9 @@ struct Part {
   std::string options;
 };
 
-// Never -cl-fast-relaxed-math or -cl-mad-enable: the same bits on every run and device. `faults`:
-// those that this program has something to break for; others are injected elsewhere.
+// The options -cl-fast-relaxed-math and -cl-mad-enable are never used, because bits must be the
+// same in every run and on every device. `faults`: the injected faults that this program
+// implements; others are injected elsewhere.
 std::string common_options(const ParticleConstants& constants,
                            std::initializer_list<ParticleFault> faults) {
   const bool injected = std::ranges::find(faults, constants.fault) != faults.end();

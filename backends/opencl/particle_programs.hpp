@@ -22,7 +22,8 @@ enum class Sprite : std::uint8_t {
   evaluated_quad,  // those of tessellation stages
   point
 };
-// Words that such passes leave for each particle: vertices, or a point; and patches before them.
+// The number of words that these passes store for each particle: the patch and its vertices, or a
+// point.
 [[nodiscard]] constexpr std::size_t stored_words(Sprite sprite) {
   if (sprite == Sprite::point) return 8;
   return sprite == Sprite::expanded_quad || sprite == Sprite::evaluated_quad ? 16 : 0;
@@ -39,7 +40,7 @@ struct ParticleConstants {
   bool transfer_at_pixel = true;
   bool ray_at_vertex = false;
   bool conservative_depth = false;
-  bool traced = false;  // shading is given spheres in world space
+  bool traced = false;  // shading reads spheres in world space
   technique::ParticleFault fault = technique::ParticleFault::none;
   bool count = false;
 };

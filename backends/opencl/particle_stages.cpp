@@ -81,8 +81,8 @@ Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride)
             .entries = make_buffer(0),
             .depths = make_buffer(pixels_),
             .winners = make_buffer(pixels_)};
-  // Large enough for every visible cell, whatever the stride is. Later passes show fewer cells, and
-  // different ones.
+  // The buffers are large enough for all visible cells, whatever the stride is, because later
+  // passes draw fewer cells, and different ones.
   Pass whole = pass;
   whole.stride = 1;
   std::vector<Launch> launches{cull(programs)};

@@ -1,11 +1,13 @@
 #pragma once
-// The stages of a particle frame as kernel launches, and what they share on the device.
+// The stages of a particle frame as kernel launches, and the data that they share on the device:
 //
-//   cull_cells                          which cells are in view
-//   expand_sprites; control_patches, evaluate_patches; project_points      of some techniques, in each pass
-//   list_cells, count_bins, place_chunks, place_bins, fill_bins, draw_tiles       a pass
-//   test_cells, and a second pass       with occlusion culling: what came into sight
-//   shade                               the picture
+//   cull_cells                      finds the cells that are in view
+//   expand_sprites; control_patches, evaluate_patches; project_points
+//                                   compute the vertices of some techniques, in each pass
+//   list_cells, count_bins, place_chunks, place_bins, fill_bins, draw_tiles
+//                                   draw the listed cells; together they are one pass
+//   test_cells, and a second pass   draw the cells that came into sight, for occlusion culling
+//   shade                           computes the image from the nearest particle of each pixel
 
 #include <array>
 #include <vector>

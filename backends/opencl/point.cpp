@@ -1,4 +1,5 @@
-// Squares around projected centres; spheres larger than the largest square on screen-aligned quads.
+// Draws squares around projected centres. Spheres larger than the largest square are drawn on
+// screen-aligned quads.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"
 

@@ -1,4 +1,5 @@
-// Only the fetches and table look-ups of raycast: the same kernel, built to sum what it reads.
+// Does only the fetches and table look-ups of raycast: the same kernel is compiled so that it sums
+// what it reads.
 #include "backends/opencl/techniques.hpp"
 #include "backends/opencl/volume_frames.hpp"
 

@@ -1,4 +1,4 @@
-// Rays through a hierarchy of boxes that compute passes build and go through
+// Traces rays through a hierarchy of boxes, which compute passes build and traverse
 // (technique/particles/hierarchy.glsl, bvh.comp.glsl).
 #include "backends/vulkan/hierarchy_tracer.hpp"
 #include "backends/vulkan/techniques.hpp"

@@ -9,16 +9,16 @@ namespace triptych::vulkan_backend {
 
 inline constexpr std::uint32_t commands_binding = first_free_binding;
 
-// Selects the criterion for leaving out cells: only the view, or also the visibility in the last
-// frame and the result of the first pass, for the two passes of occlusion culling
-// (technique/particles/cull.glsl: TRI_OCCLUSION).
+// The criterion by which a culling pass selects cells: `view` selects those in the view; the other
+// two are for the two passes of occlusion culling, which also use the visibility in the last frame
+// and the result of the first pass (technique/particles/cull.glsl: TRI_OCCLUSION).
 enum class CullPass : std::uint8_t { view, seen_before, seen_now };
 
 // The pass that removes cells outside the view, and the draws of those that remain.
 class CellCulling {
  public:
-  // `instanced`: a cell's particles are instances of four vertices, otherwise vertices. `layout`
-  // holds particle_bindings() and commands_binding.
+  // `instanced`: each particle of a cell is an instance of four vertices; otherwise it is one
+  // vertex. `layout` contains particle_bindings() and commands_binding.
   CellCulling(const Gpu& gpu, const Layout& layout, std::uint32_t cells, bool instanced,
               technique::Culling culling, const Specialization& constants);
 

@@ -5,7 +5,7 @@
 
 namespace triptych::vulkan_backend {
 
-// The statistics that mean something for such a draw.
+// The pipeline statistics that are meaningful for such a draw.
 [[nodiscard]] vk::QueryPipelineStatisticFlags draw_statistics();
 
 // `begins`: the pass begins with zeros (eClear) or with undefined content (eDontCare). Afterwards

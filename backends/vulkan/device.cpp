@@ -107,7 +107,7 @@ measure::VolumePath Device::default_path(const measure::VolumeKind& volume) cons
 double Device::filter_weight_error(const measure::VolumePath& path) const {
   if (path.sampler != technique::Sampler::hardware) return 0;
   const std::optional<double> error = hardware_error(path.voxel);
-  // A wrong filter must not lead to a wide bound.
+  // The allowed error is an upper limit, because a wrong filter must not lead to a wide bound.
   if (error) return std::min(*error, allowed_filter_error(gpu_, path.voxel));
   throw core::NotSupported(fmt::format("cannot filter images of format {} linearly",
                                        vk::to_string(texture_format(path.voxel))));

@@ -72,7 +72,8 @@ std::string short_name(vk::DriverId driver, std::string_view driver_name) {
   return found != names.end() ? std::string(found->second) : slug(driver_name);
 }
 
-// Drivers that pass everything on to another one, which determines the image as much as they do.
+// Layered drivers, which forward all work to another driver. That driver determines the image as
+// much as they do.
 bool is_layered(vk::DriverId driver) {
   using enum vk::DriverId;
   return driver == eMesaVenus || driver == eMesaDozen || driver == eMoltenvk;

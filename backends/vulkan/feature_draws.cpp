@@ -98,7 +98,7 @@ measure::ProbedFeature probe_instances(const Gpu& gpu) {
                       });
 }
 
-// Indices from which the draw subtracts 1000.
+// The indices are 1000 too large, and the draw adds a vertex offset of -1000.
 measure::ProbedFeature probe_base_vertex(const Gpu& gpu) {
   constexpr std::uint32_t count = 100'000;
   constexpr std::int32_t base = -1000;

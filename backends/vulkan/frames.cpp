@@ -34,7 +34,8 @@ constexpr std::array<Statistic, 11> statistics_in_order{{
 }};
 
 constexpr std::uint32_t timestamps = 2;
-// A clock never has this value by chance, because the bits beyond the width of a counter are 0.
+// The device overwrites this value. A clock never reads it by chance, because the bits beyond the
+// width of a counter are 0.
 constexpr std::uint64_t unwritten_ticks = 0xFEEDFACE0BADF00D;
 
 }  // namespace
@@ -112,7 +113,8 @@ std::optional<double> Frames::device_ns() const {
       sizeof ticks, ticks.data(), sizeof ticks[0],
       VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
   if (result != VK_SUCCESS) return std::nullopt;
-  // The calibration reports a clock that is not written; the time of such a frame is NaN.
+  // If the clock was not written, the time of the frame is NaN. The calibration of clocks reports
+  // such a clock.
   if (ticks[0] == unwritten_ticks || ticks[1] == unwritten_ticks) {
     return std::numeric_limits<double>::quiet_NaN();
   }

@@ -13,8 +13,8 @@ namespace triptych::vulkan_backend {
 using StageNames = std::vector<std::pair<vk::ShaderStageFlagBits, std::string>>;
 
 // The pipelines of an open device. Each is built once for all work that is prepared on the device.
-// A VkPipelineCache would leave that to the driver, and Mesa's lavapipe stores nothing in one:
-// building is most of the cost of a short frame there.
+// A VkPipelineCache would leave that decision to the driver, and lavapipe stores nothing in one, so
+// that building pipelines would take most of the time of a short frame.
 class Pipelines {
  public:
   // Builds a pipeline with these flags.

@@ -13,7 +13,7 @@ class SphereStructure {
   static constexpr std::uint32_t boxes_binding = 7;
   static constexpr std::uint32_t structure_binding = 20;
 
-  // Throws core::NotSupported where the device takes fewer boxes.
+  // Throws core::NotSupported if the device supports fewer boxes.
   SphereStructure(const Gpu& gpu, std::uint32_t particles, technique::Structure kind);
 
   void bind(vk::DescriptorSet set) const;

@@ -75,7 +75,7 @@ SpriteFrames::SpriteFrames(const Gpu& gpu, const Instance& instance,
   instance_.check_validation();
 }
 
-// Draws a frame that is not shown, so that for every other frame the previous one is known.
+// Draws a frame that is not shown, so that every other frame has a previous one.
 void SpriteFrames::draw_before(const measure::ParticleWork& work) const {
   if (work.camera_before) data_.look_from(work.before());
   static_cast<void>(frames_.submit(measure::Purpose::timing));

@@ -130,8 +130,8 @@ measure::Frame TracedFrames::frame(measure::Purpose purpose) {
       frame.counts =
           data_.counts(technique::Method::rays, options_.culling, target_.read(gpu_));
       if (!tracer_->counts_nodes()) {
-        // The driver decides which candidates its structure reports, so these counts would not
-        // repeat.
+        // The driver decides which candidates its acceleration structure reports, so these counters
+        // would differ between drivers.
         for (const char* each : {"nodes_visited", "boxes_tested", "intersections_tested"}) {
           frame.counts.erase(each);
         }

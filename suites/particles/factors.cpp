@@ -16,7 +16,8 @@ using measure::Factor;
 using measure::number;
 using measure::text;
 
-constexpr double any_field_of_view = 60;  // only used to check the spelling of a camera
+// Any valid angle, because only the spelling of the camera is checked.
+constexpr double any_field_of_view = 60;
 
 }  // namespace
 

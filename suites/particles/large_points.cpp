@@ -54,7 +54,8 @@ void for_each_silhouette(const scene::ParticleScene& scene, Take&& take) {
 
 std::map<std::string, double> open_by_quads(const scene::ParticleScene& scene, double largest,
                                             bool occlusion) {
-  // A device computes a size with about 16 operations of 2⁻²⁴ each, for images below 16,384 pixels.
+  // The margin for rounding: a device computes a size with about 16 operations of 2⁻²⁴ each, for
+  // images below 16,384 pixels.
   constexpr double rounding = 1.0 / 64;
   const double picture = static_cast<double>(scene.width) * scene.height;
   double quads = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// The counts that may differ because a device's points have a largest size: a larger sprite is
-// drawn as a quad there.
+// The differences between counters that are allowed because a device has a largest point size: it
+// draws a larger sprite as a quad.
 
 #include <map>
 #include <string>

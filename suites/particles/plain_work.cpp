@@ -27,9 +27,9 @@ struct Axis {
   double per_unit;
   int pixels;
 
-  // The pixels of a ball with radius r around (a, z). A point p with |p − c| ≤ r has a p_a/p_z that
-  // differs from a/z by at most r·(1 + |a|/z)/(z − r). Two pixels are added on each side, more than
-  // the margin of any sprite.
+  // The range of pixels that a ball with radius r around (a, z) can cover. A point p with |p − c| ≤
+  // r has a p_a/p_z that differs from a/z by at most r·(1 + |a|/z)/(z − r). Two pixels are added on
+  // each side, which is more than the margin of any sprite.
   [[nodiscard]] std::pair<int, int> pixels_of(double a, double z, double r) const {
     constexpr double margin = 2;
     const double middle = (a / z - first) * per_unit;

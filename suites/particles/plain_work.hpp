@@ -1,5 +1,5 @@
 #pragma once
-// Configurations of particles that do exactly the same work (measure::Suite::plain).
+// Finds configurations of particles that do exactly the same work (measure::Suite::plain).
 
 #include "measure/contract/suite.hpp"
 #include "scene/particle_scene.hpp"

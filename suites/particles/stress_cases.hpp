@@ -25,7 +25,7 @@ using measure::own_level;
 struct StressCase {
   int number = 0;  // number in the catalogue of docs/accuracy.md
   std::string_view name;
-  std::string_view summary;                // why it is hostile
+  std::string_view summary;                // why renderers fail on it
   std::string_view expected;               // the expected result, and why it is achievable
   std::vector<std::string_view> variants;  // empty if the case has only one scene
 };

@@ -14,7 +14,8 @@ using scene::looking;
 // Width and height of most stress images, in pixels.
 inline constexpr int stress_side = 96;
 
-// The number that a variant such as "1e6" or "64x48" begins with; 0 where it begins with none.
+// The number at the beginning of a variant such as "1e6" or "64x48"; 0 if it does not begin with
+// one.
 template <typename Number>
 [[nodiscard]] Number number_in(std::string_view variant) {
   Number number = 0;
@@ -34,7 +35,7 @@ class StressMaker {
   // Adds a particle at a place in the image, given in pixels from the upper left corner, at the
   // distance `depth` along the view axis, with a radius in pixels at that depth.
   void add_at(double x, double y, double depth, double radius_px);
-  // Leaves out one number.
+  // Leaves out one particle number.
   void skip() { ++next_; }
 
   [[nodiscard]] glm::dvec3 place(double x, double y, double depth) const;

@@ -49,7 +49,8 @@ StressScene stress_no_sphere(std::string_view variant, scene::ColourKind colour)
   const glm::dvec3 before{0, 0, 0.5};
   maker.add({0, 0, 0}, 1);
   if (variant == "vanishing") {
-    // Finite and positive, although their squares are 0 and the last one is not a normal float.
+    // These radii are finite and positive, although their squares are 0 and the last one is not a
+    // normal float.
     maker.add(maker.place(48.5, 48.5, 2), 1e-25);
     maker.add(maker.place(30.5, 40.5, 2), 1e-30);
     maker.add(maker.place(50.5, 30.5, 2), 1e-40);
@@ -65,7 +66,7 @@ StressScene stress_no_sphere(std::string_view variant, scene::ColourKind colour)
   return maker.take();
 }
 
-// The same five spheres eight times, with equal ones far apart in the set.
+// Five spheres, each of which is added eight times. Equal spheres are far apart in the set.
 StressScene stress_coincident(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({1, 0.7, 4}, {0, 0, 0}, fov), stress_side, stress_side);
   for (int copy = 0; copy < 8; ++copy) {
@@ -140,7 +141,7 @@ StressScene stress_jump(std::string_view, scene::ColourKind colour) {
   return scene;
 }
 
-// The longer side always shows the same extent.
+// The longer side always shows the same extent of the scene.
 StressScene stress_shape(std::string_view variant, scene::ColourKind colour) {
   const std::size_t times = variant.find('x');
   const int width = number_in<int>(variant.substr(0, times));

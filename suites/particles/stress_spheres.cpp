@@ -75,7 +75,7 @@ StressScene stress_skimming(std::string_view variant, scene::ColourKind colour) 
   camera.up = up;
   StressMaker maker(colour, camera, stress_side, stress_side);
   maker.add({0, 0, 0}, 1);
-  // Half sunk into the ground, in front of the horizon, on it and behind it.
+  // These spheres are half sunk into the ground, in front of the horizon, on it and behind it.
   for (const double angle : {0.004, 0.014, 0.1, 0.5}) {
     const glm::dvec3 foot = std::cos(angle) * up + std::sin(angle) * ahead;
     maker.add(foot + 0.3 * angle * camera.right(), 0.2 * angle);
@@ -111,8 +111,8 @@ StressScene stress_wide(std::string_view, scene::ColourKind colour) {
   return maker.take();
 }
 
-// Centres on the edges and corners of the image. Outside of it, one sphere that reaches a pixel
-// into the image and one that ends a pixel before it.
+// Centres lie on the edges and corners of the image. Outside of it, one sphere reaches a pixel into
+// the image and another ends a pixel before it.
 StressScene stress_edges(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({2, 1, 4}, {0, 0, 0}, 50), stress_side, stress_side);
   for (const double x : {0.0, stress_side / 2.0, 1.0 * stress_side}) {
@@ -124,8 +124,8 @@ StressScene stress_edges(std::string_view, scene::ColourKind colour) {
   return maker.take();
 }
 
-// Radii of a hundredth of a pixel. Spheres on the centre of every eighth pixel of every eighth row
-// are visible; those on a pixel corner four pixels further are missed by every ray.
+// Radii are a hundredth of a pixel. Spheres at the centre of every eighth pixel of every eighth row
+// are visible. No ray hits the spheres on pixel corners four pixels farther.
 StressScene stress_subpixel(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking(oblique(), {0, 0, 0}, 60), stress_side, stress_side);
   for (int y = 4; y < stress_side; y += 8) {

@@ -107,7 +107,7 @@ class ParticleSuite final : public measure::SuiteWithTruth, public measure::Expe
   [[nodiscard]] const StressScene& own(std::string_view factor) const;
   [[nodiscard]] scene::Camera camera(const Configuration& configuration) const;
   [[nodiscard]] scene::ParticleScene scene(const Configuration& configuration);
-  // Everything that decides the image and is not a factor, except the particles.
+  // Everything that determines the image and is not a factor, except the particles.
   [[nodiscard]] std::string beside_factors(const Configuration& configuration);
 
   std::vector<std::filesystem::path> folders_;
@@ -243,7 +243,7 @@ std::string ParticleSuite::truth_key(const Configuration& configuration,
                      pictured.particles->hash, model_hash, beside_factors(configuration));
 }
 
-// A device that does not show a finer grid than this draws sprites that grow
+// A device whose reported grid is not finer than this draws sprites that grow
 // (technique/particles/margins.hpp).
 std::map<std::string, double> ParticleSuite::open_counts(
     const Configuration& configuration, const std::map<std::string, double>& precision) {

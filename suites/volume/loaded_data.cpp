@@ -12,7 +12,7 @@ using measure::Configuration;
 
 namespace {
 
-// The level of `component`; its default in configurations that are older than the factor.
+// The level of `component`. Configurations that are older than this factor have its default.
 std::string component_of(const Configuration& configuration) {
   const auto found = configuration.find("component");
   return found == configuration.end() ? "0" : found->second;

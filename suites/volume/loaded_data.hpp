@@ -26,7 +26,8 @@ struct LoadedData {
   std::shared_ptr<const scene::VoxelGrid> grid;
 };
 
-// Chooses the voxel format, given the one that loses nothing and the size of the volume.
+// Chooses the voxel format, given the size of the volume and the format that stores it without
+// loss.
 using ChooseFormat =
     std::function<scene::VoxelFormat(scene::VoxelFormat native, const std::array<int, 3>& size)>;
 using OnNote = std::function<void(const std::string&)>;

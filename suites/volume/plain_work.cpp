@@ -23,7 +23,7 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
     plain.why["ert"] = technique.id + " ends no ray early";
   }
   const bool cells = work.scene.quadrature == scene::Quadrature::cells;
-  // With quadrature cells a ray looks at a brick even then, and counts it.
+  // With quadrature cells, a ray still visits and counts such a brick.
   if (!cells && work.options.skip == technique::Skip::distance &&
       no_brick_is_empty(work.scene, work.options.skip)) {
     plain.levels["skip"] = technique::name_of(technique::Skip::none);

@@ -46,7 +46,7 @@ struct StressScene {
 struct StressCase {
   int number = 0;  // number in the catalogue of docs/accuracy.md
   std::string_view name;
-  std::string_view summary;                // why it is hostile
+  std::string_view summary;                // why renderers fail on it
   std::string_view expected;               // the expected result, and why it is achievable
   std::vector<std::string_view> variants;  // empty if the case has only one scene
   StressScene (*scene)(std::string_view variant) = nullptr;

@@ -37,7 +37,8 @@ StressScene stress_shape(std::string_view variant) {
   return scene;
 }
 
-// A row as wide as today's devices can draw, and one more pixel.
+// The first variant is as wide as the widest row that today's devices can draw, and the second is
+// one pixel wider.
 StressScene stress_widest(std::string_view variant) {
   StressScene scene = lopsided_scene();
   scene.width = variant == "16384" ? 16384 : 16385;
@@ -53,7 +54,8 @@ StressScene stress_widest(std::string_view variant) {
 StressScene stress_field_of_view(std::string_view variant) {
   StressScene scene = lopsided_scene();
   if (variant == "widest") {
-    // Just in front of a face, because all rays except the middle ones run nearly along it.
+    // The camera is just in front of a face, so that all rays except the middle ones run nearly
+    // along it.
     scene.camera = looking({12, 11, 24.5}, {11.5, 11, 0}, 179);
     scene.function.entries[0][3] = 0.1F;
     return scene;

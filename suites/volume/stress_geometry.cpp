@@ -43,7 +43,7 @@ StressScene stress_boundary(std::string_view variant) {
   if (variant == "face") return seen_from(looking({0, 9.25, 13.5}, {12, 12, 12}, 90));
   if (variant == "edge") return seen_from(looking({edge, edge, 10.25}, {12, 12, 12}, 90));
   if (variant == "corner") return seen_from(looking({0, edge, edge}, {12, 12, 12}, 90));
-  // From a face outward, at an angle at which no ray enters the volume.
+  // The eye is on a face and looks outward, at an angle at which no ray enters the volume.
   StressScene scene = seen_from(looking({edge, 9.25, 13.5}, {40, 12, 12}, 60));
   scene.expectations = {
       {"exactly the background, as no ray enters the box", record::OneColour{scene.background}}};
@@ -77,7 +77,7 @@ StressScene stress_chord(std::string_view variant) {
   scene.step_voxels = 0.25;
   const bool at_edge = variant == "edge";
   const glm::dvec3 target = at_edge ? glm::dvec3(0, 0, 11.25) : glm::dvec3(0, 0, 0);
-  // Across the outside of the edge, where rays graze the box.
+  // The camera looks across the outside of the edge, where rays graze the box.
   const glm::dvec3 from = at_edge ? glm::dvec3(40, -40, 3) : glm::dvec3(30, -33, 4);
   scene.camera = looking(target + from, target, fov_of(0.02, glm::length(from)));
   return scene;
@@ -92,7 +92,7 @@ StressScene stress_octant(std::string_view variant) {
   const auto at = [&](int index, int axis) { return sign[axis] < 0 ? edge - 1 - index : index; };
   StressScene scene = seen_from_outside(volume_of(
       size, [&](int i, int j, int k) { return lopsided(size, at(i, 0), at(j, 1), at(k, 2)); }));
-  // Coordinates with few bits, so that the mirrored eye is exact.
+  // Coordinates have few bits, so that the mirrored eye is exact.
   const scene::Camera plain = looking(glm::dvec3(20, 13, 27), {0, 0, 0}, 50);
   scene.camera = along(glm::dvec3(edge / 2.0) + sign * plain.eye, sign * plain.forward,
                        sign * plain.up, plain.fov_y_deg);
@@ -105,7 +105,7 @@ StressScene stress_octant(std::string_view variant) {
   return scene;
 }
 
-// The same image as from nearby, with a focal length that grows with the distance.
+// The image is the one seen from nearby, because the focal length grows with the distance.
 StressScene stress_far(std::string_view variant) {
   double distance = 0;
   std::from_chars(variant.data(), variant.data() + variant.size(), distance);

@@ -22,10 +22,10 @@ using Voxel = std::function<double(int i, int j, int k)>;
 [[nodiscard]] double lopsided(const Size& size, int i, int j, int k);
 [[nodiscard]] scene::Volume lopsided_volume(const Size& size);
 
-// All entries have this colour and opacity.
+// A transfer function whose entries all have this colour and opacity.
 [[nodiscard]] scene::TransferFunction uniform(const std::array<float, 4>& rgba);
-// Transparent from 0 to the entry `first`, then growing to the opacity `most` at the last entry.
-// The colour changes from blue to orange.
+// A transfer function that is transparent from 0 to the entry `first`; then opacity grows to `most`
+// at the last entry. The colour changes from blue to orange.
 [[nodiscard]] scene::TransferFunction ramp(int first, double most);
 
 using scene::looking;

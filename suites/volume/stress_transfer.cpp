@@ -51,7 +51,8 @@ StressScene marched(double step_voxels, int pixels) {
 
 }  // namespace
 
-// Seen from within: the first sample of every ray hides everything behind it, whatever its length.
+// The eye is inside the volume. The first sample of every ray hides everything behind it, whatever
+// its length.
 StressScene stress_solid(std::string_view /*variant*/) {
   StressScene scene = from_within(uniform(orange));
   scene.expectations = {
@@ -82,8 +83,9 @@ StressScene stress_march(std::string_view variant) {
   return scene;
 }
 
-// At most one sample, for the rest of the ray. It lies in the middle of the step, and the field is
-// constant outside the box.
+// A step that is longer than the volume's diagonal, so that a ray has at most one sample, which
+// covers the whole chord. The sample lies in the middle of the step, outside the box, where the
+// field is constant.
 StressScene stress_stride(std::string_view variant) {
   StressScene scene = lopsided_scene();
   scene.function = ramp(0, 0.1);
@@ -104,8 +106,8 @@ StressScene stress_spike(std::string_view variant) {
   return scene;
 }
 
-// Values beyond the centres of the outermost entries have the colour of those entries: half an
-// entry on either side.
+// Values beyond the centres of the outermost entries, by up to half an entry, have the colour of
+// those entries.
 StressScene stress_end_spike(std::string_view variant) {
   const bool first = variant == "first";
   StressScene scene = seen_from_outside(volume_of({16, 16, 16}, [first](int i, int j, int k) {

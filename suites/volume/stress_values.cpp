@@ -173,7 +173,8 @@ StressScene stress_lit(std::string_view variant) {
   return scene;
 }
 
-// Nothing can be skipped: walking through the bricks may cost no samples and hardly any time.
+// Nothing can be skipped, so walking through the bricks must take hardly any additional samples or
+// time.
 StressScene stress_lit_everywhere(std::string_view /*variant*/) {
   const Size size{32, 32, 32};
   StressScene scene = seen_from_outside(volume_of(size, [](int i, int j, int k) {

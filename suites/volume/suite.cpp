@@ -75,7 +75,8 @@ class VolumeSuite final : public measure::SuiteWithTruth, public measure::Expect
                                      int y) override;
 
  private:
-  // The input of the reference: the scene, and the errors that a device's path may have in it.
+  // The input of the reference renderer: the scene, and the errors that a device's path may have in
+  // it.
   struct Judged {
     scene::VolumeScene scene;
     reference::ErrorModel model;
@@ -143,9 +144,10 @@ std::uint64_t budget_of(const measure::Configuration& configuration) {
   return static_cast<std::uint64_t>(measure::as_number(configuration, "budget") * (1U << 20U));
 }
 
-// The device's default path, with exceptions. No device's sampler interpolates in double precision,
-// and storing integers as floats would round them. Quadrature cells does not use a sampler. In
-// parts of a volume a sampler would round differently than in the whole.
+// The device's default path, with exceptions. Precision fp64 does not use the device's sampler,
+// which never interpolates in double precision, and does not store integers as floats, which would
+// round them. Quadrature cells does not use a sampler. A volume in parts does not either, because a
+// sampler would round differently than for the whole volume.
 measure::VolumePath default_path(const measure::Device& device, measure::VolumeKind volume,
                                  const measure::Configuration& configuration,
                                  scene::Quadrature quadrature) {
@@ -254,7 +256,8 @@ accuracy::ExpectedRay VolumeSuite::expected_ray(const Configuration& configurati
   return pixel_history(pictured, model, x, y);
 }
 
-// The contents of a transfer function's file, because the factor contains only its name.
+// The hash of a transfer function's file. Keys of images contain it, because the factor contains
+// only the file's name.
 std::string table_text(const Configuration& configuration,
                        const scene::TransferFunction& function) {
   if (configuration.at("transfer_function") == own_level) return {};
@@ -339,7 +342,7 @@ std::string VolumeSuite::limit_key(const Configuration& configuration) {
 }
 
 measure::Limit VolumeSuite::limit(const Configuration& configuration) {
-  // Below the rounding of a float image over its whole range.
+  // Smaller than the rounding of a float image over its whole range.
   constexpr double tolerance = 0x1.0p-24;
   const reference::Truth truth = reference::render_volume_converged(
       scene(configuration, load_as_it_is(configuration)), tolerance);
