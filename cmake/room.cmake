@@ -17,7 +17,7 @@ endfunction()
 # The files of a target are compiled in batches, because most of the compilation time is spent on reading headers. When this is off,
 # every file is compiled alone, which shows whether it includes everything that it uses.
 option(TRIPTYCH_UNITY "Compile the files of a target in batches" ON)
-set(TRIPTYCH_UNITY_BATCH 8 CACHE STRING "How many files a batch holds")
+set(TRIPTYCH_UNITY_BATCH 24 CACHE STRING "How many files a batch holds")
 function(triptych_batch target)
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD ${TRIPTYCH_UNITY} UNITY_BUILD_BATCH_SIZE ${TRIPTYCH_UNITY_BATCH})

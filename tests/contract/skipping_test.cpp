@@ -47,12 +47,12 @@ TEST(Skipping, RealVolumesHaveTheSameBits) {
   if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with volumes/";
   on_every_driver([&](measure::Device& device) {
     for (const auto& file : files) {
+      const scene::Volume volume = scene::load_volume(file.string());
       for (const std::string_view function : scene::transfer_function_presets()) {
         SCOPED_TRACE(file.filename().string() + " " + std::string(function));
         scene::VolumeScene scene = small_scene(function);
         scene.shading.enabled = function == "surfaces";
-        expect_same_bits(device,
-                         default_work(device, scene::load_volume(file.string()), std::move(scene)));
+        expect_same_bits(device, default_work(device, volume, std::move(scene)));
       }
     }
   });
@@ -65,10 +65,10 @@ TEST(Skipping, TakesWhatAnOracleDoesAndLittleMore) {
   if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with volumes/";
   on_every_driver([&](measure::Device& device) {
     for (const auto& file : files) {
+      const scene::Volume volume = scene::load_volume(file.string());
       for (const std::string_view function : scene::transfer_function_presets()) {
         SCOPED_TRACE(file.filename().string() + " " + std::string(function));
-        measure::Work work =
-            default_work(device, scene::load_volume(file.string()), small_scene(function));
+        measure::Work work = default_work(device, volume, small_scene(function));
         auto& options = std::get<measure::VolumeWork>(work.scene).options;
         options.ert = 0;
         const auto counts = [&](technique::Skip skip) {

@@ -80,10 +80,10 @@ TEST(Truth, RealVolumesStayWithinTheBound) {
   if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with volumes/";
   on_every_device([&](measure::Device& device) {
     for (const auto& file : files) {
+      const scene::Volume volume = scene::load_volume(file.string());
       for (const std::string_view function : scene::transfer_function_presets()) {
         SCOPED_TRACE(file.filename().string() + " " + std::string(function));
-        expect_within_bound(
-            device, default_work(device, scene::load_volume(file.string()), small_scene(function)));
+        expect_within_bound(device, default_work(device, volume, small_scene(function)));
       }
     }
   });

@@ -20,44 +20,40 @@ std::size_t depth_of(scene::VoxelFormat format) {
   return format == scene::VoxelFormat::f32 ? 1 : 2;
 }
 
-// Writes the voxels of one texel after the other as bytes.
-class Packer {
- public:
-  Packer(const scene::VoxelGrid& grid, std::size_t texel)
-      : grid_(grid), cells_(cells_of(grid.size)), bytes_(scene::bytes_of(grid.format)) {
-    at_ = {texel % cells_[0], texel / cells_[0] % cells_[1], texel / (cells_[0] * cells_[1])};
-  }
+// The voxels before and after a face between voxels along an axis, clamped to the volume.
+std::size_t before(std::size_t face) { return face == 0 ? 0 : face - 1; }
+std::size_t after(std::size_t face, int voxels) {
+  return std::min(face, static_cast<std::size_t>(voxels) - 1);
+}
 
-  void write(std::byte* out) {
-    for (std::size_t z = 0; z < depth_of(grid_.format); ++z) {
-      for (std::size_t y = 0; y < 2; ++y) {
-        const std::size_t row = voxel(1, at_[1] + y) + size(1) * voxel(2, at_[2] + z);
-        for (std::size_t x = 0; x < 2; ++x, out += bytes_) {
-          std::memcpy(out, &grid_.data[bytes_ * (voxel(0, at_[0] + x) + size(0) * row)], bytes_);
-        }
-      }
+// Writes the texels from `texel` on, one row of cells after the other. Copies have a constant size,
+// because a texel would otherwise take eight calls of memcpy.
+template <std::size_t voxel_bytes, std::size_t layers>
+void fill_rows(const scene::VoxelGrid& grid, std::size_t texel, std::span<std::byte> out) {
+  const auto cells = cells_of(grid.size);
+  const auto row_bytes = voxel_bytes * static_cast<std::size_t>(grid.size[0]);
+  std::byte* to = out.data();
+  while (to != out.data() + out.size()) {
+    const std::size_t y = texel / cells[0] % cells[1];
+    const std::size_t z = texel / (cells[0] * cells[1]);
+    std::array<const std::byte*, 2 * layers> rows{};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const std::size_t row_y = i % 2 == 0 ? before(y) : after(y, grid.size[1]);
+      const std::size_t row_z = i / 2 == 0 ? before(z) : after(z, grid.size[2]);
+      rows.at(i) = &grid.data[row_bytes * (row_y + static_cast<std::size_t>(grid.size[1]) * row_z)];
     }
-    if (++at_[0] < cells_[0]) return;
-    at_[0] = 0;
-    if (++at_[1] < cells_[1]) return;
-    at_[1] = 0;
-    ++at_[2];
+    for (std::size_t x = texel % cells[0]; x < cells[0] && to != out.data() + out.size(); ++x) {
+      const std::size_t left = voxel_bytes * before(x);
+      const std::size_t right = voxel_bytes * after(x, grid.size[0]);
+      for (const std::byte* row : rows) {
+        std::memcpy(to, row + left, voxel_bytes);
+        std::memcpy(to + voxel_bytes, row + right, voxel_bytes);
+        to += 2 * voxel_bytes;
+      }
+      ++texel;
+    }
   }
-
- private:
-  [[nodiscard]] std::size_t size(std::size_t axis) const {
-    return static_cast<std::size_t>(grid_.size.at(axis));
-  }
-  // The voxel after the i-th face between voxels, clamped.
-  [[nodiscard]] std::size_t voxel(std::size_t axis, std::size_t i) const {
-    return std::min(i == 0 ? 0 : i - 1, size(axis) - 1);
-  }
-
-  const scene::VoxelGrid& grid_;
-  std::array<std::uint64_t, 3> cells_;
-  std::size_t bytes_;
-  std::array<std::size_t, 3> at_{};
-};
+}
 
 }  // namespace
 
@@ -80,9 +76,16 @@ int voxel_bits(scene::VoxelFormat format) {
 }
 
 void fill_packed_cells(const scene::VoxelGrid& grid, std::size_t begin, std::span<std::byte> out) {
-  const std::size_t texel = packed_texel_bytes(grid.format);
-  Packer packer(grid, begin / texel);
-  for (std::size_t at = 0; at < out.size(); at += texel) packer.write(&out[at]);
+  const std::size_t texel = begin / packed_texel_bytes(grid.format);
+  switch (grid.format) {
+    case scene::VoxelFormat::u8:
+      return fill_rows<1, 2>(grid, texel, out);
+    case scene::VoxelFormat::u16:
+    case scene::VoxelFormat::f16:
+      return fill_rows<2, 2>(grid, texel, out);
+    case scene::VoxelFormat::f32:
+      return fill_rows<4, 1>(grid, texel, out);
+  }
 }
 
 std::optional<std::string> packed_reason(std::uint64_t cells, const RaycastBuffers& buffers,
