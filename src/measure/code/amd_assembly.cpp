@@ -14,14 +14,15 @@ namespace {
 
 enum class Kind { vector, scalar, load, memory, branch, wait };
 
-// The ways to read a volume, the most likely one first: through a sampler, from an image without
-// one, from a texel buffer, from any memory (OpenCL C). The others in a program read tables.
+// The ways in which device code can read a volume, most likely first: through a sampler, from an
+// image without a sampler, from a texel buffer, or from plain memory (OpenCL C). If a program uses
+// several of them, the first one reads the volume, and the others read tables.
 enum class Fetch { sample, image, texels, memory, none };
 
 struct Line {
   Kind kind;
   Fetch fetch = Fetch::none;
-  std::string target;  // label of a branch
+  std::string target;  // the label to which a branch jumps
 };
 
 bool starts_with_any(std::string_view text, std::span<const std::string_view> starts) {
@@ -29,7 +30,7 @@ bool starts_with_any(std::string_view text, std::span<const std::string_view> st
                              [&](std::string_view start) { return text.starts_with(start); });
 }
 
-// The instruction sets' manuals group their instructions in this way; the prefixes are theirs.
+// The groups and prefixes are those of AMD's instruction set manuals.
 std::optional<Kind> kind_of(std::string_view operation) {
   static constexpr std::array<std::string_view, 2> branches{"s_branch", "s_cbranch"};
   static constexpr std::array<std::string_view, 13> waits{
@@ -80,7 +81,7 @@ std::string label_of(std::string_view text) {
 
 struct Program {
   std::vector<Line> lines;
-  std::map<std::string, std::size_t> labels;  // → index of the line that follows
+  std::map<std::string, std::size_t> labels;  // label → index of the next line
 };
 
 Program parse(std::string_view assembly) {
@@ -118,8 +119,8 @@ InstructionCounts count(std::span<const Line> lines) {
   return counts;
 }
 
-// First line of each loop → one past its last: a branch back to a block ends a loop that begins
-// there.
+// Returns each loop as {its first line → one past its last line}. A branch back to a block is the
+// end of a loop that begins at that block.
 std::map<std::size_t, std::size_t> loops_of(const Program& program) {
   std::map<std::size_t, std::size_t> loops;
   for (std::size_t at = 0; at < program.lines.size(); ++at) {

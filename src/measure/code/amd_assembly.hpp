@@ -13,7 +13,7 @@ struct InstructionCounts {
   int memory = 0;  // loads, stores, image samples and local memory, scalar loads included
   int branch = 0;
   int wait = 0;     // waits, scheduling hints, the end of the program
-  int fetches = 0;  // of `memory`, reads of images and buffers, which a sample of a volume needs
+  int fetches = 0;  // the part of `memory` that reads images and buffers, as sampling a volume does
   [[nodiscard]] int all() const { return vector + scalar + memory + branch + wait; }
 };
 

@@ -41,8 +41,8 @@ bool is_digit(char c) {
 
 void CompiledCode::add(const std::string& name, std::map<std::string, double> statistics,
                        std::string assembly) {
-  // Drivers report hashes among their statistics. A hash identifies the code, does not describe its
-  // quality, and changes with the names in a shader.
+  // Some drivers report hashes among their statistics. They are left out, because a hash does not
+  // describe the quality of the code, and changes with the names in a shader.
   std::erase_if(statistics, [](const auto& each) {
     return each.first.find("hash") != std::string::npos ||
            each.first.find("Hash") != std::string::npos;
@@ -72,7 +72,7 @@ std::map<std::string, double> parse_statistics(std::string_view line) {
        colon = line.find(": ", colon + 1)) {
     const std::size_t number = colon + 2;
     if (number >= line.size() || !is_digit(line[number])) continue;
-    // The name reaches back to the number before it.
+    // The name begins after the previous number or colon.
     std::size_t begin = colon;
     while (begin > 0 && line[begin - 1] != ':' && !is_digit(line[begin - 1])) --begin;
     while (begin < colon && line[begin] == ' ') ++begin;

@@ -17,7 +17,7 @@ class CompiledCode {
   void add(const std::string& name, std::map<std::string, double> statistics,
            std::string assembly);
 
-  // Throws core::NotSupported where nothing was reported.
+  // Throws core::NotSupported if the compiler reported nothing.
   [[nodiscard]] Compiled take();
 
  private:
@@ -25,11 +25,11 @@ class CompiledCode {
 };
 
 // Reads the "Name: NUMBER" pairs of one line, as Mesa's drivers print statistics. Text before the
-// first pair and text in parentheses is left out.
+// first pair and text in parentheses is ignored.
 [[nodiscard]] std::map<std::string, double> parse_statistics(std::string_view line);
 
 // Reads "NUMBER name" pairs, as in "Used 32 registers, 8 bytes stack frame" (NVIDIA) or "55 inst, 0
-// loops, 328 cycles" (Intel): each number with the words up to the next comma.
+// loops, 328 cycles" (Intel). The name consists of all words up to the next comma.
 [[nodiscard]] std::map<std::string, double> parse_counts(std::string_view line);
 
 }  // namespace triptych::measure

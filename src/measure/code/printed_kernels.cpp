@@ -34,7 +34,7 @@ std::vector<PrintedKernel> parse_printed_kernels(std::string_view printed) {
   enum class Part { other, disassembly, statistics };
   std::vector<PrintedKernel> kernels;
   std::string name;
-  int variants = 0;  // of this kernel
+  int variants = 0;  // of the current kernel, so far
   Part part = Part::other;
   PrintedKernel kernel;
   while (!printed.empty()) {

@@ -19,7 +19,7 @@ struct PrintedKernel {
 };
 
 // Returns the kernels in the order in which they were printed. Code that belongs to no kernel, such
-// as that of a driver's own shaders, is left out.
+// as a driver's own shaders, is left out.
 [[nodiscard]] std::vector<PrintedKernel> parse_printed_kernels(std::string_view printed);
 
 }  // namespace triptych::measure

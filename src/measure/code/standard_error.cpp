@@ -12,7 +12,7 @@
 namespace triptych::measure {
 namespace {
 
-// Standard error goes to a file in memory while this lives.
+// Redirects standard error to a file in memory while this object exists.
 class Redirected {
  public:
   Redirected() : file_(::memfd_create("standard error", MFD_CLOEXEC)), before_(::dup(STDERR_FILENO)) {

@@ -1,6 +1,6 @@
 #pragma once
-// The interface between everything above and one API. A backend is given techniques, never commands
-// of the API: devices → open → supports → prepare → frame → image.
+// The interface between API-independent code and one API. Callers name techniques and never use
+// commands of the API: list → open → unsupported → prepare → frame → image.
 
 #include <cstdint>
 #include <memory>
@@ -31,11 +31,11 @@ struct VolumeWork {
 struct ParticleWork {
   scene::ParticleScene scene;
   technique::ParticleOptions options;
-  // The camera of the frame before the first one, which Culling::occlusion remembers; if empty, it
-  // is the camera of the others.
+  // The camera of a frame that is drawn before the first one. Culling::occlusion uses the
+  // visibility from that frame. If empty, that frame has the same camera as all others.
   std::optional<scene::Camera> camera_before = {};
 
-  // The work of the frame before the first one.
+  // The work with that camera.
   [[nodiscard]] ParticleWork before() const {
     ParticleWork work = *this;
     if (camera_before) work.scene.camera = *camera_before;
@@ -43,14 +43,14 @@ struct ParticleWork {
   }
 };
 
-// The scene to draw, and the technique with its options. The catalogue states which kind of scene
-// the technique's suite has.
+// The scene to draw, and the technique with its options. The technique's suite in the catalogue
+// determines whether the scene is a volume or particles.
 struct Work {
   std::string technique;  // catalogue id
   std::variant<VolumeWork, ParticleWork> scene;
 };
 
-// A frame has only one purpose.
+// Each frame has only one purpose, so that counting never affects times.
 enum class Purpose : std::uint8_t {
   timing,      // nothing is counted
   statistics,  // pipeline statistics are queried; its time is never used
@@ -58,8 +58,8 @@ enum class Purpose : std::uint8_t {
 };
 
 struct Frame {
-  // Time on the steady clock from submitting the work until it is known to be finished. Reading
-  // back is not included.
+  // Time on the steady clock from submitting the work until the program knows that it has finished.
+  // Reading the image back is not included.
   double wall_ns = 0;
   std::optional<double> device_ns;  // only for Purpose::timing, if the device reports it
   record::Counts counts;            // statistics or counters; what cannot be counted is absent
@@ -87,19 +87,19 @@ class Prepared {
   [[nodiscard]] virtual std::string kernel_hash() const = 0;
 };
 
-// The path that a backend takes if a plan does not set `voxel` and `sampler`: the fastest one that
-// keeps the image bound.
+// The voxel format and the sampler that a backend chooses if a plan does not set them: the fastest
+// combination whose image stays within its error bound.
 struct VolumePath {
   scene::VoxelFormat voxel = scene::VoxelFormat::f32;
   technique::Sampler sampler = technique::Sampler::manual;
 };
 
-// The properties on which the choice of a path depends.
+// The properties on which the choice of a VolumePath depends.
 struct VolumeKind {
   // The smallest format that represents the data exactly.
   scene::VoxelFormat native = scene::VoxelFormat::f32;
   std::array<int, 3> size{1, 1, 1};
-  std::optional<technique::Sampler> sampler = std::nullopt;  // the one that a plan names
+  std::optional<technique::Sampler> sampler = std::nullopt;  // the one that the plan sets, if any
   // One filtered value for each sample is sufficient: there is no shading, and neither cells nor
   // doubles are needed.
   bool filter_suffices = true;
@@ -108,16 +108,17 @@ struct VolumeKind {
   }
 };
 
-// The properties of the device's rasterizer that the API leaves open, which decide the fragments
-// that an edge covers.
+// The properties of the device's rasterizer that the API does not specify and that determine which
+// fragments an edge covers.
 struct Rasterizer {
   int sub_pixel_bits = 8;  // vertices are moved to a grid of 2⁻ᵇ pixel
-  // Pixels by which points are larger than their squares, and may be again.
+  // Triptych makes points larger than their sprites by this many pixels, because a driver may round
+  // sizes down. A driver may round them up by as much in addition.
   double point_margin = 0;
   double largest_point = 0;  // pixels, without the margin; larger sprites are quads
 };
 
-// The compiler's report about the timed build of a work.
+// The compiler's report about the timed build.
 struct Compiled {
   record::Code code;
   std::map<std::string, std::string> listings;  // disassembly by its content hash
@@ -136,7 +137,6 @@ class Device {
   // scene exceeds (with both numbers), or memory that it does not have.
   [[nodiscard]] virtual std::optional<std::string> unsupported(const Work& work) const = 0;
 
-  // `native` is the smallest format that represents the data exactly.
   [[nodiscard]] virtual VolumePath default_path(const VolumeKind& volume) const = 0;
 
   // The largest error of this device's trilinear filter, as a share of the difference between
@@ -148,7 +148,7 @@ class Device {
   [[nodiscard]] virtual std::optional<Rasterizer> rasterizer() const { return std::nullopt; }
 
   // The bytes that the backend currently has allocated on the device, as "buffers" and "images".
-  // "moved" are those that every frame of the prepared work moves there
+  // "moved" counts the bytes that every frame of the prepared work uploads to the device
   // (technique/volume/parts.hpp). Memory that the driver allocates for itself is not included.
   // Empty if the backend does not count them.
   [[nodiscard]] virtual record::Counts memory() const { return {}; }

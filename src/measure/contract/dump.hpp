@@ -1,6 +1,6 @@
 #pragma once
-// Writes all input of drivers to files, for `render --dump FOLDER`. Backends call write_dump() when
-// device code is compiled and when buffers are uploaded.
+// Writes everything that a driver receives to files, for `render --dump FOLDER`. Backends call
+// write_dump() when device code is compiled and when buffers are uploaded.
 
 #include <cstddef>
 #include <filesystem>
@@ -15,8 +15,9 @@ namespace triptych::measure {
 [[nodiscard]] std::optional<std::filesystem::path> dump_folder();
 
 // Writes a file into the folder and appends `about` as one line to what-was-given.txt in it, which
-// lists everything in the order of the calls. `name` without an extension, to which a content hash
-// is added: equal contents are one file. Does nothing without a folder. Returns the file's name.
+// lists everything in the order of the calls. `name` has no extension; a content hash is appended
+// to it, so equal contents share one file. Does nothing if dump_folder() is empty. Returns the
+// file's name.
 std::string write_dump(std::string_view name, std::string_view extension,
                        std::span<const std::byte> content, const std::string& about);
 std::string write_dump(std::string_view name, std::string_view extension, std::string_view content,

@@ -15,7 +15,7 @@ namespace triptych::measure {
 // A configuration that was measured before and does exactly the work of another one.
 struct Equivalent {
   std::string key;
-  std::string reason;  // for people: "skip: no brick of this scene is empty"
+  std::string reason;  // for display: "skip: no brick of this scene is empty"
 };
 
 // The configurations that one device has measured. If the transmittance of a ray never falls below
@@ -26,7 +26,7 @@ class Equivalents {
  public:
   [[nodiscard]] std::optional<Equivalent> find(const PlainWork& plain) const;
 
-  // Adds the configuration `key`, whose image is `picture`.
+  // Adds the configuration `key`, together with its image.
   void add(const PlainWork& plain, const std::string& key, const Work& work,
            const core::Image& picture);
 

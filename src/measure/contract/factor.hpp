@@ -14,7 +14,8 @@ enum class Decides : std::uint8_t { the_picture, how_it_is_made };
 
 [[nodiscard]] Factor choice(std::string name, std::vector<std::string> levels, std::string standard,
                             Decides decides, std::string summary);
-// `words` are values that stand for a number. The suite knows their meaning.
+// `words` are named values that may be written instead of a number. The suite defines their
+// meaning.
 [[nodiscard]] Factor number(std::string name, double minimum, double maximum, std::string standard,
                             Decides decides, std::string summary,
                             std::vector<std::string> words = {});

@@ -1,6 +1,6 @@
 #pragma once
-// Probes of features that visualization programs use and that no scene needs. Each is one small
-// computation or draw with a known result.
+// Probes of features that visualization programs use, but that no scene of Triptych needs. Each is
+// one small computation or draw with a known result.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,8 @@ struct ProbedFeature {
   std::string detail = {};  // the error, or the reason for the skip
 };
 
-// The verdict on a result of which `right` of `expected` values are right.
+// The verdict on a probe that should produce `expected` values and produced `right` of them
+// correctly.
 [[nodiscard]] ProbedFeature judged_feature(std::uint64_t right, std::uint64_t expected,
                                            std::string size);
 

@@ -14,7 +14,8 @@ class Pace {
 
   void operator()(const Loading& loading) {
     if (!loading.note.empty()) {
-      // Data may be loaded again, for another way to store them.
+      // The same data may be loaded again, for example in another voxel format. Notes are reported
+      // only once.
       if (notes_.insert(loading.what + ": " + loading.note).second) tell_(loading);
       return;
     }
@@ -41,7 +42,7 @@ class Pace {
   Loading last_{.what = {}, .share = 1};
   std::chrono::steady_clock::time_point rested_since_;
   bool told_ = false;
-  std::set<std::string> notes_;  // notes that were passed on
+  std::set<std::string> notes_;  // notes that were already reported
 };
 
 }  // namespace

@@ -17,9 +17,10 @@ struct Loading {
 
 using OnLoading = std::function<void(const Loading&)>;
 
-// Passes only useful reports on to `tell`: none for a load shorter than two seconds; for others at
-// most one report every two seconds, and the end (share 1) of those that were reported. A load
-// begins with another name or a smaller share than the previous report. `now` is for tests.
+// Returns a function that forwards only useful reports to `tell`: none for a load shorter than two
+// seconds; for others at most one report every two seconds, and the end (share 1) if the load was
+// reported before. A report with another name or a smaller share than the previous one begins a new
+// load. Tests replace `now`.
 [[nodiscard]] OnLoading paced(
     OnLoading tell,
     std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now);

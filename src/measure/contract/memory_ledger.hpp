@@ -19,8 +19,8 @@ class MemoryLedger {
   using Sum = std::atomic<std::uint64_t> Sums::*;
 
  public:
-  // The bytes of one object until it is destroyed. It may outlive the ledger, and may end on any
-  // thread, for example in a driver's callback.
+  // Counts the bytes of one object until the entry is destroyed. An entry may outlive the ledger,
+  // and may be destroyed on any thread, for example in a driver's callback.
   class Entry {
    public:
     Entry() = default;
@@ -54,7 +54,8 @@ class MemoryLedger {
 
   [[nodiscard]] Entry buffer(std::uint64_t bytes) const { return {sums_, &Sums::buffers, bytes}; }
   [[nodiscard]] Entry image(std::uint64_t bytes) const { return {sums_, &Sums::images, bytes}; }
-  // The bytes that every frame uploads to the device, for as long as there are such frames.
+  // Counts the bytes that every frame uploads to the device. Keep the entry for as long as such
+  // frames are drawn.
   [[nodiscard]] Entry moved(std::uint64_t bytes) const { return {sums_, &Sums::moved, bytes}; }
 
   // The result of Device::memory().

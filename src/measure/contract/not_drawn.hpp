@@ -14,7 +14,7 @@ class NotDrawn : public core::Error {
 };
 
 // The driver did not provide a frame's pipeline statistics although it was asked to wait for them.
-// The image and everything else may be right.
+// All other results of the frame may be right.
 class StatisticsNotReady : public core::ApiError {
  public:
   using ApiError::ApiError;

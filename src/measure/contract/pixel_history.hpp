@@ -23,7 +23,7 @@ inline constexpr const char* not_traced =
     "the history of a pixel is recorded for quadrature midpoint and preintegrated, not for cells";
 
 // A prepared work that can draw a frame with a build of its device code that records the samples of
-// one pixel. The build counts, and its control flow is that of the counting build.
+// one pixel. This build also counts, and has the same control flow as the counting build.
 class TracesPixel {
  public:
   TracesPixel() = default;
@@ -44,8 +44,8 @@ class ExpectsRay {
   ExpectsRay& operator=(const ExpectsRay&) = delete;
   virtual ~ExpectsRay() = default;
 
-  // Parameters as in SuiteWithTruth::truth. Throws NotSupported for a quadrature whose samples
-  // cannot be compared one by one.
+  // The parameters are those of SuiteWithTruth::truth. Throws NotSupported for a quadrature whose
+  // samples cannot be compared one by one.
   [[nodiscard]] virtual accuracy::ExpectedRay expected_ray(
       const Configuration& configuration, const std::map<std::string, double>& precision, int x,
       int y) = 0;
@@ -61,11 +61,12 @@ class ExpectsSprites {
   virtual ~ExpectsSprites() = default;
 
   // The indices of the particles that the pixel's ray may meet, from front to back, hidden ones
-  // included. Parameters as in SuiteWithTruth::truth.
+  // included. The parameters are those of SuiteWithTruth::truth.
   [[nodiscard]] virtual std::vector<std::uint32_t> particles_near(
       const Configuration& configuration, const std::map<std::string, double>& precision, int x,
       int y) = 0;
-  // The result in the pixel for these particles, with the bounds of the whole scene.
+  // The expected result in the pixel if only these particles exist. The bounds are those of the
+  // whole scene.
   [[nodiscard]] virtual accuracy::ExpectedSurface expected_surface(
       const Configuration& configuration, const std::map<std::string, double>& precision,
       std::span<const std::uint32_t> particles, int x, int y) = 0;

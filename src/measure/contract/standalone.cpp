@@ -9,7 +9,8 @@
 namespace triptych::measure {
 namespace {
 
-// Shader sources are written as few lines of C: one string literal for this many characters.
+// Shader sources are split into string literals of this many characters, so that the C program has
+// few lines.
 constexpr std::size_t characters_of_a_line = 4000;
 
 std::string escaped(char c) {
@@ -23,7 +24,7 @@ std::string escaped(char c) {
     case '\\':
       return "\\\\";
     case '?':
-      return "\\?";  // no trigraph
+      return "\\?";  // avoids trigraphs
     default:
       return std::string(1, c);
   }

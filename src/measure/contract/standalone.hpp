@@ -1,6 +1,6 @@
 #pragma once
-// Parts of the C program that draws one frame and prints one of its pixels: `render --dump`. Each
-// backend has a template for its API.
+// Makes parts of the C program that `render --dump` writes, which draws one frame and prints one of
+// its pixels. Each backend has a template of the program for its API.
 
 #include <cstddef>
 #include <map>

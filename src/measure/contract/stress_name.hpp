@@ -1,6 +1,6 @@
 #pragma once
-// The names of stress data in plans, "stress:CASE" or "stress:CASE:VARIANT", and the level of other
-// factors that selects the value that belongs to the data.
+// The names of stress data in plans, "stress:CASE" or "stress:CASE:VARIANT". The level `own` of
+// another factor, such as the camera, selects the value that the case defines.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,8 +31,9 @@ template <typename Case>
                      choice.variant);
 }
 
-// A Case has a `name` and `variants`. The catalogue must outlive the choice. nullopt for other
-// data. Throws InputError with the known names for an unknown case or variant.
+// Finds the case of a stress name in `cases`, which must outlive the result. A Case has a `name`
+// and `variants`. Returns nullopt if `data` is not a stress name. Throws InputError with the known
+// names for an unknown case or variant.
 template <typename Case>
 [[nodiscard]] std::optional<StressChoice<Case>> choose_stress(std::string_view data,
                                                               const std::vector<Case>& cases) {

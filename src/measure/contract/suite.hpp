@@ -31,28 +31,29 @@ enum class FactorKind : std::uint8_t {
 struct Factor {
   std::string name;
   FactorKind kind = FactorKind::text;
-  std::vector<std::string> levels;  // for a number, words that stand for one
-  double minimum = 0;               // for a number only
+  std::vector<std::string> levels;  // for a number: words that may be written instead of it
+  double minimum = 0;               // for a number
   double maximum = 0;
   std::string standard;  // value if a plan does not set it; "auto": the device's default path
   bool of_scene = true;  // true if it decides the image, false if only how it is computed
-  // If it has its default, it is not part of a scene's key, because existing keys are older than
-  // the factor.
+  // True for a factor that was added after scene keys had been stored: a scene's key leaves it out
+  // if it has its default.
   bool silent_default = false;
-  // The levels that "auto" stands for in a plan, if it is not a default: all of them are measured,
-  // and the fastest is reported (measure/request/fastest.hpp).
+  // The levels that "auto" stands for in a plan, if "auto" is not the default: all of them are
+  // measured, and the fastest is reported (measure/request/fastest.hpp).
   std::vector<std::string> automatic = {};
   std::string summary;  // one line with unit and source, for --help and docs
 };
 
-// Factor → value in its one spelling ("0.5", "orbit_y:1/8"). Every factor of the suite is present.
+// Factor → value in its canonical spelling ("0.5", "orbit_y:1/8"). Every factor of the suite is
+// present.
 using Configuration = std::map<std::string, std::string>;
 
 // The work of a configuration, reduced to the levels that make a difference in its scene.
 struct PlainWork {
   // Every level that makes no difference in this scene is replaced by a simpler one, and the factor
-  // that `ends_below` stands for is removed. Configurations with the same levels and the same end
-  // have the same frames.
+  // for early ray termination is removed. Configurations with the same levels and the same
+  // `ends_below` have the same frames.
   Configuration levels;
   double ends_below = 0;                        // a ray ends below this transmittance; 0: never
   std::map<std::string, std::string> why = {};  // factor → reason why its level is replaced
@@ -70,7 +71,7 @@ class Suite {
   // Checks a value beyond the rules of its kind. Throws InputError with the expected form.
   virtual void check(const Factor& factor, std::string_view value) const = 0;
 
-  // The names that "generate:NAME:…" may have in its data; empty if it takes no data.
+  // The generators that data=generate:NAME:… may name; empty if the suite has no data.
   [[nodiscard]] virtual std::vector<scene::GeneratorInfo> generators() const { return {}; }
 
   // The plans that come with the suite: short names such as "quick", and their YAML texts.
@@ -107,14 +108,14 @@ class Suite {
   OnLoading on_loading_;
 };
 
-// The image that a scene tends to as its sampling is refined. The error against it is the error of
-// the sampling, plus all other errors.
+// The image to which a scene converges as its sampling is refined. The error against it consists of
+// the sampling error and all other errors.
 struct Limit {
   core::Image image;
   core::Image uncertainty;  // per pixel in all four channels: distance from the exact limit
 };
 
-// A suite whose images can be judged.
+// A suite with a reference renderer, which makes it possible to judge images.
 class SuiteWithTruth : public Suite {
  public:
   // `precision` is Record::precision, which describes the device's path. Throws like Suite::work.
@@ -132,8 +133,8 @@ class SuiteWithTruth : public Suite {
   [[nodiscard]] virtual std::string truth_key(const Configuration& configuration,
                                               const std::map<std::string, double>& precision) = 0;
 
-  // The allowed difference of counters between two correct devices, where rounding decides.
-  // Counters that rounding does not change are not named.
+  // The allowed difference between two correct devices for each counter that depends on rounding.
+  // Other counters are absent.
   [[nodiscard]] virtual std::map<std::string, double> open_counts(
       const Configuration&, const std::map<std::string, double>&) {
     return {};
@@ -154,13 +155,13 @@ class SuiteWithTruth : public Suite {
     return std::nullopt;
   }
 
-  // Expectations of a stress case in addition to its bound.
+  // The expectations of a stress case in addition to the bound on its error.
   [[nodiscard]] virtual std::vector<record::Expectation> expectations(const Configuration&) {
     return {};
   }
 };
 
-// The factors of a configuration that decide the image, in their one spelling: "camera=…,data=…".
+// The factors of a configuration that decide the image, in canonical spelling: "camera=…,data=…".
 // Factors with a silent default that have it are left out.
 [[nodiscard]] std::string scene_key(const Suite& suite, const Configuration& configuration);
 

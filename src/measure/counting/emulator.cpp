@@ -25,12 +25,14 @@ std::string short_version(std::string_view text) {
   return std::string(text.substr(0, text.find_first_not_of("0123456789", text.find('.') + 1)));
 }
 
-// Valgrind simulates an AVX2 processor if the machine has AVX2, whatever else the machine can do.
+// Valgrind simulates an AVX2 processor if the machine has AVX2, and an SSE processor otherwise.
+// Other features of the machine do not matter.
 std::string_view processor_name() {
   return cpu_features().find("avx2") != std::string::npos ? "AVX2" : "SSE";
 }
 
-// The file beside the program, where it was built or installed; empty if it is missing.
+// Returns the path of Triptych's Valgrind tool in the installation or in the build folder; empty if
+// it is missing.
 std::string tool_file() {
   std::error_code error;
   const fs::path own = fs::read_symlink("/proc/self/exe", error).parent_path();
@@ -53,17 +55,17 @@ std::variant<Emulator, std::string> look() {
   if (tool.empty()) {
     return fmt::format("{}: Valgrind's tool triptych_counter is missing; build it", cannot);
   }
-  Emulator found{
-      .name = fmt::format("valgrind {} {}", short_version(*version), processor_name()),
-      // Valgrind uses the name of the tool to find what it preloads. With "none" it preloads
-      // nothing; otherwise it would replace malloc.
-      // Drivers write code at run time, so Valgrind must watch for changed code. Nothing is to be
-      // freed for a leak check at the end.
-      .command = {tool, "--tool=none", "--quiet", "--smc-check=all-non-file",
-                  "--run-libc-freeres=no", "--run-cxx-freeres=no"},
-      // A tool is a separate program, which looks up the path of Valgrind's launcher here.
-      .environment = {"VALGRIND_LAUNCHER=/usr/bin/valgrind",
-                      "VALGRIND_LIB=" TRIPTYCH_VALGRIND_FOLDER}};
+  Emulator found{.name = fmt::format("valgrind {} {}", short_version(*version), processor_name()),
+                 // Valgrind uses the name of the tool to find what it preloads. With "none" it
+                 // preloads nothing; otherwise it would replace malloc. Drivers generate code at
+                 // run time, so Valgrind must check whether code has changed. The C and C++
+                 // libraries need not free their memory at exit, because there is no leak check.
+                 .command = {tool, "--tool=none", "--quiet", "--smc-check=all-non-file",
+                             "--run-libc-freeres=no", "--run-cxx-freeres=no"},
+                 // The tool is started directly, without Valgrind's launcher, and reads the
+                 // launcher's path from this variable.
+                 .environment = {"VALGRIND_LAUNCHER=/usr/bin/valgrind",
+                                 "VALGRIND_LIB=" TRIPTYCH_VALGRIND_FOLDER}};
   std::vector<std::string> trial = found.command;
   trial.emplace_back("/bin/true");
   if (!output_of(trial, found.environment))

@@ -11,19 +11,19 @@
 namespace triptych::measure {
 
 struct Emulator {
-  // The emulator and the processor that it simulates, "valgrind 3.19 AVX2". Counts of different
-  // ones are not compared. Patch releases are left out, because they do not change counts.
+  // The emulator and the processor that it simulates, "valgrind 3.19 AVX2". Counts by different
+  // emulators are not compared. Patch releases are left out, because they do not change counts.
   std::string name;
-  std::vector<std::string> command;      // the words before a worker's command
+  std::vector<std::string> command;      // placed before a worker's command
   std::vector<std::string> environment;  // "NAME=VALUE", for the command
 };
 
-// The emulator, or one line with the reason why nothing can be counted and the package to install.
+// The emulator, or one line of text with the reason why nothing can be counted and what to install.
 // The search is made once per process.
 [[nodiscard]] const std::variant<Emulator, std::string>& find_emulator();
 
-// `command` with the emulator before it. Mapped files in the folder `device_files` count as device
-// code (PoCL's kernels).
+// Returns `command` preceded by the emulator's command. Code in mapped files in the folder
+// `device_files` counts as device code (PoCL's kernels).
 [[nodiscard]] std::vector<std::string> emulated(const Emulator& emulator,
                                                 std::vector<std::string> command,
                                                 std::string_view device_files);

@@ -26,7 +26,7 @@ class InstructionCounter {
   // "allocations", "misses".
   [[nodiscard]] static record::Counts between(const Snapshot& before, const Snapshot& after);
 
-  // Runs `act`, stores the counts and returns its result.
+  // Runs `act`, stores the counts in `taken` and returns the result of `act`.
   template <typename Act>
   auto counting(record::Counts& taken, const Act& act) const {
     const Snapshot before = now();
@@ -35,8 +35,9 @@ class InstructionCounter {
     return result;
   }
 
-  // Returns when no other thread executes anything any more, or after two seconds. Otherwise a
-  // driver's thread that still writes a cache would be counted with the next frame.
+  // Returns when no other thread executes instructions any more, but after two seconds at the
+  // latest. Without this wait, the instructions of a driver's thread that still writes a cache
+  // would be counted with the next frame.
   void wait_until_quiet() const;
 
  private:

@@ -59,7 +59,7 @@ std::vector<PlacedOverride> placed(const Overrides& overrides, const Suite& suit
   std::vector<PlacedOverride> all;
   for (const auto& [name, texts] : overrides) {
     const core::FilePlace place{.file = "--set " + name};
-    // A separate variable, because GCC 14 otherwise warns about a dangling reference, wrongly.
+    // A separate variable avoids a false warning of GCC 14 about a dangling reference.
     const PlacedText placed_name{.text = name, .place = place};
     const Factor& factor = factor_of(suite, placed_name);
     if (std::ranges::find(all, &factor, &PlacedOverride::factor) != all.end()) {
@@ -73,7 +73,7 @@ std::vector<PlacedOverride> placed(const Overrides& overrides, const Suite& suit
   return all;
 }
 
-// Replaces the values of the block.
+// Replaces the values of the overridden factors in the block.
 void apply(const std::vector<PlacedOverride>& overrides, const Suite& suite, BlockText& block) {
   for (const PlacedOverride& each : overrides) block.set(suite, *each.factor, each.values);
 }
@@ -83,7 +83,7 @@ std::vector<std::string> values_in(const BlockText& block, const Factor& factor)
   return found == block.values.end() ? std::vector{standard_of(factor)} : found->second;
 }
 
-// Keeps only the values that are also among these. Returns false if none is left.
+// Keeps only those of the block's values that are also in `values`. Returns false if none is left.
 bool keep_values(const std::vector<std::string>& values, const Factor& factor, BlockText& block) {
   const std::vector<std::string> known = values_in(block, factor);
   std::vector<std::string> kept;
@@ -97,10 +97,11 @@ bool keep_values(const std::vector<std::string>& values, const Factor& factor, B
 }
 
 // In a plan of several blocks, an override whose values all occur in the plan selects
-// configurations of the plan: each block keeps those of its values, and a block without any of them
-// is left out. If it replaced the values of each block, it would make combinations that the plan
-// does not have, and for which nothing is stored. An override with another value replaces the
-// values of each block, and so do overrides that no block has in common.
+// configurations of the plan: each block keeps only these values, and a block that has none of them
+// is left out. Replacing the values in each block instead would make combinations that the plan
+// does not have, and for which no baselines are stored. However, an override with a value that does
+// not occur in the plan replaces the values in every block. All overrides do so if otherwise every
+// block would be left out.
 std::vector<bool> apply_to_all(const std::vector<PlacedOverride>& overrides, const Suite& suite,
                                std::vector<BlockText>& blocks) {
   std::vector<BlockText> chosen = blocks;
@@ -130,7 +131,7 @@ std::vector<bool> apply_to_all(const std::vector<PlacedOverride>& overrides, con
   return std::vector<bool>(blocks.size(), true);
 }
 
-// --- where plans come from
+// --- sources of plans
 
 struct PlanSource {
   std::string name;
@@ -154,7 +155,7 @@ PlanSource read_plan_file(const std::filesystem::path& file) {
   }
 }
 
-// Short names have one slash and no ending; "./name" is always a file.
+// Short names have one slash and no file extension; "./name" is always a file.
 bool is_short_name(std::string_view text) {
   const std::size_t slash = text.find('/');
   return slash != std::string_view::npos && slash > 0 && slash + 1 < text.size() &&
@@ -210,10 +211,11 @@ core::FilePlace longest_place(const PlanSource& source, const ValuesByFactor& va
   return place;
 }
 
-// A run with more than this is a mistake: at a tenth of a second each, they would take a day.
+// More configurations in one run are treated as a mistake: at a tenth of a second each, they would
+// take more than a day.
 constexpr std::size_t most_configurations = 1'000'000;
-// Listing needs no memory for the configurations, so a list may be longer than a run, but it must
-// also end within a day.
+// A list may have more configurations than a run, because listing does not store them. The limit
+// keeps its time below a day.
 constexpr std::size_t most_listed = 100'000'000;
 
 // The content of a plan's text, before any configurations are made.
@@ -221,7 +223,7 @@ struct OpenPlan {
   Plan plan;  // without configurations
   const Suite& suite;
   Combinations combinations;
-  std::vector<core::FilePlace> places;  // places of the longest list in each block
+  std::vector<core::FilePlace> places;  // for each block, the place of its longest list of values
 };
 
 Plan plan_of(const std::string& name, const Suite& suite, const Combinations& combinations) {

@@ -1,5 +1,5 @@
 #pragma once
-// Plans: factors and their values in YAML, of which all combinations are measured.
+// Plans: YAML files with factors and their values. All combinations of the values are measured.
 
 #include <functional>
 #include <set>
@@ -15,10 +15,10 @@
 namespace triptych::measure {
 
 struct Plan {
-  std::string name;  // "volume/quick", or the file's name without its ending
+  std::string name;  // "volume/quick", or the file's name without its extension
   std::string suite;
   std::string summary;  // one line
-  // In order: data vary slowest, then pipelines, then views.
+  // Ordered so that the data set changes least often, then the pipeline, and the view most often.
   std::vector<Configuration> configurations;
   std::vector<std::string> varied;  // factors with more than one value
   // The checks by which its runs are judged. Only the measurements that they need are made: clocks
@@ -27,7 +27,7 @@ struct Plan {
   // The hash of its text, which distinguishes plans with the same name. Empty if it has no text.
   std::string hash;
   std::string argument = {};         // as typed by the user
-  std::set<std::string> named = {};  // factors that its text or an override names
+  std::set<std::string> named = {};  // factors that its text or an override sets
   // The factors with the value "auto", which asks for the fastest of their levels.
   std::set<std::string> automatic = {};
 
@@ -57,7 +57,7 @@ Plan list_plan(std::string_view name_or_file, const Overrides& overrides,
                const std::function<void(const Suite&, const Configuration&)>& use);
 
 // The name under which a plan's runs are stored: a short name itself, or the name of a file without
-// its ending. Reads nothing.
+// its extension. The file is not read.
 [[nodiscard]] std::string plan_name(std::string_view name_or_file);
 
 // A plan that consists of the suite's defaults and the overrides. Throws as load_plan does.
@@ -67,8 +67,8 @@ Plan list_plan(std::string_view name_or_file, const Overrides& overrides,
 // `technique`, `data` and `camera`, sorted by name. It identifies a configuration within its suite.
 [[nodiscard]] std::string configuration_key(const Suite& suite, const Configuration& configuration);
 
-// The kinds of work in its configurations (technique::name_of), each once. The times need the
-// clocks for these kinds.
+// The kinds of work (technique::name_of) in the plan's configurations, each once. To measure times,
+// the clocks are calibrated for these kinds.
 [[nodiscard]] std::vector<std::string> work_kinds(const Plan& plan);
 
 }  // namespace triptych::measure

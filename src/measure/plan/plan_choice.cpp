@@ -52,8 +52,8 @@ Shard PlanChoice::part() const {
 
 namespace {
 
-// The names and keys in a file. The output of `triptych list` is such a file: a line has a name,
-// and may have more after two spaces. Lines that begin with '#' are comments.
+// The names and keys in a file. The output of `triptych list` is such a file: each line begins with
+// a name, and text after two spaces is ignored. Lines that begin with '#' are comments.
 std::set<std::string> read_cases(const std::string& file) {
   std::set<std::string> cases;
   std::istringstream lines(core::read_text(file));
@@ -79,13 +79,14 @@ std::size_t parse_fraction(const std::string& text) {
   throw core::InputError(fmt::format("--fraction {}: expected 1/n with n >= 1", text));
 }
 
-// A configuration with its names.
+// A configuration with its key.
 struct Named {
   std::string key;
   Configuration configuration;
 };
 
-// Keeps one of `parts`, rounded up, in the order of the plan.
+// Keeps 1/`parts` of the configurations, rounded up, in the order of the plan. Those with the
+// smallest hashes are kept.
 void keep_fraction(std::size_t parts, std::vector<Named>& all) {
   const std::size_t kept = (all.size() + parts - 1) / parts;
   if (kept == all.size()) return;

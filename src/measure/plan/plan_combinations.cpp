@@ -11,8 +11,9 @@
 namespace triptych::measure {
 namespace {
 
-// Loading data takes longest and includes mapping the values. Building a pipeline takes less time,
-// and moving the camera the least.
+// Returns the position of a factor in the order of how long a change of it takes, longest first:
+// loading data, which includes mapping its values; building a pipeline; resizing the viewport; and
+// moving the camera.
 int speed_of(const Factor& factor) {
   if (factor.name == "data" || factor.name == "window" || factor.name == "mapping") return 0;
   if (factor.name == "viewport") return 2;
@@ -89,7 +90,7 @@ std::vector<std::string> Combinations::varied() const {
   return varied;
 }
 
-// The values of the slowest factor, if the suite has factors.
+// The values of the factor `data`, or one empty value if the block has no such factor.
 const std::vector<std::string>& Combinations::data_of(const Block& block) {
   static const std::vector<std::string> none{""};
   return block.empty() || block.front().factor != "data" ? none : block.front().values;
@@ -101,7 +102,7 @@ bool Combinations::has(const Block& block, const Configuration& configuration) {
   });
 }
 
-// Like an odometer: the last axis changes at every step.
+// Counts like an odometer: the last axis changes at every step.
 void Combinations::for_each_of(const std::string& data, const Use& use) const {
   for (auto block = blocks_.begin(); block != blocks_.end(); ++block) {
     if (!contains(data_of(*block), data)) continue;

@@ -1,6 +1,6 @@
 #pragma once
-// All combinations of the factors' values, in the order in which they are measured. They are made
-// one by one.
+// All combinations of the factors' values, in the order in which they are measured. They are
+// generated one at a time and not stored.
 
 #include <cstddef>
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace triptych::measure {
 
-// The values in a plan, each in its one spelling. A factor that is left out has its default.
+// The values in a plan, each in its canonical spelling. A factor that is left out has its default.
 using ValuesByFactor = std::map<std::string, std::vector<std::string>>;
 
 // The factors of the suite; earlier ones vary more slowly.
@@ -32,8 +32,8 @@ class Combinations {
   // Throws InputError for an invalid shard.
   void for_each(const Shard& shard, const Use& use) const;
 
-  // The largest possible number of combinations of a block, or the largest number of the type if
-  // there are more.
+  // The number of combinations of a block, including those that other blocks also have. Saturates
+  // at the largest value of the type.
   [[nodiscard]] std::size_t most_of(std::size_t block) const;
 
   // Factors with more than one value.
@@ -52,7 +52,7 @@ class Combinations {
   void for_each_of(const std::string& data, const Use& use) const;
 
   std::vector<Block> blocks_;
-  // All data sets in order; one without a name if there is no such factor.
+  // All data sets in order; one empty name if there is no factor `data`.
   std::vector<std::string> data_;
 };
 

@@ -31,8 +31,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-// Every number has one spelling, the shortest that reads back as the same double, so that 0.5, .5
-// and 5e-1 are one value. Empty if the text is not a finite number.
+// Parses a finite number; nullopt for other text. A number's canonical spelling is the shortest one
+// that reads back as the same double, so that 0.5, .5 and 5e-1 are one value.
 std::optional<double> parse_number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double number = 0;
@@ -77,7 +77,7 @@ std::string canonical_text(const Factor& factor, const PlacedText& value) {
 }
 
 std::string canonical(const Suite& suite, const Factor& factor, const PlacedText& value) {
-  // A factor of any kind may have the default "auto", which may then also be written.
+  // A factor of any kind may have the default "auto", so a plan may also write it explicitly.
   if (value.text == factor.standard) return standard_of(factor);
   std::string text;
   switch (factor.kind) {
@@ -104,7 +104,7 @@ bool stands_for_several(const Factor& factor, const PlacedText& value) {
 }
 
 // Replaces "PATH:*/n" of a text factor by PATH:0/n to PATH:(n−1)/n, and "auto" by the factor's
-// automatic levels. All get the place of the text that they replace.
+// automatic levels. All values get the place of the text that they replace.
 std::vector<PlacedText> with_ranges(const Factor& factor, const std::vector<PlacedText>& values) {
   constexpr std::string_view all = ":*/";
   constexpr int most = 10'000;

@@ -1,5 +1,6 @@
 #pragma once
-// The values of factors in a plan, each in its one spelling, for load_plan and related functions.
+// The values of factors in a plan, each in its canonical spelling, for load_plan and related
+// functions.
 
 #include <string>
 #include <string_view>
@@ -13,16 +14,16 @@ namespace triptych::measure {
 // "; did you mean 'step'?", or the list of all known names if none is similar.
 [[nodiscard]] std::string suggestion(std::string_view wrong, const std::vector<std::string>& known);
 
-// The default in the same spelling as values from a plan.
+// The default in its canonical spelling.
 [[nodiscard]] std::string standard_of(const Factor& factor);
 
 // Whether "auto" is among the values and stands for several levels of the factor.
 [[nodiscard]] bool is_automatic(const Factor& factor, const std::vector<PlacedText>& given);
 
-// Each value in its one spelling. For a text factor "PATH:*/n" stands for n values, PATH:0/n to
-// PATH:(n−1)/n, and "auto" stands for the factor's automatic levels. Throws InputError with the
-// place of a value that is not a number, out of range, not a level, refused by the suite, or
-// duplicated.
+// Returns each value in its canonical spelling. For a text factor "PATH:*/n" stands for n values,
+// PATH:0/n to PATH:(n−1)/n, and "auto" stands for the factor's automatic levels. Throws InputError
+// with the place of a value that is not a number, out of range, not a level, refused by the suite,
+// or duplicated.
 [[nodiscard]] std::vector<std::string> canonical_values(const Suite& suite, const Factor& factor,
                                                         const std::vector<PlacedText>& given);
 

@@ -22,7 +22,7 @@ core::FilePlace place_of(const std::string& file, const YAML::Mark& mark) {
   throw core::InputError(place_of(file, node.Mark()), message);
 }
 
-// Notices where documents begin, and ignores their contents.
+// Records where the last document begins, and ignores all contents.
 class DocumentStarts : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark& mark) override { last_ = mark; }

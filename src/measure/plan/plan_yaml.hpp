@@ -1,5 +1,6 @@
 #pragma once
-// The YAML of a plan as text with places, before its suite is known. Only plan.cpp uses it.
+// The content of a plan's YAML as texts with their places in the file, before its suite is known.
+// Only plan.cpp uses it.
 
 #include <string>
 #include <string_view>

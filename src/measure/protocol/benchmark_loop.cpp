@@ -53,7 +53,7 @@ class StringReporter : public benchmark::JSONReporter {
   benchmark::IterationCount executed_ = 0;
 };
 
-// Unregisters the benchmark, whatever happens in between.
+// Unregisters the benchmark at the end of the scope, even after an exception.
 class Registration {
  public:
   Registration() = default;
@@ -111,7 +111,7 @@ double maximum(const std::vector<double>& values) {
 }  // namespace
 
 void initialize_benchmarks() {
-  // Options on the command line override the environment.
+  // These options override the environment variables BENCHMARK_*.
   std::array<std::string, 11> words{"triptych",
                                     "--benchmark_filter=all",
                                     "--benchmark_list_tests=false",

@@ -19,17 +19,16 @@ struct BenchmarkResult {
       entries;  // array: the repetitions, then mean, median, minimum, quartiles, maximum, …
 };
 
-// The result of one iteration: its time, and further facts that are stored as flat keys of its
-// entry.
+// The result of one iteration: its time, and further values that become keys of its JSON entry.
 struct IterationTime {
   double ns = 0;
   std::map<std::string, double> facts;
 };
 
-// Runs each frame as a repetition of its own, with the time that it reports (UseManualTime). The
-// JSON contains every sample and the library's statistics of them. An exception from `frame` ends
-// the loop and is passed on unchanged. Throws core::Error if the library did not run what was
-// requested.
+// Runs each frame as a repetition of its own. Its time is the one that `frame` returns
+// (UseManualTime). The JSON contains every sample and the library's statistics of them. An
+// exception from `frame` ends the loop and is passed on unchanged. Throws core::Error if the
+// library did not run what was requested.
 [[nodiscard]] BenchmarkResult time_frames(const std::string& name, int frames,
                                           const std::function<IterationTime()>& frame);
 

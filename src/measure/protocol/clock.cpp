@@ -14,7 +14,7 @@ namespace {
 
 constexpr int most_frames = 8;
 constexpr int least_frames = 3;
-// The time for all calibration frames; a slow device draws as few as possible.
+// The time for all calibration frames. A device that is too slow for it draws only least_frames.
 constexpr double budget_ns = 0.5e9;
 
 // Represents the ratio of a clock that was never written.
@@ -37,8 +37,8 @@ std::string percent(double ratio) {
   return fmt::format("{:.1f} %", 100 * ratio);
 }
 
-// The scheduler may wake up the thread late once, which makes a ratio smaller. A clock that reports
-// too much time has no excuse.
+// One of at least five ratios may be too low, because the scheduler may wake the thread late. No
+// ratio may be too high, because correct device time is never longer than wall time.
 bool believable(const std::vector<double>& ratios) {
   const auto low = std::ranges::count_if(
       ratios, [](double ratio) { return !(ratio >= ClockLimits::least_ratio); });
@@ -65,8 +65,8 @@ std::string verdict_of(const record::ClockTrust& trust, double wall_ns, std::siz
                      is_short ? ", but frames this short prove little" : "");
 }
 
-// Finer steps along the rays, or more pixels of the same particles, are the same kind of work.
-// Returns false if this work cannot be made longer.
+// Makes a frame longer by finer steps along the rays, or by more pixels for the same particles,
+// which does not change the kind of work. Returns false if the work cannot be made longer.
 bool lengthen(Work& work, double factor) {
   if (auto* volume = std::get_if<VolumeWork>(&work.scene)) {
     constexpr double finest_step_voxels = 1e-3;
@@ -85,19 +85,20 @@ bool lengthen(Work& work, double factor) {
   return true;
 }
 
-// Prepares the work with frames that are long enough, as far as that is possible.
+// Prepares the work so that its frames are long enough for a calibration, if that is possible.
 std::unique_ptr<Prepared> prepare_long_enough(Device& device, Work work) {
   constexpr int most_attempts = 4;
   std::unique_ptr<Prepared> prepared = device.prepare(work);
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    // Only the second frame is warm, but a cold frame that is short will not become longer.
+    // Only the second frame is warm. It need not be drawn if the first one is too short already,
+    // because a warm frame is not longer than a cold one.
     double frame_ns = prepared->frame(Purpose::timing).wall_ns;
     if (!(frame_ns < ClockLimits::least_frame_ns)) {
       frame_ns = prepared->frame(Purpose::timing).wall_ns;
       if (!(frame_ns < ClockLimits::least_frame_ns)) break;
     }
-    // The frame is made half as much longer again as necessary, because it also contains a part
-    // that does not grow.
+    // The aim is 1.5 times the required length, because a part of the frame's time does not grow
+    // with the work.
     const double missing = 1.5 * ClockLimits::least_frame_ns / std::max(frame_ns, 1e3);
     if (!lengthen(work, std::clamp(missing, 2.0, 64.0)) || device.unsupported(work)) break;
     prepared.reset();
@@ -109,8 +110,8 @@ std::unique_ptr<Prepared> prepare_long_enough(Device& device, Work work) {
 }  // namespace
 
 // Calibration images are large, and reading one may take longer than drawing it, so only the first
-// and the last image are checked. A frame in between that draws nothing would have a ratio that no
-// trusted clock shows.
+// and the last image are checked. If a frame in between drew nothing, its ratio would be outside
+// the limits for a trusted clock.
 record::ClockTrust calibrate(Prepared& prepared, technique::Work work_kind) {
   FrameProof proof(prepared);
   const int frames = frames_within_budget(proof.draw(Purpose::timing).wall_ns);
@@ -159,16 +160,17 @@ record::ClockTrust calibrate_clock(Device& device, Suite& suite, technique::Work
   } catch (const core::DeviceLost&) {
     throw;
   } catch (const core::Error& error) {
-    // The wall clock can still be used. If there is another problem, the configurations will show
-    // it.
+    // This is not fatal, because the wall clock can still be used. If the device has another
+    // problem, the configurations will show it.
     return without_time(kind, fmt::format("not calibrated: {}", error.what()));
   }
 }
 
-// Two limits distinguish ticks of a wrong length from a clock that leaves out work. Either the
-// device time exceeds the wall time, or it is a constant share of it: launches and waits vary from
-// frame to frame by more than a twentieth. A clock that leaves out the work itself shows less than
-// a fiftieth (lavapipe around dispatches: 0.0003).
+// A clock whose ticks have a wrong length shows device times that exceed the wall time or that are
+// a constant share of it, within a twentieth. In a clock that leaves out launches and waits, the
+// share varies by more than that from frame to frame. A clock that leaves out the work itself shows
+// less than a fiftieth of the wall time (lavapipe around dispatches: 0.0003) and is not reported
+// here.
 std::optional<record::DeviceFault> clock_fault(const record::ClockTrust& trust) {
   using enum record::DeviceFaultKind;
   constexpr double steady = 1.05;
@@ -194,7 +196,8 @@ std::optional<record::DeviceFault> clock_fault(const record::ClockTrust& trust) 
 
 bool plausible(const std::vector<double>& device_ns, const std::vector<double>& wall_ns) {
   if (device_ns.empty() || device_ns.size() != wall_ns.size()) return false;
-  constexpr double tick_ns = 2e3;  // timers with microseconds, and one tick of error at either end
+  constexpr double tick_ns =
+      2e3;  // a timer with a resolution of 1 µs may be wrong by one tick at either end
   std::size_t low = 0;
   for (std::size_t i = 0; i < device_ns.size(); ++i) {
     if (!(device_ns[i] > 0)) return false;

@@ -22,10 +22,10 @@ struct ClockLimits {
   // timers as coarse as 0.2 ms this stays below 2 % of 20 ms.
   static constexpr double most_ratio = 1.02;
   static constexpr double least_frame_ns = 20e6;
-  // The frames of a configuration may be short, and the machine may be busy, so less is required of
-  // them: apart from launch_ns for the launch, half of the wall time, for three of four frames.
-  // That still finds a clock that is right for one kernel and shows 0.01 of 28 ms for another one
-  // (lavapipe).
+  // The frames of a configuration may be short, and the machine may be busy, so the requirement is
+  // weaker: for three of four frames, device time must be at least half of the wall time minus
+  // launch_ns. That still finds a clock that is right for one kernel and shows 0.01 ms of a frame
+  // of 28 ms for another one (lavapipe).
   static constexpr double least_ratio_in_use = 0.5;
   static constexpr double launch_ns = 0.2e6;
 };
@@ -36,9 +36,9 @@ struct ClockLimits {
 [[nodiscard]] record::ClockTrust calibrate_clock(Device& device, Suite& suite,
                                                  technique::Work kind);
 
-// The fault of a clock beyond the launches and waits that it may leave out: it was never written,
-// reads 0, or its ticks do not have the length that the device reports. nullopt for a trusted
-// clock, or if the error has no such cause.
+// The fault of a clock that is not trusted: it was never written, it reads 0, or its ticks do not
+// have the length that the device reports. nullopt for a trusted clock, and for a clock that only
+// leaves out launches, waits or work.
 [[nodiscard]] std::optional<record::DeviceFault> clock_fault(const record::ClockTrust& trust);
 
 // Whether the device times of one configuration's frames are possible at all: present for each

@@ -13,7 +13,7 @@
 namespace triptych::measure {
 namespace {
 
-// The comparison is of bits, so that a NaN equals itself.
+// Compares bits, so that a NaN equals itself.
 template <class Value>
 std::size_t pixels_that_differ(const std::vector<Value>& one, const std::vector<Value>& other,
                                std::size_t per_pixel) {
@@ -62,7 +62,7 @@ void FrameProof::start() {
   if (before.pixel_count() > 0) std::copy_n(before.rgba.begin(), filling_.size(), filling_.begin());
 }
 
-// A NaN that the device computed has other bits than the filling, so it counts as a value.
+// A NaN that the device computed has other bits than the fill value, so it counts as a value.
 std::size_t FrameProof::pixels_without_value(const core::Image& image) const {
   return count_pixels(image, [this](std::span<const float, 4> pixel) {
     return std::memcmp(pixel.data(), filling_.data(), sizeof filling_) == 0;

@@ -1,7 +1,7 @@
 #pragma once
-// Proof that every frame whose time, image, statistics or counters are kept was drawn by that
-// frame. A driver may report a command buffer as finished that it executed only the first time; the
-// image of an earlier frame is still there and looks right.
+// Proves that each recorded time, image, statistic and counter comes from a frame that was really
+// drawn. A driver may execute a command buffer only the first time and report it as finished every
+// time. The image of the earlier frame is then still in memory and looks right.
 
 #include <array>
 #include <cstddef>
@@ -32,8 +32,9 @@ class FrameProof {
   // "timed frame 3 of 8". Returns the image.
   const core::Image& check(std::string_view what);
   // For frames whose image need not equal the first one bit for bit: frames of the build that
-  // counts, and frames after a jump of the camera, which draw what the frame before did not show.
-  // Throws NotDrawn if no pixel has a value, or fewer have one than in the first frame.
+  // counts, and frames after a jump of the camera, which also draw cells that the previous frame
+  // did not show. Throws NotDrawn if no pixel has a value, or fewer have one than in the first
+  // frame.
   void check_drawn(std::string_view what);
 
   // Later frames have to repeat the image of the next check() instead of the first one, because a
@@ -59,7 +60,8 @@ class FrameProof {
   Prepared& prepared_;
   bool started_ = false;
   bool renewed_ = false;
-  // A pixel after poison(), as the device returned it: it may have changed the bits of a NaN.
+  // A pixel that was read back after poison(), because the device may have changed the bits of the
+  // NaN.
   std::array<float, 4> filling_{};
   std::optional<core::Image> first_;
   core::Image last_;

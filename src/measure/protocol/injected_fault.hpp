@@ -16,8 +16,8 @@ namespace triptych::measure {
 // extra work), "crash", "hang", "device_lost" or "lost_counter".
 struct InjectedFault {
   std::string fault;
-  // Levels, such as "technique=raycast,step=2", or a glob over configuration keys and device ids;
-  // empty: everywhere.
+  // Limits the fault to some configurations: levels, such as "technique=raycast,step=2", or a glob
+  // over configuration keys and device ids; empty: no limit.
   std::string only;
 };
 

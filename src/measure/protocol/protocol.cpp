@@ -27,9 +27,9 @@ struct WarmUp {
   double fastest_ns = std::numeric_limits<double>::infinity();
 };
 
-// The first frames compile, fault pages in and wake threads. If frames are so short that four of
-// them warm up nothing, they are repeated for a tenth of the loop's time. The fastest frame
-// predicts the number of frames, so that the loop does not end too early.
+// The first frames compile code, fault pages in and wake threads. If frames are so short that four
+// of them are not sufficient, more are drawn until they have taken a tenth of the loop's time. The
+// fastest frame determines how many frames fill the loop, so that the loop does not end too early.
 WarmUp warm_up(FrameProof& proof, const Protocol& protocol) {
   WarmUp result;
   const double enough_ns = protocol.least_loop_ns / 10;
@@ -53,10 +53,10 @@ bool is_trusted(technique::Work kind, const std::vector<record::ClockTrust>& clo
   });
 }
 
-// The timed frames. If the device reported no time for one of them, it counts as having reported
-// none, because a list with gaps would pair the wrong values. The benchmark's real time is the wall
-// time, and device time is an additional key: whether it can be believed is known only after all
-// frames.
+// Draws the timed frames. If the device reported no time for one of them, all its times are
+// dropped, because a list with gaps would pair the wrong values. The benchmark's real time is the
+// wall time, and device time is an additional key, because only after all frames is it known
+// whether device time is plausible.
 core::Json time_into(record::Record& record, FrameProof& proof, int frames, const std::string& name,
                      double& work_ns) {
   std::vector<std::optional<double>> device_ns;
@@ -81,8 +81,8 @@ core::Json time_into(record::Record& record, FrameProof& proof, int frames, cons
   return std::move(result.entries);
 }
 
-// Counts are the same for every frame, so they belong to every entry about a frame. Their spread
-// (stddev, cv) would mean nothing.
+// Adds the counts to every entry that is about a frame, because they are the same for every frame.
+// The entries about spread (stddev, cv) do not get them.
 void add_counts(core::Json& entries, const record::Counts& counts) {
   for (core::Json& entry : entries) {
     const std::string aggregate = entry.value("aggregate_name", "");
@@ -140,8 +140,8 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
     record.counters = draw(Purpose::counters).counts;
     proof.check_drawn("the frame for the counters");
   }
-  // The same commands are submitted again, because a driver that executes them only once has been
-  // right so far.
+  // The same commands are submitted again, because a driver that executes them only the first time
+  // would have passed until here.
   static_cast<void>(draw(Purpose::timing));
   check("the second frame");
   record.image = image_hash(result.image);

@@ -19,7 +19,7 @@ namespace triptych::measure {
 // the shortest loop; timed frames; one frame for pipeline statistics; one for Triptych's counters;
 // and the wall-clock loop.
 struct Protocol {
-  int warm_up_frames = 4;  // at least
+  int warm_up_frames = 4;  // the minimum
   int timed_frames = 8;
   double least_loop_ns = 100e6;  // the shortest wall-clock loop
   int most_loop_frames = 1000;
@@ -31,11 +31,11 @@ struct Protocol {
   // The instructions of the third frame are counted (counting/emulator.hpp), and no times are
   // measured. Counters and the image are recorded only if they are requested.
   bool counted = false;
-  bool picture = true;  // also of a counted frame
-  // The compiler reports about the device code, and no frame is drawn.
+  bool picture = true;  // whether the image is recorded, also for counted frames
+  // The compiler's report about the device code is recorded, and no frame is drawn.
   bool compiled = false;
-  // If false, a configuration that is the same work as an earlier one
-  // (measure/contract/equivalents.hpp) takes over the results of that one.
+  // If false, a configuration that does exactly the same work as an earlier one
+  // (measure/contract/equivalents.hpp) copies the results of that one.
   bool measure_every = false;
   // Set by the worker itself and never sent to it: the frame before the first is drawn from another
   // camera, so the first frames may differ where surfaces are equally far away.
@@ -45,8 +45,8 @@ struct Protocol {
 };
 
 // For times that are only shown: timing begins with the third frame, as in count_instructions(),
-// and there is no loop. Five frames are sufficient to decide whether a device's clock can be
-// believed (measure/protocol/clock.hpp).
+// and there is no loop. Five frames are sufficient to decide whether device times are plausible
+// (measure/protocol/clock.hpp).
 inline constexpr Protocol brief_protocol{
     .warm_up_frames = 2, .timed_frames = 5, .least_loop_ns = 0, .most_loop_frames = 1};
 
@@ -63,8 +63,8 @@ struct Measurement {
                                   const std::vector<record::ClockTrust>& clocks,
                                   const std::string& name, const EnergyMeters* meters = nullptr);
 
-// Counts the instructions of the third frame: drivers compile and set up during the first two. The
-// n-th frame is compared only with the n-th.
+// Counts the instructions of the third frame: drivers compile and set up during the first two. A
+// count is compared only with counts of the third frame.
 [[nodiscard]] Measurement count_instructions(Prepared& prepared, const Protocol& protocol,
                                              const InstructionCounter& counter);
 

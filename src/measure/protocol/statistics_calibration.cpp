@@ -51,7 +51,7 @@ ParticleWork seen_from_origin(std::vector<std::array<float, 4>> spheres, int wid
   return work;
 }
 
-// The sprite of a sphere around the eye is the whole viewport.
+// The sprite of a sphere around the eye covers the whole viewport.
 ParticleWork around_the_eye() {
   return seen_from_origin({{0, 0, 0, 1}}, 66, 50, 60);
 }
@@ -60,8 +60,8 @@ constexpr int small_columns = 10;
 constexpr int small_rows = 10;
 constexpr std::uint64_t small_sprites = std::uint64_t{small_columns} * small_rows;
 
-// A grid of spheres with a size of 5 pixels in cells of 7 × 6.2 pixels, so that no sprite touches
-// another one or the border, and each has another position relative to the pixels.
+// A grid of spheres that appear 5 pixels wide, in cells of 7 × 6.2 pixels, so that no sprite
+// touches another one or the border, and each has another position relative to the pixels.
 ParticleWork many_small() {
   constexpr int width = 70;
   constexpr int height = 62;
@@ -82,14 +82,15 @@ ParticleWork many_small() {
   return seen_from_origin(std::move(spheres), width, height, fov_y_deg);
 }
 
-// A technique that makes a quad from a sphere, with the pipeline's counts for each visible quad,
-// apart from the two primitives that are clipped.
+// A technique that makes a quad from each sphere, with the pipeline's counts for each visible quad.
+// The two primitives that each quad sends to the clipping stage are not listed.
 struct QuadTechnique {
   std::string_view id;
   record::Counts counts;
 };
 
-// Instances are strips of four vertices; the others are points, or patches of one vertex.
+// quad_instanced draws instances of a strip of four vertices, quad_screen draws points, and
+// quad_tess draws patches of one vertex.
 const std::array<QuadTechnique, 3>& quad_techniques() {
   static const std::array<QuadTechnique, 3> techniques{{
       {"quad_instanced",
@@ -139,7 +140,7 @@ std::vector<CalibrationScene> draw_scenes() {
   return scenes;
 }
 
-// One invocation for each pixel. Both sides are multiples of all sizes of work groups that are
+// One invocation for each pixel. Width and height are multiples of every work group size that is
 // used.
 CalibrationScene compute_scene(int width, int height) {
   VolumeWork volume;
@@ -156,7 +157,7 @@ CalibrationScene compute_scene(int width, int height) {
           .expected = {{"compute_invocations", pixels}}};
 }
 
-// --- what the device says of them ---
+// --- the device's readings ---
 
 using Readings = std::map<std::string, std::vector<CalibrationReading>>;
 
@@ -165,8 +166,8 @@ std::optional<std::uint64_t> find_count(const record::Counts& counts, const std:
   return found == counts.end() ? std::optional<std::uint64_t>{} : found->second;
 }
 
-// Adds the readings of one scene, or none if the device reports no statistics at all. If the
-// technique has no counter of fragments, the driver's number is not judged.
+// Adds the readings of one scene, or none if the device reports no statistics at all. If Triptych's
+// counters do not contain the number of fragments, the driver's number is not judged.
 void read_scene(Device& device, const CalibrationScene& scene, Readings& readings) {
   const auto prepared = device.prepare(scene.work);
   const record::Counts first = prepared->frame(Purpose::statistics).counts;
@@ -193,7 +194,7 @@ std::string text_of(const std::optional<std::uint64_t>& count) {
   return count ? fmt::format("{}", *count) : "nothing";
 }
 
-// The counter of Triptych to which the statistic is equal in every scene; empty if there is none.
+// Triptych's counter that equals the statistic in every scene; empty if there is none.
 std::string counted_by_us(const std::vector<CalibrationReading>& readings) {
   for (const auto& [name, value] : readings.front().ours) {
     const bool same = std::ranges::all_of(readings, [&](const CalibrationReading& each) {
@@ -297,7 +298,8 @@ Calibration calibrate_statistics(Device& device, technique::Work kind,
                                   .detail = fmt::format("{} ({})", error.what(), scene.name)});
       }
     }
-    // A device that reports nothing for the first scene reports nothing for the others: OpenCL.
+    // A device that reports nothing for the first scene, as under OpenCL, reports nothing for the
+    // others either.
     if (readings.empty() && unknown.empty()) break;
   }
   Calibration calibration;

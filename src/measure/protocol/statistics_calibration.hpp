@@ -17,15 +17,15 @@ namespace triptych::measure {
 
 // A scene for calibration, and the numbers that a driver reports if it counts exactly.
 struct CalibrationScene {
-  std::string name;  // for people: "one quad over 66×50 pixels"
+  std::string name;  // for display: "one quad over 66×50 pixels"
   Work work;
   record::Counts expected;
-  // Whether the number of fragments comes from a counters frame (Triptych's counter `fragments`).
+  // Whether the expected number of fragments is Triptych's counter `fragments` of a counters frame.
   bool counts_fragments = false;
 };
 
-// The scenes for one kind of work. Widths and heights are no multiples of 4, so that a driver that
-// counts whole blocks of pixels is detected.
+// The scenes for one kind of work. Widths and heights of drawn images are not multiples of 4, so
+// that a driver that counts whole blocks of pixels is detected.
 [[nodiscard]] std::vector<CalibrationScene> calibration_scenes(technique::Work kind);
 
 // One statistic in one scene: `first` in one frame and `again` in the next. nullopt if the device
@@ -38,8 +38,9 @@ struct CalibrationReading {
   record::Counts ours = {};  // Triptych's counters for the scene
 };
 
-// The verdict on the statistic. `proportional` needs at least two scenes, and `inflated` is never
-// too low. There must be at least one reading, and expected > 0 in each.
+// Returns the verdict on the statistic. `proportional` requires at least two scenes, and `inflated`
+// requires that no reading is too low. There must be at least one reading, and expected > 0 in
+// each.
 [[nodiscard]] record::StatisticWorth calibration_verdict(
     const std::vector<CalibrationReading>& readings);
 

@@ -45,7 +45,7 @@ std::string scene_of(const Suite& suite, Configuration configuration) {
   return configuration_key(suite, configuration);
 }
 
-// Rounds down to as few digits as a plan needs.
+// Rounds down to 9 significant bits, so that values in plans are short.
 double rounded_down(double value) {
   const double unit = std::exp2(std::floor(std::log2(value)) - 8);
   return std::floor(value / unit) * unit;
@@ -108,7 +108,7 @@ class Search {
   }
 
  private:
-  // A step, its error, and the picture from which the error was computed.
+  // A step, its error, and the size of the image from which the error was computed.
   struct Found {
     double step = 0;
     double error = 0;
@@ -137,18 +137,19 @@ class Search {
   }
 
   // The longest step with the quadrature of the candidate: estimated from few pixels, then checked
-  // with the whole picture.
+  // with the whole image.
   [[nodiscard]] Found longest_step(Configuration candidate, const core::Image& limit) {
     const std::string viewport = std::exchange(candidate["viewport"], few_pixels_);
     accuracy::StepLimits limits = limits_;
-    // A step that is longer than a cell does not cut any cell.
+    // The quadrature `cells` cuts a ray into ⌈1/step⌉ parts between two voxel planes, so steps
+    // above 1 are all equal.
     if (candidate.at("quadrature") == "cells") limits.longest = std::min(limits.longest, 1.0);
     const accuracy::StepError guess = accuracy::longest_step(step_error_, limits, [&](double step) {
       candidate["step"] = text_of_step(step);
       return error(limit_of_few_pixels_, suite_.truth(candidate, {}).truth);
     });
-    // A result for a few pixels says little about all pixels. But an error that exceeds the request
-    // by this factor exceeds it for all pixels.
+    // An error from few pixels is only an estimate. However, if it exceeds the requested error by
+    // this factor, the error of the whole image exceeds it too.
     constexpr double far = 4;
     if (!(guess.error <= far * step_error_)) return {guess.step, guess.error, few_pixels_};
     candidate["viewport"] = viewport;
@@ -242,7 +243,8 @@ std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records
   std::map<std::pair<std::string, std::string>, Group> groups;
   for (const record::Record& record : records) {
     if (record.outcome == record::Outcome::skipped) continue;
-    // The factor as it was requested. Candidates may have other levels for factors that are "auto".
+    // The levels as the plan requested them, because record.factors has resolved levels where the
+    // plan has "auto".
     const auto asked = record::parse_factor_list(record.configuration);
     Group& group = groups[{record.device, scene_of(suite, asked)}];
     if (record.outcome != record::Outcome::measured || record.image.empty()) continue;

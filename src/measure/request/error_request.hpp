@@ -1,6 +1,6 @@
 #pragma once
-// `--error E`: finds the configurations that meet a requested error, and after they were measured
-// the cheapest of them.
+// `--error E`: finds the configurations that meet a requested error, and, after they were measured,
+// the fastest of them.
 
 #include <functional>
 #include <string>
@@ -14,20 +14,20 @@
 namespace triptych::measure {
 
 struct ErrorRequest {
-  Plan plan;  // contains the scenes for which the error may be kept
+  Plan plan;  // contains the candidates for all scenes that can meet the error
   // One line of text for each other scene: the reason, and its smallest error.
   std::vector<std::string> out_of_reach;
 };
 
-// The request decides `step`, `quadrature`, `ert`, `skip` and `adapt`. The plan's values of these
-// factors are ignored.
+// Chooses `step`, `quadrature`, `ert`, `skip` and `adapt`. The plan's values of these factors are
+// ignored.
 //
-// The result is the plan with each of its scenes in these candidates: for every quadrature the
-// longest step whose image (the reference image with its sample positions) keeps the step's share
-// of the error, early termination with its own share, every skipping mode, and merged samples if
-// there are any to merge. The step is searched on an image with few pixels (accuracy::search_size)
-// and shortened until the whole image keeps it. Throws InputError for a suite without these
-// factors.
+// For each scene of the plan, the result contains one candidate for every quadrature and skipping
+// mode. Its step is the longest one whose image (the reference image with its sample positions)
+// stays within the step's share of the error. Early ray termination gets its own share. If samples
+// can be merged, another candidate merges them. The step is searched with an image of few pixels
+// (accuracy::search_size) and shortened until the whole image stays within the share. Throws
+// InputError for a suite without these factors.
 [[nodiscard]] ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite,
                                          const accuracy::RequestedError& request, Truths& truths,
                                          const std::function<void(const std::string&)>& tell);
@@ -36,10 +36,10 @@ struct ErrorRequest {
 struct ErrorAnswer {
   std::string device;
   std::string scene;                       // the factors that were not chosen
-  const record::Record* record = nullptr;  // null if no candidate keeps the error on the device
+  const record::Record* record = nullptr;  // null if no candidate meets the error on the device
   accuracy::PictureErrors errors;   // errors of the record, otherwise of the closest candidate
   accuracy::PictureErrors nothing;  // errors of an empty image
-  double time_ns = 0;                      // of the record
+  double time_ns = 0;               // time of the record
 };
 // The records must outlive the result. If a device drew no candidate of a scene although the scene
 // was not skipped, its answer has no numbers.

@@ -32,15 +32,17 @@ struct FastestAnswer {
   std::vector<const record::Record*> not_drawn;
 };
 
-// Answers for every scene and device with more than one level of the chosen factors. If one was
-// measured repeatedly, its fastest record counts. The records must outlive the result.
+// Answers for every scene and device with more than one level of the chosen factors. If a
+// combination of levels was measured repeatedly, its fastest record counts. The records must
+// outlive the result.
 [[nodiscard]] std::vector<FastestAnswer> answer_fastest(const std::vector<record::Record>& records,
                                                         const Suite& suite,
                                                         const std::set<std::string>& chosen);
 
-// The result for a plan with one scene on one device: a short trial of all, and another one of
-// those that may still be the fastest, because a disturbance may double a time. If nothing can be
-// decided, there is no answer, or one without contestants. The answers refer to the records.
+// The result of trials of a plan with one scene on one device: a short trial of all techniques, and
+// a second one of those that may still be the fastest, because a disturbance may double a time. If
+// no technique can be chosen, there is no answer, or an answer without contestants. The answers
+// point to the records.
 struct FastestTried {
   std::vector<record::Record> records;
   std::vector<FastestAnswer> answers;
@@ -50,8 +52,8 @@ struct FastestTried {
     Plan plan, const Suite& suite,
     const std::function<std::vector<record::Record>(const Plan&)>& trial);
 
-// One line of text with the choice and its advantage over each other one. A competitor whose
-// fastest frame is below the median of the choice counts as equally fast.
+// One line of text with the chosen levels and their advantage over each alternative. An alternative
+// whose fastest frame is not above the median of the chosen one counts as equally fast.
 [[nodiscard]] std::string describe(const FastestAnswer& answer,
                                    const std::set<std::string>& chosen);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The request of `triptych view` to the program that has the window. Both programs are of one
-// build, and the request is its only argument, as JSON.
+// The request that `triptych view` sends to the program that shows the window. Both programs come
+// from the same build. The request is the only argument of the second program, as JSON.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace triptych::measure {
 
-// A device, with variables that are set for its driver ("NAME=VALUE"). So two drivers of one device
-// can stand side by side.
+// A device, with environment variables that are set for its driver ("NAME=VALUE"). With different
+// variables, the window can show two drivers of one device side by side.
 struct ViewSide {
   std::string device;
   std::vector<std::string> environment = {};
@@ -26,12 +26,12 @@ struct ViewRequest {
   std::vector<record::Device> devices;  // those of this machine
   std::vector<ViewSide> sides;          // the columns of the window
   std::vector<std::string> faults = {};
-  int limit_s = 0;  // for a frame
+  int limit_s = 0;  // the time limit of a frame
   std::vector<std::string> data_folders = {};
   int width = 1280;
   int height = 720;
-  std::string screenshot = {};  // a file for a picture of the complete window; empty: none
-  bool json = false;            // prints what the window shows when it is closed
+  std::string screenshot = {};  // file for an image of the whole window; empty: none
+  bool json = false;            // print the values in the window as JSON when it is closed
 };
 
 void to_json(nlohmann::json& json, const ViewRequest& request);

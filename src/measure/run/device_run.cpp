@@ -75,8 +75,8 @@ Done DeviceRun::perform(const Configuration& configuration, const std::string& k
   return done;
 }
 
-// A failure under the emulator says nothing about the device: other plans draw the same
-// configuration natively.
+// A failure under the emulator is recorded as a skip, because the emulator may have caused it.
+// Other plans draw the same configuration natively.
 void DeviceRun::only_counted(record::Record& record) const {
   if (record.outcome == record::Outcome::measured) {
     record.counted_by = std::get<Emulator>(find_emulator()).name;
@@ -108,7 +108,7 @@ void DeviceRun::finish() {
   context_.store.add_device(context_.run, *known_, clocks_);
 }
 
-// A resumed run continues with the clocks with which it began, so that all records of a run depend
+// Reads the clock calibration with which a resumed run began, so that all records of a run depend
 // on one calibration.
 void DeviceRun::remember() {
   for (auto& entry : context_.store.devices(context_.run)) {
@@ -129,8 +129,8 @@ Protocol DeviceRun::protocol() const {
     protocol.picture = context_.plan.judges_pictures();
     protocol.counters = context_.plan.judges_counters();
   }
-  // A plan for images only measures each configuration, because it tests whether two images are
-  // equal.
+  // A plan without times draws every configuration, because it also tests whether equivalent
+  // configurations have equal images.
   protocol.measure_every = protocol.measure_every || !context_.plan.timed();
   return protocol;
 }
@@ -155,13 +155,13 @@ void DeviceRun::sign(const Job& job, const std::string& key, record::Record& rec
   if (record.factors.empty()) record.factors = job.configuration;
 }
 
-// A driver may keep what it compiled, which at first is some MB for each configuration. If memory
-// grows by more for most configurations, it is never freed. Peaks are used, because memory that is
-// freed does not raise them again.
+// A driver may keep compiled code, which at first takes some MB for each configuration. If the peak
+// of the worker's memory grows by more than that for most configurations, the driver does not free
+// its memory. Peaks are compared, because memory that is freed and used again does not raise them.
 void DeviceRun::watch_memory(std::uint64_t peak_bytes) {
   constexpr std::size_t least_configurations = 8;
   constexpr std::uint64_t most_growth = std::uint64_t{16} << 20U;
-  if (!peaks_.empty() && peak_bytes < peaks_.back()) peaks_.clear();  // those of another worker
+  if (!peaks_.empty() && peak_bytes < peaks_.back()) peaks_.clear();  // an earlier worker's peaks
   peaks_.push_back(peak_bytes);
   const bool known = std::ranges::any_of(known_->faults, [](const record::DeviceFault& each) {
     return each.kind == record::DeviceFaultKind::memory_grows;

@@ -28,7 +28,7 @@ struct RunContext {
   std::vector<std::string> kinds;  // kinds of work whose clocks are needed
 };
 
-// The result of one configuration on one device, and the share of the time that the device took.
+// The result of one configuration on one device, and the part of its time that the device took.
 struct Done {
   record::Record record;
   std::vector<std::byte> exr = {};
@@ -51,7 +51,7 @@ class DeviceRun {
   [[nodiscard]] Done perform(const Configuration& configuration, const std::string& key,
                              const OnLoading& on_loading);
 
-  // Records the expected end of the configuration without trying it on the device.
+  // Records the expected outcome of the configuration without drawing it on the device.
   [[nodiscard]] Done pass_by(const Configuration& configuration, const std::string& key,
                              const Ended& why) const;
 
@@ -74,8 +74,8 @@ class DeviceRun {
   // Reports a worker whose memory grows from configuration to configuration.
   void watch_memory(std::uint64_t peak_bytes);
   void only_counted(record::Record& record) const;
-  // For a plan that counts instructions, the reason why that is not possible here; otherwise
-  // nullopt.
+  // The reason why a plan that counts instructions cannot do so on this machine; nullopt if it can,
+  // and for other plans.
   [[nodiscard]] std::optional<record::Reason> no_emulator() const;
 
   const RunContext& context_;

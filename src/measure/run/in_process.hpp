@@ -19,8 +19,8 @@ namespace triptych::measure {
 
 struct TracedPixel {
   PixelPlace place;
-  technique::RayTrace trace;                            // of a volume
-  core::Image image;  // image of the build that recorded the trace
+  technique::RayTrace trace;  // for a volume
+  core::Image image;          // image of the build that recorded the trace
   std::optional<accuracy::SpriteHistory> sprites = {};  // for particles, in place of both
 };
 
@@ -33,9 +33,9 @@ struct FrameInProcess {
 
 // Draws the only configuration of the plan: opens the device, prepares it, draws one frame and
 // reads its image. Nothing is calibrated, counted or repeated. If RenderDoc is loaded into the
-// process, its capture contains the frame and nothing else, and the file is named after `capture`.
-// If a pixel is named, further frames find its history. Throws what the device's functions
-// throw, and InputError for a pixel outside of the image.
+// process, its capture contains the frame and nothing else, and its file name begins with
+// `capture`. If a pixel is named, further frames are drawn to record its history. Throws what the
+// device's functions throw, and InputError for a pixel outside of the image.
 [[nodiscard]] FrameInProcess draw_in_process(const Backend& backend, std::string_view device_id,
                                              Suite& suite, const Plan& plan,
                                              std::span<const InjectedFault> faults,

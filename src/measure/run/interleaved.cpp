@@ -74,7 +74,7 @@ class Interleaved::Slot {
   [[nodiscard]] const Hello& hello() const { return hello_; }
   [[nodiscard]] const record::Reason& why_closed() const { return slot_.why_closed(); }
 
-  // Like WorkerSlot::open. Later workers use the clocks as the first one calibrated them.
+  // Like WorkerSlot::open. Later workers use the clock calibration of the first one.
   bool open() {
     return slot_.open(
         [this] {
@@ -123,7 +123,7 @@ class Interleaved::Slot {
     return batch;
   }
 
-  // The times of this many frames.
+  // Draws this many frames and returns their times.
   Batch draw(int frames) {
     Batch drawn = batch(to_message(Frames{.count = frames}));
     if (drawn.wall_ns.size() != static_cast<std::size_t>(frames)) {

@@ -27,9 +27,9 @@ namespace triptych::measure {
 enum class Side : std::uint8_t { a, b };
 [[nodiscard]] std::string_view name_of(Side side);
 
-// One side failed to do its part of a configuration: it is not supported, there was an error, or
-// the worker died, was too late or lost the device. The work of both sides on this configuration
-// has ended. For the next one, new workers are started where they are needed.
+// One side could not measure a configuration: it does not support it, an error occurred, or its
+// worker died, exceeded the time limit or lost the device. The work of both sides on this
+// configuration has ended. For the next configuration, new workers are started if necessary.
 class SideEnded : public record::NotMeasured {
  public:
   SideEnded(Side side, record::Outcome outcome, record::Reason reason)
@@ -40,8 +40,8 @@ class SideEnded : public record::NotMeasured {
   Side side_;
 };
 
-// The mean time of a frame in each of the two batches of a side. If a block took the batches
-// several times, the minimum.
+// The mean time of a frame in each of the two batches of a side. If a block repeats its batches,
+// each value is the minimum over the repetitions.
 struct SideTimes {
   std::array<double, 2> wall_ns{};
   std::optional<std::array<double, 2>> device_ns;  // if the device reported it for every frame

@@ -69,8 +69,7 @@ void count(const record::Record& record, RunResult& result) {
   }
 }
 
-// Copies the results of another configuration's frames, which are valid for this one too. The other
-// one's benchmark entry is not copied.
+// Copies the results of an equivalent configuration's frames, except for its benchmark entry.
 void take_over(record::Record& record, const record::Record& measured) {
   record.wall_ns = measured.wall_ns;
   record.device_ns = measured.device_ns;
@@ -176,7 +175,8 @@ void PlanRun::measure(const std::string& device, const Configuration& configurat
   report.done(done.record);
 }
 
-// A driver that crashes the machine would do so again with each --resume.
+// Does not draw a configuration that earlier attempts began and never ended, because a driver that
+// crashes the machine would crash it again with each --resume.
 Done PlanRun::attempt(const std::string& device, const Configuration& configuration,
                       const std::string& key, Report& report) {
   if (const auto end = failures_of(device).foretold(configuration)) {
@@ -192,14 +192,14 @@ Done PlanRun::attempt(const std::string& device, const Configuration& configurat
   try {
     return on(device).perform(
         configuration, key, [&](const Loading& loading) { report.loading(device, key, loading); });
-  } catch (...) {  // an expected end, which is not a fault of the configuration
+  } catch (...) {  // for example an interrupt, which does not count as a failed attempt
     context_.store.unbegin_record(context_.run, key, device);
     throw;
   }
 }
 
-// A record that shares frames copies their results. A record with its own frames is kept, because
-// others may use it.
+// If the record shares the frames of an equivalent configuration, copies their results into it.
+// Otherwise keeps a copy of the record, because later records may share its frames.
 void PlanRun::share_frames(record::Record& record) {
   if (record.same_as.empty()) {
     record::Record& kept = measured_[{record.device, record.configuration}];
@@ -210,8 +210,9 @@ void PlanRun::share_frames(record::Record& record) {
   }
 }
 
-// Whether the record belongs to the plan and the run's devices, and is not to be drawn again. A
-// resumed run may be continued with a smaller plan than it began with.
+// Whether the plan contains the record's configuration, the run contains its device, and the record
+// is not to be drawn again. Records of other configurations exist if a run is resumed with a
+// smaller plan.
 bool PlanRun::is_ours(const record::Record& record) const {
   return std::ranges::find(devices_, record.device) != devices_.end() &&
          !context_.options.again.contains({record.device, record.configuration}) &&

@@ -1,5 +1,5 @@
 #pragma once
-// One of the plans that are measured together, on all its devices.
+// Measures one plan on all its devices. Several plans may be measured together.
 
 #include <functional>
 #include <map>

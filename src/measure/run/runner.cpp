@@ -28,8 +28,9 @@ std::vector<std::string> kinds_of(const Plan& plan, const Protocol& protocol) {
   return plan.timed() && asked ? work_kinds(plan) : std::vector<std::string>{};
 }
 
-// A plan from a file is known only by its name. If the text is not the one with which a run began,
-// the run must not contain anything that the plan would not measure now.
+// The run to resume is found by the plan's name, and the plan's text may have changed since the run
+// began. In this case, the run is refused if it contains a configuration that the plan does not
+// have.
 void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& suite,
                          const record::Store& store) {
   if (run.plan_hash == plan.hash) return;

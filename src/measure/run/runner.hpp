@@ -29,15 +29,16 @@ struct RunOptions {
   std::chrono::seconds limit = record::standard_limit;
   std::chrono::seconds start_limit{60};  // for opening a device and calibrating its clocks
   bool resume = false;                   // continue the plan's latest run and keep its records
-  // Device and configuration of records that a resumed run contains and nevertheless draws again.
+  // The device and the configuration of each record that a resumed run draws again although it
+  // contains it.
   std::set<std::pair<std::string, std::string>> again = {};
   std::vector<InjectedFault> faults;
-  // The number of workers at once if nothing is timed, where one device may have several. 0: one
-  // for each device, for as many devices as there are processors.
+  // The number of workers that run at the same time if nothing is timed; one device may have
+  // several. 0: one for each device, but not more than there are processors.
   int jobs = 0;
   std::vector<std::string> worker_command;           // see SideOptions::command
   std::vector<std::string> worker_environment = {};  // see SideOptions::environment
-  // The devices that the command requested and those that it found. The devices in it are measured.
+  // The devices that the command requested, those that it found, and those that it measures.
   record::Beginning begun = {};
   // The version with its commit, which is written to the run; empty: the version only.
   std::string program = {};
@@ -57,14 +58,14 @@ struct RunResult {
   std::string run;  // id in the store
   // The records of the plan's run on its devices; with `resume`, including earlier ones.
   int measured = 0;
-  // The number of those that were copied from another configuration's frames
+  // The number of measured records whose results were copied from an equivalent configuration
   // (measure/contract/equivalents.hpp).
   int taken_over = 0;
   int skipped = 0;
   int failed = 0;        // failed, crashed, hung or lost
   int there_before = 0;  // of all these, the number that a resumed run already contained
   double wall_ns = 0;
-  // Wall-clock time of all devices' parts; more than wall_ns if they ran in parallel.
+  // Sum of the wall-clock times of all devices; more than wall_ns if they ran in parallel.
   double devices_ns = 0;
   // The part of devices_ns outside of opening devices, preparing and drawing.
   double overhead_ns = 0;
@@ -98,7 +99,7 @@ struct PlannedRun {
 [[nodiscard]] std::vector<InjectedFault> faults_that_hit_nothing(
     std::span<const PlannedRun> runs, const std::vector<std::string>& devices);
 
-// One plan on two sides; each side is written to its own run.
+// One plan that is measured on two sides. Each side is written to its own run.
 struct SidesRun {
   const Plan& plan;
   const Suite& suite;

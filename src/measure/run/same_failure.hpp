@@ -25,13 +25,15 @@ class SameFailure {
 
   struct Foretold {
     record::Outcome outcome;
-    record::Reason reason;  // that of the configurations that were tried, marked as not tried, with
-                            // the levels that they share
+    // The reason of the configurations that were tried, with the levels that they share. It is
+    // marked as not tried.
+    record::Reason reason;
   };
-  // The predicted end of the configuration. It is predicted to end like one that crashed, hung or
-  // lost the device under two conditions: it differs from that one only in irrelevant factors
-  // (those in which two configurations differ that ended in the same way), and no configuration
-  // that differs only in such factors was measured. nullopt: it has to be tried.
+  // The predicted outcome of the configuration; nullopt if it has to be tried. A factor is
+  // irrelevant if two configurations that differ in it failed in the same way. A configuration is
+  // predicted to fail like one that crashed, hung or lost the device if it differs from that one
+  // only in irrelevant factors, and if no configuration that differs from it only in these factors
+  // was measured.
   [[nodiscard]] std::optional<Foretold> foretold(const Configuration& configuration) const;
 
  private:
@@ -47,7 +49,7 @@ class SameFailure {
   std::vector<std::string> varied_;
   std::vector<Configuration> measured_;
   std::vector<Failure> failures_;
-  std::map<std::string, Factors> no_matter_;  // by kind
+  std::map<std::string, Factors> no_matter_;  // irrelevant factors by Failure::kind
 };
 
 }  // namespace triptych::measure

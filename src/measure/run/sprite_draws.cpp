@@ -12,7 +12,8 @@ namespace {
 using accuracy::Particles;
 using accuracy::SurfaceDifference;
 
-// A device takes some milliseconds to prepare and draw a few spheres.
+// Limits on the number of draws, because a device takes some milliseconds to prepare and draw even
+// a few spheres.
 constexpr std::size_t most_rows = 64;
 constexpr int most_draws = 128;
 

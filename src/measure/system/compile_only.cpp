@@ -20,7 +20,7 @@ struct Driver {
   std::string_view id;    // the beginning of device ids; the family follows
   std::string_view name;  // short name of the driver
   std::string_view stub;  // the library with the stub of the kernel interface; empty: not needed
-  std::string_view icd;   // how the name of the Vulkan driver's file begins; empty: no such driver
+  std::string_view icd;   // start of the Vulkan driver's file name; empty: not a Vulkan driver
 };
 constexpr std::array<Driver, 4> drivers{{
     {"vulkan:radv-", "radv", "", "radeon_icd"},
@@ -29,7 +29,7 @@ constexpr std::array<Driver, 4> drivers{{
     {"opencl:rusticl-", "rusticl", "libamdgpu_noop_drm_shim.so", ""},
 }};
 
-// The chips that the stub of nouveau uses for a generation.
+// The chip that the stub of the nouveau kernel driver pretends to be, for each GPU family.
 struct Chip {
   std::string_view family;
   std::string_view chipset;
@@ -85,8 +85,8 @@ std::string file_in(const fs::path& folder, std::string_view start, std::string_
   return found.empty() ? std::string() : found.front();
 }
 
-// Looks beside the driver files that are named in the environment, otherwise where Vulkan's loader
-// looks.
+// Searches the folders of the driver files that the environment names, then the folders that the
+// Vulkan loader searches. Returns the first JSON file whose name begins with `start`.
 std::string find_icd(std::string_view start, std::span<const std::string> overrides) {
   std::vector<fs::path> folders;
   for (const char* variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
@@ -171,8 +171,8 @@ std::vector<std::string> compile_only_environment(std::string_view device_id,
   const auto device = compile_only(device_id);
   if (!device) return {};
   const Driver& driver = *driver_of(device_id);
-  // Caches are turned off: a program that comes from a cache is not compiled, and nothing is
-  // reported about it.
+  // Caches are turned off, because the driver does not report statistics of a program that it loads
+  // from a cache.
   std::vector<std::string> environment{"MESA_SHADER_CACHE_DISABLE=true"};
   if (!driver.icd.empty()) {
     const std::string icd = find_icd(driver.icd, overrides);

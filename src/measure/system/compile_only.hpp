@@ -34,11 +34,11 @@ struct CompileOnly {
     std::string_view device_id, std::span<const std::string> overrides = {});
 
 // The family for which the drivers of this process compile; empty if their devices execute code.
-// `driver` is its short name. Devices that compute on the processor are never affected.
+// `driver` is its short name. It is always empty for drivers that compute on the processor.
 [[nodiscard]] std::string compiled_family(std::string_view driver);
 
-// Removes the versions of the kernel and of its DRM interface from the name that radeonsi gives a GPU:
-// "AMD Radeon RX 6800 (radeonsi, navi21, LLVM 19.1.7, DRM 3.49, 6.12.1)". They do not affect a
+// Removes the versions of the kernel and of its DRM interface from the name that radeonsi gives a
+// GPU: "AMD Radeon RX 6800 (radeonsi, navi21, LLVM 19.1.7, DRM 3.49, 6.12.1)". They do not affect a
 // compiler, and a device that only compiles must be the same on every machine.
 [[nodiscard]] std::string without_kernel_version(std::string text);
 

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::array error_signals{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
 
-// The handler needs its own stack, because a stack that has overflowed has no room for it.
+// The handler needs its own stack, because after a stack overflow there is no room for it on the
+// thread's stack.
 constexpr std::size_t handler_stack_bytes = std::size_t{64} << 10U;
 
 void say(std::string_view text) {
@@ -36,7 +37,8 @@ void write_stack() {
 
 void on_error(int signal) {
   write_stack();
-  // The default action was restored before the handler ran, so this ends the process by the signal.
+  // The default action was restored before the handler ran, so raising the signal again ends the
+  // process.
   std::raise(signal);
 }
 

@@ -19,7 +19,8 @@
 namespace triptych::measure {
 namespace {
 
-// 0 if the process is gone. Its name, in parentheses, may contain any characters.
+// Returns 0 if the process is gone. In the file, the process name is in parentheses and may contain
+// any characters.
 pid_t parent_of(pid_t pid) {
   std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
   std::string text;
@@ -44,11 +45,11 @@ std::vector<pid_t> children_of(pid_t parent) {
   return children;
 }
 
-// There is one in each process, as for the children.
+// One object per process, because children belong to the process.
 struct Children {
   std::mutex mutex;
   bool inherits = false;
-  std::set<pid_t> from_before;  // children of the program that replaced itself by this one
+  std::set<pid_t> from_before;  // children of the program that became this one by exec
   std::set<pid_t> started;      // started by this process and not yet reaped
 };
 
@@ -86,8 +87,8 @@ void inherit_orphans() {
   all.inherits = ::prctl(PR_SET_CHILD_SUBREAPER, 1) == 0;
 }
 
-// Under the lock, because another thread could otherwise take the new child for one that was
-// inherited.
+// Holds the lock while it starts the child. Otherwise another thread could take the new child for
+// an inherited process and kill it.
 int start_child(const std::function<int(pid_t*)>& spawn, pid_t& pid) {
   Children& all = children();
   const std::scoped_lock lock(all.mutex);

@@ -37,7 +37,7 @@ class EnergyMeters {
  private:
   struct Meter {
     std::string name;
-    std::function<std::optional<std::uint64_t>()> microjoules;  // since some moment
+    std::function<std::optional<std::uint64_t>()> microjoules;  // since an arbitrary moment
     std::uint64_t range = 0;  // the count restarts after this value; 0: never
   };
   class Span;

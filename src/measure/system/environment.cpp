@@ -30,7 +30,7 @@ std::string variable(const char* name) {
   return value == nullptr ? std::string() : std::string(value);
 }
 
-// A place for caches, and the folder within it.
+// A folder for caches, and the name of Triptych's folder in it.
 struct CachePlace {
   std::filesystem::path root;
   std::string name;
@@ -60,7 +60,7 @@ std::string as_file_name(std::string_view device_id) {
   return name;
 }
 
-// The lock file of the folder, locked; empty if the folder is in use.
+// Locks the folder's lock file and returns it; empty if another process holds the lock.
 FileDescriptor try_lock(const core::PrivateFolder& folder) {
   FileDescriptor lock(
       ::openat(folder.fd(), "lock", O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600));

@@ -25,9 +25,9 @@ struct EnvironmentDefault {
 
 // A cache folder that belongs to one worker at a time. It is kept from run to run, so that drivers
 // find what they compiled before: $XDG_CACHE_HOME/triptych (or ~/.cache/triptych, or the folder for
-// temporary files) /<device>-<n>, where n is the first number that nobody else uses. It is held
-// until this object is destroyed, also when the worker is replaced. Drivers load compiled code from
-// it, so only folders that belong to this user alone are used (core/private_folder.hpp).
+// temporary files) /<device>-<n>, where n is the first number that no other worker uses. The folder
+// is reserved until this object is destroyed, even if the worker is replaced. Drivers load compiled
+// code from it, so only folders that belong to this user alone are used (core/private_folder.hpp).
 class CacheFolder {
  public:
   // Throws IoError with the reason if no such folder can be used anywhere.

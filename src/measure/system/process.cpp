@@ -28,8 +28,8 @@ struct Pipe {
   FileDescriptor write;
 };
 
-// Both ends get numbers above all those that the child uses, so that no dup2 in the child
-// overwrites the source of another.
+// Duplicates a pipe's end to a number above all those that the child uses, so that no dup2 in the
+// child overwrites the source of another dup2.
 FileDescriptor raised(FileDescriptor low) {
   constexpr int above_childs_numbers = 16;
   FileDescriptor high(::fcntl(low.get(), F_DUPFD_CLOEXEC, above_childs_numbers));
@@ -186,8 +186,8 @@ Process::Process(const std::vector<std::string>& command,
 Process::~Process() {
   if (exit_) return;
   kill();
-  // A process that sleeps inside a driver cannot be reaped even after SIGKILL. The program must not
-  // wait for it here.
+  // A process that sleeps inside a driver cannot be reaped even after SIGKILL. This program must
+  // not hang with it.
   constexpr std::chrono::seconds patience{10};
   try {
     if (wait(patience)) return;

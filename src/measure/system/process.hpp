@@ -1,6 +1,6 @@
 #pragma once
-// A child process with three pipes. It belongs to the object: whatever happens, it is killed and
-// reaped, and its descriptors are closed. Linux only (posix_spawn, pidfd).
+// A child process with three pipes. The destructor kills and reaps it and closes its descriptors.
+// Linux only (posix_spawn, pidfd).
 
 #include <sys/types.h>
 

@@ -37,8 +37,8 @@ std::string first_line(const char* file) {
   return line;
 }
 
-// The cores on which this process may run. That is what the drivers' thread pools see, and it may
-// be fewer than the machine has.
+// The number of cores on which this process may run. It may be smaller than the number of cores of
+// the machine, and drivers use it for the size of their thread pools.
 int usable_cores() {
   cpu_set_t cores;
   CPU_ZERO(&cores);

@@ -35,8 +35,8 @@ std::string read_key(const core::PrivateFolder& folder) {
   return got == static_cast<ssize_t>(key_bytes) ? key : std::string();
 }
 
-// The key is written to another file and then linked. If several processes create one at the same
-// time, all use the first.
+// The key is written to another file, which is then linked under the final name. If several
+// processes create a key at the same time, all of them use the first one.
 void make_key(const core::PrivateFolder& folder) {
   std::string key(key_bytes, '\0');
   if (::getrandom(key.data(), key.size(), 0) != static_cast<ssize_t>(key.size())) return;

@@ -12,7 +12,7 @@ namespace triptych::measure {
 
 // HMAC-SHA256 (RFC 2104) of a reference image with its bound. The key is random; it is in this
 // user's cache folder and is created when it is first needed. nullopt if no such folder can be
-// used: then nothing is recognized, and every reference image is drawn again.
+// used. In that case no stored reference image is trusted, and all are drawn again.
 [[nodiscard]] std::optional<std::string> own_seal(const record::TruthImage& truth);
 
 // HMAC-SHA256 in hexadecimal digits.

@@ -12,8 +12,8 @@
 namespace triptych::measure {
 namespace {
 
-// Every record with this text has the same reference image and bound. It is cheaper than
-// Suite::truth_key, which loads the data to find out whether they have changed.
+// Returns a key with which records share a reference image and bound in memory. It is cheaper than
+// SuiteWithTruth::truth_key, which loads the data to find out whether they have changed.
 std::string memory_key(const record::Record& record) {
   std::string key = record.suite + " " + record.scene;
   for (const char* factor : {"ert", "adapt", "voxel", "precision", "ray"}) {

@@ -16,9 +16,9 @@ namespace triptych::measure {
 
 using FindSuiteWithTruth = std::function<SuiteWithTruth&(std::string_view)>;  // throws InputError
 
-// Reference images by record, each rendered once. They are kept in memory as long as this object,
-// and in the store for the next time if it can be written. Every function throws what the suite
-// throws if data is missing.
+// Provides the reference images of records. Each one is rendered once, kept in memory as long as
+// this object exists, and also stored for later processes if the store is writable. If data is
+// missing, every function throws the suite's exception.
 class Truths {
  public:
   Truths(FindSuiteWithTruth suite, record::Store& store)
@@ -45,7 +45,7 @@ class Truths {
   [[nodiscard]] accuracy::TruthPair find_or_render(const record::Record& record);
   [[nodiscard]] accuracy::LimitPicture find_or_render_limit(const record::Record& record,
                                                             const std::string& key);
-  // The pair that is stored under these names; it is rendered if there is none.
+  // The pair that is stored under these names. If there is none, `render` makes it.
   [[nodiscard]] accuracy::TruthPair kept(const std::string& scene, const std::string& version,
                                          const std::function<accuracy::TruthPair()>& render);
 

@@ -42,7 +42,7 @@ ProbedFeature as_probed(const nlohmann::json& json) {
           .detail = json.at("detail")};
 }
 
-// The process that probes one device. A new one is started after it has died.
+// The process that probes one device. If it dies, the next request starts a new one.
 class Prober {
  public:
   Prober(std::string device, std::chrono::seconds limit)

@@ -121,7 +121,7 @@ void list_compiler(const std::string& id, Listing& listing) {
   for (const Broken& each : listing.broken) {
     known += fmt::format("; {}{}{}", each.what, each.reason.empty() ? " cannot be used" : ": ",
                          each.reason);
-    // RADV aborts if it does not know a family, and prints so.
+    // If RADV does not know a family, it prints a message and aborts.
     if (each.ended && !each.ended->last_words.empty()) {
       known += fmt::format(" (its last output: {})", each.ended->last_words);
     }
@@ -226,8 +226,8 @@ Greeting greet(const record::Device& device, const std::string& suite) {
 }
 
 void answer_listing(const Backend& backend) {
-  // If it answered and exited before it was asked, the pipe of the process that asks would be
-  // closed.
+  // Waits for the request first. If this process answered and exited earlier, the other process
+  // could no longer write its request to the pipe.
   static_cast<void>(receive(Process::child_request_fd));
   send(Process::child_answer_fd, {.json = as_json(backend.list()), .binary = {}});
 }

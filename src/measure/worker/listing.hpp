@@ -11,8 +11,8 @@
 
 namespace triptych::measure {
 
-// The APIs in which a glob may match a device. All if there are no globs, or if no API fits: then
-// the error that follows can name all devices.
+// The APIs in which a glob may match a device. All APIs if there are no globs, or if no API fits,
+// so that the resulting error message can list all devices.
 [[nodiscard]] std::vector<std::string> apis_of(const std::vector<std::string>& globs,
                                                const std::vector<std::string>& apis);
 
@@ -35,8 +35,8 @@ namespace triptych::measure {
 [[nodiscard]] std::vector<std::string> choose_devices(const Listing& listing,
                                                       const std::vector<std::string>& globs);
 
-// The only device that the glob matches, as an option requires it. Throws core::NotSupported as
-// above, and core::InputError if several devices match.
+// The only device that the glob matches. `option` is the name of the command-line option in error
+// messages. Throws core::NotSupported as above, and core::InputError if several devices match.
 [[nodiscard]] std::string choose_device(const Listing& listing, std::string_view option,
                                         const std::string& glob);
 
@@ -44,7 +44,7 @@ namespace triptych::measure {
 struct Greeting {
   record::Device device;
   std::vector<record::ClockTrust> clocks;
-  std::optional<record::Reason> refused;  // why it cannot be used
+  std::optional<record::Reason> refused;  // the reason why it cannot be used
 };
 [[nodiscard]] Greeting greet(const record::Device& device, const std::string& suite);
 

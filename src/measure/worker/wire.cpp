@@ -88,8 +88,8 @@ bool is(const Message& message, std::string_view type) {
   return message.json.is_object() && message.json.value("type", "") == type;
 }
 
-// If a message lacks something, its sender is wrong and not the reader, so the error is a typed one
-// and not a JSON error.
+// Converts JSON errors to InputError: if a message lacks a member, the input from the other process
+// is wrong.
 template <typename Read>
 auto reading(std::string_view type, Read read) {
   try {

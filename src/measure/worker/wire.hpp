@@ -1,19 +1,21 @@
 #pragma once
-// What supervisor and worker say to each other over two pipes. Both are the same program on the
-// same machine, so numbers travel in native byte order. A message is
-//   8 bytes magic, 4 bytes size of the JSON text, 4 bytes size of what follows it, JSON, binary.
+// The messages between supervisor and worker, sent over two pipes. Both are the same program on the
+// same machine, so numbers are sent in native byte order. A message is
+//   8 bytes magic, 4 bytes size of the JSON text, 4 bytes size of the binary part, JSON, binary
+//   part
 //
 //   supervisor → worker   start   suite, kinds of work the plan needs, clocks already known
 //   worker → supervisor   hello   device, clocks      | refused   reason
 //   supervisor → worker   job     one configuration with the protocol and its injected faults
-//   worker → supervisor   loading how far a large data set is loaded; any number before the answer
-//   worker → supervisor   answer  record, time taken; the image as EXR follows as binary
+//   worker → supervisor   loading progress of loading a large data set; zero or more of these come
+//                                 before the answer
+//   worker → supervisor   answer  record, time taken; the image is the binary part, as EXR
 // and, for measuring two workers by interleaved A/B:
-//   supervisor → worker   hold    one configuration to be prepared and kept
-//   supervisor → worker   frames  how many timed frames of what is kept to draw now
-//   supervisor → worker   release what is kept is freed
-//   worker → supervisor   turn    to each of the three: times of the frames drawn, or why there are
-//                                 none; loading may come before it
+//   supervisor → worker   hold    one configuration that the worker prepares and keeps
+//   supervisor → worker   frames  number of timed frames of the kept configuration to draw now
+//   supervisor → worker   release the worker frees the kept configuration
+//   worker → supervisor   turn    the answer to each of these three: times of the drawn frames, or
+//                                 the reason why there are none; loading may come before it
 
 #include <cstddef>
 #include <map>
@@ -71,7 +73,7 @@ struct Refused {
   record::Reason reason;
   // Whether the device lacks something.
   [[nodiscard]] bool unsupported() const { return reason.cause == record::Cause::not_supported; }
-  // If false, the worker has greeted.
+  // False if the worker sent its Hello instead.
   [[nodiscard]] bool is_one() const { return reason.cause != record::Cause::none; }
 };
 
@@ -85,12 +87,13 @@ struct Job {
 struct Answer {
   // Everything that does not depend on the plan; in `factors` every "auto" is resolved.
   record::Record record;
-  double worker_ns = 0;   // from reading the job until the answer is ready
+  double worker_ns = 0;  // from reading the job until the answer is ready
   std::map<std::string, std::string> listings = {};  // disassembly by the hash of its content
   std::vector<std::byte> exr;
 };
 
-// Replaces the configuration that is kept at that time.
+// Requests that the worker prepares and keeps a configuration, in place of the one that it has kept
+// so far.
 struct Hold {
   Configuration configuration;
   std::vector<std::string> faults;
@@ -102,7 +105,7 @@ struct Frames {
 
 struct Release {};
 
-// The answer to one of these requests. After a failure no configuration is kept any longer.
+// The answer to Hold, Frames and Release. After a failure no configuration is kept any longer.
 struct Batch {
   record::Outcome outcome = record::Outcome::measured;
   record::Reason reason;          // for every outcome except measured

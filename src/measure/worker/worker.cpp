@@ -32,8 +32,8 @@
 namespace triptych::measure {
 namespace {
 
-// The peak of this process since it began. Not ru_maxrss, which survives exec, so that a worker
-// would begin with the peak of its supervisor.
+// The peak memory of this process since it began. ru_maxrss would not do, because it survives exec,
+// so that a worker would begin with the peak of its supervisor.
 std::uint64_t peak_memory_bytes() {
   std::ifstream lines("/proc/self/status");
   for (std::string line; std::getline(lines, line);) {
@@ -66,7 +66,7 @@ struct BadInput : core::NotSupported {
   using NotSupported::NotSupported;
 };
 
-// A data file is not here, which is not the device's fault either.
+// A data file is missing, which is not the device's fault either.
 class MissingData : public core::NotSupported {
  public:
   MissingData(const std::string& reason, std::string data)
@@ -132,8 +132,8 @@ class Worker {
   [[nodiscard]] const record::Device& info() const { return info_; }
   [[nodiscard]] const std::vector<record::ClockTrust>& clocks() const { return clocks_; }
 
-  // For a kind of work whose clock is known, the supervisor also knows the calibration of
-  // statistics. `statistics`: whether statistics are read.
+  // Kinds of work whose clock is known already are left out, because the supervisor also has their
+  // calibration of statistics. `statistics`: whether statistics are read.
   void calibrate_for(const std::vector<std::string>& kinds, bool statistics) {
     has_statistics_ = statistics;
     if (!info_.compiles_for.empty()) return;
@@ -237,7 +237,8 @@ class Worker {
     answer.listings.clear();
   }
 
-  // The part of the work that the device supports. Resolves the configuration's "auto" levels.
+  // Makes the work of the configuration and resolves its "auto" levels. Throws NotSupported if data
+  // is missing or if the device cannot draw it.
   Work supported_work(Configuration& configuration, const std::vector<std::string>& faults) {
     const auto data = configuration.find("data");
     data_ = data == configuration.end() ? "none" : data->second;
@@ -319,7 +320,7 @@ class Worker {
     if (technique::technique(work.technique).picture) {
       answer.exr = core::encode_exr(image);
     } else {
-      answer.record.image.clear();  // a sum, or nothing
+      answer.record.image.clear();  // the technique's image has no meaning
     }
   }
 
@@ -346,27 +347,28 @@ class Worker {
   record::Device info_;
   std::vector<record::ClockTrust> clocks_;
   std::optional<InstructionCounter> counter_;
-  // Searched for when a loop needs them, because that loads a library.
+  // Created when the first loop needs them, because this loads a library.
   std::optional<EnergyMeters> meters_;
   std::unique_ptr<Prepared> held_;
   std::optional<FrameProof> proof_;  // for the configuration that is held
   Equivalents equivalents_;
   bool has_statistics_ = true;  // the driver reports statistics without a fault
-  // The driver's change while the device was opened and calibrated.
+  // The wrong rounding mode that the driver set while the device was opened and calibrated.
   std::string changed_arithmetic_;
   std::string data_;         // the data of the current configuration
   double measuring_ns_ = 0;  // for the last job: the time that measure() accounts for itself
 };
 
-// Without this, a worker whose supervisor has died would keep the device, even within a call of the
-// driver.
+// Kills this worker when its supervisor dies. Otherwise it could keep the device, for example while
+// it hangs in a call of the driver.
 void die_with_parent() {
   const pid_t parent = ::getppid();
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) std::raise(SIGKILL);
 }
 
-// A process that a driver starts must not keep our pipes open after this process has ended.
+// Closes the descriptor in processes that a driver starts, so that they do not keep the pipes to
+// the supervisor open after this process has ended.
 void keep_to_ourselves(int fd) {
   if (const int flags = ::fcntl(fd, F_GETFD); flags >= 0) ::fcntl(fd, F_SETFD, flags | FD_CLOEXEC);
 }

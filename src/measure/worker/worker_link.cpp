@@ -33,7 +33,7 @@ bool drain(int fd, Take take) {
   }
 }
 
-// Whether the process was ended by a signal that no driver raises.
+// Whether the process was ended by a signal that comes from outside and that no driver raises.
 bool is_ordered(const Exit& exit) {
   return exit.signal == SIGKILL || exit.signal == SIGTERM || exit.signal == SIGINT;
 }

@@ -17,7 +17,7 @@
 
 namespace triptych::measure {
 
-// The end of a worker's output. Its size is limited, however much the worker prints.
+// Keeps the end of a worker's output, up to a fixed size.
 class LogTail {
  public:
   void append(std::string_view text);
@@ -52,7 +52,8 @@ class WorkerLink {
   [[nodiscard]] Reply ask(const Message& request, std::chrono::milliseconds limit,
                           const OnLoading& on_loading = {});
 
-  // Begins the conversation. Returns the worker's greeting, or why its device cannot be opened.
+  // Begins the conversation. Returns the worker's greeting, or the reason why its device cannot be
+  // opened.
   [[nodiscard]] std::variant<Hello, Refused> greet(const Start& start,
                                                    std::chrono::milliseconds limit);
 
@@ -73,7 +74,7 @@ class WorkerLink {
   [[nodiscard]] Died bury();
   // Kills the worker for `reason`.
   [[nodiscard]] record::Reason bury_for(record::Reason reason);
-  // Waits until it is gone, and returns how it ended.
+  // Waits until the worker is gone, and returns how it ended.
   [[nodiscard]] std::optional<Exit> reap();
   void await_own_end();
   // Asks a process that hangs for the call stack of its thread, which arrives as log.

@@ -43,14 +43,14 @@ class WorkerSlot {
     record::Outcome outcome;
     record::Reason reason;
   };
-  // Sends a job to the worker. The slot must be open. It is vacated if the worker has ended, and as
-  // vacate_after() says.
+  // Sends a job to the worker. The slot must be open. It is vacated if the worker has ended, and in
+  // the cases of vacate_after().
   [[nodiscard]] std::variant<Answer, Ended> ask(const Message& job, std::chrono::milliseconds limit,
                                                 const OnLoading& on_loading);
 
   // Lets the worker exit normally. Returns the fault of a driver that appears while it does so.
   std::optional<record::DeviceFault> finish();
-  void vacate() noexcept { worker_.reset(); }  // the worker has ended or ends now
+  void vacate() noexcept { worker_.reset(); }  // kills the worker if it still runs
   // Vacates the slot if the device is lost or a frame was not drawn: drivers ignore all further
   // commands after some errors without reporting any of them.
   void vacate_after(record::Outcome outcome, const record::Reason& reason) noexcept;
