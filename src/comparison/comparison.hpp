@@ -23,9 +23,10 @@ struct ComparisonOptions {
   measure::SideOptions a;
   measure::SideOptions b;
   std::vector<measure::InjectedFault> faults;  // injected into side b
-  // The time budget, which begins with the comparison. After it, no further configuration is
-  // measured. A part of the budget is reserved for confirming suspects. Exact measurements, the
-  // first looks and the confirmation are always made, because there is no result without them.
+  // The time budget, which begins with the comparison. When it ends, no more blocks are measured. A
+  // part of the budget is reserved for confirming suspects. Measurements that repeat exactly, the
+  // first look at each configuration and the confirmation are always made, because there is no
+  // result without them.
   std::optional<std::chrono::seconds> budget;
   std::chrono::seconds limit{60};
   std::uint64_t seed = 1;
@@ -41,18 +42,19 @@ using SideTime = record::Summary;
 struct Compared {
   std::string key;
   measure::Configuration configuration;
-  // The outcome and reason of the side that did not finish. Skipped means that it cannot draw this.
+  // The outcome of the side that did not finish. `skipped` means that it does not support the
+  // configuration.
   std::optional<record::Outcome> ended;
   PairVerdict verdict = PairVerdict::undecided;
   TimeReason reason;     // the reason why there is no verdict, or why the confirmation withdrew it
   Shift shift;           // shift of ln t, b relative to a; meaningless if a side did not finish
   int blocks = 0;        // number of blocks of the first process run
-  int process_runs = 0;  // new process runs that confirmed the result or did not
+  int process_runs = 0;  // number of new process runs for the confirmation
   int frames_per_batch = 1;
   measure::SideClock clock = measure::SideClock::wall;
   WallClockCause why_wall = WallClockCause::none;
-  double seconds = 0;  // time spent on it
-  std::optional<std::array<SideTime, 2>> times = {};  // of frames of a and b, in nanoseconds
+  double seconds = 0;                                 // time spent on it
+  std::optional<std::array<SideTime, 2>> times = {};  // frame times of a and b in nanoseconds
   std::optional<judge::WorkChange> work;
   std::vector<Difference> differences;
 
@@ -60,7 +62,7 @@ struct Compared {
   [[nodiscard]] bool is_doubtful(bool timed) const;
   // The verdict on its time: "slower", …, "skipped", "undecided".
   [[nodiscard]] std::string_view verdict_name() const;
-  // Whether its shift is the result of a measurement.
+  // Whether `shift` was measured.
   [[nodiscard]] bool has_time() const { return blocks > 0 && !ended; }
 };
 
@@ -86,11 +88,11 @@ enum class ComparisonStage : std::uint8_t {
 struct ComparisonProgress {
   ComparisonStage stage = ComparisonStage::deterministic;
   std::size_t process_run = 0;   // number of the current one of fresh_process_runs
-  std::size_t process_runs = 0;  // of how many
+  std::size_t process_runs = 0;  // their total number
   std::string configuration;
   int done = 0;
   int total = 0;
-  std::chrono::seconds left{0};  // at most
+  std::chrono::seconds left{0};  // upper limit of the remaining time
   std::optional<measure::Loading> loading;
 };
 

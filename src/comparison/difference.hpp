@@ -23,7 +23,7 @@ enum class DifferenceKind : std::uint8_t {
   regression,   // b is wrong, does more, or changed something that must not change
   unjudged,     // no reference image, or b can no longer draw a configuration that a can draw
   fixed,        // a is wrong or cannot draw it, and b is right
-  calibration,  // a statistic that at least one of the drivers counts in its own way
+  calibration,  // a statistic that at least one of the drivers does not count exactly
   changed       // an allowed difference between two devices, or b does less
 };
 [[nodiscard]] std::string_view name_of(DifferenceKind kind);
@@ -43,29 +43,29 @@ enum class Subject : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(Subject subject);
 
-// Each cause has one sentence. The comments list the data of each cause: numbers in quotes, facts
-// in <angles>.
+// The reason for a difference. report/words/ has one sentence for each cause. Brackets list the
+// data of a cause: numbers in quotes, facts in <angles>, other members by their names.
 enum class DifferenceCause : std::uint8_t {
-  ended,                   // sides: how each side ended that did not measure the configuration
-  only_one_side,           // side: the other one does not have the configuration
-  no_reference,            // sides: why there is no reference image
-  wrong_image,             // sides: the errors of each wrong image
-  other_bits,              // "pixels" of "total", "x" "y" "error" "rmse" "particles"
-  other_bits_of_one_code,  // the same, but device, settings and device code are equal
-  two_counters,            // <a> <b>: what counted the instructions
-  values_changed,          // changes
-  code_changed,            // code
-  code_total,              // total
-  reported_by_one_side,    // side; changes: its value
-  same_driver,             // changes: on one driver the value must not change
-  api_specific,            // changes: each API does this in its own way
-  beyond_rounding,         // changes: by more than rounding explains
-  within_rounding,         // changes: by what rounding explains
-  drivers_must_agree,      // changes: the APIs define this number
-  drivers_may_differ,      // changes: the APIs leave this number to the driver
-  counted_differently,     // changes; worths: how exactly each driver counts
-  calibration_changed,     // worths, before and after
-  limit_changed            // <a> <b>; one is missing if the other device lacks the limit
+  ended,                   // a side did not measure the configuration [sides: how it ended]
+  only_one_side,           // only one side has the configuration [side]
+  no_reference,            // there is no reference image [sides: the reason]
+  wrong_image,             // an image is wrong [sides: the errors of each wrong image]
+  other_bits,              // both images are right, but not identical ["pixels" of "total", …]
+  other_bits_of_one_code,  // the same, although device, settings and device code are equal
+  two_counters,            // different emulators counted the instructions [<a> <b>]
+  values_changed,          // values differ [changes]
+  code_changed,            // the compiler's report differs [code]
+  code_total,              // the total over all configurations differs [total]
+  reported_by_one_side,    // only one side reports the value [side, changes: its value]
+  same_driver,             // the value must not change on one driver [changes]
+  api_specific,            // each API counts this value in its own way [changes]
+  beyond_rounding,         // the values differ by more than rounding explains [changes]
+  within_rounding,         // rounding explains the difference [changes]
+  drivers_must_agree,      // the APIs define this value [changes]
+  drivers_may_differ,      // the APIs leave this value to the driver [changes]
+  counted_differently,     // a driver does not count the value exactly [changes, worths]
+  calibration_changed,     // a driver now counts a statistic in another way [worths]
+  limit_changed            // a limit of the device changed; a device may lack it [<a> <b>]
 };
 [[nodiscard]] std::string_view name_of(DifferenceCause cause);
 

@@ -19,10 +19,9 @@ using Cause = DifferenceCause;
 using measure::Side;
 
 // The additional share of instructions that is allowed for a frame of another driver, or of the
-// same driver with other settings. It is the same share by which a time must grow to be called
-// slower.
+// same driver with other settings. A time must grow by the same share to count as slower.
 constexpr double frame_across_setups = 0.01;
-// The smallest change of preparation alone that is reported, because preparation varies from run to
+// Smaller changes of the cost of preparing are not reported, because that cost varies from run to
 // run.
 constexpr double of_preparing = 0.05;
 
@@ -39,7 +38,7 @@ std::optional<std::uint64_t> value_in(const record::Counts& counts, const std::s
   return found == counts.end() ? std::nullopt : std::optional(found->second);
 }
 
-// The differences of two images: the number of pixels, and the pixel with the largest difference.
+// The number of pixels in which two images differ, and the pixel with the largest difference.
 std::map<std::string, double> image_change(const core::Image& a, const core::Image& b) {
   core::Image no_bound(a.width, a.height);
   core::Image colours_a = a;
@@ -122,7 +121,7 @@ class Finder {
                        .side = blames_b ? Side::b : Side::a,
                        .outcome = ended.outcome,
                        .reason = ended.reason};
-    // If neither can draw it, that is not a difference.
+    // If neither side supports the configuration, that is not a difference.
     if (a == b && a == Outcome::skipped) return false;
     Difference& found = add(kind_of_end(a, b), Subject::outcome, Cause::ended);
     if (!blames_b || found.kind == Kind::unjudged) found.sides[0] = end_of(a_.record);
@@ -183,7 +182,9 @@ class Finder {
         .numbers = image_change(a_.image, b_.image);
   }
 
-  // On one device, with either program, every instruction counts; otherwise the frame as a whole.
+  // If both sides are the same device, each part of the frame is compared within its small
+  // tolerance, even if the programs differ. For two versions of a device, the frame as a whole may
+  // grow by frame_across_setups.
   void cost() {
     const record::Counts& before = a_.record.cost;
     const record::Counts& now = b_.record.cost;
@@ -216,8 +217,8 @@ class Finder {
     found.ratio = now / before;
   }
 
-  // Worse code for the same family is a regression, also across driver versions. Two families may
-  // differ.
+  // Worse code for the same device id is a regression, even across driver versions. Code for two
+  // different devices may differ.
   void code() {
     if (a_.record.code.empty() || b_.record.code.empty()) return;
     judge::CodeComparison comparison = judge::compare_code(a_.record.code, b_.record.code);
@@ -346,8 +347,8 @@ std::vector<Difference> find_differences(const record::Device& a, const record::
           });
   changed(a.statistics_calibration, b.statistics_calibration,
           [&](const std::string& name, const auto* before, const auto* now) {
-            // A run calibrates only what its techniques need, so a calibration that one run lacks
-            // was not examined.
+            // A run calibrates only the statistics that its techniques need. A statistic that one
+            // run did not calibrate is not compared.
             if (before == nullptr || now == nullptr) return;
             differences.push_back({.kind = Kind::calibration,
                                    .subject = Subject::statistic,

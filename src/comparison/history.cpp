@@ -29,8 +29,8 @@ std::map<std::string, MeasuredByConfiguration> by_device(const record::Store& st
   return devices;
 }
 
-// The end of its path that distinguishes it from the others: the file name, with folders if others
-// have the same file name.
+// The shortest end of the store's path that no other store has: the file name, with as many folders
+// as necessary.
 std::string name_among(const std::string& store, const std::set<std::string>& stores) {
   std::filesystem::path name;
   const std::filesystem::path path(store);
@@ -129,8 +129,9 @@ void HistoryBuilder::add_changes(const record::Store& store,
   }
 }
 
-// nullopt if this store or all previous ones lack the value. A point without any relation to the
-// first point has no value.
+// Adds the values of one store to the chain, and returns their mean ratio to the first store, which
+// is 1 for the first store itself. nullopt if there is no value, or if no earlier store has a value
+// of the same configurations.
 std::optional<double> HistoryBuilder::extend(Chain& chain, const MeasuredByConfiguration& here,
                                              std::optional<double> Measured::*value) {
   double sum = 0;

@@ -20,9 +20,9 @@ struct HistoryPoint {
   std::string driver_version;
   std::string triptych;            // version of the program
   std::set<std::string> injected;  // faults that `run --inject` put into it
-  // Relative to the first point: the geometric mean over the configurations that existed before,
-  // each relative to the last store that has it, multiplied from point to point. Empty if there
-  // were none.
+  // Cost and time relative to the first point. From point to point, they change by the geometric
+  // mean of the ratios of all configurations, each relative to the last store that has it. Empty if
+  // no earlier store has any of the configurations.
   std::optional<double> cost;  // instructions of generated code and driver
   std::optional<double> time;  // median of the frames by the wall clock, which all stores have
   // The changes of each configuration relative to the last store that has it.
@@ -42,11 +42,11 @@ struct DeviceHistory {
 struct Measured {
   std::optional<double> cost;
   std::optional<double> time;
-  std::string injected;  // see the record
+  std::string injected;  // see record::Record::injected
 };
 using MeasuredByConfiguration = std::map<std::string, Measured>;  // by plan and configuration
 
-// The stores sorted by the start of their first run; among equal ones in the given order.
+// Sorts the stores by the start of their first run. Stores with equal starts keep the given order.
 [[nodiscard]] std::vector<record::Store*> in_order(const std::vector<record::Store*>& stores);
 
 // `devices` are globs; if empty, all devices. Throws what record::Store throws.
@@ -54,8 +54,8 @@ class HistoryBuilder {
  public:
   explicit HistoryBuilder(std::vector<std::string> devices) : devices_(std::move(devices)) {}
 
-  // Adds the next store, which must outlive this object. `truths` are those of its records and of
-  // the previous ones.
+  // Adds the next store, which must outlive this object. `truths` must provide the reference images
+  // for its records and for those of the previous stores.
   void add(const record::Store& store, measure::Truths& truths);
   [[nodiscard]] const std::vector<DeviceHistory>& devices() const { return history_; }
 

@@ -86,8 +86,8 @@ std::size_t averages_outside(std::size_t n, double tail) {
   return k;
 }
 
-// A smaller variance between process runs would be an effect of the timers, because no clock
-// resolves a millionth of a batch.
+// The smallest assumed variance between process runs. No clock resolves a millionth of a batch, so
+// a smaller variance would be an artefact of the timers.
 constexpr double least_variance = 1e-12;
 
 PairVerdict unconfirmed(const Interval& interval, const SequentialDesign& design) {

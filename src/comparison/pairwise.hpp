@@ -46,14 +46,14 @@ struct Shift {
 enum class PairVerdict : std::uint8_t {
   slower,  // b is slower than a by more than is tolerated
   faster,
-  same,      // no difference in either direction that would have to be found
+  same,      // no difference in either direction that is large enough to matter
   undecided  // more blocks may decide
 };
 [[nodiscard]] std::string_view name_of(PairVerdict verdict);
 
-// A group-sequential test: it looks at the result after fixed numbers of blocks, each time with an
-// equal share of `alpha` (Bonferroni), so that all looks together err on one side with a
-// probability of at most `alpha`.
+// A group-sequential test. It evaluates the result after fixed numbers of blocks, which are called
+// looks. Each look uses an equal share of `alpha` (Bonferroni), so that the probability of an error
+// on one side is at most `alpha` for all looks together.
 struct SequentialDesign {
   std::array<int, 6> looks{12, 24, 48, 96, 192, 384};
   double alpha = 0.01;
@@ -85,12 +85,12 @@ struct Suspect {
 };
 inline constexpr std::size_t least_process_runs = 2;  // with fewer there is no scatter
 
-// The number of looks. The second look is for suspects that the first one leaves open. Each look
-// has an equal share of `q`.
+// The looks of the confirmation. The second look is for suspects about which the first one does not
+// decide. Each look has an equal share of `q`.
 struct ConfirmationDesign {
   std::array<std::size_t, 2> looks{5, 10};  // numbers of new process runs
   std::size_t blocks_per_process_run = 24;
-  // The expected share of false results among the confirmed ones, for all looks together: a look
+  // The expected share of false results among the confirmed ones, for all looks together: each look
   // adds at most its own share to the false discovery rate.
   double q = 0.02;
 
@@ -99,8 +99,9 @@ struct ConfirmationDesign {
 
 struct Confirmation {
   PairVerdict verdict = PairVerdict::undecided;  // slower or faster only as suspected
-  Shift shift;  // mean of the process runs; Student's t leaves out `q` on each side of the interval
-  double p = 1;  // of a shift that is no larger than tolerated
+  Shift shift;  // mean of the process runs, with Student's t interval that has the tail probability
+                // `q` at each end
+  double p = 1;  // p-value of the hypothesis that the shift is not larger than tolerated
 };
 // Student's t test of the process runs' mean against τ₀, with the variance between process runs
 // moderated over the suspects, and the Benjamini–Hochberg procedure at `q` over the suspects. The
@@ -112,8 +113,8 @@ struct Confirmation {
                                                 const SequentialDesign& design);
 
 // Measures one more fresh process run, the `number`-th, for each of the suspects `open`, for the
-// look after `until`. Returns false if no more runs are possible. A suspect that a look has settled
-// is not measured any more.
+// look after `until`. Returns false if no more runs are possible. After a look has decided about a
+// suspect, the suspect is not measured again.
 using RunAgain =
     std::function<bool(std::span<const std::size_t> open, std::size_t number, std::size_t until)>;
 [[nodiscard]] std::vector<Confirmation> confirm_in_looks(std::vector<Suspect>& suspects,

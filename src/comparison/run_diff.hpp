@@ -23,8 +23,8 @@ struct RunSide {
 struct ConfigurationDiff {
   std::string key;
   std::vector<Difference> differences;  // worst first
-  // The reason why its times are meaningless, and the outcome of the side that causes this, if
-  // there is one.
+  // The reason why its times are meaningless, and the outcome of the side that did not measure it,
+  // if that is the reason.
   TimeReason no_time;
   std::optional<record::Outcome> ended;
   std::optional<judge::WorkChange> work;       // b relative to a
@@ -32,7 +32,7 @@ struct ConfigurationDiff {
 };
 
 struct RunDiff {
-  std::vector<Difference> device;                 // between the two devices themselves
+  std::vector<Difference> device;  // between the two devices themselves
   // In the order of a, followed by those that only b has.
   std::vector<ConfigurationDiff> configurations;
 };

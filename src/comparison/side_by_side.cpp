@@ -56,7 +56,7 @@ double geometric_mean(const std::vector<ByDevice>& configurations, const std::st
   return std::exp(logs / static_cast<double>(configurations.size()));
 }
 
-// `shared` are the configurations that all `devices` measured; at least one.
+// `shared`: the configurations that all `devices` measured; not empty.
 SideBySide::Row row_of(const std::string& technique, const std::vector<ByDevice>& shared,
                        const std::set<std::string>& devices, Value value) {
   SideBySide::Row row{technique, shared.size(), {}, {}};

@@ -1,5 +1,5 @@
 #pragma once
-// A table of devices: the cost of each technique on each device, relative to the best device.
+// A table with the cost or time of each technique on each device, relative to the best device.
 
 #include <map>
 #include <optional>

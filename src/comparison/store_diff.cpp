@@ -27,7 +27,7 @@ std::map<std::string, record::Device> devices_of(const record::Store& store, con
   return devices;
 }
 
-// Adds the keys that exist in only one of two maps. `made_of` makes the entry of a key.
+// Adds an entry for each key that exists in only one of two maps. `made_of` makes the entry.
 template <typename Map, typename MadeOf>
 void add_only_one(const Map& a, const Map& b, const MadeOf& made_of, std::set<OnlyOne>& out) {
   for (const auto& [name, value] : a) {
@@ -44,7 +44,8 @@ bool is_same(const Difference& a, const Difference& b) {
          a.total == b.total;
 }
 
-// Each run describes the device, so the same difference may be found in several.
+// Each run contains a description of the device, so the same difference may be found in several
+// runs.
 void add_new(const std::vector<Difference>& more, std::vector<Difference>& differences) {
   for (const Difference& each : more) {
     const bool known = std::ranges::any_of(

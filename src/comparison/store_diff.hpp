@@ -11,7 +11,7 @@
 
 namespace triptych::comparison {
 
-// A device, over all plans of which both stores have a run.
+// The changes of a device over all plans that have a run in both stores.
 struct DeviceChange {
   record::Device a;
   record::Device b;
@@ -21,7 +21,7 @@ struct DeviceChange {
   [[nodiscard]] bool has(DifferenceKind kind) const;
 };
 
-// Differences that several of its configurations share, once each.
+// The differences, grouped so that each is reported once even if several configurations share it.
 [[nodiscard]] std::vector<DifferenceGroup> groups_of(const DeviceChange& change);
 // Whether any configuration was measured on both sides.
 [[nodiscard]] bool was_measured(const DeviceChange& change);
@@ -44,8 +44,8 @@ struct StoreDiff {
 };
 
 // Compares the latest run of each plan in both stores, for the devices that match one of the globs,
-// or for all without globs. `truths` are those of the records of both. Throws what record::Store
-// throws.
+// or for all without globs. `truths` must provide the reference images for the records of both
+// stores. Throws what record::Store throws.
 [[nodiscard]] StoreDiff diff_stores(const record::Store& a, const record::Store& b,
                                     const std::vector<std::string>& devices,
                                     measure::Truths& truths);

@@ -13,16 +13,16 @@
 
 namespace triptych::comparison {
 
-// The comments list what comes with each cause: numbers in quotes.
+// Brackets list the data of a cause: numbers in quotes, other members by their names.
 enum class TimeCause : std::uint8_t {
   none,
-  side_ended,             // side, outcome, reason: this side did not measure it
-  only_one_side,          // side: the other side does not have the configuration
-  wrong_image,            // side: its image is wrong, so its time means nothing
-  no_fresh_process_runs,  // suspected: they could not be measured
-  not_confirmed,          // suspected, "ratio" of the first process run; "process_runs"
-  undecided,              // "blocks" "half_width" of ln t: all blocks did not decide
-  budget_ended            // "blocks" "half_width"
+  side_ended,             // a side did not measure the configuration [side, outcome, reason]
+  only_one_side,          // only one side has the configuration [side]
+  wrong_image,            // the image of a side is wrong, so its time has no meaning [side]
+  no_fresh_process_runs,  // new process runs could not be measured [suspected]
+  not_confirmed,          // new process runs did not confirm it [suspected "ratio" "process_runs"]
+  undecided,              // all blocks were measured without a decision ["blocks" "half_width"]
+  budget_ended            // the time budget ended before a decision ["blocks" "half_width"]
 };
 [[nodiscard]] std::string_view name_of(TimeCause cause);
 
@@ -43,7 +43,7 @@ enum class WallClockCause : std::uint8_t {
   a_not_calibrated,  // the device clock of a did not pass its calibration
   b_not_calibrated,
   neither_calibrated,
-  implausible  // the device times of the batches cannot be right
+  implausible  // the device times of the batches are implausible
 };
 [[nodiscard]] std::string_view name_of(WallClockCause cause);
 

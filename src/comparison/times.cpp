@@ -15,7 +15,7 @@ namespace {
 using measure::Side;
 using measure::SideClock;
 
-// A configuration with the state that is needed to continue measuring it.
+// A configuration with the data that is needed to measure more of its blocks.
 struct Entry {
   Compared& compared;
   std::array<std::vector<std::string>, 2> faults;
@@ -145,7 +145,7 @@ class Timer {
     return options_.budget && since_begin_.elapsed() >= *options_.budget;
   }
 
-  // The minimal time for confirming the current suspects.
+  // The least time that confirming the current suspects takes.
   [[nodiscard]] double confirmation_s() const {
     double seconds = 0;
     for (const Entry& entry : entries_) {
@@ -202,7 +202,7 @@ class Timer {
       const int total = static_cast<int>(entries_.size());
       show({.stage = ComparisonStage::more_blocks}, *widest, total - open, total, most_left_s());
       about(*widest, [&] {
-        // Even when the budget has ended, the result is taken at one of the planned looks.
+        // If the budget ends first, the blocks so far are evaluated in place of the planned look.
         draw_until(*widest, options_.design.next_look(widest->compared.blocks));
         judge_blocks(*widest);
       });
@@ -320,8 +320,8 @@ class Timer {
 
   const ComparisonOptions& options_;
   const Tell& tell_;
-  const measure::Stopwatch& since_begin_;  // start of the whole comparison
-  measure::Stopwatch since_start_;         // of measuring times
+  const measure::Stopwatch& since_begin_;  // runs since the start of the whole comparison
+  measure::Stopwatch since_start_;         // runs since the first timing block
   measure::Interleaved interleaved_;
   std::vector<Entry> entries_;
   const Entry* held_ = nullptr;  // the configuration that both workers keep ready

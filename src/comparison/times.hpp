@@ -8,7 +8,7 @@
 
 namespace triptych::comparison {
 
-// Sets the verdict on the time of each configuration that has no reason against one. `since` is the
+// Sets the verdict on the time of each configuration whose times are meaningful. `since` is the
 // start of the comparison, because the budget includes everything since then. Throws what
 // measure::Interleaved throws.
 void measure_times(const ComparisonOptions& options, const measure::Stopwatch& since,

@@ -10,21 +10,22 @@
 
 namespace triptych::judge {
 
-// The largest root mean square of the difference between the pictures of any two devices on default
+// The largest allowed RMS difference between the images of two devices that use their default
 // paths, in units of full scale.
 inline constexpr double device_agreement = 1e-4;
 
-// Relative difference. For a few samples, a comparison of floats with a threshold may come out
-// differently on another device.
+// The allowed relative difference of a counter between two devices. For a few samples, comparing a
+// float with a threshold may give another result on another device.
 inline constexpr double counters_across_devices = 1e-4;
 
-// Counters of techniques that work differently on one API: OpenCL bins spheres that Vulkan and GL
-// draw at once.
+// Whether techniques count this differently on one API: on OpenCL they bin spheres, which Vulkan
+// and GL draw directly.
 [[nodiscard]] constexpr bool is_of_the_api(std::string_view counter) {
   return counter == "bin_entries";
 }
 
-// Vulkan and GL leave the other statistics to the implementation.
+// The statistics that Vulkan and GL define exactly. The APIs leave all others to the
+// implementation.
 inline constexpr std::array<std::string_view, 5> portable_statistics{
     "input_assembly_vertices", "input_assembly_primitives", "geometry_primitives",
     "tessellation_control_patches", "compute_invocations"};

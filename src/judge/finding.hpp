@@ -22,7 +22,7 @@ using record::name_of;
 
 enum class Verdict : std::uint8_t {
   pass,
-  improved,      // passes, and is better than the baseline beyond doubt
+  improved,      // a pass that is significantly better than the baseline
   advisory,      // information that does not affect the verdict: times, another driver version
   skipped,       // the device cannot do this; the cause has the reason
   waived,        // a known regression, listed in waivers.json or in a file of expectations
@@ -31,95 +31,105 @@ enum class Verdict : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(Verdict verdict);
 
-// Each cause has one sentence. The comments list the data of each cause: numbers in quotes, facts
-// in <angles>.
+// The reason for a verdict. report/words/ has one sentence for each cause. A comment with brackets
+// lists the data of the cause: numbers in quotes, facts in <angles>, other members by their names.
 enum class Cause : std::uint8_t {
   none,
-  // Of any check.
-  as_stored,           // "values" that equal the stored ones; names: those that were not compared
-  values_changed,      // changes
-  unknown_values,      // names: values without a stored counterpart
-  not_stored,          // names: configurations without stored values
+
+  // Causes of any check.
+  as_stored,           // the values equal the stored ones ["values"; names: values not compared]
+  values_changed,      // values differ from the stored ones [changes]
+  unknown_values,      // values have no stored counterpart [names]
+  not_stored,          // nothing is stored for some configurations [names]
   no_stored_device,    // nothing is stored for this device or driver version
   not_reported,        // the device or the technique does not report this kind of value
-  no_longer_reported,  // names: configurations that reported it when they were accepted
-  untimed,             // the run was not timed, so these values were not read
+  no_longer_reported,  // values are missing that existed when they were accepted [names]
+  untimed,             // the values were not read, because the run was not timed
+
   // Causes about a run as a whole.
-  ended,               // a record that was not measured: outcome, reason
+  ended,               // the configuration was not measured [outcome, reason]
   no_run,              // no run was begun
-  nothing_measured,    // <run> <plan> "records"
-  no_required_device,  // <glob>
-  device_missing,      // <sibling>: a device that was accepted with the same driver version
-  listing_failed,      // <what>; reason
-  no_description,      // <run>: it has records of a device that it does not describe
-  checks_lost,         // names: checks of the baselines that the plan does not ask for
-  missing,             // names: configurations without a record; "wanted" of them, <kind>
-  extra,               // names: configurations that are not in the plan
-  other_plan,          // <run> <plan> <hash> <now>
-  other_data,          // <hash> <accepted>: the data differ from those that were accepted
-  data_changed,        // <hash> <now>: the data differ from those that were measured
-  no_baselines,        // <folder>
-  nothing_decided,     // of a device
-  device_fault,   // observed outside of any configuration: <kind> <subject> <last_words>; detail
-  unused_waiver,  // expired, and excuses nothing: <test> <device> <expiry> <reason>
-  waiver_of_no_test,  // <test>
-  // Of images.
+  nothing_measured,    // the run has no measured record [<run> <plan> "records"]
+  no_required_device,  // no device that measured something matches a required glob [<glob>]
+  device_missing,      // a device is gone that was accepted with this driver version of [<sibling>]
+  listing_failed,      // devices could not be listed [<what>, reason]
+  no_description,      // the run has records of a device that it does not describe [<run>]
+  checks_lost,         // the baselines have checks that the plan does not request [names]
+  missing,             // configurations have no record [names; "wanted": number required, <kind>]
+  extra,               // the run has configurations that are not in the plan [names]
+  other_plan,          // the run measured another version of the plan [<run> <plan> <hash> <now>]
+  other_data,          // the data differ from the accepted ones [<hash> <accepted>]
+  data_changed,        // the data have changed since they were measured [<hash> <now>]
+  no_baselines,        // there are no baselines [<folder>]
+  nothing_decided,     // no check reached a verdict for the device
+  device_fault,   // a fault outside of any configuration [<kind> <subject> <last_words>, detail]
+  unused_waiver,  // a waiver has expired and excuses nothing [<test> <device> <expiry>, detail]
+  waiver_of_no_test,  // a waiver matches no test [<test>]
+
+  // Causes about images.
   within_bound,
   pixels_over_bound,
   not_finite,
   other_surface,  // another particle is visible, or the right one at another depth
   size_differs,
   empty_image,
-  no_image,           // the record contains none
-  unreadable_image,   // detail
-  no_reference,       // detail
-  reference_changed,  // because: how; if empty: its hash changed
+  no_image,           // the record has no image
+  unreadable_image,   // the stored image cannot be read [detail]
+  no_reference,       // there is no reference image [detail]
+  reference_changed,  // the reference image is not the accepted one [because: the differences]
   reference_as_stored,
-  devices_agree,     // <other> "rms" "allowed"
-  devices_disagree,  // as for devices_agree
-  // Of statistics.
-  other_driver_statistics,  // <driver_version> changes names
+  devices_agree,     // the images of two devices agree [<device> <other> "rms" "allowed"]
+  devices_disagree,  // the images of two devices differ [<device> <other> "rms" "allowed"]
+
+  // Causes about statistics.
+  other_driver_statistics,  // compared with other drivers only [<driver_version>, changes, names]
+
   // Causes about cost and memory.
-  two_counters,       // <counted_by> <other>
-  other_counter,      // <counted_by> <other> <driver_version> <other_version>
-  frame_allocations,  // changed; "configurations", <configuration>, changes: the largest
-  preparing,          // likewise
-  injected_memory,    // an injected slowdown allocates memory itself
-  // Code of GPUs.
-  other_executables,  // names: those that only one of the two was compiled in
-  other_disassembly,  // names: configurations whose statistics did not change
-  other_compiler,  // <driver_version> <other_version> "configurations" "changed"; changes: totals
-  // Of times.
-  time,         // "median_ns" "baseline_ns" "ratio" "half_width"
-  times,        // over all configurations of a device
-  other_clock,  // names
+  two_counters,       // two emulators counted the run [<counted_by> <other>]
+  other_counter,      // the stored cost is of another driver version or by another emulator
+  frame_allocations,  // a frame's allocations changed [<configuration>, changes: the largest]
+  preparing,          // the cost of preparing changed [<configuration>, changes: the largest]
+  injected_memory,    // not compared, because an injected slowdown allocates memory itself
+
+  // Causes about the code for GPUs.
+  other_executables,  // the configuration consists of other executables [names]
+  other_disassembly,  // only the disassembly changed, not the statistics [names: configurations]
+  other_compiler,     // the stored code is by another compiler [<driver_version> <other_version>]
+
+  // Causes about times.
+  time,         // one configuration ["median_ns" "baseline_ns" "ratio" "half_width"]
+  times,        // all configurations of a device ["ratio": the median, "worst_ratio"]
+  other_clock,  // the stored times are by another clock [names]
   no_time,
-  same_frames,  // reason
-  wrong_image,  // because: the errors in the image
-  // Of correlations.
-  residuals_as_stored,  // names: devices
-  residual_moved,       // names: devices
-  off_the_line,         // <other>
-  on_the_line,          // <other>
-  no_line,              // <other> "refusal"
-  no_partner,           // <counted_by>
-  // Of accuracy.
-  error,              // "rmse" "bound"
-  unknown_error,      // detail
+  same_frames,  // not timed, because an equivalent configuration was [reason]
+  wrong_image,  // the time has no meaning [because: the errors in the image]
+
+  // Causes about correlations.
+  residuals_as_stored,  // the cost ratios to other devices are unchanged [names: devices]
+  residual_moved,       // the cost ratios to other devices changed [names: devices]
+  off_the_line,         // the line of another device predicts another cost [<other>]
+  on_the_line,          // the line of another device predicts this cost [<other>]
+  no_line,              // there is no valid line [<other> <refusal>]
+  no_partner,           // no other device has a cost by the same emulator [<counted_by>]
+
+  // Causes about accuracy.
+  error,              // the error against the limit image ["rmse" "bound"]
+  unknown_error,      // the error cannot be measured [detail]
   not_comparable,     // the sizes differ, or a value is not finite
-  no_limit,           // no scene of the plan has a limit
-  no_limit_any_more,  // an error is stored for a scene that has no limit now
-  order,              // "order" "half_width" "stored_order" "stored_half_width"
-  no_order,           // "stored_order" "stored_half_width"
-  // Of stress cases.
-  score,           // "score" "accepted"; because: what lost the points
-  farther_device,  // <other> "rms" "allowed" "rmse" "rmse_of_other"
-  pixels_differ,   // <levels> of the other image; detail: what is expected
-  no_other_image,  // <levels>; detail
-  not_inside,      // detail; this image is not a part of the other one
-  other_colour,    // detail
-  not_counted,     // detail; <counter> <levels>
-  count_too_large  // detail; <counter> <of> <levels> "count" "factor" "unit"
+  no_limit,           // no scene of the plan has a limit image
+  no_limit_any_more,  // an error is stored for a scene that has no limit image now
+  order,              // the order of convergence ["order" "half_width" "stored_order" …]
+  no_order,           // no order can be fitted any more ["stored_order" "stored_half_width"]
+
+  // Causes about stress cases.
+  score,  // the points of a case ["score" "accepted"; because: the reasons for lost points]
+  farther_device,  // an image nearer to the reference image differs [<other> "rms" "allowed"]
+  pixels_differ,   // two images of the case should be equal [<levels> of the other image]
+  no_other_image,  // the other image of an expectation is missing [<levels>]
+  not_inside,      // this image is not a part of the other image [<levels>]
+  other_colour,    // a pixel does not have the expected colour
+  not_counted,     // a counter of an expectation is missing [<counter> <levels>]
+  count_too_large  // a count exceeds "factor" times "unit" [<counter> <of> <levels> "count"]
 };
 [[nodiscard]] std::string_view name_of(Cause cause);
 
@@ -134,22 +144,22 @@ enum class Against : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(Against against);
 
-// The next step for the reader.
+// The next step that a finding recommends. `command` is Advised::command.
 enum class Advice : std::uint8_t {
   none,
-  accept,  // with `command`
-  run_again,
-  resume,        // with `command`
-  restore_data,  // or accept with `command`
-  restore_or_run_again,
-  restore_baselines,  // from version control, or begin anew with `command`
-  count,              // or leave the check out
-  judge_more,         // or accept with `command`
-  more_time,          // a longer --limit
-  times,              // --times makes times decide
-  repair_driver,      // or state with `command` that the machine lacks it
-  remove_entry,       // from the file of expectations
-  remove_waiver
+  accept,                // accept the values with `command`
+  run_again,             // run the plan again
+  resume,                // finish the run with `command`
+  restore_data,          // restore the data and run again, or accept with `command`
+  restore_or_run_again,  // restore the data, or run again
+  restore_baselines,     // restore them from version control, or start over with `command`
+  count,                 // count instructions, or leave out the check
+  judge_more,            // judge more checks, or accept with `command`
+  more_time,             // use a longer --limit
+  times,                 // use --times if times should affect the verdict
+  repair_driver,         // repair it, or state with `command` that the machine lacks the device
+  remove_entry,          // remove the entry from the file of expectations
+  remove_waiver          // remove the waiver
 };
 [[nodiscard]] std::string_view name_of(Advice advice);
 
@@ -186,7 +196,8 @@ struct Observation {
   [[nodiscard]] double number(const std::string& name) const;  // 0 if there is no such number
   [[nodiscard]] const std::string& fact(const std::string& name) const;
 };
-// This text is equal for observations with one cause, whatever their numbers and texts are.
+// Returns a text that is equal for all observations with the same cause, independent of their
+// numbers and texts.
 [[nodiscard]] std::string kind_of(const Observation& what);
 // Infinities and NaN are left out: JSON cannot express them, and missing is not zero.
 void set_number(Observation& what, const std::string& name, double value);
@@ -210,27 +221,27 @@ struct Excuse {
 // The result of a second attempt after a regression.
 enum class Again : std::uint8_t {
   not_drawn,
-  flake,  // right the second time
-  slow,   // a timeout that passed the second time: the device is slow, or hangs at times
+  flake,  // passed the second time
+  slow,   // timed out, and passed the second time: the device is slow, or hangs sometimes
   other   // see Finding::again
 };
 [[nodiscard]] std::string_view name_of(Again again);
 
-// One result about one configuration on one device. Both are empty if the finding is about the
-// whole plan.
+// One result about one configuration on one device. The configuration and the device are empty if
+// the finding is about the whole plan.
 struct Finding : Observation {
   Check check = Check::image;
   Verdict verdict = Verdict::pass;
   std::string test = {};  // test id, Record::test_id
   std::string device = {};
   std::string configuration = {};
-  // The part of the device and configuration that the finding is about, if it is not about all:
-  // "program", "step=0.5". For a correlation it also contains the other device.
+  // The part of the device or configuration that the finding is about, if it is not about the
+  // whole: "program", "step=0.5". For a correlation it also contains the other device.
   std::string subject = {};
   Advised advice = {};
   std::vector<std::string> injected = {};  // faults that `run --inject` put into it
-  // For a regression on a driver version that was never accepted: the accepted devices that have
-  // its configuration, which may include the same device with another version.
+  // For a regression on a driver version that was never accepted: the devices on which the
+  // configuration was accepted. These may include the same device with another driver version.
   std::vector<std::string> accepted_on = {};
   bool measured_before = false;  // for a skip: the device measured it when it was accepted
   Excuse excuse = {};
@@ -238,10 +249,10 @@ struct Finding : Observation {
   // The finding of the second attempt, if its cause is another one.
   std::vector<Observation> again = {};
 };
-// The same, with the excuse and the injected faults.
+// As above, but the text also depends on the excuse and the injected faults.
 [[nodiscard]] std::string kind_of(const Finding& finding);
-// Whether the finding is about a program that ended by an error, a crash, a timeout or a lost
-// device.
+// Whether the finding is about a configuration that ended with an error, a crash, a timeout or a
+// lost device.
 [[nodiscard]] bool ended_a_program(const Finding& finding);
 
 }  // namespace triptych::judge

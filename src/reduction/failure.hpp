@@ -29,9 +29,9 @@ struct Evidence {
   judge::FindOpenCounts open_counts = {};
 };
 
-// The first of these that applies: it ended without an image; its image is out of its bound; its
-// counters differ from those of the other device. nullopt if none applies, or if it was skipped.
-// Throws what the functions of the evidence throw.
+// Returns the first failure that applies: the frame ended without an image, its image is outside
+// its error bound, or its counters differ from those of the other device. nullopt if none applies,
+// or if the frame was skipped. Throws what the functions of the evidence throw.
 [[nodiscard]] std::optional<Failure> failure_of(const record::Record& record,
                                                 const Evidence& evidence);
 

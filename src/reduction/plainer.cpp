@@ -43,8 +43,8 @@ std::string text_of(const Sized& sized) {
                              : fmt::format("{}", fmt::join(sized.sides, "x")));
 }
 
-// 1, 2, 3, 4, 6, 8, 12, …, and then closer and closer to `size` from below. If all sizes from some
-// size on fail, the smallest is found in few steps.
+// 1, 2, 3, 4, 6, 8, 12, …, and then closer and closer to `size` from below. If all sizes above a
+// threshold fail, this finds a size near the threshold in few steps.
 std::vector<int> smaller_sizes(int size) {
   std::set<int> sizes;
   for (int each = 1; each < size; each *= 2) {

@@ -20,7 +20,7 @@ struct Step {
   std::string factor;
   std::string from;
   std::string to;
-  int frame = 0;  // number of the frame that showed it, from 1
+  int frame = 0;  // number of the frame that failed with this level, counted from 1
 };
 
 struct Reduction {
@@ -32,8 +32,9 @@ struct Reduction {
                          // reached its limit
 };
 
-// `first` is how `start` fails. A smaller configuration must fail in the same way. The same answers
-// of `attempt` give the same result, and no configuration is tried twice.
+// `first` describes how `start` fails, and every smaller configuration must fail in the same way.
+// The result depends only on the answers of `attempt`, which is called at most once for a
+// configuration.
 [[nodiscard]] Reduction reduce(const measure::Suite& suite, const measure::Configuration& start,
                                const Failure& first, int most_frames, const Try& attempt,
                                const std::function<void(const Step&)>& on_step);

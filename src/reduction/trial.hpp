@@ -13,7 +13,8 @@
 
 namespace triptych::reduction {
 
-// How a frame fails when it is drawn twice. A failure that does not repeat cannot be made smaller.
+// The results of drawing the first frame twice, because a failure that does not repeat cannot be
+// reduced.
 struct FirstFrames {
   std::optional<Failure> first;  // nullopt: it is right, and was drawn only once
   std::optional<Failure> again;
@@ -47,10 +48,10 @@ class Trial {
   record::Record last_;
 };
 
-// The time after which a frame of the search is regarded as hung. It is short, because a hang costs
-// this time for every frame. However, a driver may take longer to end, and a crash would then be
-// called a hang. Therefore the first frame is drawn with as much time as in a run, and its time
-// decides.
+// The time after which a frame of the search counts as hung. It should be short, because each frame
+// that hangs takes this time. But a driver may take longer than that to crash, and the crash would
+// then look like a hang. Therefore the limit depends on the time of the first frame, which is drawn
+// with the limit of a normal run.
 [[nodiscard]] std::chrono::seconds limit_by_first_frame(const measure::Suite& suite,
                                                         const std::string& device,
                                                         const measure::Configuration& start,

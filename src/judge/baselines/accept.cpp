@@ -33,7 +33,7 @@ void update_image(const record::Record& record, const core::Image& reference, Ne
   next.files[name] = std::move(bytes);
 }
 
-// Images are large. They are stored only for plans that measure times, because their report shows
+// Because images are large, they are stored only for plans that measure times, whose reports show
 // them.
 void update_images(const Accepted& accepted, const AcceptRequest& request, NextFolder& next) {
   const bool keeps =
@@ -47,8 +47,8 @@ void update_images(const Accepted& accepted, const AcceptRequest& request, NextF
     if (done.insert(record.scene).second) {
       const core::Image reference = request.truth(record);
       if (keeps) update_image(record, reference, next);
-      // The voxel formats of other devices have hashes of their own for the data, which stay valid
-      // as long as the reference image does.
+      // Data have another hash in each voxel format. The hashes for other devices' formats stay
+      // valid as long as the reference image does not change.
       Json& entry = table[record.scene];
       const Json hash = reference_hash(reference);
       if (!entry.is_object() || entry.value("reference", Json()) != hash) {
@@ -74,8 +74,8 @@ record::Checks all_of(record::Checks checks, const record::Checks& more) {
   return checks;
 }
 
-// Adds the drivers that were accepted on each machine of the run. A set that is contained in
-// another one is left out.
+// Adds the drivers that were accepted on each machine of the run. Sets that are contained in
+// another one are left out.
 Json machines_of(const Accepted& accepted, const Manifest& stored) {
   std::vector<std::set<std::string>> machines = stored.machines;
   for (const record::Beginning& begun : accepted.run.begun) {
@@ -100,7 +100,7 @@ Json machines_of(const Accepted& accepted, const Manifest& stored) {
 
 // The manifest without the hashes of its files.
 Json next_manifest(const Accepted& accepted, const Manifest& stored, NextFolder& next) {
-  // A part of a run says nothing about the plan as a whole.
+  // Values about the whole plan are replaced only if the whole run is accepted.
   const bool whole = accepted.replaces_all || stored.plan_hash.empty();
   Json devices = stored.devices;
   for (const auto& [id, device] : accepted.devices) {
@@ -118,7 +118,7 @@ Json next_manifest(const Accepted& accepted, const Manifest& stored, NextFolder&
       {"devices", devices}};
 }
 
-// `manifest` is the next one, still without the hashes of its files.
+// `manifest` is the future manifest, without the hashes of its files.
 void append_history(const Accepted& accepted, const AcceptRequest& request, const Json& manifest,
                     NextFolder& next) {
   std::set<std::string> ids;
@@ -140,7 +140,7 @@ void write_manifest(Json manifest, NextFolder& next) {
   next.files[Layout::manifest] = bytes_of(core::to_lines(manifest, 2));
 }
 
-// Everything that is stored, as it was accepted; empty if it is to be dropped.
+// Starts with all files as they are stored now, or with none if damaged files are to be dropped.
 NextFolder next_of(const Baselines& stored, const AcceptRequest& request) {
   NextFolder next{.folder = stored.folder(), .files = {}, .lines = {}};
   if (!stored.problem().empty()) {

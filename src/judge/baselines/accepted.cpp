@@ -36,7 +36,7 @@ std::string plan_in_a_command(const AcceptRequest& request) {
                                                      : request.argument);
 }
 
-// A device that measured nothing at all is no part of the baselines.
+// A device that measured nothing at all does not become part of the baselines.
 std::set<std::string> devices_that_measured(const std::vector<record::Record>& records) {
   std::set<std::string> devices;
   for (const record::Record& record : records) {

@@ -20,7 +20,7 @@ struct Accepted {
   // Skipped because the driver version lacks the feature; other versions may have it.
   std::vector<record::Record> unsupported;
   std::map<std::string, record::Device> devices;  // by id
-  // The configurations and scenes of which the run has a record; used only if everything is
+  // The configurations and scenes for which the run has a record; used only if everything is
   // replaced.
   bool replaces_all = false;
   std::set<std::string> configurations;
@@ -34,14 +34,15 @@ struct Accepted {
 
 // The following functions throw InputError if the run must not become the baselines.
 
-// The reference image is drawn from the present data. If the run used data with another hash, the
-// result would be a baseline that no run can meet.
+// Refuses a run whose data have changed since. The reference image is drawn from the present data,
+// so the result would be a baseline that no run can meet.
 void refuse_other_data(const Accepted& accepted, const AcceptRequest& request);
-// A shard, a run with --set or a run that was cut short would delete the rest of the plan.
+// Refuses a shard, a run with --set and an interrupted run, because they would delete the rest of
+// the plan from the baselines.
 void refuse_part(const Accepted& accepted, const Baselines& stored, const std::string& run,
                  const AcceptRequest& request);
-// If there are no baselines yet, a run that was cut short would make baselines for only a part of
-// the plan.
+// Refuses an interrupted run if there are no baselines yet, because it would make baselines for
+// only a part of the plan.
 void refuse_incomplete(const record::Store& store, const Accepted& accepted,
                        const AcceptRequest& request);
 

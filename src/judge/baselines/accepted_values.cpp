@@ -62,8 +62,9 @@ bool has_counters(const Json& table, const record::Record& record) {
          });
 }
 
-// Counters belong to a device, whichever its driver version is. If the accepted version lacks a
-// feature that another version has, the counters stay, and the version is noted as lacking it.
+// Counters are stored by device, not by driver version. If the accepted version lacks a feature
+// that another version has, the counters stay, and the missing feature is recorded for this
+// version.
 void note_lacking(const Accepted& accepted, const Manifest& stored, const Json& counters,
                   Update& update) {
   Json& table = update.object();
@@ -121,16 +122,16 @@ void update_scores(const record::Store& store, const Accepted& accepted,
   }
 }
 
-// The counts that are stored. Counts that differ between two process runs are shown by the gate and
-// not stored.
+// Removes counts that differ between two process runs. The gate shows them, but they are not
+// stored.
 record::Counts kept_of(record::Counts cost) {
   cost.erase("libc");
   cost.erase("program");
   return cost;
 }
 
-// Counts by another emulator are different quantities. They replace everything that is stored,
-// which those of --only must not do.
+// Counts by another emulator are not comparable with the stored ones and must replace all of them,
+// which is refused with --only.
 void update_cost(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::cost(device));
   bool counted = false;
@@ -179,11 +180,11 @@ void update_code(const Accepted& accepted, const record::Device& device, NextFol
   if (any) update.write(4);
 }
 
-// Of untimed records whose statistics were not read nothing is known: what is stored of them stays.
+// Untimed runs may not read statistics. For such records, the stored values are kept.
 void update_statistics(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::statistics(device));
   update.object()["device"] = device.statistics_key();
-  // Statistics that the run did not calibrate keep what is known about this driver version.
+  // The calibration of statistics that this run did not calibrate stays as stored.
   for (const auto& [statistic, worth] : device.statistics_calibration) {
     update.object()["calibration"][statistic] = worth;
   }

@@ -42,7 +42,7 @@ const Value* find_driver(const ByName<Value>& drivers, const record::Device& dev
 
 }  // namespace
 
-// What was read so far, by file.
+// The files that have been read so far.
 struct Baselines::Cache {
   fs::path folder;
   std::optional<Manifest> manifest;
@@ -114,13 +114,13 @@ const std::string& Baselines::problem() const {
   } else {
     try {
       problem = first_change(folder_, manifest());
-    } catch (const core::InputError& error) {  // what a careless merge leaves
+    } catch (const core::InputError& error) {  // for example after a merge conflict
       problem = error.what();
     }
     try {
       if (problem.empty()) problem = contradiction_in(folder_, manifest());
     } catch (const core::InputError&) {
-      // A file with a wrong value is an error, with its line, when a check reads it.
+      // A wrong value in a file is reported with its line when a check reads the file.
     }
   }
   cache_->problem = std::move(problem);

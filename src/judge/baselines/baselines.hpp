@@ -1,29 +1,31 @@
 #pragma once
-// baselines/<suite>/<plan>/ : what was accepted. Text, sorted, one value per line, so that a change
-// can be reviewed. `accept` is the only writer.
+// baselines/<suite>/<plan>/ contains the accepted values as sorted text, one value per line, so
+// that a change can be reviewed. Only `accept` writes there.
 //   manifest.json             the plan's hash and checks, number of configurations in
 //                             counters.json, {device id: [drivers]}, [[drivers of one machine]],
-//                             {file: content hash} of all that follows
+//                             {file: content hash} for all files below
 //   counters.json             {configuration: {counter: {device id: value}}}
 //   memory.json               {configuration: {device id: {kind: bytes}}}
 //   cost/<driver>.json        {device, driver_version, counted_by, configurations: {configuration:
-//                             {frame: {part: instructions}, prepare: likewise}}}
+//                             {frame: {part: instructions}, prepare: {part: instructions}}}}
 //   code/<driver>.json        {device, driver_version, configurations: {configuration: {executable:
 //                             {assembly: hash of its disassembly, statistic: value}}}}
 //   statistics/<driver>.json  {device, calibration: {statistic: verdict} where it is known,
 //                             configurations: {configuration: {statistic: value}}}
 //   timings/<device key>.json {device, configurations: {configuration: {clock, median_ns, spread,
-//                             frames, kernel_hash}}}, of one run; of plans that check times
+//                             frames, kernel_hash}}}, from a single run; only for plans that
+//                             check times
 //   images.json               {scene: {reference: two hashes, data…: content hash of its data}}
-//   images/<scene hash>.exr   the reference itself, of plans that check images and times
+//   images/<scene hash>.exr   the reference image itself; only for plans that check images and
+//                             times
 //   accuracy.json             {configuration: {device id: {rmse, arithmetic}}}
 //   score.json                {configuration: {device id: 0…3}}
-//   lacking.json              {driver: [configurations]}: what this driver version does not support
-//                             and another version of the same device does
-//   history.json              every accept: date, reason, devices, and the hash of the manifest
-//                             without its files
-// <driver> is Device::statistics_key(): no machine is in it. And baselines/waivers.json
-// (waivers.hpp).
+//   lacking.json              {driver: [configurations]} that this driver version does not support,
+//                             although another version of the same device does
+//   history.json              for every accept: date, reason, devices, and the hash of the manifest
+//                             without its `files`
+// <driver> is Device::statistics_key(), which does not depend on the machine. waivers.hpp describes
+// baselines/waivers.json.
 
 #include <cstdint>
 #include <filesystem>
@@ -101,14 +103,14 @@ class Baselines {
 
   // Whether there are baselines, and every file is as it was accepted.
   [[nodiscard]] bool present() const;
-  // Which file is missing, was edited or does not belong to the baselines; one line, empty if all
-  // are right.
+  // One line about a file that is missing, was edited or does not belong to the baselines; empty if
+  // all files are as they were accepted.
   [[nodiscard]] const std::string& problem() const;
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   [[nodiscard]] const Manifest& manifest() const;
   // nullopt if no image is stored.
   [[nodiscard]] std::optional<core::Image> image(const std::string& scene) const;
-  // The hash of the reference image that was accepted; nullopt if the scene never was.
+  // The hash of the reference image that was accepted; nullopt if there is none.
   [[nodiscard]] std::optional<ReferenceHash> reference(const std::string& scene) const;
   // The content hash of the data with which the record's scene was accepted, in the record's voxel
   // format; empty if it is not known.
@@ -132,10 +134,10 @@ class Baselines {
   [[nodiscard]] const DriverCost* cost(const record::Device& device) const;
   // By Device::statistics_key().
   [[nodiscard]] const std::map<std::string, DriverCost>& cost_of_all_drivers() const;
-  // Likewise.
+  // The code statistics, as for cost().
   [[nodiscard]] const DriverCode* code(const record::Device& device) const;
   [[nodiscard]] const std::map<std::string, DriverCode>& code_of_all_drivers() const;
-  // nullopt: nothing stored for this driver version at all, or not for this configuration.
+  // nullopt if nothing is stored for this driver version, or not for this configuration.
   [[nodiscard]] std::optional<record::Counts> statistics(const record::Device& device,
                                                          const std::string& configuration) const;
   [[nodiscard]] bool has_statistics(const record::Device& device) const;
@@ -153,8 +155,8 @@ class Baselines {
   [[nodiscard]] std::vector<std::string> configurations() const;
   // The content of waivers.json; `today` as for read_waivers().
   [[nodiscard]] const std::vector<Waiver>& waivers(const std::string& today) const;
-  // The content of absent.json, which is beside waivers.json: devices that machines are meant to
-  // lack.
+  // The content of absent.json, which is next to waivers.json: the devices that machines lack on
+  // purpose.
   [[nodiscard]] const std::vector<Absent>& absent() const;
   [[nodiscard]] std::filesystem::path absent_file() const { return root_ / "absent.json"; }
 
@@ -165,10 +167,10 @@ class Baselines {
   std::shared_ptr<Cache> cache_;
 };
 
-// Half the width of ln t for the frames of one run: 1.4826 times their median absolute deviation,
-// which is σ for a normal distribution. It is at least one step of the clock, and at least 0.5 %:
-// the medians of two undisturbed process runs of the same program differ by that much
-// (docs/how-we-measure.md), which the frames of one process cannot show.
+// The spread of ln t over the frames of one run: 1.4826 times their median absolute deviation,
+// which is σ for a normal distribution. It is at least one step of the clock. It is also at least
+// 0.5 %, because the medians of two undisturbed process runs of the same program differ by that
+// much (docs/how-we-measure.md), which the frames of one process cannot show.
 [[nodiscard]] double log_spread(std::vector<double> times_ns);
 
 // The checks of the run's plan. For a run that does not store them, the checks that apply to every
@@ -182,9 +184,9 @@ struct AcceptRequest {
   std::string reason;             // must not be blank
   std::string only;               // glob over configuration keys; empty: all
   std::string date;               // ISO
-  // Stored configurations of which the run has no record are removed, and so are stored files that
-  // are not as they were accepted. Otherwise such a run or such files are refused. With `only`:
-  // what is stored for a configuration is removed if the device now skips it.
+  // If true, stored configurations without a record in the run are removed, and so are stored files
+  // that have changed since they were accepted. If false, such a run or such files are refused.
+  // With `only`, the stored values of a configuration are removed if the device now skips it.
   bool drop = false;
   // The reference image of a scene, as for the gate.
   std::function<core::Image(const record::Record&)> truth;
@@ -194,18 +196,18 @@ struct AcceptRequest {
   std::function<const accuracy::LimitPicture*(const record::Record&)> limit = {};
   // With these, every record of the run is scored. nullopt: no scores are stored.
   std::optional<StressTruths> stress = {};
-  // Called with the name of each file after it was written beside the old folder, and then with ""
+  // Called with the name of each file after it was written next to the old folder, and then with ""
   // when all are written and nothing has taken effect yet.
   std::function<void(const std::string&)> on_written = {};
 };
 
 // Writes the measurements of a run as the new baselines. Returns one line for each changed file,
-// followed by its changed values ("  PATH: OLD → NEW", the first 40 of a file). Throws InputError
+// followed by its changed values (" PATH: OLD → NEW", the first 40 of a file). Throws InputError
 // for a blank reason, a run with injected faults, a run that measured nothing, a run that contains
 // only a part of what is stored (see `drop`; with `only` nothing else changes), and a run on other
 // data than there are now. Only what the run's plan checks is stored. Either everything changes or
-// nothing: the new folder is written beside the old one and replaces it at the end. A second accept
-// at the same time throws IoError.
+// nothing: the new folder is written next to the old one and replaces it at the end. A second
+// accept at the same time throws IoError.
 [[nodiscard]] std::vector<std::string> accept(const record::Store& store, const std::string& run,
                                               const std::filesystem::path& root,
                                               const AcceptRequest& request);

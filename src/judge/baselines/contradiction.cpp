@@ -28,7 +28,7 @@ std::set<std::string> devices_of(const fs::path& file) {
   return devices;
 }
 
-// What counters.json holds: {configuration: {counter: {device: …}}}.
+// The content of counters.json: {configuration: {counter: {device: …}}}.
 struct Counted {
   std::size_t configurations = 0;
   std::set<std::string> devices;
@@ -42,7 +42,7 @@ Counted counted_in(const fs::path& folder) {
     ++counted.configurations;
     for (const auto& [counter, values] : counters.members()) {
       for (const auto& [device, value] : values.members()) {
-        static_cast<void>(value.whole_number());  // a wrong value is an error with its line
+        static_cast<void>(value.whole_number());  // reports a wrong value with its line
         counted.devices.insert(device);
       }
     }
@@ -54,7 +54,7 @@ std::string lacks(const std::string& what) {
   return fmt::format("{} does not name {}", Layout::manifest, what);
 }
 
-// A driver that has a file, or is one of a machine's, and is not named.
+// Finds a driver that has a file or belongs to a machine, but that the manifest does not list.
 std::string unknown_driver(const fs::path& folder, const Manifest& manifest) {
   std::set<std::string> drivers;
   for (const auto& [id, known] : manifest.devices) drivers.insert(known.begin(), known.end());
@@ -100,7 +100,8 @@ std::string lost_check(const fs::path& folder, const Manifest& manifest) {
   return {};
 }
 
-// Baselines that were accepted before entries had a hash have none.
+// Checks that the manifest is the one whose hash the last entry of history.json contains. Entries
+// of older versions have no hash.
 std::string other_statements(const fs::path& folder) {
   const auto manifest = core::JsonFile::read(folder / Layout::manifest);
   const auto history = core::JsonFile::read(folder / Layout::history);

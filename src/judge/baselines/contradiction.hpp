@@ -17,7 +17,7 @@ namespace triptych::judge {
                                            const Manifest& manifest);
 
 // The hash of everything that a manifest states apart from the hashes of its files. Each entry of
-// history.json has that of its time.
+// history.json contains the hash of the manifest that it made.
 [[nodiscard]] std::string hash_of_statements(core::Json manifest);
 
 }  // namespace triptych::judge

@@ -14,13 +14,14 @@ struct CostTolerance {
   std::string_view device;     // glob
   std::string_view technique;  // glob
   double share = 0;            // share of the stored frame, device code and driver together
-  double own = 0;              // plus this share of the part itself
-  double count = 0;            // plus this many instructions, whatever the frame costs
+  double own = 0;              // plus this share of the part's own count
+  double count = 0;            // plus this many instructions, for a frame of any size
 };
 
 // The first entry that matches is used. All were measured by comparing cold caches with warm ones
 // (docs/cost.md).
-//   - Device code repeated to the instruction in 238 of 238 configurations. Where atomics determine
+//   - The counts of device code were identical in 238 of 238 configurations. Where atomics
+//   determine
 //     the order of the work (`tiles`), a list may be walked in another order.
 //   - The driver looks up what it has allocated and finds it after more or fewer steps: at most
 //     0.007 % of the frame. PoCL's threads wait for each other, 2,000 instructions at a time. That
@@ -44,7 +45,8 @@ inline constexpr std::array cost_tolerances{
     CostTolerance{"driver", "*", "*", 5e-4, 0, 2000},
 };
 
-// The tolerance in instructions, as are the stored counts of the part and of the frame.
+// Returns the tolerance in instructions. `stored` is the stored count of the part, and `frame` that
+// of the frame.
 [[nodiscard]] inline double cost_tolerance(std::string_view part, std::string_view device,
                                            std::string_view technique, double stored,
                                            double frame) {
@@ -64,7 +66,7 @@ inline constexpr std::array cost_tolerances{
 inline constexpr std::array<std::string_view, 2> techniques_with_stable_misses{"raycast*",
                                                                                "speed_of_light"};
 
-// Cache misses of device code; empty if they do not repeat.
+// The tolerance for cache misses of device code; empty if they do not repeat.
 [[nodiscard]] inline std::optional<double> misses_tolerance(std::string_view technique,
                                                             double stored) {
   for (const std::string_view each : techniques_with_stable_misses) {

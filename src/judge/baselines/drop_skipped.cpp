@@ -7,7 +7,8 @@ namespace {
 
 using core::Json;
 
-// Handles tables {device: …} and {name: {device: …}}. Objects that become empty are removed too.
+// Removes a device from an object {device: …} or {name: {device: …}}, and also objects that become
+// empty.
 void erase_device(Json& values, const std::string& device) {
   values.erase(device);
   for (auto item = values.begin(); item != values.end();) {
@@ -16,7 +17,7 @@ void erase_device(Json& values, const std::string& device) {
   }
 }
 
-// Handles a table of all devices.
+// Removes the skipped records from a table that contains all devices.
 void drop_from_table(std::span<const record::Record> skipped, const char* name, NextFolder& next) {
   if (!next.files.contains(name)) return;
   Update file(next, name);
@@ -27,7 +28,7 @@ void drop_from_table(std::span<const record::Record> skipped, const char* name, 
   file.write(2);
 }
 
-// Handles a file that belongs to one device.
+// Removes the skipped records from a file that belongs to one device.
 void drop_from_file(std::span<const record::Record> skipped, const std::string& device,
                     const std::string& name, int depth, NextFolder& next) {
   if (!next.files.contains(name)) return;

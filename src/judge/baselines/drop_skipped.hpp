@@ -14,8 +14,8 @@ namespace triptych::judge {
 // {configuration: {name: {device: …}}}, and the objects that become empty.
 void erase_from(core::Json& table, const std::string& configuration, const std::string& device);
 
-// Removes everything that is stored about the records' configurations on their devices. What is
-// stored by driver or by machine is removed for `devices` (by id).
+// Removes everything that is stored about the records' configurations on their devices. `devices`,
+// by id, identify the values that are stored by driver or by machine.
 void drop_skipped(std::span<const record::Record> skipped,
                   const std::map<std::string, record::Device>& devices, NextFolder& next);
 

@@ -27,7 +27,7 @@ void act_on(const fs::path& path, const Act& act) {
   }
 }
 
-// Returns once a file or folder is on the disk.
+// Writes a file or folder to the disk before it returns.
 void flush(const fs::path& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const int failed = fd < 0 || ::fsync(fd) != 0 ? errno : 0;

@@ -26,11 +26,11 @@ class WriterLock {
   int fd_;
 };
 
-// Afterwards the folder holds exactly these files. They are written beside it (Layout::aside) and
-// flushed to the disk, and then the two folders change places, so that a process that is killed has
-// changed nothing. If the file system cannot exchange folders, the files are renamed one by one,
-// the manifest last: it shows whether a process was killed in between. `on_written` is that of
-// AcceptRequest. Throws IoError.
+// Replaces the content of the folder by these files. They are written into a folder next to it
+// (Layout::aside) and flushed to the disk. Then the two folders are exchanged atomically, so a
+// process that is killed before has changed nothing. If the file system cannot exchange folders,
+// the files are renamed one by one, the manifest last: it shows whether a process was killed in
+// between. `on_written` is that of AcceptRequest. Throws IoError.
 void replace_folder(const std::filesystem::path& folder, const Files& files,
                     const std::function<void(const std::string&)>& on_written);
 

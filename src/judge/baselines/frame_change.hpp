@@ -25,7 +25,7 @@ struct FrameChange {
   std::vector<Change> changes;  // the changes of each such part, and of the allocations
 };
 
-// Uses cost_tolerance.hpp, which holds for counts by one counter of one program and one driver.
+// Uses cost_tolerance.hpp, so both counts must come from the same emulator, program and driver.
 [[nodiscard]] FrameChange frame_change(const record::Record& now, const record::Counts& before);
 
 }  // namespace triptych::judge

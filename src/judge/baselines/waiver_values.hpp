@@ -1,5 +1,5 @@
 #pragma once
-// Values in entries that excuse something, for all files with such entries.
+// Reads values that waivers and entries for absent devices have in common.
 
 #include <initializer_list>
 #include <optional>
@@ -18,10 +18,11 @@ void refuse_other_keys(const core::JsonNode& entry, std::initializer_list<std::s
 [[nodiscard]] std::string expiry_of(const core::JsonNode& entry);
 // nullopt unless both are ISO dates.
 [[nodiscard]] std::optional<int> days_between(std::string_view from, std::string_view to);
-// An expiry date that is more than a year after `today` (an ISO date) would in practice excuse for
-// ever.
+// Refuses an expiry date that is more than a year after `today` (an ISO date), because such an
+// entry would in practice never expire.
 void refuse_distant_expiry(const core::JsonNode& expiry, const std::string& today);
-// Whether a glob excludes none of these, however it is written: "*:*" matches every device.
+// Whether a glob matches every device or every host, however it is written: "*:*" matches every
+// device.
 [[nodiscard]] bool matches_every_device(std::string_view glob);
 [[nodiscard]] bool matches_every_host(std::string_view glob);
 [[nodiscard]] bool matches_every_test(std::string_view glob);

@@ -11,8 +11,8 @@
 
 namespace triptych::judge {
 
-// Counters to which the time of a technique is proportional. The first one that both sides have
-// measures how much work a configuration is.
+// Counters to which the time of a technique is proportional. The first counter that both sides have
+// is used as the amount of work.
 inline constexpr std::array<std::string_view, 2> work_units{"samples", "fragments"};
 
 struct WorkChange {

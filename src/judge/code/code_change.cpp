@@ -104,7 +104,8 @@ void compare_executable(const std::string& name, const record::Executable& befor
     const auto old = before.statistics.find(statistic);
     if (old == before.statistics.end() || old->second == value) continue;
     CodeStatistic meaning = code_statistic(statistic);
-    // The size is the next best measure of the number of instructions.
+    // If one of the two does not report the number of instructions, the code size decides in its
+    // place.
     if (!counted && meaning.rank == quantity::code_size.rank) meaning.decides = true;
     comparison.changes.push_back({.executable = name,
                                   .driver_name = statistic,

@@ -13,11 +13,11 @@ namespace triptych::judge {
 // The meaning of a driver's statistic. Drivers use different names for the same quantity. Unknown
 // names are kept, and their changes are shown but do not affect the verdict.
 struct CodeStatistic {
-  std::string_view name;  // "occupancy"; empty for an unknown statistic
+  std::string_view name;       // "occupancy"; empty for an unknown statistic
   std::string_view mesa = {};  // its name in Mesa's shader-db totals: "MaxWaves"; may be empty
-  bool decides = false;  // a change for the worse is a regression
-  bool more_is_worse = true;  // meaningless if a change does not affect the verdict
-  int rank = 100;             // the order in which statistics are printed, by importance
+  bool decides = false;        // whether a change for the worse is a regression
+  bool more_is_worse = true;   // meaningless if a change does not affect the verdict
+  int rank = 100;              // the order in which statistics are printed, by importance
 
   [[nodiscard]] bool is_occupancy() const { return rank == 0; }
   // Spills and scratch memory should be 0, so their relative change means nothing.
@@ -29,7 +29,7 @@ struct CodeStatistic {
 struct CodeChange {
   std::string executable;
   std::string driver_name;
-  CodeStatistic statistic;  // its texts live as long as driver_name
+  CodeStatistic statistic;  // its texts are valid as long as driver_name
   double before = 0;
   double now = 0;
   [[nodiscard]] bool worse() const {
@@ -45,10 +45,10 @@ struct CodeComparison {
   std::vector<std::string> gone;       // executables that no longer exist
   std::vector<std::string> added;      // executables that did not exist before
   std::vector<std::string> assembled;  // executables whose disassembly changed
-  // The direction of all statistics that decide. If some improved and others got worse, the inverse
-  // throughput gives the direction. If it did not change or is not reported, the result is `worse`,
-  // because somebody has to accept a mixed change. `other`: only statistics that decide nothing
-  // changed.
+  // The common direction of all statistics that affect the verdict. If some improved and others got
+  // worse, the inverse throughput gives the direction. If that did not change or is not reported,
+  // the result is `worse`, so that a person has to accept the mixed change. The result is `other`
+  // if only statistics changed that do not affect the verdict.
   [[nodiscard]] CodeDirection direction() const;
   [[nodiscard]] bool mixed() const;
 };

@@ -12,8 +12,8 @@ namespace triptych::judge {
 struct CodeTotal {
   double before = 0;
   double now = 0;
-  double less = 0;  // sum of what went down, as a positive number
-  double more = 0;  // sum of what went up
+  double less = 0;  // sum of all decreases, as a positive number
+  double more = 0;  // sum of all increases
   std::size_t helped = 0;
   std::size_t hurt = 0;
   // The configuration that got worse by the largest factor, its values, and that factor.

@@ -18,7 +18,7 @@ struct FactorLevel {
 };
 
 // The levels with at least `least` configurations inside and outside, sorted by name. Levels with
-// the same configurations cannot be distinguished and become one: "ray=vertex (= corners=4)".
+// the same configurations cannot be distinguished and are combined: "ray=vertex (= corners=4)".
 [[nodiscard]] std::vector<FactorLevel> factor_levels(std::span<const Factors> configurations,
                                                      std::size_t least);
 

@@ -32,8 +32,8 @@ bool can_have_line(const Values& x) {
   return x.size() >= 4 && std::ranges::any_of(x, [&](double each) { return each != x.front(); });
 }
 
-// exp of each value minus the first, which keeps the exponential from overflowing; r does not
-// depend on units.
+// Returns exp(x − first) for each logarithm x. Subtracting the first one prevents an overflow, and
+// does not change r, because r does not depend on units.
 Values plain(Values logarithms) {
   const double first = logarithms.front();
   for (double& value : logarithms) value = std::exp(value - first);
@@ -70,8 +70,8 @@ estimation::RobustLine fit_of(const Values& x, const Values& y) {
   return fit;
 }
 
-// Weighs one side of a level with deviations from its own median, so that a level that is shifted
-// as a whole is no outlier to itself.
+// Sets the weights of the configurations inside or outside a level from their deviations from their
+// own median, so that a level that is shifted as a whole does not consist of outliers.
 void weigh_side(const Values& residuals, const std::vector<std::size_t>& side, double scale,
                 Values& weights, Values& centred) {
   Values values;
@@ -100,9 +100,9 @@ double weighted_product(const Values& weights, const Values& a, const Values& b)
   return product;
 }
 
-// The coefficient g of the level's indicator d in y = a + b·x + g·d. The regression of d on x is
-// removed first (Frisch and Waugh 1933), so that a level of expensive configurations does not
-// disappear in b.
+// Computes the coefficient g of the level's indicator d in y = a + b·x + g·d. The regression of d
+// on x is removed first (Frisch and Waugh 1933), because otherwise b would absorb the effect of a
+// level whose configurations are all expensive.
 OffTheLine level_effect(const Values& x, const estimation::RobustLine& fit,
                         const FactorLevel& level) {
   Values weights(x.size());

@@ -52,7 +52,7 @@ struct CorrelationPair {
   std::string device_a;
   std::string device_b;
   std::string signal;  // "cost": instructions per frame; "time": nanoseconds per frame
-  // For cost: device_b has no stored costs, so that only the line can reveal something.
+  // For cost: device_b has no stored costs, so that only the line can reveal a problem.
   bool new_device = false;
   CorrelationLine line = {};
   std::vector<CorrelationPoint> points = {};  // one for each configuration

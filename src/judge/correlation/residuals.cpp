@@ -72,7 +72,8 @@ class Explanation {
     cover(all, result_.back().log_ratio);
   }
 
-  // The mean of the level minus that of the rest; nullopt if it did not move as one.
+  // The mean of the level minus that of the rest; nullopt if too few of its configurations moved in
+  // that direction.
   [[nodiscard]] std::optional<double> effect_of(const FactorLevel& level) const {
     const double effect = mean_of(left_, level.inside) - mean_of(left_, level.outside);
     const auto along = std::ranges::count_if(
@@ -104,7 +105,7 @@ class Explanation {
     result_.back().log_ratio = of_best;
     const auto before = std::ranges::count(left_, 0.0);
     cover(best->inside, of_best);
-    return std::ranges::count(left_, 0.0) > before;  // otherwise it would be found again and again
+    return std::ranges::count(left_, 0.0) > before;  // if false, the search ends
   }
 
   void find_configurations() {

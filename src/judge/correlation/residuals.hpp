@@ -1,7 +1,7 @@
 #pragma once
-// Compares two accepted devices. Their stored residual r0 = ln B0 − ln A0 is exact, so that a
-// difference from it by more than the repeatability of both is a change. r − r0 is the change of B
-// minus that of A.
+// Compares two accepted devices A and B. Their stored residual r0 = ln B0 − ln A0 is exact. If the
+// residual r of the run differs from it by more than the repeatability of both devices, something
+// has changed: r − r0 is the change of B minus that of A.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,16 +14,16 @@
 
 namespace triptych::judge {
 
-// Instructions of one frame, of the two parts whose counts repeat.
+// The instructions of one frame, for the two parts whose counts repeat.
 struct FrameCost {
   double device_code = 0;
   double driver = 0;
   [[nodiscard]] double sum() const { return device_code + driver; }
 };
 
-// How far two counts of the same frame may differ, as a share of the frame (docs/correlation.md).
-// The bounds are systematic (they depend on the layout of the heap), so they do not shrink with the
-// square root of the number of counts.
+// The largest difference of two counts of the same frame, as a share of the frame
+// (docs/correlation.md). The bounds are systematic (they depend on the layout of the heap), so they
+// do not shrink with the square root of the number of counts.
 struct Repeatability {
   double device_code = 0;
   double driver = 5e-4;
@@ -38,9 +38,9 @@ struct CostChange {
   double driver = 0;
 };
 [[nodiscard]] CostChange change_of(const FrameCost& stored, const FrameCost& now);
-// ln of the ratio that results from the parts that moved beyond their bounds; 0 if none did. Each
-// part is judged by itself, so that a change of generated code is visible however loosely the
-// driver repeats.
+// ln of the ratio of the frame's cost that results from the parts that moved beyond their bounds; 0
+// if none did. Each part is judged by itself, so that a change of generated code is visible even if
+// the driver's count repeats only loosely.
 [[nodiscard]] double moved_by(const CostChange& change, const Repeatability& bound);
 // Whether r differs from r0 by more than the repeatability of both devices.
 [[nodiscard]] bool residual_moved(const CostChange& a, const Repeatability& bound_a,
@@ -57,11 +57,11 @@ struct Movement {
   double most = 0;
 };
 
-// `moved`: the result of moved_by for each configuration. First comes everything, then the levels
-// that explain most, then the configurations that moved most. A configuration is named in addition
-// to its level, or to everything, only if it moved by more than twice as much or in the other
-// direction. The mean of a level has no narrower bound: bounds are systematic, so that a level is
-// known no better than its configurations.
+// `moved`: the result of moved_by for each configuration. The result first names everything, if all
+// configurations moved together, then the levels that explain most, then the configurations that
+// moved most. A configuration is named in addition to its level, or to everything, only if it moved
+// by more than twice as much or in the other direction. The mean of a level has the same bound as
+// its configurations, because bounds are systematic and do not average out.
 [[nodiscard]] std::vector<Movement> explain(std::span<const double> moved,
                                             std::span<const Factors> factors);
 

@@ -39,8 +39,8 @@ Advised without(const std::string& device) {
   return {Advice::repair_driver, "--without-device " + core::shell_quoted(device)};
 }
 
-// If every requested device is named in full and was found, no other device would have been
-// measured.
+// Whether every requested device was named in full and found. In that case, a failed listing cannot
+// have hidden a requested device.
 bool found_all_that_was_asked(const record::Beginning& begun) {
   return !begun.asked.empty() && std::ranges::all_of(begun.asked, [&](const std::string& id) {
     return std::ranges::find(begun.found, id) != begun.found.end();
@@ -71,9 +71,10 @@ std::map<std::string, std::string> ids_of_drivers(const Manifest& manifest) {
   return ids;
 }
 
-// A plan that only compiles expects a device only if another device of the same driver is listed: a
-// machine need not have a compiler for a GPU that it lacks. Plans that draw report a GPU that is
-// gone. The part of an id before the last '-' names the driver of a device that only compiles.
+// A plan that only compiles expects a device only if another device of the same driver is listed,
+// because a machine need not have a compiler for a GPU that it lacks. Plans that draw report a
+// missing GPU. The part of an id before the last '-' names the driver of a device that only
+// compiles.
 bool is_expected(const RunView& view, const std::string& id,
                  const std::vector<std::string>& found) {
   if (view.checks != std::set{Check::code}) return true;
@@ -83,8 +84,8 @@ bool is_expected(const RunView& view, const std::string& id,
   });
 }
 
-// Devices that were accepted on a machine of the same kind and are not listed here, by id. Each
-// comes with a present device that identifies the kind of machine.
+// Devices that were accepted on a machine of the same kind and are not listed here, by id. Each is
+// mapped to a device that is listed here and was accepted on the same machine.
 std::map<std::string, std::string> gone_devices(const RunView& view) {
   const Manifest& manifest = view.baselines.manifest();
   const std::map<std::string, std::string> ids = ids_of_drivers(manifest);
@@ -137,8 +138,9 @@ void report_undescribed(const RunView& view, std::vector<Finding>& findings) {
   }
 }
 
-// A plan that no longer requests a check passes whatever that check would have found. Times affect
-// no verdict unless that is requested.
+// Reports checks that the baselines have and the plan no longer requests: without the report, the
+// plan would pass whatever such a check would have found. Timing is left out unless times affect
+// the verdict.
 void report_lost_checks(const RunView& view, std::vector<Finding>& findings) {
   if (!view.baselines.present() || view.run.checks.empty()) return;
   std::vector<std::string> lost;

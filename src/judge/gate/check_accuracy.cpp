@@ -16,12 +16,13 @@
 namespace triptych::judge {
 namespace {
 
-// Writing a picture as float rounds each channel once.
+// Converting an image to float rounds each channel once.
 constexpr double float_rounding = 0x1.0p-24;
 
-// The largest error that is allowed. The accepted error has a part from rounding, storage and early
-// termination, which may appear once more. The root mean square is a distance, so two correct
-// images differ by no more than the sum of their distances from the reference image.
+// The largest error that is allowed. A part of the accepted error comes from rounding, storage and
+// early ray termination. Another correct image may have that part in the opposite direction, so it
+// is allowed twice more. The root mean square is a distance, so two correct images differ by no
+// more than the sum of their distances from the reference image.
 double allowed(const StoredError& stored) {
   return stored.rmse + 2 * stored.arithmetic + float_rounding;
 }
@@ -73,8 +74,9 @@ std::optional<accuracy::Order> stored_order(const RunView& view,
   return accuracy::fit_order(points);
 }
 
-// An order has fallen if it lies below the accepted one by more than both intervals together. If
-// the same steps give no order any more, errors that do not come from the step have grown.
+// The order of convergence has become lower if it is below the accepted one by more than both
+// intervals together. If no order can be fitted to the same steps any more, errors that do not come
+// from the step have grown.
 Finding judge_order(const RunView& view, const record::Device& device,
                     const std::optional<accuracy::Order>& now, const accuracy::Order& stored) {
   Observation what{.cause = now ? Cause::order : Cause::no_order, .against = Against::baseline};
@@ -103,7 +105,7 @@ void judge_orders(const RunView& view, const accuracy::AccuracyScene& scene,
 // The scenes by device and limit, in the order in which they are added.
 class Scenes {
  public:
-  // If a named level is what `auto` resolves to on the device, both are one case.
+  // Configurations with `auto` and with the level to which it resolves on the device are one case.
   void add(const record::Record& record, const accuracy::LimitPicture& limit,
            accuracy::AccuracyCase each) {
     const auto [known, is_new] = index_.try_emplace({record.device, limit.key}, scenes_.size());
@@ -156,7 +158,7 @@ class AccuracyCheck {
   void measure_error(const record::Record& record) {
     const accuracy::LimitPicture* limit = view_.request.limit(record);
     if (limit == nullptr) {
-      // For a scene that never had a limit, no limit is missing.
+      // A scene that never had a limit needs no finding.
       if (view_.baselines.errors(record.configuration).empty()) return;
       add(record, Verdict::cannot_judge, {.cause = Cause::no_limit_any_more}, view_.accept());
       return;

@@ -15,7 +15,8 @@
 namespace triptych::judge {
 namespace {
 
-// If several executables changed, the change names each of them; otherwise only the statistic.
+// If several executables changed, the name of the change contains the executable; otherwise only
+// the statistic.
 Change change_of(const CodeChange& change, bool several) {
   const std::string_view name =
       change.statistic.name.empty() ? std::string_view(change.driver_name) : change.statistic.name;
@@ -42,8 +43,8 @@ std::vector<Change> changes_of(const CodeTotals& totals) {
   return changes;
 }
 
-// A configuration that consists of other executables than before cannot be compared executable by
-// executable.
+// Whether the configuration consists of other executables than before, so that it cannot be
+// compared executable by executable.
 bool in_other_parts(const CodeComparison& comparison) {
   return !comparison.gone.empty() || !comparison.added.empty();
 }

@@ -19,14 +19,15 @@ Finding about_device(const DeviceCost& device, Verdict verdict, Observation what
   return finding;
 }
 
-// --- accepted devices: stored residuals ----------------------------------------------------------
+// --- accepted devices: compared by stored residuals
+// ----------------------------------------------------------
 
-// The configurations of a device that were compared with some other device, and those of them that
-// moved.
+// The configurations of a device that were compared with at least one other device, and how far
+// each moved.
 struct Moved {
   const DeviceCost* device = nullptr;
   std::vector<const record::Record*> records;
-  std::vector<double> by;  // for each device; 0: it did not move, or no pair's residual shows it
+  std::vector<double> by;  // for each record; 0: it did not move, or no pair's residual shows it
   std::set<std::string> held;    // names of the devices with which it was compared
   std::set<std::string> beside;  // names of those whose residual with this device moved
 };
@@ -39,8 +40,8 @@ CostChange change_of(const ConfigurationCost& cost) {
   return change_of(*cost.stored, cost.now);
 }
 
-// Accepted devices that the same emulator counted: those of the run, and stored ones that are not
-// in the run.
+// The accepted devices whose instructions the same emulator counted: those in the run, or, if there
+// are none, those that are only stored.
 std::vector<const DeviceCost*> partners_of(const DeviceCost& device,
                                            const std::vector<DeviceCost>& devices) {
   std::vector<const DeviceCost*> here;
@@ -52,15 +53,15 @@ std::vector<const DeviceCost*> partners_of(const DeviceCost& device,
   return here.empty() ? stored : here;
 }
 
-// Whether the residual r of the two differs from r0. For a device that is not in the run, r is
-// exactly what was stored.
+// Whether the residual r of the two differs from the stored r0. A device that is not in the run
+// takes part with its stored cost, which is exact.
 bool left_residual(const ConfigurationCost& own, const ConfigurationCost& other) {
   const Repeatability none{0, 0};
   return residual_moved(change_of(other), other.record ? repeatability_of(other) : none,
                         change_of(own), repeatability_of(own));
 }
 
-// A finding names the device that itself changed since it was accepted.
+// Finds the configurations whose cost on this device itself changed since it was accepted.
 Moved movements_of(const DeviceCost& device, const std::vector<DeviceCost>& devices) {
   Moved moved{&device, {}, {}, {}, {}};
   const std::vector<const DeviceCost*> partners = partners_of(device, devices);
@@ -118,7 +119,8 @@ void judge_accepted(const Moved& moved, std::vector<Finding>& findings) {
                     .names = {moved.held.begin(), moved.held.end()}}));
 }
 
-// --- new devices: the line of an accepted one ----------------------------------------------------
+// --- new devices: compared by a line through an accepted one
+// ----------------------------------------------------
 
 void add_fit(Observation& what, const CorrelationLine& line) {
   set_number(what, "configurations", static_cast<double>(line.configurations));

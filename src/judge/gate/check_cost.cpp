@@ -69,8 +69,8 @@ class DeviceCostCheck {
         finding_about(view_, device_, Check::cost, verdict, std::move(what), std::move(advice)));
   }
 
-  // How another record was counted, if differently from this one. This happens in a run that was
-  // resumed or merged from shards.
+  // The emulator of a record that was counted by another emulator than this one; nullopt if there
+  // is none. This happens in a run that was resumed or merged from shards.
   [[nodiscard]] std::optional<std::string> counted_otherwise(const record::Record& counted) const {
     for (const record::Record* record : records_) {
       if (record->cost.empty() || record->counted_by == counted.counted_by) continue;
@@ -154,7 +154,7 @@ class DeviceCostCheck {
     };
     add_to(allocations_, stored.frame, record.cost, "allocations", Unit::allocations, 0);
     // A driver that finds its compiled code in a cache does a small part of the work of one that
-    // compiles. Such a change is about the cache and not about the driver.
+    // compiles. Such a change is caused by the cache and not by the driver.
     constexpr double most_without_a_cache = 2;
     const auto before = count_of(stored.prepare, "driver");
     const auto now = count_of(record.prepare_cost, "driver");

@@ -12,12 +12,12 @@
 namespace triptych::judge {
 namespace {
 
-// The values accepted on other devices: the least and the greatest, and the families that have
-// them. Each family has one vote.
+// The values accepted on other devices: the smallest and the largest one, and one value for each
+// family of devices.
 struct Range {
   std::uint64_t least = UINT64_MAX;
   std::uint64_t most = 0;
-  std::map<std::string, std::uint64_t> families;  // each with one of its values
+  std::map<std::string, std::uint64_t> families;  // family → one of its values
 
   explicit Range(const std::map<std::string, std::uint64_t>& stored) {
     for (const auto& [device, value] : stored) {
@@ -150,7 +150,7 @@ std::vector<Finding> check_counters(const RunView& view) {
     }
   }
   for (const auto& [device, configurations] : not_stored) {
-    // A configuration that no accepted device could draw says nothing about a new device.
+    // A new device cannot be judged by a configuration that no accepted device could draw.
     const record::Device& info = view.devices.at(device);
     const bool known = !view.baselines.present() || view.knows_driver(info);
     findings.push_back(

@@ -13,17 +13,18 @@
 namespace triptych::judge {
 namespace {
 
-// Two renderings of one reference image differ only by rounding to float.
+// Two renderings of the same reference image differ only by rounding to float.
 constexpr double truth_tolerance = 1e-5;
 
-// A picture of one device that can be compared with those of other devices.
+// An image of one device that can be compared with those of other devices.
 struct Picture {
   const record::Record* record;
   core::Image image;
-  double rmse;  // from the truth
+  double rmse;  // error against the reference image
 };
 
-// Only the scene and the technique are set, so that every device uses its preferred path.
+// Whether the configuration sets only the scene and the technique, so that every device uses its
+// preferred path.
 bool on_default_path(const record::Record& record) {
   const auto scene = record::parse_factor_list(record.scene);
   const auto named = record::parse_factor_list(record.configuration);
@@ -156,11 +157,11 @@ class SceneJudge {
   const RunView& view_;
   ImageFindings& out_;
   std::string scene_;
-  std::optional<core::Image> stored_;       // the accepted reference, if the picture is stored
-  std::optional<ReferenceHash> reference_;  // its hash, if the picture is not stored
+  std::optional<core::Image> stored_;       // the accepted reference image, if it is stored
+  std::optional<ReferenceHash> reference_;  // its hash, if only the hash is stored
   bool truth_checked_ = false;
   std::vector<Picture> pictures_;
-  core::Image bound_;  // bound of a particle scene: shows where ids are certain
+  core::Image bound_;  // error bound of a particle scene, from which follows where ids are certain
 };
 
 }  // namespace

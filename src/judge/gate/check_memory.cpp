@@ -1,4 +1,4 @@
-// Compares the bytes allocated on the device, which must be equal on an accepted device.
+// Compares the bytes allocated on the device with the accepted ones. They must be equal.
 
 #include <set>
 

@@ -59,12 +59,12 @@ Finding check_exact(const RunView& view, const record::Record& record,
 // Collects all differences of a device whose driver version has no baselines.
 struct Elsewhere {
   std::size_t configurations = 0;
-  std::map<std::string, Change> differences;  // portable values that no stored driver has
-  std::set<std::string> differing;            // in which configurations
+  std::map<std::string, Change> differences;  // portable values that differ from all stored ones
+  std::set<std::string> differing;            // the configurations with such differences
   // Statistic → drivers that do not count it exactly, and how they count it. An empty driver is the
   // device's own.
   std::map<std::pair<std::string, std::string>, std::string_view> not_compared;
-  std::size_t stored = 0;    // configurations that some driver has
+  std::size_t stored = 0;    // configurations that are stored for at least one driver
   std::size_t compared = 0;  // number of values
 };
 

@@ -7,7 +7,8 @@
 namespace triptych::judge {
 namespace {
 
-// A device without baselines may have the score of the worst accepted device.
+// Returns the accepted score. A device without baselines may have the score of the worst accepted
+// device.
 std::optional<int> allowed_on(const std::map<std::string, std::uint64_t>& stored,
                               const std::string& device) {
   const auto own = stored.find(device);
@@ -50,7 +51,8 @@ std::vector<Finding> check_stress(const RunView& view) {
         finding_about(view, Check::stress, Verdict::cannot_judge, {.cause = Cause::no_reference}));
     return findings;
   }
-  // Devices that the request does not judge still serve as examples for those that it does.
+  // Images of devices that the request does not judge are still compared with those of the judged
+  // devices.
   std::vector<record::Record> all = view.store.records(view.records.front().run);
   std::erase_if(all,
                 [&](const record::Record& record) { return record.plan != view.request.plan; });

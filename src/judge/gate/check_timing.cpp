@@ -14,7 +14,7 @@ namespace {
 
 const double tolerated = std::log(1.02);  // a smaller slowdown is not reported
 
-// A time as a ratio to the stored one.
+// The ratio of a time to the stored time.
 struct Ratio {
   const record::Record* record;
   double log_ratio = 0;
@@ -85,7 +85,8 @@ class DeviceTimes {
     return std::isfinite(middle) && middle > 0;
   }
 
-  // If the image is also judged, or is excused, that finding has the verdict.
+  // If the image is also judged, or its error is waived, that finding has the verdict, and this one
+  // is a skip.
   void add_wrong(const record::Record& record, const Observation& why) {
     const bool is_told =
         view_.checks.contains(Check::image) || is_waived(view_, record, Check::image);
@@ -101,7 +102,7 @@ class DeviceTimes {
     judge(ratio_of(record, *clock, stored->second), *clock, stored->second);
   }
 
-  // Only here a time affects the verdict.
+  // This is the only place where a time affects the verdict.
   [[nodiscard]] Verdict verdict_of(const Ratio& ratio) const {
     if (!decides()) return Verdict::pass;
     if (ratio.log_ratio - ratio.half_width > tolerated) return Verdict::regression;

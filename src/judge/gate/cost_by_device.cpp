@@ -13,15 +13,15 @@
 namespace triptych::judge {
 namespace {
 
-// nullopt if nothing was counted, or neither of the parts that repeat.
+// nullopt if neither of the two parts whose counts repeat was counted.
 std::optional<FrameCost> frame_cost(const record::Counts& counts) {
   const FrameCost cost{count_of(counts, "device_code").value_or(0),
                        count_of(counts, "driver").value_or(0)};
   return cost.sum() > 0 ? std::optional(cost) : std::nullopt;
 }
 
-// The record was measured itself. A record that takes its frames from another configuration would
-// count them several times.
+// Whether the record was measured itself. Records that copied the frames of an equivalent
+// configuration are left out, because they would count the same frames several times.
 bool stands_for_itself(const record::Record& record) {
   return record.same_as.empty();
 }
@@ -59,7 +59,7 @@ DeviceCost of_before(const DriverCost& stored) {
   return result;
 }
 
-// Times are by the clock that both trust; the wall clock times every frame.
+// The median by the given clock, which both devices trust. Every frame has a wall-clock time.
 std::optional<double> log_median(const record::Record& record, std::string_view clock) {
   const std::vector<double>& times = record.time_ns_by(clock);
   return times.empty() ? std::nullopt : std::optional(std::log(estimation::median(times)));

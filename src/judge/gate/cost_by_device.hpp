@@ -16,8 +16,8 @@ namespace triptych::judge {
 
 struct CorrelationInput {
   std::map<std::string, record::Device> devices;  // the devices of the run, by id
-  std::vector<const record::Record*> records;  // records that were measured and have right pictures
-  std::map<std::string, DriverCost> stored;    // by Device::statistics_key()
+  std::vector<const record::Record*> records;     // measured records with right images
+  std::map<std::string, DriverCost> stored;       // by Device::statistics_key()
 };
 
 struct ConfigurationCost {
@@ -33,7 +33,7 @@ struct DeviceCost {
   bool measured = false;   // in this run
   std::map<std::string, ConfigurationCost> configurations;
 
-  // Whether some configuration has a stored cost, so that its changes are exact.
+  // Whether at least one configuration has a stored cost, so that changes since then are known.
   [[nodiscard]] bool accepted() const;
 };
 
@@ -47,8 +47,7 @@ struct DeviceCost {
 // The pair by cost over all configurations that both have, with its line fitted.
 [[nodiscard]] CorrelationPair pair_of(const DeviceCost& a, const DeviceCost& b);
 
-// The same by time, for each pair of devices of the run. It is shown only, and nothing is judged by
-// it.
+// The pairs by time, for all devices of the run. They are only shown and do not affect the verdict.
 [[nodiscard]] std::vector<CorrelationPair> pairs_by_time(const CorrelationInput& input);
 
 // The check itself, without the gate.

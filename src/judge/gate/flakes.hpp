@@ -19,7 +19,7 @@ using Places = std::set<std::pair<std::string, std::string>>;  // device, config
 [[nodiscard]] Places failing(const GateResult& result);
 
 struct Redrawn {
-  // Verdict of the second attempt; flakes stay regressions, timeouts are undecided.
+  // the second attempt, in which flakes stay regressions, and timeouts are undecided
   GateResult result;
   Places flakes;
 };

@@ -23,8 +23,8 @@ bool asked_for(const GateRequest& request, const std::string& device) {
   return request.devices.empty() || core::any_glob_matches(request.devices, device);
 }
 
-// The record's data differ from those that were accepted under the same name, or from the present
-// ones. Its numbers are then not compared with any others.
+// Reports a record whose data differ from those that were accepted under the same name, or from the
+// present ones. Its numbers are not compared with any others.
 std::optional<Observation> other_data(const RunView& view, const record::Record& record) {
   if (record.data_hash.empty()) return std::nullopt;
   const std::string accepted =
@@ -53,7 +53,7 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
   for (auto& entry : store.devices(run)) {
     if (asked_for(request, entry.device.id)) view.devices.emplace(entry.device.id, entry.device);
   }
-  // A device that was to be measured is judged even if there is nothing about it.
+  // A device that was to be measured is judged even if the run has no data about it.
   for (const std::string& id : record::devices_of(view.run.begun)) {
     record::Device unknown;
     unknown.id = id;
@@ -74,8 +74,9 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
   return view;
 }
 
-// A configuration that this device measured before is missing if it is now skipped. With a setting
-// that overrides the driver's capabilities (MESA_GL_VERSION_OVERRIDE), it counts as another device.
+// Whether a skipped configuration was measured when the device was accepted, so that it counts as
+// missing. A setting that overrides the driver's capabilities (MESA_GL_VERSION_OVERRIDE) makes it
+// another device, which did not measure it.
 bool measured_before(const RunView& view, const record::Record& record) {
   const bool overridden = std::ranges::any_of(
       view.device(record).environment,
@@ -238,14 +239,14 @@ void append(std::vector<Finding>& findings, std::vector<Finding> more) {
   std::ranges::move(more, std::back_inserter(findings));
 }
 
-// The results that the checks fill in, one after the other.
+// The input of the checks, and their results, which one check after the other fills in.
 struct Judging {
   const RunView& view;
   GateResult& result;
   WrongImages wrong = {};
 };
 
-// The time of a wrong image means nothing, so images are also compared for a check of times.
+// Images are also compared for a check of times, because the time of a wrong image has no meaning.
 void judge_images(Judging& all) {
   const bool wanted = all.view.checks.contains(Check::image);
   const bool for_times = all.view.baselines.present() && all.view.request.truth &&
@@ -260,7 +261,7 @@ void judge_images(Judging& all) {
 // record::every_check.
 struct CheckRow {
   Check check;
-  bool against_baselines;  // without baselines there is nothing to judge
+  bool against_baselines;  // whether the check needs baselines
   void (*judge)(Judging&);
 };
 constexpr std::array check_rows{
@@ -366,12 +367,13 @@ void report_nothing_decided(const RunView& view, GateResult& result) {
   }
 }
 
-// If this program was right before, the fault is the driver's and not Triptych's.
+// Names the devices on which the configuration of a regression was accepted. If it was right there,
+// the driver is the likely cause, and not Triptych.
 void tell_where_accepted(const RunView& view, std::vector<Finding>& findings) {
   if (!view.baselines.present()) return;
   for (Finding& each : findings) {
     if (each.verdict != Verdict::regression || each.configuration.empty()) continue;
-    const auto device = view.devices.find(each.device);  // a scene itself has no device
+    const auto device = view.devices.find(each.device);  // a finding about a scene has no device
     if (device == view.devices.end() || view.knows_driver(device->second)) continue;
     std::set<std::string> devices;
     const auto stored = view.baselines.counters(each.configuration).value_or(StoredCounters{});

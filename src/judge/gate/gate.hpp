@@ -27,7 +27,7 @@ struct GateResult {
   std::string plan;
   std::string run;
   std::vector<Finding> findings;  // the worst first, then by device and configuration
-  // The records by device, then in the order of measuring.
+  // The errors of the scenes, by device, then in the order of measuring.
   std::vector<accuracy::AccuracyScene> accuracies = {};
   std::vector<CorrelationPair> correlations = {};  // the pairs that could be drawn
   std::set<std::string> devices = {};              // the requested devices that measured something
@@ -42,12 +42,12 @@ struct GateResult {
   // Notes about the run: loaders and drivers that could not be used while devices were listed, the
   // injected faults with the number of their records, the program that measured if it is not the
   // one that judges, and the day of a run that began more than a day ago, because a later run may
-  // have failed before it began. The last screen shows all of these, whatever the verdict.
+  // have failed before it began. The last screen shows all of these, for every verdict.
   std::vector<record::Unusable> unusable = {};
   std::map<std::string, std::size_t> injected = {};
   std::string measured_by = {};
   std::string began = {};
-  // Devices of which all findings are advisory or reasons for not judging.
+  // Devices whose findings are all advisory or skips.
   [[nodiscard]] std::vector<std::string> nothing_decided() const;
   [[nodiscard]] core::ExitCode exit_code() const;
 };
@@ -56,8 +56,8 @@ struct GateRequest {
   std::string plan;
   // The plan as commands accept it; if empty, its name is used (record::plan_argument).
   std::string argument = {};
-  // " --store FILE", " --baselines FOLDER": what printed commands must contain if these are not the
-  // default ones.
+  // " --store FILE" and " --baselines FOLDER", which printed commands must contain unless these are
+  // the default ones.
   std::string store_option = {};
   std::string baselines_option = {};
   std::set<Check> checks;            // empty: those of the run's plan (checked_in)
@@ -77,8 +77,8 @@ struct GateRequest {
   FindExpectations expectations = {};
   FindOpenCounts open_counts = {};  // called only if counters differ
   std::string today;                // ISO date, for the expiry of waivers
-  // A device that has only advisory findings and skips gets a finding. The test of a single check
-  // is skipped instead.
+  // If true, a device that has only advisory findings and skips gets a finding. If false, which is
+  // for the test of a single check, that test is skipped.
   bool decides_each_device = true;
   // A configuration that is slower than stored by more than its interval and by more than 2 % is a
   // regression. Otherwise times are advisory.

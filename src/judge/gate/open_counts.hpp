@@ -17,7 +17,7 @@ using FindOpenCounts = std::function<std::map<std::string, double>(const record:
 // they are first needed.
 class OpenCounts {
  public:
-  // `find` may be empty if rounding leaves nothing open.
+  // `find` may be empty if rounding does not change any counter.
   OpenCounts(const record::Record& record, const FindOpenCounts& find)
       : record_(record), find_(find) {}
 

@@ -10,7 +10,7 @@ namespace triptych::judge {
 namespace {
 
 // The bits of sub-pixel precision if the API leaves the number open and the device does not report
-// it. The accepted devices have eight, as has our own rasterizer for OpenCL.
+// it. The accepted devices have eight, and so has Triptych's rasterizer for OpenCL.
 constexpr double usual_bits = 8;
 
 std::optional<double> told(const record::Record& record, const char* name) {
@@ -20,8 +20,8 @@ std::optional<double> told(const record::Record& record, const char* name) {
 
 bool is_open(const std::string& counter, const record::Record& record) {
   if (counter == "fragments" || counter == "fragments_discarded") return true;
-  // If the ray is computed at the vertices, it moves with them, and so does the silhouette, which
-  // decides what is visible.
+  // If rays are computed at the vertices, they move with the vertices, and so does the silhouette,
+  // which determines the visible surface.
   const auto ray = record.factors.find("ray");
   return (counter == "fragments_kept" || counter == "visible_ids") && ray != record.factors.end() &&
          ray->second == "vertex";

@@ -41,7 +41,7 @@ struct RunView {
 
 [[nodiscard]] Finding finding_about(const record::Record& record, Check check, Verdict verdict,
                                     Observation what, Advised advice = {});
-// About a device as a whole, without a configuration.
+// A finding about a device as a whole, without a configuration.
 [[nodiscard]] Finding finding_about(const RunView& view, const record::Device& device, Check check,
                                     Verdict verdict, Observation what, Advised advice = {});
 [[nodiscard]] Finding finding_about(const RunView& view, Check check, Verdict verdict,
@@ -49,7 +49,7 @@ struct RunView {
 // The worst first, then by device and configuration.
 void sort_findings(std::vector<Finding>& findings);
 
-// (device, configuration) → the error in its image. The time of such a record means nothing.
+// (device, configuration) → the error in its image. The time of such a record has no meaning.
 using WrongImages = std::map<std::pair<std::string, std::string>, Observation>;
 
 struct ImageFindings {
@@ -75,7 +75,7 @@ struct AccuracyFindings {
   std::vector<Finding> findings;
   std::vector<accuracy::AccuracyScene> scenes;
 };
-// Without baselines there are no findings, but scenes.
+// Without baselines, the result contains scenes but no findings.
 [[nodiscard]] AccuracyFindings check_accuracies(const RunView& view);
 
 // One finding for each record that has a score, including records that failed.
@@ -85,7 +85,7 @@ struct AccuracyFindings {
 // have, and whether the plan requests all checks of its baselines.
 void report_as_begun(const RunView& view, std::vector<Finding>& findings);
 
-// Whether waivers.json excuses today what this check may find about the record.
+// Whether an unexpired entry of waivers.json covers findings of this check about the record.
 [[nodiscard]] bool is_waived(const RunView& view, const record::Record& record, Check check);
 
 // Turns regressions that waivers.json excuses into waived ones, and reports waivers that have

@@ -17,8 +17,8 @@ bool has_expired(const Waiver& waiver, const RunView& view) {
   return !waiver.expiry.empty() && view.today() >= waiver.expiry;
 }
 
-// The entry of these kinds that the request has for the place of a finding; nullptr if there is
-// none.
+// The entry of GateRequest::known that covers the finding and is of one of these kinds; nullptr if
+// there is none.
 const Waiver* known_of(const RunView& view, const Finding& finding, const std::set<Known>& kinds) {
   const auto found = std::ranges::find_if(*view.request.known, [&](const Waiver& each) {
     return kinds.contains(each.known) && !has_expired(each, view) &&

@@ -12,7 +12,7 @@
 namespace triptych::judge {
 namespace {
 
-// The position of a pixel of this picture in the other one.
+// The position in the other image that corresponds to a pixel of this image.
 struct Place {
   int x;
   int y;
@@ -27,7 +27,7 @@ bool same_bits(float a, float b) {
   return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-// A picture, and the bound on its error for comparisons that do not ask for equal bits.
+// An image, and the bound on its error, for comparisons that do not require equal bits.
 struct Judged {
   const core::Image& image;
   core::Image bound = {};
@@ -40,14 +40,13 @@ void add_pixel(Observation& what, const std::string& prefix, const std::array<fl
   }
 }
 
-// Compares two pictures pixel by pixel. They must have the sizes and channels that the rule
-// requires.
+// Compares two images pixel by pixel. They must have the sizes and channels that the rule requires.
 class SameJudge {
  public:
   SameJudge(const record::SamePicture& rule, const Judged& one, const Judged& other)
       : rule_(rule), one_(one), other_(other) {}
 
-  // nullopt if the pictures are the same.
+  // nullopt if the images are equal under the rule.
   [[nodiscard]] std::optional<Observation> difference() const {
     std::size_t wrong = 0;
     Place first{-1, -1};

@@ -11,8 +11,8 @@
 
 namespace triptych::judge {
 
-// The records of one run and their pictures, each of which is read once. The records must outlive
-// this object.
+// The records of one run and their images. Each image is read once. The records must outlive this
+// object.
 class StressRun {
  public:
   StressRun(const record::Store& store, const std::vector<record::Record>& records);
@@ -20,7 +20,7 @@ class StressRun {
   // nullptr if the run has no such record.
   [[nodiscard]] const record::Record* other(const record::Record& record,
                                             const record::Changed& changed) const;
-  // nullptr if the record has no picture, or if the one in the store cannot be read.
+  // nullptr if the record has no image, or if the image in the store cannot be read.
   [[nodiscard]] const core::Image* picture(const record::Record& record);
 
  private:

@@ -28,7 +28,7 @@ struct Case {
   const record::Record* record = nullptr;
   StressScore score = {};
   std::optional<double> rmse = {};
-  core::Image bound = {};  // the bound of the picture that was drawn
+  core::Image bound = {};  // the bound on the error of the image
 };
 
 class Scoring {
@@ -57,7 +57,7 @@ class Scoring {
     return truths_.expectations ? truths_.expectations(record) : std::vector<record::Expectation>{};
   }
 
-  // nullopt for a case that cannot be asked of the device.
+  // nullopt for a case that is not scored, because the device does not support it.
   std::optional<Case> first_points(const record::Record& record) {
     Case result{&record};
     StressScore& score = result.score;
@@ -112,7 +112,8 @@ class Scoring {
     }
   }
 
-  // Of two images that differ, the one nearer to the reference image keeps its point.
+  // If the images of two devices differ, only the one that is nearer to the reference image keeps
+  // its point.
   void judge_agreement(Case& own, const std::vector<Case*>& cases) {
     if (!own.rmse) return;
     own.score.agreed = true;

@@ -20,15 +20,15 @@ using FindExpectations = std::function<std::vector<record::Expectation>(const re
 struct StressTruths {
   FindTruth truth;
   FindExpectations expectations;  // empty: there are no expectations
-  // The records are a part of a plan: expectations that need a picture without a record are not
-  // checked.
+  // Whether the records are only a part of a plan. In that case, an expectation is not checked if
+  // the other image that it needs is not among them.
   bool part = false;
 };
 
 struct StressScore {
-  bool drawn = false;  // a finite picture, drawn without a crash, a hang or an error
-  bool right = false;  // the image is within its bound, and all expectations of the case hold
-  bool agreed = false;  // no device that is nearer to the reference image draws another image
+  bool drawn = false;   // a finite image was drawn without a crash, a hang or an error
+  bool right = false;   // the image is within its bound, and all expectations of the case hold
+  bool agreed = false;  // no image that is nearer to the reference image differs from this one
   std::vector<Observation> lost = {};  // the reason for every point that is missing
 
   [[nodiscard]] int points() const {
@@ -42,10 +42,10 @@ struct StressScored {
   StressScore score;
 };
 
-// `records` must be all records of one run, because devices are compared with each other and
-// pictures with other pictures of the same device. Records that were skipped because the device
-// lacks something get no score. A case that may be refused has all points if it is refused. If no
-// other device drew a configuration, none contradicts it.
+// `records` must be all records of one run, because devices are compared with each other and images
+// with other images of the same device. Records that were skipped because the device lacks
+// something get no score. A case that may be refused has all points if it is refused. If no other
+// device drew a configuration, none contradicts it.
 [[nodiscard]] std::vector<StressScored> score_stress(const record::Store& store,
                                                      const std::vector<record::Record>& records,
                                                      const StressTruths& truths);
