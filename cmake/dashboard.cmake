@@ -3,7 +3,7 @@ set(CTEST_SOURCE_DIRECTORY $ENV{SOURCE})
 set(CTEST_BINARY_DIRECTORY $ENV{BUILD})
 set(CTEST_SUBMIT_URL $ENV{URL})
 cmake_host_system_information(RESULT CTEST_SITE QUERY HOSTNAME)
-# The name distinguishes builds of one site: it contains the system and the devices.
+# The name contains the system and the devices, because it distinguishes the builds of one site.
 cmake_host_system_information(RESULT system QUERY DISTRIB_PRETTY_NAME)
 execute_process(COMMAND $ENV{BUILD}/src/app/triptych --version OUTPUT_VARIABLE program OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 string(JOIN ", " CTEST_BUILD_NAME ${system} ${program})

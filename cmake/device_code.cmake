@@ -1,5 +1,5 @@
-# Runs in each build. Writes `#define TRIPTYCH_DEVICE_CODE "…"` to OUTPUT if the hash of the device code has changed: of all kernels and
-# shaders that are compiled into the program, as they are embedded, which is SPIR-V for Vulkan.
+# Runs in each build. Writes `#define TRIPTYCH_DEVICE_CODE "…"` to OUTPUT if the hash has changed. The hash covers all kernels and
+# shaders in the form in which they are compiled into the program, which is SPIR-V for Vulkan.
 # Variables set by the caller: LIST, a file with one path per line; OUTPUT.
 file(STRINGS "${LIST}" files)
 set(hashes "")

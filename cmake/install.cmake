@@ -1,6 +1,6 @@
 # The files that `cmake --install` installs and that ci/package puts into the Debian package. Plans and shaders are inside the program.
 include(GNUInstallDirs)
-# Nobody but the owner may write what is installed, however the checkout's permissions and the umask are.
+# Nobody but the owner may write installed files, whatever the permissions of the checkout and the umask are.
 set(for_all OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
 set(folder_for_all ${for_all} OWNER_EXECUTE GROUP_EXECUTE WORLD_EXECUTE)
 set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS ${folder_for_all})
@@ -16,7 +16,7 @@ foreach(script IN LISTS scripts)
     install(PROGRAMS ${script} DESTINATION ${TRIPTYCH_DATA_FOLDER}/analysis)
   endif()
 endforeach()
-# Everything to which README.md links.
+# All files to which README.md links.
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILE_PERMISSIONS ${for_all} DIRECTORY_PERMISSIONS ${folder_for_all})
 install(DIRECTORY ci/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/ci FILE_PERMISSIONS ${for_all}
@@ -53,7 +53,7 @@ if(OSMESA_LIBRARY)
 endif()
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-matplotlib, python3-pandas, python3-scipy, python3-sklearn")  # for analysis/
 list(JOIN depends ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
-# The window is a package of its own, because the main package must not depend on its libraries.
+# The window is in a separate package, because the main package must not depend on its libraries.
 if(TARGET triptych-view)
   set(CPACK_DEB_COMPONENT_INSTALL ON)
   set(CPACK_COMPONENTS_GROUPING IGNORE)

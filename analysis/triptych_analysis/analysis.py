@@ -16,7 +16,7 @@ HEAT_MAPS = [("data", "device"), ("data", "camera_path"), ("data", "technique"),
 class Analysis:
     dataset: object
     tables: dict  # name → DataFrame; empty ones are absent
-    left_out: list  # (analysis, reason)
+    left_out: list  # pairs of an analysis and the reason why it was left out
 
     def table(self, name):
         """The table with this name; an empty one if there is none."""

@@ -8,7 +8,7 @@ from .dataset import natural_order
 from .splits import Split, scope, split
 from .tables import InputError
 
-# Fewer pairs are meaningless: two points always lie on a line, and three often nearly do by chance.
+# A line through fewer pairs would be meaningless: two points always lie on a line, and three often nearly do by chance.
 LEAST_PAIRS = 4
 BOX = ["mean", "minimum", "lower_quartile", "median", "upper_quartile", "maximum"]
 

@@ -10,7 +10,8 @@ import pandas as pd
 
 from .tables import COST, FACTOR
 
-# The instructions of a frame that repeat and are judged. Those of the C library and of the program do not repeat.
+# The parts of a frame's instructions that repeat and are judged. The instructions of the C library and of the program do not
+# repeat.
 COST_PARTS = ("device_code", "driver")
 # The camera as separate factors, as in the paper. camera_path: the path is the factor, and the position counts as one of the other
 # factors. camera_rotation: the position on an orbit is the factor, and the orbit's axis counts as another one. camera_distance: the
@@ -31,9 +32,9 @@ class Dataset:
     suite: str
     signal: str  # "time" or "cost"
     unit: str  # "ms" or "instructions"
-    clock: str  # "device" or "wall", the same for all; for cost the emulator that counted
+    clock: str  # "device" or "wall", the same for all; for cost, the emulator that counted
     values: np.ndarray
-    factors: dict  # name → Factor, "device" among them
+    factors: dict  # name → Factor; "device" is one of them
     device_ms: np.ndarray  # NaN where the device clock is not trusted; only for times
     wall_ms: np.ndarray
     duplicates: pd.DataFrame
@@ -152,7 +153,7 @@ def _aside(records, notes, more, emulated):
     outcome = records["outcome"].astype(str)
     reasons = [(outcome != "measured", outcome + " on " + records["device"].astype(str)),
                (records["injected"].notna(), "with an injected fault"),
-               # A copy is not independent: r between it and its original is always 1.
+               # A record with copied frames is not an independent observation: r between it and its original is always 1.
                (records["same_as"].notna(), "with frames copied from an equivalent configuration"),
                (records["technique"] == "speed_of_light", "of a technique that makes no image"),
                (emulated, "with instructions counted by an emulator, which distorts times,")]

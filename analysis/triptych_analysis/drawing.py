@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-MOST_NUMBERS = 12  # matrices with more levels show colours without numbers
+MOST_NUMBERS = 12  # larger matrices show colours without numbers
 BLUE, RED, INK = "#3b6ea5", "#b5413a", "#222222"
 STYLE = {"svg.hashsalt": "triptych", "svg.fonttype": "path", "font.size": 9, "axes.titlesize": 10,
          "axes.spines.top": False, "axes.spines.right": False, "figure.dpi": 100, "font.family": "DejaVu Sans"}

@@ -26,7 +26,7 @@ def points(folder, against="limit", metric="rms", cost="median_ns"):
     joined = records.merge(chosen, on="record")
     joined = joined.rename(columns={cost: "cost"})[["device", "scene", "name", "error", "cost"]]
     joined = joined[(joined["cost"] > 0) & (joined["error"] > 0)].reset_index(drop=True)
-    # Steps and quadratures change the image but not what it tends to, so they do not distinguish scenes here.
+    # The step and the quadrature change an image, but not its limit, so they do not distinguish scenes here.
     joined["scene"] = joined["scene"].map(_subject)
     joined["front"] = False
     for _, rows in joined.groupby(["device", "scene"], sort=True):

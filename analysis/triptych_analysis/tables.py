@@ -16,7 +16,7 @@ RECORD_COLUMNS = ["record", "run", "suite", "plan", "configuration", "technique"
                   "median_wall_ns", "median_device_ns", "device_clock_trusted", "counted_by", "same_as"]
 TEXT = {"run", "suite", "plan", "configuration", "technique", "device", "outcome", "injected", "counted_by", "same_as",
         "started_at", "device_key", "processor", "store"}
-# Columns that have another name or place in a store.
+# Columns that a store has under another name or in another table.
 IN_STORE = {"record": "seq", "same_as": "(SELECT configuration FROM same_as WHERE same_as.record = record.seq)"}
 FACTOR, COST = "factor_", "cost_"
 

@@ -12,7 +12,7 @@ from .splits import fullest_block, levels_in, scope
 
 SUBSETS = 100
 REJECTED_BELOW = 0.05
-MOST_FOR_EXACT = 4_000_000  # n · m
+MOST_FOR_EXACT = 4_000_000  # largest n · m for which the exact distribution is computed
 
 
 def ks_two_samples(a, b):

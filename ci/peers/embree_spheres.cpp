@@ -46,7 +46,7 @@ struct Scene {
   std::vector<std::uint8_t> colours;
 };
 
-// Eight pixels of a row.
+// Traces eight pixels of a row.
 void draw_packet(const Scene& scene, const View& view, int x, int y, float* image) {
   alignas(32) int valid[lanes];
   RTCRayHit8 rays;

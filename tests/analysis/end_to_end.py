@@ -25,7 +25,7 @@ VOLUME = {"suite": "volume", "technique": ["raycast"],
 PARTICLES = {"suite": "particles", "technique": ["quad_ray", "quad_screen", "tiles"], "culling": ["none"],
              "data": ["generate:uniform:10", "generate:uniform:20", "generate:droplets:20"],
              "camera": CAMERAS + ["random:1"], "viewport": [8]}
-REFERENCE = ["--reference", "data=generate:uniform:10"]  # exists in one suite only
+REFERENCE = ["--reference", "data=generate:uniform:10"]  # this factor exists in one suite only
 FIGURES = {"volume": ["figure_03_distribution", "figure_04_correlation_boxes", "figure_05_correlation_device",
                       "figure_06_speed_up_device", "figure_07_speed_up_camera_path", "figure_08_mean_data_camera_path",
                       "camera_paths", "correlation_camera_distance", "correlation_camera_rotation", "prediction",

@@ -38,7 +38,7 @@ class Publish(unittest.TestCase):
     def test_all_is_there_and_proven(self):
         done = self.publish()
         self.assertEqual(done.returncode, 0, done.stderr)
-        # Not with tar, which needs xz, and a minimal Debian does not have that.
+        # The archive is not read with tar, which would need xz, because a minimal Debian does not have xz.
         with tarfile.open(self.folder / "out/triptych-results.tar.xz") as tar:
             tar.extractall(self.folder / "user")
         found = self.folder / "user/triptych-results"
@@ -69,7 +69,7 @@ class Publish(unittest.TestCase):
     def test_what_cannot_be_made_leaves_the_earlier_one(self):
         self.assertEqual(self.publish("--hours", "0.00001").returncode, 0)
         first = self.archive()
-        # Interrupted in the middle: the tables exist, but not the analysis.
+        # The call was interrupted in the middle: the tables exist, but not the analysis.
         stand_in = self.folder / "triptych"
         stand_in.write_text('#!/bin/sh\n"$TRIPTYCH_PROGRAM" "$@" || exit\n'
                             '[ "$1" != export ] || rm "$4/dictionary.json"\n', encoding="utf-8")

@@ -53,7 +53,7 @@ class Techniques(unittest.TestCase):
                                    lambda at: float(at["step"]),
                                    without=lambda at: at == {"device": "b", "data": "y", "step": "2"})
         means = choice.mean_values(data, "data", "device")
-        self.assertEqual(list(means["mean_ms"]), [1] * 4)  # with step 2 the other cells would be more expensive
+        self.assertEqual(list(means["mean_ms"]), [1] * 4)  # with step 2, the other cells would have a longer time
         self.assertEqual(set(means["held"]), {"step=1"})
         self.assertTrue(choice.mean_values(data, "data", "technique").empty)
 

@@ -31,7 +31,7 @@ ROWS = [("a", 1000, "far", "tiles", "static", 2.0), ("a", 1000, "far", "point", 
 class Rays(unittest.TestCase):
     def test_the_fastest_of_each_kind_is_compared_in_each_scene(self):
         table = rays.compare(rays.observations(observed(ROWS))).set_index("mode")
-        # far: 1 / 2, near: 16 / 8; their geometric mean is 1
+        # The ratio is 1 / 2 for far and 16 / 8 for near, so their geometric mean is 1.
         self.assertAlmostEqual(table.loc["static", "ratio"], 1)
         self.assertEqual(table.loc["static", "scenes"], 2)
         self.assertEqual(table.loc["static", "rays"], "bvh")

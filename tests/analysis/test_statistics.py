@@ -13,7 +13,7 @@ class KolmogorovSmirnov(unittest.TestCase):
     def test_two_samples_by_hand(self):
         a, b = [1, 2, 3, 4], [2.5, 3.5, 5, 6]
         d, p = views.ks_two_samples(a, b)
-        self.assertAlmostEqual(d, 0.5)  # at 2: 2/4 against 0/4
+        self.assertAlmostEqual(d, 0.5)  # at 2, the shares are 2/4 and 0/4
         # p is the share of all orders of eight values whose distance is at least as large.
         as_far = 0
         orders = list(itertools.combinations(range(8), 4))
@@ -39,7 +39,7 @@ class KolmogorovSmirnov(unittest.TestCase):
         self.assertAlmostEqual(d, 1 / 3 - 0.11034, places=5)
 
     def test_lilliefors_has_its_textbook_value(self):
-        # Critical value of Lilliefors' table (1967) at 5 %, n = 20: 0.190; ours divides by n, not n − 1.
+        # The critical value of Lilliefors' table (1967) at 5 %, n = 20, is 0.190. This implementation divides by n, not by n − 1.
         self.assertAlmostEqual(distribution.lilliefors_p(0.190, 20, 4000, 1), 0.05, delta=0.015)
 
     def test_log_normal_samples_are_rejected_as_often_as_the_level_says(self):
@@ -51,7 +51,7 @@ class KolmogorovSmirnov(unittest.TestCase):
             p = distribution.lilliefors_p(d, 60, 199, seed)
             rejected += p < 0.05
             self.assertGreater(naive, p - 0.01)  # the naive test ignores that the parameters were fitted
-        self.assertLessEqual(rejected, 9)  # 3 expected; more than 9 is one in 500
+        self.assertLessEqual(rejected, 9)  # 3 are expected; more than 9 have a probability of one in 500
 
     def test_gamma_samples_are_rejected(self):
         values = np.random.default_rng(3).gamma(2.0, 1.0, 1500)
@@ -109,7 +109,7 @@ class Correlation(unittest.TestCase):
         self.assertEqual(cells.iloc[0]["samples"], 60)
         self.assertEqual(cells.iloc[0]["held"], "step=1")
         line = correlation.speed_ups(data, devices, "b").iloc[0]
-        self.assertAlmostEqual(line.speed_up, 2)  # b takes twice as long, and 3 ms
+        self.assertAlmostEqual(line.speed_up, 2)  # b takes twice as long, plus 3 ms
         self.assertAlmostEqual(line.intercept_ms, 3)
 
     def test_only_what_both_levels_have_is_paired(self):
@@ -148,7 +148,7 @@ class Splits(unittest.TestCase):
             {"camera": ["orbit_y:0/2", "orbit_y:1/2", "path_z:0/2", "path_z:1/2", "random:1"], "data": list("12345")},
             lambda at: float(at["data"]))
         paths = correlation.correlations(data, splits.split(data, "camera_path"))
-        self.assertEqual(len(paths), 1)  # random views have no partners
+        self.assertEqual(len(paths), 1)  # random views have no partner in another set
         self.assertEqual(paths.iloc[0].pairs, 10)  # by position and data
         self.assertEqual(correlation.correlations(data, splits.split(data, "camera_rotation")).iloc[0].pairs, 5)
         self.assertEqual(splits.split(data, "camera_distance").levels, ["0/2", "1/2"])
@@ -185,7 +185,7 @@ class Views(unittest.TestCase):
         self.assertLess(orbit.p, 1e-6)
         self.assertEqual(orbit.subsets, 100)
         self.assertLess(orbit.rejected, 10)
-        # Of the 15 subsets of two views out of six, one has both on the orbit, and then the distance is as large.
+        # Of the 15 subsets of two views out of six, one has both views on the orbit, and its distance is as large.
         self.assertGreater(tests.loc[("orbit_y", "views"), "d_mean"], orbit.d_mean)
 
     def test_one_path_is_compared_with_nothing(self):

@@ -1,4 +1,5 @@
-// Each row of docs/attacks.md names the tests of its guard. They exist, and the build runs them.
+// Each row of docs/attacks.md names the tests that guard against an attack. All of these tests must
+// exist and be part of the build.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,8 @@ struct NamedTest {
   std::vector<std::string> cases;
 };
 
-// The tests in the last cell of a row: "`a_test` OneCase, AnotherCase; `b_test`".
+// The source of a test program, such as "`gate_test`", with the cases that the row names. If the
+// row names no case, it means all cases of the file.
 std::vector<NamedTest> tests_of(const std::string& cell) {
   static const std::regex word(R"(`([a-z0-9_]+)`|([A-Z][A-Za-z0-9]+))");
   std::vector<NamedTest> tests;

@@ -1,4 +1,4 @@
-// Every technique is implemented in every backend, or listed with the reason why not.
+// Every backend implements every technique, or gives the reason why it does not.
 
 #include <gmock/gmock.h>
 
@@ -74,7 +74,7 @@ std::string judged_plans(const std::string& suite, const std::string& check) {
   return all;
 }
 
-// A technique that no gate draws is never judged.
+// A technique that no plan of the gate draws is never judged.
 TEST(Matrix, EveryTechniqueIsInTheGatesPlans) {
   for (const technique::Technique& each : technique::catalogue()) {
     for (const char* check : {"image", "cost", "code"}) {
@@ -94,7 +94,7 @@ TEST(Matrix, UnsupportedNamesOnlyTechniquesThereAre) {
   }
 }
 
-// The ids of techniques in comparisons within a text.
+// The ids of techniques that a text compares with.
 std::set<std::string> compared_ids(const std::string& text) {
   static const std::regex comparison(R"re(technique(?:\.id|"\))?\s*[=!]=\s*"([a-z_]+)")re");
   std::set<std::string> ids;
@@ -107,13 +107,14 @@ std::set<std::string> compared_ids(const std::string& text) {
   return ids;
 }
 
-// A rule for one technique would be forgotten for the next one. Differences between techniques are
-// columns of the catalogue.
+// A rule for one technique would be forgotten for the next one, so differences between techniques
+// are columns of the catalogue.
 TEST(Matrix, SharedCodeComparesNoIdsOfTechniques) {
   EXPECT_EQ(compared_ids("if (work.technique == \"point\" && at(\"technique\") != \"raycast\" && "
                          "technique.id == \"mesh\" && api == \"gl\")"),
             (std::set<std::string>{"mesh", "point", "raycast"}));
-  // Records know only names; has_picture_test compares this file with the catalogue.
+  // Records know techniques only by name, so this file is allowed to compare ids; has_picture_test
+  // compares it with the catalogue.
   static const std::set<std::string> tested_against_the_catalogue{"has_picture.hpp"};
   for (const std::string folder : {"src", "backends", "suites"}) {
     for (const auto& file : files_below(folder, {".hpp", ".cpp"})) {

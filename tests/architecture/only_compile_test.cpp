@@ -1,5 +1,5 @@
-// A device that only compiles executes nothing. Calls that submit, draw or read back are in one
-// place of each backend, where they are guarded.
+// A device that only compiles executes nothing. In each backend, calls that submit, draw or read
+// back are in a single place, which refuses them for such a device.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace triptych::architecture {
 namespace {
 
-// The files of a backend in which a line matches that is not a comment.
+// The files of a backend with a line that matches and is not a comment.
 std::set<std::string> files_with(const std::string& folder, const std::regex& pattern) {
   std::set<std::string> found;
   for (const auto& file : files_below(folder, {".cpp", ".hpp"})) {

@@ -1,4 +1,4 @@
-// Texts that are written for people are never parsed.
+// No code parses texts that are written for people.
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 namespace triptych::architecture {
 namespace {
 
-// A search in a field or a result that contains prose, or a comparison with one. Only the words
-// folder produces prose, and core quotes it.
+// Matches a search in text that is written for people, or a comparison with such text. Only the
+// folder `words` produces it, and core quotes it.
 const std::regex reads_prose(
     R"(\b(detail|last_words|message|what\(\)|text_of\([^()]*\)|headline\([^()]*\)|advice\([^()]*\)))"
     R"(\s*(\.\s*(find|rfind|starts_with|ends_with|contains|substr|compare)\b|[=!]=\s*"[^"]))");

@@ -32,8 +32,8 @@ class Browser:
         self.rest = b""
         to_browser, self.commands = os.pipe()
         self.answers, from_browser = os.pipe()
-        # The pipes of the protocol are the descriptors 3 and 4. Without a sandbox, which needs rights that a container does not have;
-        # the pages are our own.
+        # The pipes of the protocol are the descriptors 3 and 4. Chromium runs without its sandbox, which needs rights that a
+        # container does not have. The pages are made by the tests themselves.
         launch = f'exec 3<&{to_browser} 4>&{from_browser}; exec "$@"'
         self.process = subprocess.Popen(
             ["bash", "-c", launch, "browser", program(), "--headless", "--no-sandbox", "--remote-debugging-pipe",

@@ -84,7 +84,7 @@ def make(triptych):
         pages[name] = os.path.join(triptych.folder, f"{name}.html")
     triptych("history", "pass.sqlite", "fail.sqlite", "--out", "history.html")
     pages["history"] = os.path.join(triptych.folder, "history.html")
-    # A driver with a few scenes of a validation, and errors against cost and time.
+    # Makes the pages of a driver with a few scenes of a validation, and of errors against cost and time.
     triptych("validate", "--device", "vulkan:lavapipe", "--shard", "1/60", "--out", "validation", code=2)  # some data files are missing
     pages["validation"] = os.path.join(triptych.folder, "validation", "report.html")
     chosen = [word for device in DEVICES for word in ("--device", device)]

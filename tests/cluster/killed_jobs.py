@@ -21,7 +21,7 @@ CLUSTER = SOURCES / "ci/cluster"
 LARGE = os.environ.get("TRIPTYCH_FARM") == "paper"
 SHARDS = 200 if LARGE else 30
 DEVICES = 3
-# A frame lasts so long that the test can find a job while it is running.
+# A frame takes so long that the test can find a job while it is running.
 SCRIPT = '{"devices": [1, 1.7, 0.6], "base_ns": %d, "ns_per_sample": 0, "sleep": true}' % (1e4 if LARGE else 4e7)
 PLAN = """suite: volume
 technique: [raycast]
@@ -90,7 +90,7 @@ def kill_some(farm, generator):
         jobs = running()
         for index in targets:
             if (farm / "1" / f"shard-{index}.ended").exists():
-                pool.remove(index)  # it has already ended, so another one is killed
+                pool.remove(index)  # this job has already ended, so another one is killed
             elif index in jobs and records_in(farm / "1" / f"shard-{index}.sqlite") > index % 5:
                 how, killed = (("scontrol", "requeue"), again) if len(again) <= len(lost) else (
                     ("scancel", "--signal=KILL", "--full"), lost)

@@ -46,9 +46,10 @@ class Submit(unittest.TestCase):
     def test_a_job_gets_200_configurations_of_all_plans(self):
         self.assertEqual(self.shards_of("plan340"), 2)
         self.assertEqual(self.shards_of("plan340", "plan340"), 4)
-        # Half of each is 51 + 150. If both have an odd number, one job may get the additional one of both.
+        # A half of the plans has 51 and 150 configurations. If both plans have an odd number, one job may get the additional
+        # configuration of both.
         self.assertEqual(self.shards_of("plan101", "plan299"), 3)
-        # Never more jobs than the largest plan has configurations, because the others would have nothing to do.
+        # There are never more jobs than the largest plan has configurations, because the others would have nothing to do.
         self.assertEqual(self.shards_of(*["plan2"] * 500), 2)
 
     def test_what_slurm_refuses_leaves_nothing(self):

@@ -1,4 +1,4 @@
-// The checks of CTest when a data file is missing that existed when the baselines were accepted.
+// The checks of CTest if a data file is missing that was there when the baselines were accepted.
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ TEST_F(AbsentData, IsASkipForCTestAndNotToBeJudgedForTheGate) {
       << gate.output;
 }
 
-// A machine may lack data files on purpose, but something has to be judged.
+// A machine may lack data files on purpose, but at least something has to be judged.
 TEST_F(AbsentData, IsExcusedByAnOptionUnlessNothingIsLeft) {
   ASSERT_EQ(program.run("run plan --device 'null:*' --store first.sqlite").code, 0);
   const std::string accept = "accept plan --reason new --baselines baselines --store ";
@@ -92,7 +92,7 @@ TEST_F(AbsentData, LeavesNoLimitToJudgeBy) {
   EXPECT_EQ(judged.code, 2) << judged.output;
   const auto unknown = findings_of(judged.output.substr(judged.output.find('{')), "unknown_error");
   ASSERT_FALSE(unknown.empty()) << judged.output;
-  // One for each configuration that was measured.
+  // One record for each configuration that was measured.
   EXPECT_NE(run.output.find(std::to_string(unknown.size()) + " measured, 0 skipped, 0 failed"),
             std::string::npos)
       << run.output;

@@ -90,7 +90,7 @@ TEST_F(Arguments, AFolderThatMayNotBeSearchedIsNoError) {
   EXPECT_EQ(version.code, 0) << version.output;
 }
 
-// Progress and errors go to stderr. If stderr cannot be written, that is no reason to stop.
+// Progress and errors go to stderr. A run must continue even if stderr cannot be written.
 TEST_F(Arguments, AStderrThatTakesNothingEndsNothing) {
   const std::string full = R"(sh -c 'exec "$0" "$@" 2> /dev/full')";
   const Result measured = program.run("run p.yaml --device 'null:*' --store s.sqlite", "{}", full);

@@ -1,5 +1,5 @@
-// The scripts of ci/ with replacements for all programs that they call: the arguments of these
-// calls, and the exit codes.
+// Runs the scripts of ci/ with replacements for all programs that they call, and checks the
+// arguments of these calls and the exit codes.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using test::Result;
 using testing::HasSubstr;
 
-// An environment variable contains the answer.
+// Records its arguments. The variable GATE is its exit code.
 constexpr const char* stand_in_program = R"(#!/bin/sh
 echo "$*" >> calls
 exit ${GATE:-0}

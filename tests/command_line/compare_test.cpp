@@ -131,8 +131,8 @@ TEST_F(Compare, JsonSaysTheSame) {
       result.output.substr(result.output.find("\n{") + 1));  // after the progress
   EXPECT_EQ(json.at("exit_code"), 1);
   const auto& compared = json.at("configurations").at(0);
-  // The scripted times, of which the ratio is the verdict. A block takes the least of several
-  // batches with 1 % noise: of 30 normal values the least is 2.04 standard deviations below the mean.
+  // The verdict is the ratio of these scripted times. A block uses the smallest of several batches
+  // with 1 % noise: the smallest of 30 normal values is 2.04 standard deviations below the mean.
   EXPECT_NEAR(compared.at("a").at("median_ns").get<double>(), 5e6, 0.03 * 5e6);
   EXPECT_NEAR(compared.at("b").at("median_ns").get<double>(), 5.25e6, 0.03 * 5.25e6);
   EXPECT_LT(compared.at("b").at("lower_quartile_ns"), compared.at("b").at("median_ns"));

@@ -1,4 +1,4 @@
-// A plan that counts instructions and also judges images has both from the same frames.
+// In a plan that counts instructions and also judges images, both come from the same frames.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ constexpr const char* counted_device = "vulkan:lavapipe";
 
 class CountedPictures : public testing::Test {
  protected:
-  // The records of a plan with these checks; none if the device or the counter is missing.
+  // The records of a plan with these checks; empty if the device or the counter is missing.
   std::vector<record::Record> counted(const std::string& name, const std::string& checks) {
     program.write(name + ".yaml",
                   fmt::format("suite: volume\nchecks: {}\ndata: [generate:mandelbulb:48]\n"

@@ -19,7 +19,7 @@ std::string tests_of(const Program& program, const std::string& plan) {
   return program.read("tests.cmake");
 }
 
-// Errors, orders, counters and images need no times.
+// Errors, orders, counters and images need no times, so these plans are measured without times.
 TEST(CTestListing, AccuracyIsMeasuredWithoutTimes) {
   const Program program;
   for (const std::string plan : {"volume/accuracy", "particles/accuracy"}) {

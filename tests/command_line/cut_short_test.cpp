@@ -47,7 +47,7 @@ TEST_F(CutShort, AWholeRunPasses) {
   EXPECT_EQ(program.run("merge --check s.sqlite").code, 0);
 }
 
-// Killed while the second device draws its first frame, which takes 10 s.
+// The program is killed while the second device draws its first frame, which takes 10 s.
 TEST_F(CutShort, AKilledRunIsNamed) {
   accept();
   const std::string slow = R"({"devices": [1, 10000], "base_ns": 1e6, "ns_per_sample": 0, "sleep": true})";
@@ -83,7 +83,7 @@ TEST_F(CutShort, ADeviceThatIsGoneIsNamedUnlessItIsMeantToBe) {
   EXPECT_EQ(gate().code, 0) << gate().output;
 }
 
-// Neither takes the command with it.
+// Neither failure ends the command itself.
 TEST_F(CutShort, AListingThatEndsIsNoListing) {
   for (const char* kind : {"crash", "garbage", "exit"}) {
     const Result result =

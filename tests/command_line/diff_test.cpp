@@ -72,7 +72,7 @@ TEST_F(Diff, WhatOnlyOneHasCannotBeJudged) {
   EXPECT_THAT(result.output, HasSubstr("plan volume/accuracy: only b has it"));
 }
 
-// The driver could draw nothing of it before and after, which does not count as a pass.
+// The driver could draw nothing, neither before nor after, which does not count as a pass.
 TEST_F(Diff, WhatNeitherMeasuredCannotBeJudged) {
   for (const char* store : {"old.sqlite", "new.sqlite"}) {
     const Result run =

@@ -36,7 +36,7 @@ BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 LANGUAGES = ("", "sh", "text")  # text: output of a program, which may print a command to paste
 # Leaves out the last line of `run`, which contains the time that "triptych itself" took.
 COMMAND = re.compile(r"(?:^|[\s;(/])triptych (?!itself)(?P<words>[a-z][^)\n]*)")
-FORM = re.compile(r"…| {2,}[a-z]")  # "STORE…", or an explanation beside it: a synopsis, not a command
+FORM = re.compile(r"…| {2,}[a-z]")  # "STORE…", or an explanation after blanks, marks a synopsis, which is not run
 
 
 def commands(page):
@@ -121,7 +121,7 @@ class Documented(unittest.TestCase):
                     done = run(command, folder, environment)
                     if done is not None:
                         self.assertIn(done.returncode, (0, 1, 2), f"{command}\n{done.stdout[-500:]}{done.stderr[-500:]}")
-                if name == "run":  # the stores that other examples name
+                if name == "run":  # makes the stores that other examples name
                     for store in ("shard-1", "old", "new", "monday", "tuesday"):
                         shutil.copy(pathlib.Path(folder, "results.sqlite"), pathlib.Path(folder, f"{store}.sqlite"))
 

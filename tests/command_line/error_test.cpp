@@ -14,8 +14,8 @@
 namespace triptych::command_line {
 namespace {
 
-// A script of devices that draw the limit of each of these scenes. If there are several, they are
-// recognized by their data.
+// A script for devices that draw the limit image of each of these scenes. If there are several
+// scenes, their data distinguish them.
 std::string drawing_the_limit(const Program& program, const std::vector<std::string>& data,
                               const std::string& viewport) {
   const auto suite = volume_suite::make_suite({});
@@ -96,7 +96,8 @@ TEST(Error, OutOfReachInOneSceneIsToldAndAllOthersAreMeasured) {
   EXPECT_NE(result.output.find("of 1e-12:max"), std::string::npos) << result.output;
 }
 
-// If the plan leaves the sampler to the device, cells use another sampler than midpoints.
+// If the plan leaves the sampler to the device, quadrature cells uses another sampler than
+// midpoint.
 TEST(Error, OfASceneHasOneAnswerWhateverSamplerItsCandidatesTake) {
   const Program program;
   const Result kept = program.run("run volume/quick " + std::string(tiny) + " --error 0.0001",

@@ -27,8 +27,8 @@ const fs::path examples = fs::path(TRIPTYCH_SOURCE_FOLDER) / "ci/examples";
 
 struct Job {
   std::vector<std::string> steps;    // run until the first that fails
-  std::vector<std::string> at_last;  // run whatever failed
-  std::string kept;                  // the folder of the artifacts
+  std::vector<std::string> at_last;  // run even if a step failed
+  std::string kept;                  // the folder with the artifacts
   std::vector<std::string> reports;  // files and globs that the CI system reads
 };
 
@@ -55,9 +55,9 @@ Job gitlab() {
                       kept["reports"]["codequality"].as<std::string>()}};
 }
 
-// A shell script with these steps. Each step of GitHub is a shell of its own, while those of GitLab
-// share one. It then runs the last steps, shows the summary as GitHub does, and exits with the code
-// of the first step that failed.
+// A shell script that runs these steps: each step of GitHub in a separate shell, and those of
+// GitLab in a common one. It then runs the last steps, prints the summary as GitHub does, and exits
+// with the code of the first step that failed.
 std::string script_of(const Job& job) {
   std::vector<std::string> shells = job.steps;
   if (!job.reports.empty()) shells = {fmt::format("{}", fmt::join(job.steps, "\n"))};
@@ -161,7 +161,7 @@ TEST_P(Examples, KeepEverythingAndAnnotate) {
   EXPECT_THAT(program.read("out/codequality.json"), HasSubstr("\"severity\": \"major\""));
 }
 
-// A driver of one's own is used by all steps that follow.
+// All later steps use the user's own driver.
 TEST_P(Examples, UseTheDriverThatIsLeftInTheRepository) {
   const fs::path icd = program.folder() / "mesa/share/vulkan/icd.d";
   fs::create_directories(icd);

@@ -49,8 +49,8 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// Run time against error can be drawn from the tables alone. A right image has no error against its
-// reference image, and one against the limit that falls with the step.
+// Run time against error can be drawn from the tables alone. A correct image has no error against
+// its reference image, and an error against the limit image that decreases with the step.
 TEST_F(Export, HasEveryErrorOfEveryImage) {
   const std::string right = R"({"images": {"*": ")" + right_picture(program).string() + R"("}})";
   ASSERT_EQ(program

@@ -1,5 +1,5 @@
-// An injected slowdown is real work of the device, as counting instructions shows; times could fail
-// here on a busy machine. The contract tests check that it changes no pixel.
+// An injected slowdown is real work for the device. The tests count instructions to prove it,
+// because times could differ on a busy machine. The contract tests check that it changes no pixel.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 #pragma once
-// Runs the program with one system call that fails. The call is chosen by its number among those
-// that can fail, and is the same one every time. x86-64 Linux, if a process may trace its child.
+// Runs the program so that one of its system calls fails. The call is chosen by its number among
+// those that can fail, so it is the same one in every run. Works on x86-64 Linux if a process may
+// trace its child.
 
 #include <fcntl.h>
 #include <sys/ptrace.h>
@@ -28,7 +29,7 @@ struct Outcome {
 
 namespace failing_detail {
 
-// Calls about files, memory and processes, each with an error that it can have.
+// Covers calls about files, memory and processes, and returns an error that each of them can have.
 inline int error_of(unsigned long long call, long number) {
   switch (call) {
     case SYS_read:
@@ -92,7 +93,7 @@ inline Outcome follow(pid_t child, long at) {
       const int error = started ? error_of(registers.orig_rax, at) : 0;
       if (error != 0 && ++outcome.calls == at) {
         pending = error;
-        registers.orig_rax = ~0ULL;  // no call
+        registers.orig_rax = ~0ULL;  // the kernel executes no call
         ::ptrace(PTRACE_SETREGS, child, 0, &registers);
       }
     } else if (pending != 0) {
@@ -106,7 +107,7 @@ inline Outcome follow(pid_t child, long at) {
 
 }  // namespace failing_detail
 
-// `told`: the name of the file in the folder to which the output is written.
+// `told`: the name of the file in the folder to which the program's output is written.
 inline Outcome run_failing(const std::filesystem::path& folder, const std::string& script,
                            const std::vector<std::string>& arguments, const std::string& told,
                            long at = std::numeric_limits<long>::max()) {

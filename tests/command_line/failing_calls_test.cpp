@@ -1,7 +1,7 @@
-// System calls of a small run, accept, merge and gate fail. Each command then either exits with 0
-// and has written everything, or it exits with another code and a line that says what happened, and
-// never leaves half of a baseline. TRIPTYCH_KILLS=N tries N calls of each command instead of 12,
-// distributed over all of them.
+// Makes system calls of a small run, accept, merge and gate fail. Each command must either exit
+// with 0 and have written everything, or exit with another code and a line that names the failure,
+// and must never leave a half-written baseline. TRIPTYCH_KILLS=N makes N calls of each command fail
+// instead of 12, distributed over all of its calls.
 
 #include "failing_calls.hpp"
 

@@ -7,7 +7,7 @@
 namespace triptych::command_line {
 namespace {
 
-// Three configurations, of which the one with step 0.5 has the fault.
+// Three configurations. The one with step 0.5 has the fault.
 const std::string three =
     std::string("run volume/quick ") + tiny + " --set step=0.25,0.5,1 --store s.sqlite";
 
@@ -27,7 +27,7 @@ TEST(Faults, AHangCostsOneConfiguration) {
   EXPECT_NE(result.output.find("hung"), std::string::npos) << result.output;
 }
 
-// The plan's value "haze" is a default, so it is in no configuration's name.
+// The plan's value "haze" is a default, so no configuration's name contains it.
 TEST(Faults, AFaultThatHitsNothingIsTold) {
   const Program program;
   const Result missed = program.run(three + " --inject 'crash@*haze*'");
@@ -47,7 +47,7 @@ TEST(Faults, ALostDeviceCostsOneConfiguration) {
 
 TEST(Faults, AKilledRunIsResumed) {
   const Program program;
-  // The first configuration is stored, the second hangs until the supervisor is killed.
+  // The first configuration is stored, and the second one hangs until the supervisor is killed.
   const Result killed =
       program.run(three + " --limit 60 --inject 'hang@*step=0.5*'", "{}", "timeout -s KILL 3");
   EXPECT_NE(killed.code, 0);

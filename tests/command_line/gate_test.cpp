@@ -1,4 +1,4 @@
-// Measures, accepts and judges, from end to end, on scripted devices whose results are known.
+// Measures, accepts and judges from end to end, on scripted devices with known results.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ TEST(Gate, CannotJudgeWithoutBaselines) {
       << judged.output;
 }
 
-// For a run that read no statistics, the gate has to give the reason why it does not pass.
+// If a run read no statistics, the gate must give that as the reason why it does not pass.
 TEST(Gate, ATestOfACheckThatDecidesNothingIsSkipped) {
   const Program program;
   std::filesystem::create_directory(program.folder() / "baselines");
@@ -88,7 +88,7 @@ TEST(Gate, APartIsFinishedInItsOwnStore) {
       << refused.output;
 }
 
-// Other voxels under the same name.
+// A window or mapping changes the stored voxels of a volume, whose name stays the same.
 TEST(Gate, WindowsAndMappingsOfOneVolumeAreNoChangedData) {
   const Program program;
   program.write("plan", std::string(tiny_plan) +
@@ -127,7 +127,7 @@ TEST(Gate, AWrongPictureIsARegression) {
   EXPECT_EQ(program.run(judge_from("s.sqlite")).code, 1);
 }
 
-// A check that was not requested appears in neither of them.
+// A check that was not requested appears on neither the page nor the screen.
 TEST(Gate, ThePageSaysWhatTheScreenSays) {
   const Program program;
   accept_runs(program, right_picture(program), 1);
@@ -166,7 +166,8 @@ TEST(Gate, ARequiredDeviceThatIsAbsentIsNoPass) {
   EXPECT_NE(judged.output.find("vulkan:*"), std::string::npos);
 }
 
-// This is refused before anything is judged, and nothing is written.
+// An output whose name is that of another file is refused before anything is judged, and nothing is
+// written.
 TEST(Gate, NoOutputReplacesAnother) {
   const Program program;
   ASSERT_EQ(program.run(measure_into("s.sqlite"), script(right_picture(program), 1, 1)).code, 0);

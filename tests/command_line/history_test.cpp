@@ -1,4 +1,4 @@
-// The stores of several days, in their order.
+// Compares the stores of several days in their order.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-// Input that no command expects leads to an error of one line. Nothing reaches the terminal
-// unescaped, and no command hangs.
+// Malicious input leads to an error of one line. Nothing reaches the terminal unescaped, and no
+// command hangs.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -29,7 +29,7 @@ TEST(Hostile, APlanOfAFileIsListedForCTest) {
   EXPECT_EQ(listed.code, 0) << listed.output;
   const std::string tests = program.read("tests.cmake");
   EXPECT_THAT(tests, HasSubstr("[=[volume.p.start]=]"));
-  // In whatever folder CTest starts it.
+  // The path is absolute, because CTest may start the test in any folder.
   EXPECT_THAT(tests, HasSubstr("[=[" + (program.folder() / "p.yaml").string() + "]=]"));
 }
 
@@ -53,7 +53,7 @@ TEST(Hostile, NoNameEndsAnArgumentInTheListForCTest) {
         test::run_command("cd '" + program.folder().string() + "' && cmake -P defined.cmake 2>&1");
     EXPECT_EQ(read.code, 0) << read.output;
     EXPECT_FALSE(std::filesystem::exists(program.folder() / "ran")) << name;
-    // The plan is an argument as it is.
+    // The plan appears unchanged as an argument.
     EXPECT_THAT(read.output, HasSubstr((program.folder() / folder / "p.yaml").string()));
   }
 }

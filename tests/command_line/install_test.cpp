@@ -1,4 +1,4 @@
-// A user's installation: its version, its baselines and its shell completion.
+// Tests an installation as a user has it: its version, its baselines and its shell completion.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST_F(Installed, NamesVersionAndCommit) {
               MatchesRegex("triptych [0-9.]+(, commit [0-9a-f]+\\+?)?, device code [0-9a-f]+\n"));
 }
 
-// The package is made from these files.
+// The Debian package is made from these files.
 TEST_F(Installed, NobodyElseCanWriteAndEverybodyCanRead) {
   for (const char* umask : {"000", "022"}) {
     const std::string to = (folder.path() / umask).string();
@@ -71,7 +71,7 @@ TEST_F(Installed, JudgesByTheBaselinesInstalledWithIt) {
   EXPECT_THAT(judged.output, HasSubstr("no baselines in " + kept + "/volume/quick"));
 }
 
-// Every link of the installed documentation to another file leads to a file.
+// Every link in the installed documentation leads to a file that is also installed.
 TEST_F(Installed, HasTheWholeDocumentation) {
   const std::filesystem::path documents = prefix() + "/share/doc/triptych";
   const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
@@ -87,8 +87,9 @@ TEST_F(Installed, HasTheWholeDocumentation) {
   EXPECT_GT(links, 100U);
 }
 
-// Accepting starts the user's own baselines, which are used from then on. An installation may be
-// shared, and the one in a container is lost.
+// The first `accept` starts the user's own baselines, which are used from then on. The installed
+// ones must not change, because an installation may be shared, and changes inside a container are
+// lost.
 TEST_F(Installed, AcceptsIntoTheWorkingDirectoryAndNowhereElse) {
   const std::filesystem::path installed = prefix() + "/share/triptych/baselines";
   const auto before = tree(installed);

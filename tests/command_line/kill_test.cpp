@@ -40,7 +40,7 @@ class Kill : public testing::Test {
       "data=generate:gaussian_blob:16 --set transfer_function=haze --set "
       "viewport=16";
 
-  // A device that draws the right image and whose frames take this long.
+  // The script of a device that draws the correct image and whose frames take this long.
   [[nodiscard]] std::string script(int base_us = 100) const {
     return fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": {}}})", picture.string(),
                        1000 * base_us);
@@ -163,7 +163,8 @@ TEST_F(Kill, AReportIsWholeOrNotThere) {
       });
 }
 
-// Killed at a call with a given number, during the frames after the first configuration.
+// The worker is killed at a system call with a given number, during the frames after the first
+// configuration.
 TEST_F(Kill, AWorkerCostsOneConfigurationAtMost) {
   program.write("kill_worker.sh", R"(delay=$1; shift
 "$@" >told 2>&1 &

@@ -21,7 +21,7 @@ namespace triptych::command_line {
 struct Ending {
   bool traced = true;  // false: tracing is not permitted on this machine, and nothing was run
   bool killed = false;
-  long calls = 0;  // how often the first thread entered the kernel and returned from it
+  long calls = 0;  // how often the first thread entered the kernel or returned from it
 };
 
 namespace killed_detail {
@@ -65,7 +65,7 @@ inline Ending follow(pid_t child, long at) {
 
 }  // namespace killed_detail
 
-// `told`: the name of the file in the folder to which the output is written.
+// `told`: the name of the file in the folder to which the program's output is written.
 inline Ending run_killed(const std::filesystem::path& folder, const std::string& script,
                          const std::vector<std::string>& arguments, const std::string& told,
                          long at = std::numeric_limits<long>::max()) {

@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr bool sanitized = true;  // its own memory exceeds every limit by far
+constexpr bool sanitized = true;  // a sanitizer's own memory exceeds every limit by far
 #else
 constexpr bool sanitized = false;
 #endif
@@ -34,7 +34,7 @@ TEST(Memory, DataThatNeedMoreFailTheirConfigurationAlone) {
   EXPECT_THAT(result.output, HasSubstr("1 measured, 0 skipped, 1 failed"));
 }
 
-// 526 MiB of voxels, which are in a file, in parts of 16 MiB.
+// The file has 526 MiB of voxels, which are drawn in parts of 16 MiB.
 TEST(Memory, IsNotWhatVoxelsInAFileTake) {
   if (sanitized) GTEST_SKIP() << "built with a sanitizer";
   const Program program;
@@ -91,7 +91,8 @@ TEST(FullDisk, AReportThatDoesNotFitLeavesTheOldOne) {
   EXPECT_EQ(program.read("r.html"), "old");
 }
 
-// The store has its reference image already, so that the page is the first file that does not fit.
+// The store contains the reference image already, so the page is the first file for which there is
+// no space.
 TEST(FullDisk, AGateWhoseFilesDoNotFitIsNoPass) {
   const Program program;
   const std::string gate = "gate volume/quick --store s.sqlite --baselines b";

@@ -20,7 +20,7 @@ using testing::StartsWith;
 constexpr const char* gate =
     "gate volume/quick --measure --store s.sqlite --device 'null:*' --set technique=raycast "
     "--set data=generate:gaussian_blob:16 --set transfer_function=haze --set viewport=16 ";
-// 48 configurations.
+// A plan with 48 configurations.
 constexpr const char* many =
     "gate volume/quick --measure --store s.sqlite --baselines b --device 'null:*' --set "
     "technique=raycast --set data=generate:gaussian_blob:8 --set viewport=8 --set "
@@ -70,7 +70,7 @@ TEST(Log, ATerminalOf80ColumnsNeverWraps) {
 
 class CiSystems : public testing::Test {
  protected:
-  // A wrong image, after its baselines were accepted.
+  // An image is wrong after its baselines were accepted.
   void SetUp() override {
     ASSERT_EQ(program.run(gate, right()).code, 2);
     ASSERT_EQ(program.run("accept --reason new --baselines baselines --store s.sqlite").code, 0);

@@ -103,7 +103,8 @@ TEST_F(MergeCommand, CheckNamesWhatIsNotComplete) {
       run("run p.yaml --device 'null:*' --resume --set camera=random:1 --store 4.sqlite").code, 0);
   ASSERT_EQ(run("run p.yaml --device null:scripted --set camera=random:1 --store 5.sqlite").code,
             0);
-  // A kill leaves such a store: its run was to measure more than it contains.
+  // A killed run leaves a store like this one, which contains fewer records than the run was to
+  // measure.
   ASSERT_EQ(run("run volume/quick --device 'null:*' --store 5.sqlite --shard 90/90").code, 2);
   const Result checked = run("merge --check 4.sqlite 5.sqlite --plan p.yaml --plan volume/quick");
   EXPECT_EQ(checked.code, 2);

@@ -20,7 +20,7 @@ TEST(Notes, AreToldOnce) {
   const Program program;
   program.write("ligand.gro",
                 "made\n    1\n    1LIG     SI    1   0.100   0.100   0.100\n   1.0 1.0 1.0\n");
-  // Two orders of drawing on one device, and a second process for the reference.
+  // One device draws in two orders, and the reference image is computed in a second process.
   const Result result = program.run(
       "gate particles/quick --measure --check image --device null:scripted --set data=ligand.gro "
       "--set technique=point --set viewport=16,32 --store s.sqlite --baselines b 2>&1");

@@ -42,7 +42,7 @@ class OnlyCompile : public testing::Test {
   Program program;
 };
 
-// Its images would be black, and its clock would show nonsense.
+// The images of such a device would be black, and the times of its clock meaningless.
 TEST_F(OnlyCompile, DrawsNothing) {
   const Result result = on("run drawn.yaml --verbose");
   EXPECT_EQ(result.code, 2) << result.output;
@@ -73,7 +73,7 @@ TEST_F(OnlyCompile, AnUnknownFamilyIsToldInOneLine) {
   const Result result =
       program.run("run compiled.yaml --device vulkan:radv-nosuch --store s.sqlite");
   EXPECT_EQ(result.code, 2) << result.output;
-  // The line names what was asked for, and why it is not there.
+  // The single line names the requested family and the reason why it is not available.
   EXPECT_EQ(std::ranges::count(result.output, '\n'), 1) << result.output;
   EXPECT_EQ(result.output.find("triptych: no device matches vulkan:radv-nosuch"), 0U)
       << result.output;
@@ -83,8 +83,8 @@ TEST_F(OnlyCompile, AnUnknownFamilyIsToldInOneLine) {
   EXPECT_NE(result.output.find("know this family"), std::string::npos) << result.output;
 }
 
-// `flipped_axis` is one more arithmetic operation for each sample of a ray, `unresolved_ties` two
-// more for each sphere of a tile.
+// The fault `flipped_axis` adds an arithmetic operation to each sample of a ray, and
+// `unresolved_ties` adds two to each sphere of a tile.
 TEST_F(OnlyCompile, AFaultInTheLoopIsFoundOnEveryFamily) {
   program.write("rays.yaml",
                 "suite: volume\nchecks: [code]\ntechnique: [raycast]\nsampler: [hardware]\n"

@@ -1,4 +1,4 @@
-// A command that the last screen prints, pasted unchanged, shows the fault again.
+// A command that the last screen prints reproduces the fault when it is pasted unchanged.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 struct Printed {
-  std::string environment;  // before the program
+  std::string environment;  // the variables before the program's name
   std::string arguments;
 };
 
@@ -80,7 +80,7 @@ TEST_F(Paste, TheCommandOfAWrongPictureShowsIt) {
 
 struct Injected {
   const char* fault;
-  const char* says;        // the last screen, in its first lines
+  const char* says;        // text in the first lines of the last screen
   int code;                // exit code of the pasted command
   const char* shows;       // what it prints
   const char* extra = "";  // part of the command
@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(Faults, PasteInjected,
                                                   " is missing, stored ", "gate volume/quick"}),
                          [](const auto& each) { return std::string(each.param.fault); });
 
-// On a real device, because the scripted one computes nothing.
+// These tests use a real device, because the scripted one computes nothing.
 class PasteOnDevice : public Paste {
  protected:
   static constexpr const char* device = "opencl:pocl";

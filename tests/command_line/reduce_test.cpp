@@ -48,7 +48,7 @@ TEST(Reduce, ACrashIsReducedToWhatItNeeds) {
 TEST(Reduce, TheFolderHoldsWhatAReportNeeds) {
   const Program program;
   const Result result = program.run(scene + "--set viewport=8", failing("crash", "none"));
-  // The pattern of the scripted device is not the right image.
+  // The scripted device draws a pattern, which is not the correct image.
   ASSERT_EQ(result.code, 1) << result.output;
   EXPECT_THAT(result.output,
               HasSubstr("1 of 1 pixels exceed the error bound of the reference image"));
@@ -67,7 +67,7 @@ TEST(Reduce, TheFolderHoldsWhatAReportNeeds) {
   EXPECT_EQ(again.code, 1) << again.output;
 }
 
-// Images of another scene in the folder would get into the bug report.
+// Otherwise, images of another scene in the folder would become part of the bug report.
 TEST(Reduce, WhatIsNotDrawnLeavesNoFilesOfAnEarlierFrame) {
   const Program program;
   const std::string render = "render volume --device null:scripted --truth --out r --set viewport=";

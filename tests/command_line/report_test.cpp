@@ -51,7 +51,8 @@ TEST_F(ReportTest, EveryChartIsDrawn) {
   }
 }
 
-// A plan without baselines is an exploration, unless an image is wrong.
+// A plan without baselines is an exploration, which the page does not present as a failure unless
+// an image is wrong.
 TEST_F(ReportTest, WithoutBaselinesBeginsWithResults) {
   const std::string run = std::string("run volume/quick --untimed --store s.sqlite ") + tiny;
   const std::string right = R"({"images": {"*": ")" + right_picture(program_).string() + R"("}})";

@@ -60,7 +60,7 @@ kill -INT $!; wait $!; code=$?; cat out; exit $code
                      R"({"base_ns": 20000000, "sleep": true})", "bash until_one_is_told.sh");
 }
 
-// A driver under test may crash the machine.
+// A driver under test may crash the machine, so a validation can be resumed.
 TEST_F(Resume, AValidationGoesOn) {
   const auto first_told = [&](const std::string& options) {
     const Result ended = validate_one(program, options);
@@ -73,7 +73,7 @@ TEST_F(Resume, AValidationGoesOn) {
   EXPECT_EQ(first_told(""), first);
 }
 
-// The measured part is judged. The rest does not count as a pass.
+// The part that was measured is judged, and the rest does not count as a pass.
 TEST_F(Resume, AnInterruptedValidationEndsWithTheLastScreen) {
   const Result ended = validate_one(program, "--junit j.xml --json j.json");
   EXPECT_EQ(ended.code, 1) << ended.output;  // its image is wrong
@@ -90,7 +90,7 @@ TEST_F(Resume, AnInterruptedValidationEndsWithTheLastScreen) {
   EXPECT_EQ(missing[0].at("verdict"), "cannot_judge");
   EXPECT_EQ(missing[0].at("device"), "null:scripted");
   EXPECT_EQ(missing[0].at("names").size(), lacking);
-  // At least one was measured, and the interrupt came soon after it.
+  // At least one configuration was measured, and the interrupt came soon after it.
   EXPECT_GE(lacking, wanted - 6);
   EXPECT_LT(lacking, wanted);
   // The screen and the log have the numbers, too.

@@ -9,8 +9,8 @@
 
 namespace triptych::command_line {
 
-// The file with the reference image of the tiny plan's scene. A scripted device returns this image.
-// `transfer_function`: a preset, or a file in the program's folder.
+// Returns a file with the reference image of the tiny plan's scene, which scripted devices then
+// draw. `transfer_function`: a preset, or a file in the program's folder.
 inline std::filesystem::path right_picture(const Program& program,
                                            const std::string& transfer_function = "haze") {
   const auto suite = volume_suite::make_suite({program.folder()});

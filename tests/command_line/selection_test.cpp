@@ -27,7 +27,7 @@ std::vector<std::string> names_in(const std::string& listed) {
   return names;
 }
 
-// If two configurations had the same short name, it could not select one of them.
+// A short name can select a configuration only if no other configuration has the same one.
 TEST(ShortNames, AreUniqueInEveryPlanThatComesWithTriptych) {
   const Program program;
   for (const char* plan :
@@ -49,7 +49,7 @@ constexpr const char* four =
 
 class Selected : public testing::TestWithParam<const char*> {};
 
-// The same option chooses the same configurations when it lists, measures and judges.
+// The same option selects the same configurations for listing, measuring and judging.
 TEST_P(Selected, InListRunAndGate) {
   const Program program;
   program.write("cases",

@@ -1,4 +1,5 @@
-// The records of a run are in the named file, or the run reports that they cannot be stored.
+// The records of a run are in the file that the user names, or the run reports that it cannot store
+// them.
 
 #include "record/store.hpp"
 
@@ -22,7 +23,7 @@ TEST(StoreName, OneWithoutCharactersIsRefusedBeforeAnythingIsMeasured) {
   EXPECT_EQ(program.run("gate volume/quick --store ''").code, 3);
 }
 
-// SQLite would take each of these names for a store in memory.
+// SQLite would interpret each of these names as a database in memory.
 TEST(StoreName, OneThatMeansMemoryToSqliteIsAFile) {
   for (const std::string name : {":memory:", "file:x?mode=memory"}) {
     const Program program;

@@ -1,5 +1,5 @@
-// The known failures, flakes and shards of a validation, on a scripted device whose images are
-// patterns and therefore wrong.
+// Tests known failures, flakes and shards of a validation. The scripted device draws patterns, so
+// all of its images are wrong.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -52,7 +52,8 @@ TEST_F(Validate, WhatIsKnownToFailIsWaivedAndNewFailuresAreRed) {
   EXPECT_EQ(program.run(std::string(part) + "--expect none.json").code, 1);
 }
 
-// Its only configuration of volume/quick is right, except for one frame.
+// The only configuration of volume/quick on this device is right, except that one of its frames
+// fails.
 TEST_F(Validate, WhatFailsOnceIsAFlakeAndIsTold) {
   const auto suite = volume_suite::make_suite({});
   const measure::Plan plan = measure::load_plan(
@@ -73,7 +74,7 @@ TEST_F(Validate, WhatFailsOnceIsAFlakeAndIsTold) {
   EXPECT_THAT(program.read("known.json"), HasSubstr(R"("outcome":"flake")"));
   EXPECT_THAT(program.read("validation/gate.log"),
               HasSubstr("flake, right when it was drawn again: crashed: "));
-  // The store contains what failed.
+  // The store still contains the failed record.
   const Result gate = program.run(
       "gate volume/quick --shard 1/400 --store validation/validation.sqlite --check image", script);
   EXPECT_EQ(gate.code, 1) << gate.output;

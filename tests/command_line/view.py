@@ -100,7 +100,7 @@ class Window(unittest.TestCase):
                 self.assertEqual(frame["factors"]["camera"], "view:30/20/0.8")
                 self.assertEqual(frame["counters"], column["counters"])
                 self.assertTrue(column["time_ns"]["samples"])
-                # The verdict on the difference is that of `render --truth`, also where a fault is injected.
+                # The verdict on the difference is that of `render --truth`, also for an injected fault.
                 self.assertEqual(column["difference"]["with"], "reference")
                 self.assertEqual(column["difference"]["right"], code == 0)
                 self.assertEqual(column["difference"]["beyond"] > 0, code == 1)
@@ -117,7 +117,7 @@ class Window(unittest.TestCase):
     def test_the_mouse_turns_the_camera(self):
         if not shutil.which("xdotool"):
             self.skipTest("xdotool is missing")
-        # A busy machine may join the steps of the drag, so a drag that was not seen is repeated.
+        # A busy machine may join the steps of a drag, so a drag that the program did not see is repeated.
         for attempt in range(3):
             camera = self.drag()
             if camera != "orbit_y:1/8":
@@ -125,8 +125,8 @@ class Window(unittest.TestCase):
             time.sleep(attempt)
         self.assertRegex(camera, r"^view:\d")
         azimuth, elevation, distance = map(float, camera.removeprefix("view:").split("/"))
-        self.assertLess(azimuth, 45)  # dragged to the right: the camera goes left of the view at 45 degrees
-        self.assertGreater(elevation, 0)  # and down
+        self.assertLess(azimuth, 45)  # after a drag to the right, the camera is left of the view at 45 degrees
+        self.assertGreater(elevation, 0)  # the drag also went down
         self.assertEqual(distance, 1)
 
     def drag(self):

@@ -1,6 +1,6 @@
-// Quadrature cells on real devices: exact if the field has no kink, within its bound everywhere,
-// with the same bits for every way of skipping, and closer to the limit than the midpoint rule with
-// an eighth of its step.
+// Quadrature cells on real devices: it is exact if the field has no kink, stays within its bound
+// everywhere, draws the same bits for every way of skipping, and is closer to the limit than the
+// midpoint rule with an eighth of its step.
 
 #include <algorithm>
 #include <cmath>

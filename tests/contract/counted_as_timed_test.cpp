@@ -14,7 +14,7 @@ using technique::Skip;
 
 constexpr std::array all_skips{Skip::none, Skip::bricks, Skip::distance};
 
-// Red everywhere, so that the sum of speed_of_light is the number of samples.
+// Every entry is red, so that the sum of speed_of_light is the number of samples.
 scene::TransferFunction reddened(std::string_view name) {
   scene::TransferFunction function = scene::load_transfer_function(name);
   for (auto& entry : function.entries) entry[0] = 1;
@@ -71,8 +71,8 @@ scene::Volume walls() {
   return volume;
 }
 
-// For a walk, a sample on a face of a brick belongs to the brick ahead; for a leap, to the upper
-// one. So in the negative direction of an axis they take different samples.
+// A sample on a face between two bricks belongs to the brick ahead if rays walk, and to the upper
+// brick if they leap. For rays in the negative direction of an axis, these are different bricks.
 TEST(CountedAsTimed, SamplesOnFacesOfBricks) {
   on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = small_scene("surfaces");
@@ -94,14 +94,14 @@ TEST(CountedAsTimed, SamplesOnFacesOfBricks) {
   });
 }
 
-// For a volume with one opacity per voxel length that is drawn with early termination: the
-// transmittance is that of a number of whole steps and, if the ray did not end before, of a part of
-// one.
+// Derives the number of steps from the image of a volume with one opacity per voxel length, drawn
+// with early termination: the transmittance is that of a number of whole steps and, if the ray did
+// not end early, of a partial step.
 struct Tally {
   std::uint64_t rays_hit = 0;
   std::uint64_t terminated = 0;
   std::uint64_t samples = 0;
-  std::uint64_t doubtful = 0;  // rays whose last step has almost no length, or none
+  std::uint64_t doubtful = 0;  // rays whose last step has almost no length, so it may be missing
 };
 
 Tally tally_of(const core::Image& image, double alpha, double step_voxels, double ert) {
@@ -207,10 +207,10 @@ TEST(CountedAsTimed, SpheresHaveOnePictureThoughTheyAreRejectedEarly) {
   });
 }
 
-// Where this program rejects fragments early itself, they are not counted.
+// If a program rejects fragments early in its own code, it does not count them.
 TEST(CountedAsTimed, FragmentsRejectedEarlyAreNotCounted) {
   on_every_driver([](measure::Device& device) {
-    // The rasterizer of the other APIs belongs to the driver.
+    // On the other APIs, the rasterizer belongs to the driver.
     if (device.info().api != "opencl") return;
     ParticleWork work = generated_work("uniform", 20000, "orbit_y:1/8", 96);
     work.scene.radius_scale = 3;

@@ -75,7 +75,8 @@ TEST(Orders, SmoothProblemsAreOfSecondOrder) {
   });
 }
 
-// For scenes whose grid differs from their closed form: compared with the limit of the grid.
+// The order against the limit image of the grid, for scenes whose grid differs from their closed
+// form.
 double order_against_limit(measure::Device& device, AnalyticProblem problem, int size) {
   reference::AnalyticScene analytic = scene_of(problem, size, 1);
   const core::Image exact = reference::render_volume_converged(analytic.scene, 1e-7).image();

@@ -48,8 +48,8 @@ TEST(ParticleCounters, AddUp) {
   });
 }
 
-// Sprites of every shape cover the disc of a sphere, so that all keep the same fragments; a polygon
-// with more corners wastes fewer (S6). Tiles take no fragment that is behind.
+// Sprites of every shape cover the disc of a sphere, so all keep the same fragments. A polygon with
+// more corners wastes fewer fragments (S6). Tiles process no fragment behind a hit.
 TEST(ParticleCounters, SpritesOfEveryShapeKeepTheSameFragments) {
   on_every_driver([](measure::Device& device) {
     ParticleWork work = generated_work("uniform", 100, "orbit_y:1/8", 256);
@@ -88,15 +88,16 @@ ParticleWork covered_crowd(int crowd) {
   return particle_work(particles_of(spheres), looking({0, 0, 5}, {0, 0, 0}, 10), 64, 64);
 }
 
-// Rays pass by everything that is behind what they have found. The bound follows from the scene:
-// Every box crosses every beam, because every sphere fills the image. Only boxes around the large
-// sphere begin at its front, 5 in front of the eye; all others begin behind 7.9, and the surface
-// that all pixels show is at most 5.1 away. Each beam visits the nearer child first, so it goes
-// straight to the leaf of the large sphere: as many nodes as there are levels. Shaders skip all
-// other boxes from then on. OpenCL's tiles look for their farthest depth after every eighth sphere
-// and a leaf has four, so one more leaf may come before that, with at most as many nodes on its
-// way. The sibling of each of these nodes was tested before the depths were known, so it may be
-// visited, too, but nothing below it. That makes 4 nodes a level. A beam has at least 8 pixels.
+// A ray skips everything that is behind the surface that it has found. The bound on the number of
+// visited nodes follows from the scene. Every box crosses every beam, because every sphere fills
+// the image. Boxes around the large sphere begin at its front, 5 in front of the eye; all others
+// begin behind 7.9, and the surface that all pixels show is at most 5.1 away. Each beam visits the
+// nearer child first, so it goes straight to the leaf of the large sphere, which takes as many
+// nodes as there are levels. From then on, shaders skip all other boxes. OpenCL's tiles update
+// their farthest depth after every eighth sphere and a leaf has four, so a second leaf may come
+// before that, with at most as many nodes on its way. The sibling of each of these nodes was tested
+// before the depths were known, so it may be visited, too, but nothing below it. The sum is 4 nodes
+// for each level. A beam has at least 8 pixels.
 TEST(ParticleCounters, RaysVisitOnlyWhatTheyMayHit) {
   constexpr std::uint64_t levels = 11;
   constexpr std::uint64_t most_beams = 64 * 64 / 8;
@@ -114,7 +115,8 @@ TEST(ParticleCounters, RaysVisitOnlyWhatTheyMayHit) {
     EXPECT_LE(counts.at("nodes_visited"), most_nodes);
     EXPECT_GE(counts.at("boxes_tested"), 2 * counts.at("nodes_visited"));
     EXPECT_EQ(counts.at("visible_ids"), 1U);
-    // If the farthest surface wins, nothing is behind what was found, and all boxes are visited.
+    // With the fault that the farthest surface wins, nothing is behind the surface that was found,
+    // so all boxes are visited.
     const record::Counts faulty = counts_with(technique::ParticleFault::reversed_depth);
     if (faulty.empty()) return;
     EXPECT_GT(faulty.at("nodes_visited"), most_nodes);

@@ -1,4 +1,4 @@
-// Injected faults: the image shows each of them with every technique that has it.
+// The image reveals each injected fault, with every technique that implements it.
 
 #include "measure/protocol/injected_fault.hpp"
 #include "particle_scenes.hpp"
@@ -43,8 +43,8 @@ TEST(ParticleFaults, EveryOneIsCaughtByThePicture) {
   });
 }
 
-// Early rejection that takes the back of a sphere for its front. If a driver rejects nothing early,
-// the image cannot show it; then each backend's own tests examine the shader.
+// This fault rejects by the back of a sphere instead of its front. If a driver does not reject
+// early, the image cannot reveal the fault, so the tests of each backend examine the shader.
 TEST(ParticleFaults, TheWrongSenseIsCaughtWhereFragmentsAreRejectedEarly) {
   on_every_driver([](measure::Device& device) {
     ParticleWork work = studded_wall();
@@ -64,7 +64,7 @@ TEST(ParticleFaults, TheWrongSenseIsCaughtWhereFragmentsAreRejectedEarly) {
   });
 }
 
-// More work gives the same image.
+// An injected slowdown adds work, but the image stays the same.
 TEST(ParticleFaults, AnInjectedSlowdownChangesNoPixel) {
   on_every_driver([](measure::Device& device) {
     const ParticleWork work = generated_work("uniform", 3000, "orbit_y:1/8", 96);

@@ -68,9 +68,9 @@ inline reference::SphereTruth truth_of(const ParticleWork& work) {
                                    particles_suite::error_model(work.scene, work.options.ray));
 }
 
-// A wall, which is the front of a huge sphere, and small spheres that are half inside of it. Once
-// the wall is drawn, each of them has its front in front of what its tile contains, and its back
-// behind it.
+// A wall, which is the front of a huge sphere, and small spheres that are half inside it. Once the
+// wall is drawn, the front of each small sphere is closer than the contents of its tile, and its
+// back is farther.
 inline ParticleWork studded_wall() {
   std::vector<std::array<double, 4>> spheres{{0, 0, -1000, 1000}};
   core::Random random(11);

@@ -98,8 +98,8 @@ TEST(Particles, ARayMadeAtTheVerticesIsTrue) {
       work.options.ray = technique::ComputedAt::vertex;
       expect_all_true(device, work);
     }
-    // Many small sprites, which are moved most by the rasterizer's grid: if a plane of rays is used
-    // outside of its own triangle, its error exceeds the bound here.
+    // Many small sprites. The rasterizer's grid moves them most, so the error of a plane of rays
+    // that is used outside its own triangle exceeds the bound here.
     ParticleWork many =
         generated_work("uniform", 4000, "orbit_y:1/8", 160, scene::ColourKind::intensity);
     many.options.ray = technique::ComputedAt::vertex;
@@ -107,7 +107,8 @@ TEST(Particles, ARayMadeAtTheVerticesIsTrue) {
   });
 }
 
-// Ties, culling, conservative depth and corners change how the image is made, but not the image.
+// The options for ties, culling, conservative depth and corners determine how the image is drawn,
+// but must not change it.
 TEST(Particles, AllTechniquesAndOptionsDrawTheSameBits) {
   on_every_driver([](measure::Device& device) {
     for (const char* camera : {"orbit_y:1/8", "path_z:7/8"}) {
@@ -164,8 +165,8 @@ TEST(Particles, StructuresBuiltInEveryFrameDrawTheSameBits) {
   });
 }
 
-// So many spheres have the same depth on one pixel that none excludes the others: more nodes than
-// one dispatch may visit on Mesa's software devices.
+// The spheres on one pixel have the same depth, so none excludes the others, and there are more
+// nodes than one dispatch may visit on Mesa's software devices.
 TEST(Particles, ABeamThroughManyEqualSpheresFindsTheFirst) {
   on_every_driver([](measure::Device& device) {
     std::vector<std::array<double, 4>> spheres(60000, {0, 0, 0, 1});
@@ -251,13 +252,13 @@ ParticleWork jump_of_the_eye() {
   return work;
 }
 
-// The first frame from another position, for which all information about hidden cells is wrong.
+// In the first frame after the jump, everything that is known about hidden cells is wrong.
 TEST(Particles, AfterAJumpOfTheEyeNothingIsStale) {
   const ParticleWork work = jump_of_the_eye();
   on_every_driver([&](measure::Device& device) { expect_all_true(device, work); });
 }
 
-// The counts are those of the state that frames reach, however many were drawn before.
+// The counts are those of the state that frames settle into, however many were drawn before.
 TEST(Particles, AfterAJumpOfTheEyeCountsAreThoseOfLaterFrames) {
   const ParticleWork work = jump_of_the_eye();
   on_every_driver([&](measure::Device& device) {
@@ -274,8 +275,8 @@ TEST(Particles, AfterAJumpOfTheEyeCountsAreThoseOfLaterFrames) {
   });
 }
 
-// Wider than textures and points may be: it is drawn, or refused with the requested size by every
-// device that draws a narrow one.
+// The image is wider than textures and points may be. Every device that draws a narrow one must
+// draw it, or refuse it with a reason that contains the requested size.
 TEST(Particles, APictureOverADevicesLimitIsRefusedOrDrawn) {
   on_every_driver([](measure::Device& device) {
     const scene::Camera camera = looking({0, 0, 3}, {0, 0, 0}, 0.005);
@@ -298,7 +299,7 @@ TEST(Particles, APictureOverADevicesLimitIsRefusedOrDrawn) {
   });
 }
 
-// A particle that is dropped does not affect its neighbours.
+// Invalid particles are dropped, which does not affect their neighbours.
 TEST(Particles, WhatIsNoSphereIsDropped) {
   const double nan = std::nan("");
   const double inf = std::numeric_limits<double>::infinity();

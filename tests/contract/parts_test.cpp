@@ -60,7 +60,7 @@ Drawn drawn(measure::Device& device, const measure::Work& work) {
   return result;
 }
 
-// With about one n-th of the voxels on the device, for each n.
+// Draws with about one n-th of the voxels on the device, for each n.
 void expect_the_whole(measure::Device& device, measure::Work work, std::vector<int> shares) {
   volume_of(work).options.budget = 0;
   const Drawn whole = drawn(device, work);
@@ -95,7 +95,7 @@ measure::Work work_of(std::string_view generator, scene::VolumeScene scene) {
           .scene = measure::VolumeWork{.scene = std::move(scene), .options = {}}};
 }
 
-// From every side if rays leap, and from inside if they walk.
+// Looks from every side if rays leap, and from inside if they walk.
 void expect_the_whole_by_every_skip(measure::Device& device, measure::Work& work) {
   const auto views = cameras(volume_of(work).scene.box());
   for (const Skip skip : {Skip::none, Skip::bricks, Skip::distance}) {
@@ -109,7 +109,7 @@ void expect_the_whole_by_every_skip(measure::Device& device, measure::Work& work
   }
 }
 
-// Every way to draw, from every side.
+// Tests every way of drawing, from every side.
 TEST(Parts, HaveTheBitsAndTheCountsOfTheWhole) {
   on_every_driver([](measure::Device& device) {
     for (const Quadrature quadrature :
@@ -132,7 +132,8 @@ TEST(Parts, HaveTheBitsAndTheCountsOfTheWhole) {
   });
 }
 
-// Every voxel format, rays that end early or never, and steps longer than the cells of a part.
+// Tests every voxel format, rays that end early or never, and steps that are longer than the cells
+// of a part.
 TEST(Parts, OfEveryFormatAndStep) {
   on_every_driver([](measure::Device& device) {
     for (const std::string_view generator : {"sparse_field", "frequency_box"}) {
@@ -176,8 +177,8 @@ TEST(Parts, WithMergedBricksOrInDoublePrecision) {
   });
 }
 
-// For a last sample behind the exit, a walk knows no brick. It is read, from data that no part has
-// moved.
+// A walk has no brick for a last sample behind the exit, so it reads that sample, even if no part
+// has moved its voxels to the device.
 TEST(Parts, ThatShowNothingAreReadWhereAWalkReadsThem) {
   on_every_driver([](measure::Device& device) {
     scene::Volume volume{.size = {16, 16, 64}, .type = scene::ScalarType::u8, .range_hi = 255};
@@ -212,7 +213,7 @@ TEST(Parts, AreWithinTheTruthsBound) {
   });
 }
 
-// Without a budget, for volumes that are deeper than the images of many devices can be.
+// These volumes have no budget, but they are deeper than the images of many devices can be.
 TEST(Parts, OfWhatNoImageHoldsAreWithinTheTruthsBound) {
   on_every_driver([](measure::Device& device) {
     scene::Volume volume{.size = {5, 4, 5000}, .type = scene::ScalarType::u8, .range_hi = 100};
@@ -231,7 +232,7 @@ TEST(Parts, OfWhatNoImageHoldsAreWithinTheTruthsBound) {
   });
 }
 
-// The reason contains both numbers, and a remedy.
+// The reason for the refusal contains both numbers and a remedy.
 TEST(Parts, ThatCannotBeAreRefused) {
   on_every_driver([](measure::Device& device) {
     measure::Work work = work_of("mandelbulb", small_scene("surfaces"));

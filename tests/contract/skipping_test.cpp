@@ -1,5 +1,5 @@
-// Skipping empty space changes no bit: for every generator, both transfer functions, with and
-// without shading, both quadratures, and for every real volume.
+// Skipping empty space changes no bit. This is tested for every generator, both transfer functions,
+// with and without shading, both quadratures, and every real volume.
 
 #include "data_folder.hpp"
 #include "under_test.hpp"
@@ -58,8 +58,9 @@ TEST(Skipping, RealVolumesHaveTheSameBits) {
   });
 }
 
-// A perfect method would take exactly the samples that have any opacity. Every mode of skipping
-// must take all of them; leaps over smaller bricks must take no more of the others than a walk.
+// A perfect method would take exactly the samples with non-zero opacity. Every mode of skipping
+// must take all of them, and leaps over smaller bricks must take no more of the other samples than
+// a walk takes.
 TEST(Skipping, TakesWhatAnOracleDoesAndLittleMore) {
   const auto files = real_volumes();
   if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with volumes/";

@@ -129,10 +129,10 @@ TEST(SphereForms, S5RandomDiscsLeaveTheirShare) {
   });
 }
 
-// The fragments of an N-gon over those of its disc. The polygon is larger than necessary by 1/64
-// pixel and by perspective, which are both below a thousandth here. Its edges are horizontal,
-// vertical or at 45°, so that a whole edge may be on one side of the pixel centres: half a pixel
-// for each pixel of its outline, 8R at most.
+// The ratio of the fragments of an N-gon to those of its disc. The polygon is larger than necessary
+// by 1/64 pixel and by perspective, which are both below a thousandth here. Its edges are
+// horizontal, vertical or at 45°, so a whole edge may be on one side of the pixel centres: half a
+// pixel for each pixel of its outline, 8R at most.
 TEST(SphereForms, S6PolygonsWasteWhatTheirTightnessSays) {
   on_every_driver([](measure::Device& device) {
     const double radius_px = 60;

@@ -1,5 +1,5 @@
-// Parts of the stress catalogue that are not a single image: a hundred transfer functions, a
-// hundred repeats, denormals.
+// The parts of the stress catalogue that need more than a single image: a hundred transfer
+// functions, a hundred repeats, denormals.
 
 #include <algorithm>
 #include <cmath>

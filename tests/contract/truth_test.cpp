@@ -1,5 +1,5 @@
-// Images compared with the reference image within the derived bound, on the default path and on
-// every other one.
+// Compares images with the reference image within the derived bound, on the default path and on
+// every other path.
 
 #include <cmath>
 
@@ -36,7 +36,8 @@ TEST(Truth, EveryPathStaysWithinItsBound) {
   });
 }
 
-// A last sample may be voxels behind the exit, where the field is constant and has no gradient.
+// The last sample of a ray may be voxels behind the exit, where the field is constant and has no
+// gradient.
 TEST(Truth, ShadedLongStepsStayWithinTheBound) {
   on_every_device([](measure::Device& device) {
     for (const technique::Sampler sampler :
@@ -56,7 +57,7 @@ TEST(Truth, ShadedLongStepsStayWithinTheBound) {
   });
 }
 
-// A device with a wrong sampler must be found wrong, and not get a bound that wide.
+// A device with a wrong sampler must fail, and must not get a bound that is wide enough to pass.
 TEST(Truth, NoSamplerWidensItsBoundBeyondWhatAFilterMayErrBy) {
   on_every_device([](measure::Device& device) {
     for (const scene::VoxelFormat format : {scene::VoxelFormat::u8, scene::VoxelFormat::u16,

@@ -1,4 +1,4 @@
-// Values in the units of the data: windows and logarithms, on every API.
+// Windows and logarithms of values in the units of the data, on every API.
 
 #include <cmath>
 #include <cstring>

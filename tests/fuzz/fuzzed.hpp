@@ -26,7 +26,8 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-// An input whose first line names the kind of the file that follows: "pdb.gz", and then its bytes.
+// An input. Its first line names the kind of file, such as "pdb.gz", and the bytes of the file
+// follow.
 struct Input {
   std::string kind;
   std::string_view content;
@@ -70,7 +71,7 @@ inline std::filesystem::path write(const std::string& name, std::string_view con
   return file;
 }
 
-// A reader may throw errors of this project. Any other exception ends the process.
+// A reader may throw the error types of this project. Any other exception ends the process.
 template <typename Read>
 void expect_ours(const Read& read) {
   try {

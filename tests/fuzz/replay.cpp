@@ -1,4 +1,4 @@
-// Without libFuzzer: gives every file in the given folders to a target.
+// Replaces libFuzzer: gives every file in the given folders to a fuzz target.
 
 #include <cstdio>
 #include <iterator>

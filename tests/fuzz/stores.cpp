@@ -7,7 +7,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::filesystem::path file = fuzz::write("s.sqlite", fuzz::text_of(data, size));
   fuzz::expect_ours([&] {
     const record::Store store(file, record::Store::Mode::read);
-    // Not require_whole(), which would refuse most damaged files before they are read.
+    // require_whole() is not called, because it would refuse most damaged files before they are
+    // read.
     for (const record::Run& run : store.runs()) {
       fuzz::expect_ours([&] { static_cast<void>(store.devices(run.id)); });
       for (const record::Record& record : store.records(run.id)) {
@@ -16,7 +17,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       }
     }
   });
-  // A merge passes on values without examining them.
+  // A merge copies values without examining them.
   const std::filesystem::path out = fuzz::folder() / "out.sqlite";
   fuzz::expect_ours([&] { static_cast<void>(record::merge_stores({file}, out)); });
   std::filesystem::remove(out);

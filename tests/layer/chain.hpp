@@ -1,5 +1,5 @@
 #pragma once
-// The place of the layer between the loader and the driver.
+// The position of the layer between the loader and the driver.
 
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan_core.h>
@@ -31,8 +31,8 @@ template <class Command>
   return reinterpret_cast<Command>(next_of(handle, command));
 }
 
-// Prints one line on stderr that says what a device with this limit would not accept. From then on
-// every submission fails.
+// Prints a line on stderr with the use that a device with this limit would not accept. From then
+// on, every submission fails.
 VkResult refuse(std::string_view what);
 
 [[nodiscard]] std::span<const Hook> description_hooks();
@@ -44,7 +44,7 @@ VkResult refuse(std::string_view what);
 [[nodiscard]] std::span<const Hook> query_fault_hooks();
 [[nodiscard]] std::span<const Hook> submission_hooks();
 
-// Runs the faults that happen when a device ends.
+// Runs the faults that occur when a device is destroyed.
 void end_device();
 
 }  // namespace triptych::layer

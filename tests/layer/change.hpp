@@ -1,5 +1,5 @@
 #pragma once
-// What TRIPTYCH_LAYER asks of the layer: one limit with its value, or one fault.
+// The request in TRIPTYCH_LAYER: one limit with its value, or one fault.
 
 #include <cstdint>
 #include <string>

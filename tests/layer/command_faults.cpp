@@ -9,7 +9,7 @@
 namespace triptych::layer {
 namespace {
 
-// One instance fewer, or one vertex fewer if there is only one instance.
+// Draws one instance fewer, or one vertex fewer if there is only one instance.
 VKAPI_ATTR void VKAPI_CALL short_draw(VkCommandBuffer commands, std::uint32_t vertices,
                                       std::uint32_t instances, std::uint32_t first_vertex,
                                       std::uint32_t first_instance) {
@@ -66,7 +66,7 @@ void clear_depth(std::vector<VkClearValue>& values) {
   if (values.size() > 1) values.back().depthStencil.depth = 0.5F;
 }
 
-// The last 64 bytes are not copied.
+// Leaves out the last 64 bytes of a copy.
 VKAPI_ATTR void VKAPI_CALL short_copy(VkCommandBuffer commands, VkBuffer from, VkBuffer to,
                                       std::uint32_t count, const VkBufferCopy* regions) {
   std::vector<VkBufferCopy> changed(regions, regions + count);
@@ -77,7 +77,7 @@ VKAPI_ATTR void VKAPI_CALL short_copy(VkCommandBuffer commands, VkBuffer from, V
   next<PFN_vkCmdCopyBuffer>(commands, "vkCmdCopyBuffer")(commands, from, to, count, changed.data());
 }
 
-// Each row is copied from the one below.
+// Copies each row from the row below.
 VKAPI_ATTR void VKAPI_CALL image_row(VkCommandBuffer commands, VkImage image, VkImageLayout layout,
                                      VkBuffer buffer, std::uint32_t count,
                                      const VkBufferImageCopy* regions) {
@@ -91,7 +91,7 @@ VKAPI_ATTR void VKAPI_CALL image_row(VkCommandBuffer commands, VkImage image, Vk
       commands, image, layout, buffer, count, changed.data());
 }
 
-// The second slice of a volume is a copy of the first.
+// Replaces the second slice of a volume by a copy of the first.
 VKAPI_ATTR void VKAPI_CALL volume_slice(VkCommandBuffer commands, VkBuffer buffer, VkImage image,
                                         VkImageLayout layout, std::uint32_t count,
                                         const VkBufferImageCopy* regions) {

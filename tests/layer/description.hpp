@@ -1,5 +1,5 @@
 #pragma once
-// The device's report about itself, with one property lowered.
+// Changes the properties that the device reports about itself: one of them is lowered.
 
 #include <vulkan/vulkan_core.h>
 
@@ -13,7 +13,7 @@ namespace triptych::layer {
 void lower(VkPhysicalDeviceLimits& limits);
 void lower(VkPhysicalDeviceFeatures& features);
 
-// Whether the hidden feature is among the enabled ones.
+// Whether an application enables the feature that the layer hides.
 [[nodiscard]] bool enables_hidden(const VkPhysicalDeviceFeatures& features);
 
 }  // namespace triptych::layer

@@ -62,7 +62,7 @@ TEST_F(DeviceFaults, NoneIsFoundWithoutAFault) {
   EXPECT_THAT(unwrapped(judged().output), Not(HasSubstr("the device's clock")));
 }
 
-// The layer leaks 24 MB with each compute pipeline. Every configuration has two of its own.
+// The layer leaks 24 MB with each compute pipeline, and every configuration creates two pipelines.
 TEST_F(DeviceFaults, MemoryThatGrowsWithEveryConfigurationIsAFinding) {
   for (const char* change : {"leak", ""}) {
     const std::string store = fmt::format("memory{}.sqlite", change);

@@ -1,5 +1,5 @@
-// Drivers with a fault: each fault is found and reported as few causes and as the driver's, and
-// everything else is right.
+// Drivers with a fault: each fault is found, is reported as few causes, and is attributed to the
+// driver, while everything else is right.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct Fault {
   const char* plan;
   const char* told;  // the first cause that is reported
   int causes = 1;
-  // Some configurations lose all pixels, which is detected before images are compared.
+  // Some configurations lose all pixels. This is detected before images are compared.
   bool undrawn = false;
 };
 
@@ -65,7 +65,7 @@ int causes_in(const std::string& screen) {
   return causes;
 }
 
-// The text as one line, however the screen breaks it.
+// The text of the screen on one line, because line breaks depend on the width.
 std::string unwrapped(const std::string& screen) {
   return std::regex_replace(screen, std::regex("\\s+"), " ");
 }

@@ -1,5 +1,5 @@
-// Faults of an OpenGL driver, chosen by TRIPTYCH_SHIM: an EGL library that LD_LIBRARY_PATH makes
-// the loader find before that of the system, and that returns its own functions.
+// Faults of an OpenGL driver, chosen by TRIPTYCH_SHIM. LD_LIBRARY_PATH makes the loader find this
+// EGL library before that of the system, and it returns its own functions.
 #include <EGL/egl.h>
 #include <dlfcn.h>
 
@@ -44,13 +44,13 @@ std::map<GLuint, int>& uses_of_programs() {
   return uses;
 }
 
-// A driver gives the names of deleted programs to new ones.
+// A driver reuses the names of deleted programs for new ones, so a new program counts as unused.
 void link(GLuint program) {
   uses_of_programs().erase(program);
   gl_function<void(GLuint)>("glLinkProgram")(program);
 }
 
-// Every program works when it is used for the first time.
+// A program works correctly when it is used for the first time.
 bool repeated() {
   GLint program = 0;
   gl_function<void(GLenum, GLint*)>("glGetIntegerv")(gl_current_program, &program);
@@ -77,8 +77,8 @@ void draw_instanced_once(GLenum mode, GLint first, GLsizei count, GLsizei instan
                                                                               instances);
 }
 
-// A driver that compiles on another machine, and does not report that this failed: every command
-// succeeds, and nothing is drawn.
+// A driver that compiles on another machine and does not report a failure there: every command
+// succeeds, but nothing is drawn.
 void dispatch_never(GLuint, GLuint, GLuint) {}
 void draw_never(GLenum, GLint, GLsizei) {}
 

@@ -1,4 +1,5 @@
-// `features`: what no scene needs, and faults that only these probes find.
+// The command `features`: it probes what no scene needs, and finds faults that no other check
+// finds.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -26,7 +27,7 @@ TEST_F(Features, AreRightOrSkippedWithTheReason) {
   EXPECT_THAT(result.output, HasSubstr("10000000 instances"));
 }
 
-// Each fault is found by the probe of what it breaks.
+// The probe that uses the broken feature finds each fault.
 TEST_F(Features, AreWrongWithAFault) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"short_dispatch", "work-groups"},

@@ -1,4 +1,5 @@
-// `render --in-process` and `--dump`: one frame, and the C program that draws it again.
+// `render --in-process` and `--dump`: they draw one frame, and write a C program that draws it
+// again.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -27,7 +28,7 @@ class FramePrograms : public testing::Test {
         TRIPTYCH_PROGRAM, device, more));
   }
 
-  // Checks that the program prints the middle pixel of the image, whatever it is.
+  // Checks that the program prints the middle pixel of the image.
   void expect_same_pixel(const std::string& device, const std::string& libraries,
                          const std::string& choice, const std::string& more) const {
     SCOPED_TRACE(device + " " + more);
@@ -109,7 +110,7 @@ TEST_F(FramePrograms, DumpsCompileWithPublicTools) {
   }
 }
 
-// With a replacement for RenderDoc that records its calls.
+// Uses a replacement for RenderDoc that records its calls.
 TEST_F(FramePrograms, OneFrameIsCaptured) {
   const test::Result rendered = in_folder(fmt::format(
       "LD_PRELOAD='{}' TRIPTYCH_NULL_SCRIPT={{}} '{}' render volume --device null:scripted "

@@ -35,7 +35,8 @@ class Layered {
                                          arguments));
   }
 
-  // Draws tests/layer/PLAN.yaml: one image and one frame for the counters each, into PLAN.sqlite.
+  // Draws tests/layer/PLAN.yaml into PLAN.sqlite, with only one frame for the image and one for the
+  // counters.
   [[nodiscard]] test::Result draw(std::string_view change, std::string_view plan,
                                   const std::string& choice = "--device 'vulkan:*'") const {
     std::filesystem::remove(folder_.path() / fmt::format("{}.sqlite", plan));
@@ -49,7 +50,7 @@ class Layered {
                                file_of(plan), plan));
   }
 
-  // Accepts what is drawn now as right.
+  // Accepts the current images and counters as correct.
   [[nodiscard]] test::Result accept(std::string_view plan,
                                     const std::string& choice = "--device 'vulkan:*'") const {
     test::Result drawn = draw("", plan, choice);

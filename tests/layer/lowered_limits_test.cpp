@@ -1,4 +1,5 @@
-// Devices with lower limits than lavapipe: right images and counters, or a skip with its reason.
+// Devices with lower limits than lavapipe must have correct images and counters, or a skip with its
+// reason.
 #include <gmock/gmock.h>
 
 #include <vector>
@@ -17,11 +18,11 @@ struct Lowered {
   const char* change;
   const char* plan;
   int skipped = 0;          // configurations of the plan that are skipped
-  const char* reason = "";  // of each of them
+  const char* reason = "";  // the reason of each of them
 };
 
-// The lowest values that the specification allows, and lower ones if a small image could not reach
-// those.
+// The lowest values that the specification allows. If a small image could not reach such a limit,
+// the value is even lower.
 const std::vector<Lowered>& lowered() {
   static const std::vector<Lowered> all{
       {"maxImageDimension1D=4096", volume},
@@ -83,7 +84,7 @@ int count(const std::string& text, const std::string& part) {
 
 class LoweredLimits : public LayerTest {
  protected:
-  // Every row of one plan.
+  // Checks every row of one plan.
   void check(std::string_view plan) const {
     const test::Result accepted = layered.accept(plan);
     ASSERT_EQ(accepted.code, 0) << accepted.output;
@@ -124,12 +125,12 @@ TEST_F(LoweredLimits, WithoutClockTimesAreOfTheWall) {
   EXPECT_THAT(timed.output, Not(HasSubstr(" ms (device)")));
 }
 
-// Tests the layer itself: properties that it does not show, and use beyond a limit that nobody
-// asked for.
+// Tests the layer itself: it hides properties of the driver, and refuses use beyond a limit, which
+// the program does not do.
 TEST_F(LoweredLimits, UseBeyondALimitIsRefused) {
   EXPECT_THAT(layered.draw("noSuchLimit", volume).output, HasSubstr("no device matches vulkan:*"));
   const std::string unasked = layered.draw("maxImageDimension1D=128", volume).output;
-  // vkCreateImage, or Device::createImage with a newer Vulkan-Hpp.
+  // The text is vkCreateImage, or Device::createImage with a newer Vulkan-Hpp.
   EXPECT_THAT(unasked, HasSubstr("reateImage returned ErrorUnknown"));
   EXPECT_THAT(layered.draw("maxPerStageResources=12", particles).output,
               testing::ContainsRegex("[.]tiles[.][^ ]*[.]v64: failed: "));

@@ -1,4 +1,4 @@
-// Memory as on a graphics card: the host cannot access memory of the device.
+// Memory as on a graphics card: the host cannot access the device's memory.
 #include <algorithm>
 #include <array>
 #include <mutex>
@@ -10,7 +10,7 @@
 namespace triptych::layer {
 namespace {
 
-// The types that the program sees. For the driver, both are number 0.
+// The memory types that the program sees. The driver has only type 0 for both.
 enum Type : std::uint32_t { on_device, on_host, types };
 
 std::mutex mutex;
@@ -26,7 +26,7 @@ VKAPI_ATTR void VKAPI_CALL memory_properties(VkPhysicalDevice physical,
       physical, memory);
   if (asked("memoryHeapSize")) memory->memoryHeaps[0].size = asked_number();
   if (asked("emptyHeap")) {
-    // A heap of 0 bytes comes first, as drivers list it for cards without memory of their own.
+    // A heap of 0 bytes comes first, as some drivers list it.
     memory->memoryHeapCount = memory->memoryTypeCount = 2;
     memory->memoryHeaps[1] = memory->memoryHeaps[0];
     memory->memoryHeaps[1].flags = 0;

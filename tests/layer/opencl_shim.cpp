@@ -29,7 +29,7 @@ std::map<cl_kernel, int> launches;
 std::set<cl_event> abnormal;  // never removed: a handle that is used again also belongs to a launch
 std::set<cl_event> late;      // launches that nobody has waited for by their event
 
-// Whether the fault concerns this launch of a kernel: all launches except the first.
+// Whether the fault affects this launch of a kernel: it affects all launches except the first.
 bool repeated(cl_kernel kernel) {
   const std::lock_guard lock(mutex);
   return ++launches[kernel] > 1;
@@ -61,7 +61,7 @@ clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensi
   return code;
 }
 
-// Drivers that complete events only after clFinish has returned.
+// Imitates drivers that complete events only after clFinish has returned.
 extern "C" CL_API_ENTRY cl_int CL_API_CALL clWaitForEvents(cl_uint count, const cl_event* events) {
   const cl_int code = real<decltype(clWaitForEvents)>("clWaitForEvents")(count, events);
   const std::lock_guard lock(mutex);

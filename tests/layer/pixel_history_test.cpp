@@ -1,4 +1,4 @@
-// `render --pixel`: the first operation of a device that differs from the reference.
+// `render --pixel` finds the first operation of a device that differs from the reference.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 struct Traced {
   int code = 0;
-  std::string operation;  // of the first difference; empty if there is none
+  std::string operation;  // the operation of the first difference; empty if there is none
   std::string output;
 };
 

@@ -35,17 +35,17 @@ void zero(std::span<std::uint64_t> values) {
   std::ranges::fill(values, 0);
 }
 
-// A clock that reports that its ticks are ten times as long as they are.
+// A clock whose ticks are ten times shorter than the driver reports.
 void slow(std::span<std::uint64_t> values) {
   values.back() = values.front() + (values.back() - values.front()) / 10;
 }
 
-// The driver does not do what it is asked for.
+// These faults do not change a result. Their functions are empty and only identify them.
 void crash(std::span<std::uint64_t>) {}
 void not_ready(std::span<std::uint64_t>) {}
 void untouched(std::span<std::uint64_t>) {}
 
-// Changes 64-bit results of one type of query by `Spoil`.
+// Lets `Spoil` change the 64-bit results of one type of query.
 template <VkQueryType type, auto Spoil>
 VKAPI_ATTR VkResult VKAPI_CALL query_results(VkDevice device, VkQueryPool pool, std::uint32_t first,
                                              std::uint32_t count, std::size_t size, void* data,

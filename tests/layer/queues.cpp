@@ -9,11 +9,11 @@
 namespace triptych::layer {
 namespace {
 
-// This is the pool that was created last; the program has only one.
+// The pool that was created last. The program uses only one.
 std::atomic<bool> pool_draws = true;
 
-// `computeFamilyFirst`: another family comes before the driver's, which can neither draw nor has a
-// clock.
+// With `computeFamilyFirst`, the first queue family is one that can neither draw nor write time
+// stamps.
 bool one_more() {
   return asked("computeFamilyFirst");
 }

@@ -1,4 +1,4 @@
-// Drivers of OpenCL and OpenGL with a fault.
+// Drivers of OpenCL and OpenGL that have a fault.
 #include <gmock/gmock.h>
 
 #include <regex>
@@ -77,7 +77,7 @@ TEST_F(Shims, OpenclLaunchesThatAreRefusedNameTheKernelAndThePlace) {
   EXPECT_THAT(drawn.output, HasSubstr("volume_frames.cpp"));
 }
 
-// Everything is measured, and the feature probe names what is wrong.
+// Everything is measured, and the feature probe names the fault.
 TEST_F(Shims, OpenclEventsThatAreCompletedLateAreAWrongFeature) {
   const test::Result drawn = opencl("late_events", "volume");
   if (lacks_device(drawn)) GTEST_SKIP() << "needs PoCL";
@@ -110,8 +110,8 @@ TEST_F(GlShims, CommandsThatAreExecutedOnlyOnceAreFound) {
   for (const char* plan : {"volume", "particles"}) {
     const test::Result drawn = gl("once_only", plan);
     if (lacks_device(drawn)) GTEST_SKIP() << "needs llvmpipe";
-    // With occlusion culling, frames are drawn before the first one that counts. So no frame that
-    // counts shows more than the cleared background, which is a wrong image.
+    // With occlusion culling, frames are drawn before the first one that counts. The frames that
+    // count therefore show only the cleared background, which is a wrong image.
     EXPECT_TRUE(every_image_is_wrong(plan)) << plan << '\n' << drawn.output;
   }
 }

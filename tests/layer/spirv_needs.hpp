@@ -1,5 +1,5 @@
 #pragma once
-// What a shader requires of the device, read from its SPIR-V.
+// The requirements of a shader for the device, read from its SPIR-V.
 
 #include <array>
 #include <cstdint>
@@ -10,9 +10,9 @@ namespace triptych::layer {
 
 struct ShaderNeeds {
   std::set<std::uint32_t> capabilities;
-  std::uint32_t model = 0;                      // of its entry point
+  std::uint32_t model = 0;                      // the execution model of its entry point
   std::array<std::uint32_t, 3> group{1, 1, 1};  // the size of a work group, unless specialized
-  std::uint64_t shared_bytes = 0;               // of a work group
+  std::uint64_t shared_bytes = 0;               // shared memory of a work group
   bool writes_buffers = false;                  // by stores or atomics
 };
 

@@ -1,4 +1,5 @@
-// `render --pixel` of particles: spheres one by one, and the fewest with which the pixel is wrong.
+// `render --pixel` for particles tests spheres one by one, and finds the smallest set with which
+// the pixel is wrong.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -36,7 +37,7 @@ TEST_P(SpriteHistories, DoNotDifferOnACorrectDevice) {
   }
 }
 
-// With reversed depth each sphere alone is right: two are needed to see the fault.
+// With reversed depth, each sphere alone is right. Two spheres are needed to reveal the fault.
 TEST_P(SpriteHistories, FindTheSpheresThatAreWrongTogether) {
   const test::Result result = trace("--set technique=quad_instanced --inject reversed_depth");
   EXPECT_EQ(result.code, 1);

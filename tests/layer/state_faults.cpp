@@ -17,7 +17,7 @@ VkResult make_pipelines(VkDevice device, VkPipelineCache cache,
       device, cache, static_cast<std::uint32_t>(infos.size()), infos.data(), allocator, pipelines);
 }
 
-// vkCreateGraphicsPipelines with the state `member` of each pipeline changed by `Spoil`.
+// Replaces vkCreateGraphicsPipelines: `Spoil` changes the state `member` of each pipeline.
 template <auto member, auto Spoil>
 VKAPI_ATTR VkResult VKAPI_CALL spoiled(VkDevice device, VkPipelineCache cache, std::uint32_t count,
                                        const VkGraphicsPipelineCreateInfo* infos,
@@ -35,7 +35,7 @@ VKAPI_ATTR VkResult VKAPI_CALL spoiled(VkDevice device, VkPipelineCache cache, s
   return make_pipelines(device, cache, changed, allocator, pipelines);
 }
 
-// The program creates one pipeline at a time.
+// Changes only one pipeline, because the program creates one at a time.
 void half_pixel(VkPipelineViewportStateCreateInfo& state) {
   static thread_local VkViewport viewport;
   viewport = state.pViewports[0];

@@ -79,7 +79,7 @@ struct AtExit {
 };
 const AtExit at_exit;
 
-// A compiler removes an allocation whose address nobody can see.
+// Without this, a compiler could remove an allocation whose address nobody can see.
 void* volatile last_leak = nullptr;
 
 // Allocates host memory for every pipeline and never frees it.

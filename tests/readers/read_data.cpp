@@ -1,7 +1,7 @@
-// read_data FILE [COMPONENT]: what Triptych reads from a particle file or a volume, for comparison
-// with other programs. Prints one line of JSON; with a third argument OUT also writes the particles
-// (x, y, z, radius as float32) or the values of the voxels (float64) there. Exit code 3 and a
-// message for a file that is refused.
+// read_data FILE [COMPONENT [OUT]]: prints one line of JSON with what Triptych reads from a
+// particle file or a volume, for comparison with other programs. With OUT it also writes the
+// particles (x, y, z, radius as float32) or the values of the voxels (float64) to that file. If the
+// file is refused, it prints a message and exits with code 3.
 
 #include <cstdio>
 #include <fstream>

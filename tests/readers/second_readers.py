@@ -48,8 +48,8 @@ class Volume:
         self.spacing = np.abs(np.asarray(spacing, float))
 
 
-# One function for each format, from a path to Particles or Volume. ImportError if the program is
-# not installed.
+# There is one function for each format, from a path to Particles or Volume. It raises ImportError if the other program is not
+# installed.
 
 
 def by_gemmi_pdb(path):
@@ -235,7 +235,7 @@ def by_hand_dat(path):
     return Volume(*generated_files.parse_dat(path, Refused))
 
 
-# Ending of the format's row in Triptych's tables: kind, second reader, its Debian package.
+# The key is the file name's ending in Triptych's tables. The value is the kind of data, the second reader, and its Debian package.
 READERS = {
     ".pdb": ("particles", by_gemmi_pdb, "python3-gemmi"),
     ".cif": ("particles", by_gemmi_cif, "python3-gemmi"),
@@ -414,7 +414,7 @@ def seeds_as_files(folder):
     """The inputs of the fuzzers: the first line is the file's ending."""
     root = pathlib.Path(__file__).resolve().parents[1] / "fuzz" / "seeds"
     folders = [root / "particles", root / "volumes"]
-    # Inputs that the fuzzers of this checkout kept.
+    # Inputs that the fuzzers in this checkout have kept.
     corpus = root.parents[2] / "build" / "fuzz" / "corpus"
     folders += [corpus / "particles", corpus / "volumes"]
     for source in folders:

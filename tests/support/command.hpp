@@ -12,7 +12,7 @@ namespace triptych::test {
 
 struct Result {
   int code = -1;       // 128 plus the number of the signal that ended it
-  std::string output;  // of both streams
+  std::string output;  // stdout and stderr together
 };
 
 inline Result run_command(const std::string& command) {

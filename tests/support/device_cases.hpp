@@ -72,7 +72,7 @@ inline core::Image picture(measure::Device& device, const measure::Work& work) {
   return prepared->image();
 }
 
-// Infinity for images of different sizes, and if a value is not finite.
+// The result is infinite if the sizes differ or a value is not finite.
 inline double largest_difference(const core::Image& a, const core::Image& b) {
   if (a.width != b.width || a.height != b.height) return std::numeric_limits<double>::infinity();
   double largest = 0;
@@ -85,8 +85,7 @@ inline double largest_difference(const core::Image& a, const core::Image& b) {
   return largest;
 }
 
-// A frame for any purpose draws the same image as a timed one, and so does a timed frame after the
-// others.
+// A frame draws the same image for any purpose, and so does a timed frame after the others.
 inline void expect_one_picture(measure::Prepared& prepared) {
   using measure::Purpose;
   static_cast<void>(prepared.frame(Purpose::timing));

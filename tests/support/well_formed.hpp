@@ -54,7 +54,7 @@ class XmlCheck {
     while (take(" ") || take("\n")) {
     }
   }
-  // One character of a text that `end` ends.
+  // Reads one character of a text that ends at `end`.
   void character(char end) {
     const char c = rest_.front();
     if (c == '<' && end != '<') return fail("'<' in a value");

@@ -1,5 +1,5 @@
-// The promise of conservative depth is in the source that is drawn with if it is on, and only then.
-// A driver that makes no use of it draws the same image anyway.
+// The shader source declares conservative depth if, and only if, the option is on. The image cannot
+// show this, because a driver that ignores the declaration draws the same image.
 #include <gmock/gmock.h>
 
 #include <memory>
@@ -21,7 +21,7 @@ std::unique_ptr<Context> any_context() {
     try {
       for (const Candidate& candidate : candidates()) return candidate.open(false);
     } catch (const core::Error&) {
-      continue;  // the test case reports that there was none
+      continue;  // the test reports that no context could be opened
     }
   }
   return nullptr;

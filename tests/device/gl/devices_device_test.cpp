@@ -32,7 +32,8 @@ TEST(GlDevices, ListingTwiceIsTheSame) {
   EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), all.size());
   for (const std::string& id : all) {
     EXPECT_THAT(id, MatchesRegex("gl:[a-z0-9_]+.*"));
-    // There is only one processor, in however many ways EGL offers its renderer.
+    // The machine has only one processor, so llvmpipe must be listed once, in however many ways EGL
+    // offers it.
     EXPECT_FALSE(id.starts_with("gl:llvmpipe") && id.ends_with("#2")) << id;
   }
 }
@@ -98,7 +99,7 @@ TEST(GlDevices, TheDefaultPathIsAsExactAsInterpolatingByHand) {
         EXPECT_EQ(path.voxel, native);
       }
     }
-    // This driver is known to be exact, so an error would be in our use of it.
+    // This driver is known to be exact, so an error would be in the code that uses it.
     if (device.info().driver == "llvmpipe") {
       const measure::VolumePath path = device.default_path({scene::VoxelFormat::u8});
       EXPECT_EQ(path.voxel, scene::VoxelFormat::u8);

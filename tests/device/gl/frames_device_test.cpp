@@ -92,7 +92,8 @@ TEST(GlFrames, StatisticsTellTheStagesInUseAndNoOthers) {
         }
       } else {
         EXPECT_FALSE(counts.contains("vertex_invocations"));
-        // Groups of 8×8 are complete. softpipe 22.3.6 counts the groups.
+        // Groups of 8×8 are complete, so padding counts. softpipe 22.3.6 counts groups instead of
+        // invocations.
         if (counts.contains("compute_invocations")) {
           const bool groups = device.info().driver == "softpipe";
           EXPECT_EQ(counts["compute_invocations"], groups ? 5U * 4U : 40U * 32U);
@@ -163,7 +164,7 @@ TEST(GlFrames, TheKernelHashTellsBuildsApart) {
     EXPECT_EQ(hashes.size(), 5U);
     add("raycast", {.skip = technique::Skip::bricks});
     EXPECT_EQ(hashes.size(), 6U);
-    // Options that are switched at run time need no other build.
+    // Options that are switched at run time need no further build.
     add("raycast", {.skip = technique::Skip::none, .ert = 0});
     EXPECT_EQ(hashes.size(), 6U);
   });

@@ -18,7 +18,7 @@ using test::make_work;
 using test::picture;
 using test::SceneOptions;
 
-// Debug contexts, so that a test fails at any message of the driver.
+// Contexts are debug contexts, so that a test fails for any message of the driver.
 inline std::unique_ptr<measure::Backend> backend_under_test() {
   setenv("TRIPTYCH_GL_DEBUG", "1", 1);
   return make_backend();

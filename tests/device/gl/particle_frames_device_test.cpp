@@ -38,7 +38,7 @@ std::uint64_t corners_of(std::string_view technique) {
 
 TEST(GlParticleFrames, ASingleSphereIsCountedAsItIs) {
   for_each_device([](measure::Device& device) {
-    // So far away that a ray-aligned sprite is hardly larger than the silhouette.
+    // The camera is so far away that a ray-aligned sprite is hardly larger than the silhouette.
     const scene::ParticleScene scene = seen_from({{0, 0, -60, 3}}, {0, 0, 0}, 7.5);
     for_each_technique(device, [&](std::string_view technique) {
       const auto prepared = device.prepare(particle_work(technique, scene, {.corners = 8}));
@@ -143,7 +143,7 @@ scene::ParticleScene large_before_small() {
 std::uint64_t groups_of_other_passes(const scene::ParticleScene& scene,
                                      const technique::TileRounds& rounds) {
   constexpr std::uint64_t group = 64;
-  // Groups that share all the work.
+  // The number of work groups among which all particles are distributed.
   const std::uint64_t spread =
       std::min<std::uint64_t>(256, (scene.particles->count() + group - 1) / group);
   std::uint64_t groups = rounds.small ? spread : 0;  // index
@@ -293,7 +293,7 @@ TEST(GlParticleFrames, ConservativeDepthIsAnotherBuild) {
     const scene::ParticleScene scene = seen_from({{0, 0, -3, 1}}, {0, 0, 0}, 60);
     for_each_technique(device, [&](std::string_view technique) {
       if (technique == "tiles")
-        return;  // tiles reject early by every front, whether that was promised or not
+        return;  // tiles always reject by every front, with or without the option
       const auto hash = [&](const ParticleOptions& options) {
         return device.prepare(particle_work(technique, scene, options))->kernel_hash();
       };

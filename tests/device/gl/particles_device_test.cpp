@@ -109,7 +109,8 @@ TEST(GlParticles, AwkwardCamerasLoseNoPixel) {
   });
 }
 
-// Larger than the points of any known device, in front of others that are not.
+// Some spheres are larger than the points of any known device, and are in front of others that are
+// not.
 TEST(GlParticles, SpheresLargerThanPointsAreDrawn) {
   scene::ParticleScene scene =
       seen_from({{0, 0, -3, 1.6}, {1.5, 0.2, -2, 0.2}, {-1.4, -1.2, -2.5, 0.3}}, {0, 0, 0}, 70);
@@ -186,7 +187,7 @@ TEST(GlParticles, OptionsThatDecideNothingLeaveEveryBit) {
   });
 }
 
-// A wall in front of most particles: cells are left out, and no bit changes.
+// A wall hides most particles: cells are left out, and no bit of the image changes.
 TEST(GlParticles, WhatIsHiddenIsNotMissed) {
   for_each_device([](measure::Device& device) {
     scene::ParticleScene scene = generated("generate:uniform:30000");
@@ -202,7 +203,7 @@ TEST(GlParticles, WhatIsHiddenIsNotMissed) {
         EXPECT_EQ(prepared->image(), plain) << i;
       }
       const record::Counts counts = prepared->frame(measure::Purpose::counters).counts;
-      // softpipe's compute shaders do not see what was just drawn, so nothing counts as hidden.
+      // softpipe's compute shaders do not see the draws before them, so no cell counts as hidden.
       if (device.info().driver != "softpipe") {
         EXPECT_GT(counts.at("cells_culled"), counts.at("cells") / 20);
       }

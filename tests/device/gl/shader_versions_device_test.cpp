@@ -82,7 +82,7 @@ std::vector<measure::Work> particle_works() {
   return works;
 }
 
-// What a device compiles for these works, for timing and for counting.
+// The sources that a device compiles for these works, for timing and for counting.
 Sources sources_of(const Candidate& candidate, const std::vector<measure::Work>& works) {
   std::unique_ptr<Context> context = candidate.open(false);
   Context& kept = *context;
@@ -107,17 +107,17 @@ void replace_first(std::string& text, std::string_view what, std::string_view wi
   if (const auto at = text.find(what); at != std::string::npos) text.replace(at, what.size(), with);
 }
 
-// The text of a shader for the reference compiler. It knows storage blocks, compute shaders and
-// `precise` only from GLSL 4.30 on, and not the extensions that add them to 3.30; and
-// gl_BaseInstanceARB only from 4.50 on.
+// The text of a shader in a form that the reference compiler accepts. That compiler knows storage
+// blocks, compute shaders and `precise` only from GLSL 4.30 on, without the extensions that add
+// them to 3.30, and gl_BaseInstanceARB only from 4.50 on.
 std::string as_it_knows_it(std::string text) {
   replace_first(text, "#version 330", "#version 430");
   if (text.starts_with("#version 430")) replace_first(text, "gl_BaseInstanceARB", "0");
   return text;
 }
 
-// Why the reference compiler refuses one of the shaders; empty if it does not. It compiles all of
-// them at once, because starting it takes longer than compiling.
+// The reason why the reference compiler refuses one of the shaders; empty if it does not. All
+// shaders are compiled at once, because starting the compiler takes longer than compiling.
 std::string refusal(const Sources& sources) {
   const test::TemporaryFolder folder;
   std::string command = TRIPTYCH_GLSLANG;

@@ -16,8 +16,8 @@ using test::make_work;
 using test::picture;
 using test::SceneOptions;
 
-// With the environment in which the program starts its workers. Otherwise PoCL runs small launches
-// on one thread.
+// Sets the environment in which the program starts its workers. Without it, PoCL runs small
+// launches on one thread.
 inline std::unique_ptr<measure::Backend> backend_under_test() {
   setenv("POCL_PTHREAD_MIN_WGS", "1", 0);
   return make_backend();

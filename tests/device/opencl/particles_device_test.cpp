@@ -52,7 +52,7 @@ TEST(OpenClParticles, SpritesCoverThePixelsTheyShould) {
     // of 2·tan(fov/2)/83.
     const scene::ParticleScene one = seen_from({{0, 0, -4, 1}}, {0, 0, 0}, 60);
     const double edge = std::tan(std::asin(0.25)) * 83 / (2 * std::tan(std::acos(-1.0) / 6));
-    // Odd, because the centre of a pixel is on the axis.
+    // The number is odd, because the centre of a pixel is on the axis.
     const double pixels = 2 * std::floor(edge + 1.0 / 64) + 1;
     const auto counts = counters(device, make_work("quad_screen", one));
     EXPECT_EQ(static_cast<double>(counts.at("fragments")), pixels * pixels);
@@ -92,7 +92,7 @@ TEST(OpenClParticles, OcclusionLeavesCellsOutAndNoBitsChange) {
       EXPECT_EQ(prepared->image(), plain);
       EXPECT_GT(counts.at("cells_culled"), 0U);
       EXPECT_LT(counts.at("particles_submitted"), 60000U);
-      // Whatever was drawn before, the counts are the same.
+      // The counts are the same, whatever was drawn before.
       EXPECT_EQ(counters(device, make_work(technique, scene, {.culling = Culling::occlusion})),
                 counts);
     }
@@ -136,7 +136,7 @@ struct Injected {
   bool conservative_depth = false;
 };
 
-// The image shows each fault.
+// The image reveals each fault.
 TEST(OpenClParticles, InjectedFaultsAreSeen) {
   const std::vector<scene::ParticleScene> scenes{generated("coincident", 4000, "path_z:7/8"),
                                                  generated("uniform", 60000, "random:5"),

@@ -32,7 +32,7 @@ struct Distance {
   double share = 0;  // the largest share of the bound of a pixel
 };
 
-// Infinite for images of different sizes, and if a value is not finite.
+// The result is infinite if the sizes differ or a value is not finite.
 Distance from_truth(const core::Image& image, const reference::Truth& truth) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   if (image.width != truth.width || image.height != truth.height) return {infinite, infinite};
@@ -187,8 +187,8 @@ TEST(OpenClPictures, AnInjectedFaultIsOutsideTheBound) {
     for (const Sampler sampler : {Sampler::manual, Sampler::hardware}) {
       for (const Fault fault : {Fault::half_voxel_shift, Fault::flipped_axis, Fault::extra_sample,
                                 Fault::uncorrected_opacity, Fault::coarse_filter}) {
-        // Haze up to the far face shows one sample too many. The steep edges of surfaces show
-        // weights that are slightly wrong.
+        // With haze, an additional sample beyond the far face is visible. With surfaces, the steep
+        // edges show weights that are slightly wrong.
         const bool subtle = fault == Fault::coarse_filter;
         const scene::VolumeScene scene =
             make_scene({.data = "generate:frequency_box:40",

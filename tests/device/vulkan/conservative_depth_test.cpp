@@ -1,5 +1,4 @@
-// The promise of conservative depth is in the SPIR-V that is drawn with, and not only in its
-// source.
+// The SPIR-V that is used for drawing, and not only its source, declares conservative depth.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -31,7 +30,7 @@ std::set<std::uint32_t> execution_modes(std::string_view code) {
   return modes;
 }
 
-// In the build that is timed, and in the one that counts.
+// Both the timed build and the counting build declare it.
 TEST(ConservativeDepth, IsPromisedWhereItIsOnAndOnlyThere) {
   for (const std::string build : {"", "_counting"}) {
     SCOPED_TRACE(build);

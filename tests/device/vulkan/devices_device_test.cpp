@@ -79,7 +79,7 @@ TEST(VulkanDevices, TheDefaultPathFiltersExactly) {
       EXPECT_EQ(device.filter_weight_error({native, Sampler::manual}), 0);
     }
     if (device.info().driver != "llvmpipe") return;
-    // Of the exact samplers, cells of eight voxels are the fastest, up to a gigabyte.
+    // Among the exact samplers, cells of eight voxels are the fastest, up to a gigabyte.
     EXPECT_EQ(device.default_path({VoxelFormat::u8}).sampler, Sampler::packed);
     EXPECT_EQ(device.default_path({VoxelFormat::u8}).voxel, VoxelFormat::u8);
     for (const measure::VolumeKind& other :

@@ -1,4 +1,4 @@
-// The results of a frame besides its image: times, counters, pipeline statistics.
+// Tests the results of a frame other than its image: times, counters, pipeline statistics.
 #include <gmock/gmock.h>
 
 #include <cstdint>
@@ -139,7 +139,8 @@ TEST(VulkanFrames, AWholeRenderPassIsTimedByTheDevice) {
     const auto prepared =
         device.prepare(make_work("raycast_fragment", make_scene({.width = 256, .height = 256})));
     static_cast<void>(prepared->frame(Purpose::timing));  // the first frame compiles
-    double of_wall = 0;  // the best of several, because a busy machine may wake up the thread late
+    // The best of several frames, because a busy machine may wake up the thread late.
+    double of_wall = 0;
     for (int i = 0; i < 20; ++i) {
       const measure::Frame frame = prepared->frame(Purpose::timing);
       if (!frame.device_ns) GTEST_SKIP() << "no clock";

@@ -1,4 +1,5 @@
-// Devices with smaller limits: the limits of this machine's devices are lowered.
+// Tests devices with smaller limits, which are made by lowering the limits of this machine's
+// devices.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -77,7 +78,7 @@ TEST(VulkanLimits, ABufferIsBoundWholeOrNotAtAll) {
   });
 }
 
-// A larger error means a wrong filter, for which the bound of images must not become wide.
+// A larger error means that the filter is wrong, and must not make the bound of images wider.
 TEST(VulkanLimits, AFilterErrsByNoMoreThanItsFormatAndTheWeightsLeaveOpen) {
   using enum scene::VoxelFormat;
   const Instance instance;

@@ -1,4 +1,4 @@
-// The portable maths as GLSL has the same results as in C++.
+// The portable maths gives the same results in GLSL and in C++.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -98,9 +98,9 @@ TEST(VulkanMaths, EqualsTheHosts) {
     SCOPED_TRACE(each.info.id);
     const Gpu gpu = open_gpu(each.physical);
     const std::vector<Results> out = on_device(gpu, in);
-    // Only sums, products, quotients and roots. A quotient may have an error of 2.5 ulp, and sums
-    // and products may be contracted. The longest chain is within 8 ulp of the exact value on
-    // either side.
+    // Only sums, products, quotients and roots are used. A quotient may have an error of 2.5 ulp,
+    // and sums and products may be contracted. The longest chain of operations is within 8 ulp of
+    // the exact value on either side.
     constexpr std::int64_t allowed = 16;
     for (std::size_t i = 0; i < in.size(); ++i) {
       const Results host = on_host(in[i]);
@@ -113,7 +113,7 @@ TEST(VulkanMaths, EqualsTheHosts) {
   }
 }
 
-// On either side, the longest chain is within 12 u of the exact value, where u = 2⁻⁵³.
+// The longest chain of operations is within 12 u of the exact value on either side, where u = 2⁻⁵³.
 TEST(VulkanMaths, EqualsTheHostsInDoublePrecision) {
   const std::vector<Vector> in = vectors();
   const Instance instance;

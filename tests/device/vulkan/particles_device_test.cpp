@@ -221,7 +221,7 @@ TEST(VulkanParticles, CountersAddUpAndRepeat) {
     scene.width = 240;
     scene.height = 180;
     for (const std::string_view technique : techniques) {
-      std::uint64_t culled = 0;  // each kind of culling leaves out more than the one before
+      std::uint64_t culled = 0;  // each kind of culling leaves out more than the previous one
       for (const Culling culling : {Culling::none, Culling::frustum, Culling::occlusion}) {
         const auto prepared = device.prepare(particle_work(technique, scene, {.culling = culling}));
         const record::Counts counts = prepared->frame(Purpose::counters).counts;
@@ -229,7 +229,7 @@ TEST(VulkanParticles, CountersAddUpAndRepeat) {
         EXPECT_EQ(counts.at("particles_submitted") + counts.at("particles_culled"), 20000U);
         EXPECT_LE(counts.at("sprites"), counts.at("particles_submitted"));
         EXPECT_EQ(counts.at("particles_culled") == 0, culling == Culling::none) << technique;
-        // With few rounds, little is hidden.
+        // If there are few rounds, little is hidden.
         const std::uint64_t factor = technique == "tiles" ? 1 : 2;
         EXPECT_GE(counts.at("particles_culled"), factor * culled) << technique;
         culled = counts.at("particles_culled");

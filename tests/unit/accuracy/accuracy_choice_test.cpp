@@ -1,4 +1,4 @@
-// The longest step and the fastest case within a requested error.
+// Chooses the longest step and the fastest case that meet a requested error.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ TEST(LongestStep, OfASecondOrderErrorIsWithinAQuarterOctave) {
 }
 
 TEST(LongestStep, IsNotOneThatHitsByChance) {
-  // A dip at 4 voxels, asymptotic below 1.
+  // The error has a dip at a step of 4 voxels, and is asymptotic below 1.
   const auto found =
       longest_step(1e-3, {}, [](double step) { return step == 4 ? 1e-4 : 2e-3 * step * step; });
   EXPECT_LT(found.step, 1);
@@ -47,7 +47,7 @@ TEST(LongestStep, IsNoneWhereTheShortestIsNotEnough) {
   EXPECT_FALSE(longest_step(1e-3, {}, [](double) { return std::nan(""); }).error <= 1e-3);
 }
 
-// The step that few pixels suggested is too long for all pixels.
+// The step that was found with few pixels is too long for all pixels.
 TEST(ShortenedStep, KeepsTheErrorAndLosesLittle) {
   for (const double order : {1.0, 2.0, 4.0}) {
     int calls = 0;

@@ -1,4 +1,4 @@
-// Orders, fronts and times to an error, for numbers whose results are known.
+// Orders, fronts and times to an error, for numbers with known results.
 
 #include "accuracy/accuracy.hpp"
 
@@ -42,8 +42,8 @@ TEST(FitOrder, FindsThePowerAndItsCertainty) {
   EXPECT_NEAR(first->order, 1, 1e-12);
 }
 
-// By hand: ln e = 2·ln h ± 0.1 alternating over four halvings; the slope's deviation is
-// Σ(x − x̄)d/Σ(x − x̄)², the interval t₀.₉₇₅(2) = 4.3027 standard errors.
+// Computed by hand: ln e = 2·ln h ± 0.1, alternating over four halvings. The slope's deviation is
+// Σ(x − x̄)d/Σ(x − x̄)², and the interval is t₀.₉₇₅(2) = 4.3027 standard errors.
 TEST(FitOrder, TheIntervalIsStudents) {
   const std::vector<double> steps{1, 0.5, 0.25, 0.125};
   double sign = 0.1;
@@ -52,7 +52,8 @@ TEST(FitOrder, TheIntervalIsStudents) {
     return h * h * std::exp(sign);
   }));
   ASSERT_TRUE(order);
-  // x̄-centred x in units of ln 2: 1.5, 0.5, −0.5, −1.5; d = −.1, .1, −.1, .1.
+  // The values x − x̄ in units of ln 2 are 1.5, 0.5, −0.5, −1.5, and the values d are −.1, .1, −.1,
+  // .1.
   const double shift = (1.5 * -0.1 + 0.5 * 0.1 + -0.5 * -0.1 + -1.5 * 0.1) / 5 / std::log(2.0);
   EXPECT_NEAR(order->order, 2 + shift, 1e-12);
   const double residual = 4 * 0.01 - 5 * std::pow(shift * std::log(2.0), 2);
@@ -109,7 +110,7 @@ TEST(Families, DifferByTheStepAlone) {
 }
 
 TEST(TimeToError, IsStraightOnLogarithmicAxes) {
-  // Time ∝ 1/step, error ∝ step²: error ∝ time⁻².
+  // Time is proportional to 1/step and error to step², so error is proportional to time⁻².
   const std::vector<AccuracyCase> cases{at(1, 1e-2, 1), at(4, 1e-2 / 16, 0.25)};
   const auto families = accuracy_families(cases);
   EXPECT_NEAR(*time_to_error(cases, families, 1e-2 / 4), 2, 1e-12);

@@ -24,13 +24,13 @@ AccuracyCase case_at(double time_ns, double rmse) {
           .rmse = rmse};
 }
 
-// In squares of one decade of time and one decade of error.
+// The area in units of one decade of time times one decade of error.
 double area_of(const std::vector<AccuracyCase>& cases, double reference_error = 1) {
   return hypervolume(cases, pareto_front(cases), reference_error) / (decade * decade);
 }
 
-// 1 ms is three decades below the second, and 1e-2 is two decades below 1: 3·2. Reaching 1e-4 from
-// 1e-2 takes 10 ms: another 2·2.
+// 1 ms is three decades below one second, and 1e-2 is two decades below 1, which gives an area of
+// 3·2. Reaching 1e-4 from 1e-2 takes 10 ms, which adds 2·2.
 TEST(Hypervolume, IsTheSumOfRectangles) {
   EXPECT_NEAR(area_of({case_at(1e6, 1e-2)}), 6, 1e-12);
   EXPECT_NEAR(area_of({case_at(1e6, 1e-2), case_at(1e7, 1e-4)}), 10, 1e-12);
@@ -47,15 +47,15 @@ TEST(Hypervolume, IsOfTheFrontAlone) {
 
 TEST(Hypervolume, EndsAtTheCorner) {
   EXPECT_EQ(area_of({}), 0);
-  EXPECT_EQ(area_of({case_at(1e6, 1)}), 0);     // no better than nothing
-  EXPECT_EQ(area_of({case_at(2e9, 1e-4)}), 0);  // too late
+  EXPECT_EQ(area_of({case_at(1e6, 1)}), 0);     // no better than an empty image
+  EXPECT_EQ(area_of({case_at(2e9, 1e-4)}), 0);  // later than the limit of one second
   EXPECT_NEAR(area_of({case_at(1e5, 2), case_at(1e6, 0.1), case_at(2e9, 1e-3)}), 3, 1e-12);
   AccuracyCase untimed = case_at(0, 1e-3);
   untimed.time_ns.reset();
   EXPECT_NEAR(area_of({case_at(1e6, 1e-2), untimed}), 6, 1e-12);
 }
 
-// Errors end at the rounding to floats: 0 counts as 2⁻²⁴.
+// The smallest error is the rounding to floats, so an error of 0 counts as 2⁻²⁴.
 TEST(Hypervolume, AnExactPictureHasAFiniteArea) {
   EXPECT_NEAR(area_of({case_at(1e6, 0)}), 3 * 24 * std::log10(2.0), 1e-12);
   EXPECT_EQ(area_of({case_at(1e6, 1e-9)}), area_of({case_at(1e6, 0)}));

@@ -29,8 +29,7 @@ TEST(ImageMetrics, EqualPicturesHaveNoError) {
   EXPECT_EQ(result.worst.ratio, 0);
 }
 
-// The pixel with the largest error and the one that is worst relative to its own bound are
-// different.
+// The pixel with the largest error is not the one with the largest error relative to its own bound.
 TEST(ImageMetrics, FindsWorstAgainstItsOwnBound) {
   const core::Image truth = filled(4, 3, 0.0F);
   core::Image image = truth;

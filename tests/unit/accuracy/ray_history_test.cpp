@@ -13,7 +13,8 @@ Allowed near(double value) {
   return {value, value - wide, value + wide};
 }
 
-// Four samples of opacity ¼ along x, with a spacing of two voxels. The last one is half a step.
+// Four samples of opacity ¼ along x, with a spacing of two voxels. The last sample covers half a
+// step.
 ExpectedRay four_samples() {
   ExpectedRay ray{.entry = {1, 5, 5}, .stride = {2, 0, 0}, .samples = {}, .ends_below = 0.001};
   for (int i = 0; i < 4; ++i) {
@@ -59,7 +60,8 @@ TEST(RayHistory, HasNoDifferenceForWhatIsExpected) {
   for (const SampleRow& row : history.rows) EXPECT_TRUE(row.expected && row.taken);
 }
 
-// Each operation is changed alone in sample 2: that one is named, and nothing before it.
+// Each operation is changed alone in sample 2. The history must name that operation, and no earlier
+// one.
 TEST(RayHistory, NamesTheFirstOperationThatDiffers) {
   const ExpectedRay ray = four_samples();
   const auto changed = [&](auto change) {
@@ -107,7 +109,7 @@ TEST(RayHistory, FindsSamplesBeyondTheEndAndTakenTwice) {
   EXPECT_EQ(compare(ray, taken).rows[2].differs, Operation::take);
 }
 
-// A ray may end in the dark, but no earlier.
+// A ray may end early only when hardly any light is left.
 TEST(RayHistory, AllowsARayToEndInTheDarkOnly) {
   ExpectedRay ray = four_samples();
   std::vector<TakenSample> taken = taken_from(ray);

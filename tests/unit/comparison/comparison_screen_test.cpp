@@ -76,7 +76,7 @@ TEST(ComparisonScreen, ExplainsWhyNothingWasCompared) {
                     Not(HasSubstr("no differences"))));
 }
 
-// Its shift is 0 because nobody measured it, so it must not be divided by the work.
+// Its shift is 0 because no time was measured, so it must not be divided by the work.
 TEST(ComparisonScreen, HasNoTimePerWorkWithoutAMeasuredTime) {
   ComparisonResult result;
   result.timed = true;

@@ -15,8 +15,8 @@ namespace {
 
 using test::normal;
 
-// Hollander & Wolfe (1973), p. 29f.: depression scale at the first and the second visit, as R's
-// wilcox.test has it: V = 40, p = 0.01953 one-sided, estimate 0.46.
+// Hollander & Wolfe (1973), p. 29f.: depression scale at the first and the second visit. R's
+// wilcox.test gives V = 40, one-sided p = 0.01953, estimate 0.46.
 std::vector<double> depression_scale() {
   const std::vector<double> first{1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30};
   const std::vector<double> second{0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29};
@@ -108,7 +108,7 @@ TEST(SignedRank, TheApproximationErrsByItsNextTermAtMost) {
   }
 }
 
-// 40 differences of two sizes: n(n+1)(2n+1)/24 − (20³−20)·2/48 = 5203.75… by hand.
+// 40 differences of two sizes: n(n+1)(2n+1)/24 − (20³−20)·2/48 = 5203.75…, computed by hand.
 TEST(SignedRank, TiesNarrowTheApproximation) {
   std::vector<double> values(20, 1.0);
   values.insert(values.end(), 20, -2.0);
@@ -140,8 +140,8 @@ TEST(Shift, TooFewDifferencesHaveAnEndlessInterval) {
   EXPECT_TRUE(std::isnan(estimate_shift({}, 0.01).estimate));
 }
 
-// A comparison on a synthetic machine: both sides share a slow drift (AR(1) from batch to batch),
-// each batch has its own noise, and sometimes something else uses a share of the machine.
+// Simulates a comparison on a machine: both sides share a slow drift (AR(1) from batch to batch),
+// each batch has its own noise, and sometimes another program uses a share of the machine.
 struct Machine {
   double noise = 0.01;
   double drift = 0.01;        // standard deviation of the drift
@@ -268,7 +268,8 @@ TEST(Confirm, WhatOneProcessRunAloneSaidIsTakenBack) {
             PairVerdict::undecided);
 }
 
-// A configuration that is not a suspect is not tested any more, so nothing can be said about it.
+// A configuration that is no longer suspected is not tested further, so there is no statement about
+// it.
 TEST(Confirm, CountsTheSuspectsAsHypotheses) {
   std::vector<Suspect> suspects{{{0.0135, 0.0175, 0.0095, 0.0155, 0.0115}, true}};
   EXPECT_EQ(confirm(suspects, 0.05, SequentialDesign::standard())[0].verdict, PairVerdict::slower);
@@ -319,7 +320,7 @@ struct ProcessRuns {
   }
 };
 
-// Five process runs decide what is obvious; the rest is run five more times.
+// Five process runs decide the obvious cases; the others are run five more times.
 TEST(ConfirmInLooks, GoesOnWithWhatIsOpen) {
   core::Random random(21);
   std::vector<double> scattered{0.05, 0.01, 0.06, 0.012, 0.05, 0.035, 0.03, 0.04, 0.036, 0.03};
@@ -345,10 +346,10 @@ TEST(ConfirmInLooks, EndsWithTheProcessRunsThatThereAre) {
   EXPECT_TRUE(ProcessRuns().confirm_all().empty());
 }
 
-// A process run shifts all of its blocks, so the interval of a single process run is far too
-// narrow, and what is slower only in one of them must not be reported. Over families of 24
-// configurations, none of which is slower by more than the tolerance, at most a share q of 200
-// families has false discoveries: with q = .02, more than 10 happen with a probability below .003.
+// A process run shifts all of its blocks, so the interval from a single process run is far too
+// narrow, and a slowdown in only one of them must not be reported. Among 200 families of 24
+// configurations, none of which is slower by more than the tolerance, at most a share q may have
+// false discoveries: with q = .02, more than 10 happen with a probability below .003.
 TEST(ConfirmInLooks, ProcessRunEffectsAreSeldomBelieved) {
   const SequentialDesign design = SequentialDesign::standard();
   const double between = 0.01;
@@ -359,7 +360,7 @@ TEST(ConfirmInLooks, ProcessRunEffectsAreSeldomBelieved) {
   for (int family = 0; family < families; ++family) {
     ProcessRuns given;
     for (int i = 0; i < 24; ++i) {
-      // This process run alone looks slower.
+      // Only this process run suggests a slowdown.
       if (between * normal(random) < 0.015) continue;
       given.process_runs.emplace_back();
       for (int process_run = 0; process_run < 10; ++process_run) {

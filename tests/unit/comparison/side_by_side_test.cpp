@@ -30,7 +30,7 @@ TEST(SideBySide, IsTheGeometricMeanOverWhatAllMeasured) {
   std::vector<record::Record> records{
       measured("gl:x", "a", "1", 100), measured("vulkan:y", "a", "1", 200),
       measured("gl:x", "a", "2", 100), measured("vulkan:y", "a", "2", 80),
-      measured("gl:x", "a", "3", 1),  // it is alone, so it is compared with nothing
+      measured("gl:x", "a", "3", 1),  // no other device measured it, so it is not compared
       measured("gl:x", "b", "1", 30),  measured("vulkan:y", "b", "1", 10)};
   records[1].counters["samples"] = 150;
   const auto table = side_by_side(records);

@@ -67,7 +67,7 @@ TEST(File, TextsHaveALargestSize) {
   EXPECT_EQ(read_text(file, 10), std::string(10, 'x'));
   EXPECT_THAT([&] { (void)read_text(file, 9); },
               ThrowsMessage<InputError>(HasSubstr("a.txt: is too large: more than 9 bytes")));
-  // A file that states no size is not read any further, either.
+  // The limit also holds for a file that reports no size.
   EXPECT_THAT([&] { (void)read_text("/proc/self/status", 100); },
               ThrowsMessage<InputError>(HasSubstr("is too large")));
 }
@@ -87,7 +87,7 @@ TEST(File, ReportsAFullDisk) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
-// Files cannot grow beyond `bytes` while this object lives: a full disk that also affects the
+// Limits files to `bytes` while this object exists, which imitates a full disk and also affects the
 // superuser.
 class FileSizeLimit {
  public:

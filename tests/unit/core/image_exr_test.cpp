@@ -75,7 +75,7 @@ TEST(Exr, FileAndMemoryAgree) {
   expect_same(read_exr(folder.path() / "a.exr"), image);
 }
 
-// Read by the file reader of the library, as any other program would do.
+// The file is read by the library's own reader, as any other program would do.
 TEST(Exr, IsWhatOtherProgramsExpect) {
   const TemporaryFolder folder;
   Image image(3, 2);

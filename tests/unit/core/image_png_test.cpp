@@ -20,7 +20,7 @@ struct Picture {
   std::vector<std::uint8_t> rgb;
 };
 
-// The reader of libpng.
+// Decodes the image with libpng.
 Picture decode_png(const std::vector<std::byte>& bytes) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;

@@ -49,7 +49,7 @@ const std::vector<std::string> hostile_words{"ev$(touch x)`id`",
                                              "no utf-8 \xff'\\",
                                              std::string(20000, '\'')};
 
-// The shells on this machine into which people paste commands.
+// The shells on this machine, into which people may paste commands.
 std::vector<std::string> shells() {
   std::vector<std::string> found;
   for (const std::string& shell : {std::string("dash"), std::string("bash"), std::string("zsh -f"),
@@ -77,7 +77,8 @@ TEST(ShellQuoted, EveryShellReadsTheWordAndRunsNothing) {
   }
 }
 
-// A line on a terminal, except for the line ends at the end of a word.
+// The quoted text contains no character that a terminal hides, except line ends at the end of a
+// word.
 TEST(ShellQuoted, HoldsNoHiddenCharacter) {
   for (const std::string& word : hostile_words) {
     if (word.ends_with('\n')) continue;
@@ -89,7 +90,7 @@ TEST(ShellEnvironment, IsReadByEveryShellWhateverTheNames) {
   for (const std::string& shell : shells()) {
     for (const std::string& hostile : hostile_words) {
       if (hostile.find('=') != std::string::npos || hostile.size() > 1000) continue;
-      // `env` takes no option for a variable, because each entry contains a '='.
+      // `env` does not take a variable for an option, because each entry contains a '='.
       const std::string name = "V" + hostile;
       const std::array words{std::string("printenv"), name};
       EXPECT_EQ(read_back(shell, shell_environment({{"A", "1"}, {name, hostile}}) +
@@ -111,7 +112,8 @@ TEST(Printable, ShowsWhatATerminalWouldObey) {
   EXPECT_EQ(printable("µ\xff\u0085"), "µ\uFFFD\\u{0085}");
 }
 
-// Characters that make a name look like another one: changes of direction, and invisible ones.
+// Characters that make a name look like another one: some change the direction of text, and others
+// are invisible.
 TEST(Printable, ShowsWhatChangesTheDirectionOfText) {
   EXPECT_EQ(printable("\u202Egnp.exe\u2069\u200F"), "\\u{202e}gnp.exe\\u{2069}\\u{200f}");
   EXPECT_EQ(printable("a\u200Bb\uFEFF\U000E0041"), "a\\u{200b}b\\u{feff}\\u{e0041}");

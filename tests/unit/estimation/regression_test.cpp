@@ -16,7 +16,8 @@ namespace {
 
 using Values = std::vector<double>;
 
-// Anscombe 1973, "Graphs in Statistical Analysis", tables: four sets with the same least squares.
+// Anscombe 1973, "Graphs in Statistical Analysis", tables: four data sets with the same
+// least-squares line.
 const Values anscombe_x{10, 8, 13, 9, 11, 14, 6, 4, 12, 7, 5};
 const Values anscombe_x4{8, 8, 8, 8, 8, 8, 8, 19, 8, 8, 8};
 const std::array<Values, 4> anscombe_y{
@@ -53,7 +54,7 @@ TEST(LeastSquares, GivesAnscombesFourSetsTheSameLine) {
     EXPECT_NEAR(fit.line.intercept, 3.00, 0.005) << set;
     EXPECT_NEAR(fit.line.slope, 0.500, 0.0005) << set;
     EXPECT_NEAR(pearson_r(x, anscombe_y[set]), 0.816, 0.0011) << set;
-    EXPECT_NEAR(fit.slope_error, 0.118, 0.0005) << set;  // as Anscombe gives it
+    EXPECT_NEAR(fit.slope_error, 0.118, 0.0005) << set;  // the value that Anscombe gives
   }
 }
 
@@ -68,7 +69,7 @@ TEST(LeastSquares, FollowsTheGiantsAndTheMinutes) {
 }
 
 TEST(RobustLine, SeesTheMainSequenceOfTheStars) {
-  // MM-estimate with the same two bisquares, as R's robustbase gives it for starsCYG.
+  // The MM-estimate with the same two bisquare functions, from R's robustbase for starsCYG.
   const RobustLine fit = robust_line(star_temperature, star_light);
   EXPECT_NEAR(fit.line.slope, 2.253, 0.001);
   EXPECT_NEAR(fit.line.intercept, -4.969, 0.005);

@@ -27,7 +27,7 @@ TEST(Statistics, SampleVariance) {
   EXPECT_TRUE(std::isnan(sample_variance(std::array{1.0})));
 }
 
-// Upper 5 % and 2.5 % points, as in every table of the t distribution.
+// The upper 5 % and 2.5 % points from published tables of the t distribution.
 TEST(Statistics, StudentTAsTabulated) {
   EXPECT_NEAR(student_t_upper_quantile(0.05, 5), 2.015, 5e-4);
   EXPECT_NEAR(student_t_upper_quantile(0.025, 10), 2.228, 5e-4);
@@ -36,7 +36,7 @@ TEST(Statistics, StudentTAsTabulated) {
   EXPECT_NEAR(student_t_upper_tail(2.015048, 5), 0.05, 1e-7);
 }
 
-// Computed by quadrature of the density with 20 digits.
+// Values from a quadrature of the density with 20 digits.
 TEST(Statistics, StudentTByQuadrature) {
   EXPECT_NEAR(student_t_upper_tail(2, 7), 0.042809664281488038, 1e-14);
   EXPECT_NEAR(student_t_upper_tail(3.5, 12.5), 0.0020675705228806399, 1e-15);
@@ -54,8 +54,8 @@ TEST(Statistics, BenjaminiHochbergAsPublished) {
   EXPECT_TRUE(rejected[3]);
 }
 
-// If a later p is below its line, the earlier ones are rejected too, even if they are above theirs,
-// in any order.
+// If a later p is below its line, all smaller p are rejected, too, even if they are above their
+// lines. The order of the input does not matter.
 TEST(Statistics, BenjaminiHochbergStepsUp) {
   EXPECT_THAT(benjamini_hochberg(std::array{0.049, 0.5, 0.03, 0.05, 0.04}, 0.0625),
               testing::ElementsAre(true, false, true, true, true));

@@ -1,4 +1,4 @@
-// Names of drivers by the strings that they report.
+// The short names of drivers, derived from the strings that they report.
 #include <gmock/gmock.h>
 
 #include "backends/gl/device_info.hpp"

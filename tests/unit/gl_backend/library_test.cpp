@@ -1,4 +1,4 @@
-// Libraries that are missing: the program also runs on a machine without a driver.
+// The program also runs on a machine without a driver, where libraries are missing.
 #include "backends/gl/library.hpp"
 
 #include <gmock/gmock.h>

@@ -106,7 +106,7 @@ TEST_F(AcceptTest, WhatThePlanNoLongerHoldsIsDropped) {
   EXPECT_EQ(std::ranges::distance(std::filesystem::directory_iterator(baseline("images"))), 1);
 }
 
-// Only on request, because a skip may be temporary.
+// This happens only on request, because a skip may be temporary.
 TEST_F(AcceptTest, WhatADeviceSkipsNowIsDropped) {
   accept_first([](record::Record& record, core::Image&) { record.memory = {{"buffers", 9}}; });
   const auto timings = device_file("timings", "opencl");
@@ -129,7 +129,8 @@ TEST_F(AcceptTest, WhatADeviceSkipsNowIsDropped) {
   EXPECT_EQ(counters[plain_]["samples"].size() + 1, counters[bricks_]["samples"].size());
 }
 
-// Concerns the same files: dropping does not restore what was there before.
+// With `drop`, accepting removes only the values of configurations that are skipped now. It keeps
+// all other values in the same files, and does not restore earlier ones.
 TEST_F(AcceptTest, DroppingKeepsWhatIsAcceptedBesides) {
   add_run("b", [&](record::Record& record, core::Image&) {
     record.counters["samples"] = 7;
@@ -150,7 +151,8 @@ TEST_F(AcceptTest, DroppingKeepsWhatIsAcceptedBesides) {
   expect_accepted();
 }
 
-// The run of one device replaces the hash for its own voxel format and keeps those for the others.
+// A run of one device replaces the hash for that device's voxel format and keeps the hashes for
+// other formats.
 TEST_F(AcceptTest, DataOfOtherFormatsKeepsItsHash) {
   const auto with_formats = [](record::Record& record, core::Image&) {
     record.factors["voxel"] = record.device == "vulkan:lavapipe" ? "f32" : "u8";
@@ -210,7 +212,7 @@ TEST_F(AcceptTest, TheTimesAreOfOneRun) {
   EXPECT_NEAR(median("opencl") / opencl, 2, 0.05);
 }
 
-// Depends on the checks of the plan, not on its name.
+// The checks of the plan decide this, not its name.
 TEST_F(AcceptTest, PicturesAndTimesAreKeptOfPlansThatCheckThem) {
   checks_ = {Check::image, Check::timing};
   accept_first();

@@ -1,4 +1,4 @@
-// Images compared with their limits: the parts of an error, and errors as baselines.
+// Compares images with their limit images: the parts of an error, and errors as baselines.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -48,7 +48,7 @@ class AccuracyGateTest : public JudgeTest {
     (void)accept(store_, run, folder_.path() / "baselines", request);
   }
 
-  // A reference image whose error is smaller than that of the image by nine hundredths of it.
+  // Returns a reference image whose error is only nine hundredths smaller than that of the image.
   core::Image nearer_truth(const record::Record& record) {
     core::Image image = core::decode_exr(store_.image(record.image));
     const core::Image& limit = limit_of(record)->image;
@@ -121,7 +121,7 @@ TEST_F(AccuracyGateTest, AcceptedErrorsPass) {
   EXPECT_EQ(json.at("configurations")[1].at("rmse"), result.accuracies[0].cases[1].rmse);
 }
 
-// The device's clock is used if it is trusted for everything that the device drew.
+// The device's clock is used if it is trusted for every kind of work that the device did.
 TEST_F(AccuracyGateTest, TimesOfADeviceAreOfOneClock) {
   const auto timed = [](bool all) {
     return [all](record::Record& record, core::Image&) {
@@ -222,7 +222,7 @@ TEST_F(AccuracyGateTest, AnOrderThatFellIsARegression) {
   EXPECT_EQ(lost[0].cause, Cause::no_order);
 }
 
-// Configurations that cannot be judged make the verdicts of others neither worse nor better.
+// A configuration that cannot be judged does not change the verdicts of others.
 TEST_F(AccuracyGateTest, WhatCannotBeLookedAtIsTold) {
   add_run("a");
   accept_with_errors("a");

@@ -1,5 +1,4 @@
-// A run that has less than it planned to measure, a machine that lost a device, and a plan that
-// lost a check.
+// A run that is incomplete, a machine that lost a device, and a plan that lost a check do not pass.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
@@ -67,7 +66,7 @@ TEST_F(AsBegunTest, AWholeRunPasses) {
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::pass) << text(gate("run"));
 }
 
-// The run was cut short when the first device was complete.
+// The run was cut short after the first device was complete.
 TEST_F(AsBegunTest, ADeviceThatWasNotReachedIsNamed) {
   accept_begun();
   add_begun("run");
@@ -82,7 +81,7 @@ TEST_F(AsBegunTest, ADeviceThatWasNotReachedIsNamed) {
 TEST_F(AsBegunTest, AConfigurationThatWasNotReachedIsNamedWithoutThePlan) {
   accept_begun();
   add_begun("run");
-  request_.part = true;  // so that no accepted configuration counts as missing
+  request_.part = true;  // accepted configurations must not count as missing
   delete_rows("DELETE FROM record WHERE run = 'run' AND configuration = '" + plain_ + "'");
   EXPECT_THAT(undecided(gate("run")), Contains("opencl:pocl missing " + plain_));
 }
@@ -138,8 +137,8 @@ TEST_F(AsBegunTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
   EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
 }
 
-// A machine of another kind: it has none of the accepted driver versions, or the run requested only
-// some devices.
+// These are machines of another kind: they have none of the accepted driver versions, or the run
+// requested only some devices.
 TEST_F(AsBegunTest, OtherMachinesLackNothing) {
   accept_begun();
   const record::Beginning asked{
@@ -173,7 +172,8 @@ TEST_F(AsBegunTest, AListingThatEndedCannotBeJudgedAndIsShown) {
                        .unusable = {crashed}});
   // The run requested no Vulkan device.
   EXPECT_EQ(gate("others").exit_code(), core::ExitCode::pass);
-  // A device that is named in full and was found hides no other one; a glob may.
+  // If the run named a device in full and found it, no other device can be missing. If the run
+  // named a glob, one may be missing.
   for (const bool whole : {true, false}) {
     const std::string run = whole ? "named" : "glob";
     add_begun(run, {.asked = {whole ? "vulkan:lavapipe" : "vulkan:*"},
@@ -204,7 +204,7 @@ TEST_F(AsBegunTest, InjectedFaultsAreCountedWhateverTheVerdict) {
   EXPECT_EQ(gate("run").injected, (std::map<std::string, std::size_t>{{"slowdown", 4}}));
 }
 
-// The manifest proves the other files, so its content is compared with them.
+// The manifest proves the other files, so it must agree with their content.
 TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
   accept_begun();
   const std::string whole = folder_.read(baseline("manifest.json"));
@@ -223,7 +223,7 @@ TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
               HasSubstr("is outside the folder"));
   EXPECT_THAT(changed([](core::Json& json) { json["configurations"] = 3; }),
               HasSubstr("states 3 configurations, and counters.json has 4"));
-  // Statements that no other file contains are compared with the hash in the history.
+  // The history contains a hash of these statements, because no other file contains them.
   for (const char* name : {"plan_hash", "checks"}) {
     EXPECT_THAT(changed([&](core::Json& json) { json[name] = "memory"; }),
                 HasSubstr("is not the one that was accepted last"))
@@ -234,7 +234,8 @@ TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
   EXPECT_EQ(changed([](core::Json&) {}), "");
 }
 
-// A reader of counters.json that lost a configuration would not miss it in a run.
+// If a reader of counters.json lost a configuration, that configuration would not be missed in a
+// run.
 TEST_F(AsBegunTest, ALostConfigurationOfTheBaselinesIsNoticed) {
   accept_begun();
   core::Json counters = core::Json::parse(folder_.read(baseline("counters.json")));
@@ -244,7 +245,7 @@ TEST_F(AsBegunTest, ALostConfigurationOfTheBaselinesIsNoticed) {
               HasSubstr("states 4 configurations, and counters.json has 3"));
 }
 
-// A later run may have failed before it began, and the store then ends with an older one. The
+// A later run may have failed before it began, so the latest run in the store is an older one. The
 // fixture's runs began on 2026-02-01.
 TEST_F(AsBegunTest, AnOldRunIsNamedWithItsDay) {
   add_begun("run");
@@ -258,7 +259,7 @@ TEST_F(AsBegunTest, AnOldRunIsNamedWithItsDay) {
   }
 }
 
-// The run was begun by one build, and resumed by another one.
+// One build began the run, and another one resumed it.
 TEST_F(AsBegunTest, EveryProgramThatMeasuredIsCompared) {
   request_.program = "1, commit b";
   add_begun("run", {.program = "1, commit b", .devices = {"gl:llvmpipe-egl"}});
@@ -278,7 +279,8 @@ TEST_F(AsBegunTest, AWaiverOfEverythingIsRefused) {
   EXPECT_NO_THROW(static_cast<void>(gate("run")));
   write_waivers("2026-12-31", "gl:*", "*", "*");
   EXPECT_NO_THROW(static_cast<void>(gate("run")));
-  // Every id of a device has a colon, every test a dot, and every configuration an equals sign.
+  // Every device id contains a colon, every test id a dot, and every configuration an equals sign,
+  // so these globs match everything.
   write_waivers("2026-12-31", "*:*", "*=*", "*.*.*");
   EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
   write_absent(R"([{"device": "*:*", "reason": "all"}])");

@@ -1,4 +1,4 @@
-// Accepted files that are missing, edited or unknown are distinguished from a device that is new.
+// Missing, edited or unknown baseline files are distinguished from a new device.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -85,7 +85,7 @@ TEST_F(BaselinesTest, ABrokenManifestIsNamedWithItsLine) {
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
 }
 
-// The result of a careless merge, even if its checksum was corrected.
+// A careless merge of two branches can leave such a value, even if the checksum was corrected.
 TEST_F(BaselinesTest, AWrongValueIsAnErrorWithItsLine) {
   rewrite("counters.json", "{\n \"x\": {\n  \"samples\": {\"gl:a\": \"many\"}}}\n");
   try {
@@ -116,7 +116,7 @@ TEST(OurBaselines, AreWhole) {
   EXPECT_GE(plans, 10);
 }
 
-// NaN or an infinite number would allow any error.
+// A bound of NaN or infinity would allow any error.
 TEST_F(BaselinesTest, NumbersThatAreNoneAreRefused) {
   for (const char* number : {"NaN", "nan", "1e999", "-1", "null", "\"0.1\""}) {
     rewrite("accuracy.json", fmt::format(R"({{"{}": {{"gl:x": {{"rmse": {}, "arithmetic": 0}}}}}})",

@@ -1,5 +1,5 @@
-// The statistics of a new driver version are judged by its calibration and by those of the stored
-// versions.
+// The statistics of a new driver version are judged by the calibrations of that version and of the
+// stored versions.
 
 #include <gmock/gmock.h>
 
@@ -39,8 +39,8 @@ class CalibrationGateTest : public JudgeTest {
   }
 };
 
-// It reports another number for the same image each time, so there is nothing with which it could
-// be compared.
+// The driver reports another number for the same image each time, so it is not compared with a
+// stored one.
 TEST_F(CalibrationGateTest, WhatIsUnsteadyIsNotHeldToWhatIsStored) {
   const auto verdict_of = [&](const std::string& run, Worth worth) {
     calibrations_["vulkan:lavapipe"] = {{"fragment_invocations", {.worth = worth}}};
@@ -106,7 +106,7 @@ TEST_F(CalibrationGateTest, ARunThatDidNotLookKeepsTheStoredCalibration) {
       stored.statistics_calibration(device_file("statistics", "vulkan").stem().string()).empty());
 }
 
-// A part of a plan needs fewer statistics.
+// A part of a plan does not need all statistics.
 TEST_F(CalibrationGateTest, ARunThatLookedAtSomeKeepsWhatIsStoredOfTheOthers) {
   calibrations_["gl:llvmpipe-egl"] = {{"compute_invocations", {}}, {"fragment_invocations", {}}};
   add_run("a");

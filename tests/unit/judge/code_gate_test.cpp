@@ -1,4 +1,4 @@
-// The gate compares the compilers' reports with stored ones.
+// The gate compares compilers' reports with stored ones.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -200,8 +200,8 @@ TEST_F(CodeGateTest, AnotherDriverVersionIsToldInTotals) {
   EXPECT_EQ(with(gate("b"), Verdict::regression).size(), 0U);
 }
 
-// A machine need not have the compiler of a GPU that it lacks. If the driver is there, the family
-// was lost.
+// A machine need not have the compiler for a GPU that it lacks. If the driver is there but the
+// family is missing, the driver lost it.
 TEST_F(CodeGateTest, AFamilyIsMissedOnlyIfItsDriverIsThere) {
   const std::vector<std::string> others{"opencl:pocl", "vulkan:lavapipe"};
   const std::vector<std::string> configurations{

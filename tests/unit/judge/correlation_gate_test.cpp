@@ -1,4 +1,4 @@
-// The findings of the correlation about injected slowdowns, and changes that it must not report.
+// The correlation must find injected slowdowns, and must not report other changes.
 
 #include <gmock/gmock.h>
 
@@ -40,7 +40,7 @@ TEST(AcceptedDevices, JitterWithinTheBoundsIsNothing) {
   }
 }
 
-// Tests the previous test: jitter beyond its bound is reported.
+// Proves that the previous test can fail: jitter beyond its bound is reported.
 TEST(AcceptedDevices, JitterBeyondTheBoundIsTold) {
   CorrelationWorld world(1);
   world.add_device(lavapipe, true);
@@ -53,7 +53,7 @@ TEST(AcceptedDevices, HalfAPercentOfOneConfigurationIsNamedFirst) {
     for (const char* id : {lavapipe, llvmpipe, pocl}) {
       CorrelationWorld world(trial);
       for (const char* each : {lavapipe, llvmpipe, pocl}) {
-        // Half a percent of the frame.
+        // The injected slowdown is half a percent of the frame.
         const auto injected =
             id == each ? on_configuration(chosen, 1 + 0.005 / 0.7) : CorrelationWorld::Change{};
         world.add_device(each, true, 0.1, injected);
@@ -70,8 +70,8 @@ TEST(AcceptedDevices, HalfAPercentOfOneConfigurationIsNamedFirst) {
   }
 }
 
-// Half a percent of the frame in the driver only, because the sum of PoCL's bound and another one
-// is smaller.
+// The injected slowdown is half a percent of the frame, only in the driver. It is found because the
+// sum of PoCL's bound and the other device's bound is smaller.
 TEST(AcceptedDevices, HalfAPercentInTheDriverIsFoundOnPocl) {
   CorrelationWorld world(3);
   world.add_device(lavapipe, true);
@@ -178,9 +178,9 @@ Trials new_devices(const CorrelationWorld::Change& injected, const std::string& 
   return trials;
 }
 
-// In 100 trials, q permits one false name on average; four would mean another q. With normal
-// scatter of 2 % and 96 configurations, 10 % are 4.8 standard deviations, and 4 are needed to be
-// wrong in only 1 %. With a scatter of 1.5 % almost all are found.
+// In 100 trials, q permits one false report on average; four would mean that q is larger. With
+// normal scatter of 2 % and 96 configurations, 10 % are 4.8 standard deviations, and 4 are needed
+// so that only 1 % are wrong. With a scatter of 1.5 %, almost all slowdowns are found.
 TEST(NewDevice, TenPercentOfOneConfiguration) {
   const Trials wide = new_devices(on_configuration(chosen, 1.1), chosen, "", 0.02);
   EXPECT_GE(wide.found, 60);
@@ -196,7 +196,7 @@ TEST(NewDevice, ThreePercentOfALevel) {
   EXPECT_LE(trials.wrong, 3);
 }
 
-// 1 % of them is 5 of 500. Of 1,500 in an earlier trial it was 14.
+// The limit of 1 % is 5 of 500. An earlier trial had 14 false reports in 1,500.
 TEST(NewDevice, NothingInjected) {
   const Trials trials = new_devices({}, "none", "none", 0.02, 500);
   EXPECT_LE(trials.wrong, 10);
@@ -212,7 +212,7 @@ TEST(NewDevice, WhatDoesNotCorrelateIsRefused) {
   EXPECT_TRUE(named(result).empty());
 }
 
-// Of two accepted devices, the one with the least scatter judges.
+// If two devices were accepted, the one whose costs scatter least around the line is used.
 TEST(NewDevice, TheNearestJudges) {
   CorrelationWorld world(11);
   world.add_device(lavapipe, true, 0.1);

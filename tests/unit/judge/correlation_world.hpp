@@ -1,5 +1,5 @@
 #pragma once
-// Synthetic costs of one plan on several devices, those of today and the accepted ones.
+// Invented costs of one plan on several devices: those of today, and the accepted ones.
 
 #include <fmt/format.h>
 
@@ -33,8 +33,8 @@ class CorrelationWorld {
     return sum - 6;
   }
 
-  // The counts of today: those of `cost_of`, changed, with the driver's jitter within its bounds.
-  // `accepted`: they are also stored, with another jitter.
+  // Adds the counts of today, which are those of `cost_of`, changed, with the driver's jitter
+  // within its bounds. `accepted`: they are also stored, with another jitter.
   void add_device(const std::string& id, bool accepted, double scatter = 0.02,
                   const Change& device_code = {}, const Change& driver = {}) {
     record::Device device;

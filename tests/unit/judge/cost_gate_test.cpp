@@ -16,7 +16,7 @@ class CostGateTest : public JudgeTest {
  protected:
   CostGateTest() { request_.checks = {Check::cost}; }
 
-  // Every frame as one emulator counted it, and then changed.
+  // Gives every frame the counts of one emulator, and then applies `change`.
   static Tweak counted(const std::function<void(record::Record&)>& change = {}) {
     return [change](record::Record& record, core::Image&) {
       record.cost = {{"device_code", device_code},
@@ -43,7 +43,7 @@ class CostGateTest : public JudgeTest {
       record.cost["misses"] *= 2;
     });
   }
-  // Judges a frame that `change` makes of one configuration against the accepted one.
+  // Accepts a run, applies `change` to one configuration, and judges it.
   GateResult judge(const Tweak& change) {
     accept_first(counted());
     add_run("b", change);
@@ -70,7 +70,7 @@ TEST_F(CostGateTest, OneInstructionOfDeviceCodeIsARegression) {
   EXPECT_EQ(wrong[0].number("instructions"), 2000001);
 }
 
-// A run that was resumed, or merged from shards.
+// A resumed run, or one merged from shards, may contain counts of two emulators.
 TEST_F(CostGateTest, CountsOfTwoEmulatorsAreNotJudged) {
   const GateResult result = judge(counted([](record::Record& record) {
     if (record.configuration != plain_) return;
@@ -114,8 +114,8 @@ TEST_F(CostGateTest, TheDriverMayNotDifferByMore) {
   EXPECT_EQ(change_of(wrong[0], "driver").now, 1003001);
 }
 
-// 16 plus a hundredth of 20,000, because a buffer may begin at another position within a cache
-// line.
+// The tolerance is 16 plus a hundredth of 20,000, because a buffer may begin at another position
+// within a cache line.
 TEST_F(CostGateTest, CacheMissesMayDifferByTheirTolerance) {
   EXPECT_EQ(judge(changed("gl:llvmpipe-egl", "misses", 216)).exit_code(), ExitCode::pass);
 }
@@ -128,7 +128,7 @@ TEST_F(CostGateTest, MoreCacheMissesAreARegressionThoughNoInstructionIsMore) {
 TEST_F(CostGateTest, CacheMissesOfSpeedOfLightAreJudgedToo) {
   EXPECT_EQ(judge(twice_the_misses("speed_of_light")).exit_code(), ExitCode::regression);
 }
-// The misses of sprites do not repeat.
+// The cache misses of sprites differ from run to run, so they are not judged.
 TEST_F(CostGateTest, CacheMissesOfParticlesAreShown) {
   const GateResult result = judge(twice_the_misses("quad_ray"));
   EXPECT_TRUE(with(result, Verdict::regression).empty()) << text(result);
@@ -191,7 +191,7 @@ TEST_F(CostGateTest, PreparingIsShown) {
   EXPECT_EQ(change_of(advice[0], "driver").now, 1200000);
 }
 
-// One line for each device, with what is known about the other version.
+// Each device has one line about its other version, with the known differences.
 TEST_F(CostGateTest, AnotherDriverVersionIsAdvice) {
   accept_first(counted());
   driver_versions_["vulkan:lavapipe"] = "23.0";
@@ -217,7 +217,7 @@ TEST_F(CostGateTest, AnotherEmulatorIsAdvice) {
   ASSERT_EQ(advice.size(), 3U) << text(result);
   EXPECT_EQ(advice[0].fact("counted_by"), "an emulator 2");
   EXPECT_EQ(advice[0].fact("other"), "an emulator 1");
-  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);  // nothing else was asked for
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);  // no other check was requested
 }
 
 TEST_F(CostGateTest, ADeviceWithoutStoredCostIsAdvice) {

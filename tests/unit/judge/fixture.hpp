@@ -1,6 +1,6 @@
 #pragma once
-// A small world to judge: three devices, two scenes and two paths each, in a store and a folder of
-// baselines of their own.
+// A small world to judge: three devices with two scenes and two paths each. The store and the
+// folder of baselines are temporary.
 
 #include <gtest/gtest.h>
 
@@ -31,15 +31,15 @@ class JudgeTest : public testing::Test {
  protected:
   JudgeTest();
 
-  // Twelve measured records. Times have 0.5 % noise around a level for each configuration.
+  // Adds twelve measured records. Times have 0.5 % noise around a level for each configuration.
   void add_run(const std::string& run, const Tweak& tweak = {});
-  // `how`: everything except the plan, the reason, the date and the reference image.
+  // `how`: all settings except the plan, the reason, the date and the reference image.
   std::vector<std::string> accept_run(const std::string& run, AcceptRequest how = {});
   // Accepts a run with the id "accepted".
   void accept_first(const Tweak& tweak = {});
   [[nodiscard]] GateResult gate(const std::string& run) const { return gate(run, request_); }
   [[nodiscard]] GateResult gate(const std::string& run, const GateRequest& request) const;
-  // Changes an accepted file, as if it had been accepted with this content.
+  // Changes an accepted file and its checksum, as if it had been accepted with this content.
   void rewrite(const std::string& name, const std::string& content);
   [[nodiscard]] std::filesystem::path baseline(const std::string& name) const;
   // The only file in a folder of the plan's baselines whose name begins with `prefix`.

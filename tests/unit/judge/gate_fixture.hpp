@@ -1,5 +1,5 @@
 #pragma once
-// Shared by the tests of the gate, in addition to the fixture.
+// Code that the tests of the gate share, in addition to the fixture.
 
 #include "core/file.hpp"
 #include "core/json.hpp"

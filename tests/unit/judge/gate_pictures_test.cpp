@@ -74,7 +74,7 @@ TEST_F(GateTest, ChangedTruthIsNamedAsSuch) {
   EXPECT_EQ(wrong[0].cause, Cause::reference_changed);
 }
 
-// For plans whose images are not stored.
+// Plans whose images are not stored have only the hash of the reference image.
 TEST_F(GateTest, ATruthWithoutAStoredPictureIsKnownByItsHash) {
   checks_ = {Check::image, Check::counters};
   accept_first();

@@ -70,7 +70,7 @@ TEST_F(GateTest, AnotherDeviceMayDifferByOneInTenThousand) {
   EXPECT_EQ(change_of(far.findings.front(), "samples").accepted.at("llvmpipe"), 1000000);
 }
 
-// A version that was accepted must repeat its values; another version is another driver.
+// An accepted driver version must repeat its values; any other version counts as another driver.
 TEST_F(GateTest, AnotherVersionOfADriverMayDifferByOneInTenThousand) {
   accept_first();
   request_.checks = {Check::counters};
@@ -114,7 +114,7 @@ TEST_F(GateTest, AnotherVersionOfADriverMayMoveTheEdgesOfSprites) {
   EXPECT_THAT(gate("version as accepted").findings.front().accepted_on, testing::IsEmpty());
 }
 
-// Two programs were accepted with different values, and both are right.
+// Two drivers were accepted with different values, and both are right.
 TEST_F(GateTest, AnotherDeviceIsHeldToTheRangeOfTheAccepted) {
   const auto count = [](std::uint64_t pocl, std::uint64_t mesa) {
     return [=](record::Record& record, core::Image&) {
@@ -135,7 +135,8 @@ TEST_F(GateTest, AnotherDeviceIsHeldToTheRangeOfTheAccepted) {
   EXPECT_EQ(change.accepted, (std::map<std::string, double>{{"llvmpipe", 1e6}, {"pocl", 9e5}}));
 }
 
-// The suite is asked what rounding decides in a scene, and only if counters differ.
+// If counters differ, and only then, the suite computes how many of them rounding can change in the
+// scene.
 TEST_F(GateTest, OfAnotherDriverAsManyCountsAreOpenAsTheSuiteSays) {
   accept_first([](record::Record& record, core::Image&) {
     record.counters["samples"] = 1000;
@@ -234,7 +235,7 @@ TEST(GateResultTest, Precedence) {
   EXPECT_EQ(code({waived}), ExitCode::pass);
 }
 
-// A verdict about one device says nothing about another.
+// A verdict about one device is no verdict about another one.
 TEST(GateResultTest, EveryDeviceNeedsADecision) {
   GateResult result{.devices = {"gl:a", "vulkan:b"}};
   Finding passed;
@@ -250,7 +251,7 @@ TEST(GateResultTest, EveryDeviceNeedsADecision) {
   EXPECT_EQ(result.exit_code(), ExitCode::pass);
 }
 
-// A check without a row would never run, and the gate would pass.
+// If a check had no row in the table, it would never run, and the gate would pass.
 TEST(GateResultTest, EveryCheckIsJudged) {
   EXPECT_EQ(judged_checks(), record::every_check());
 }

@@ -24,7 +24,7 @@ TEST_F(GateTest, NoBaselinesNamesTheCommandThatMakesThem) {
   EXPECT_EQ(finding.advice.command, "triptych accept volume/quick --reason TEXT");
 }
 
-// Users paste commands.
+// Commands are quoted for a shell, because users paste them.
 TEST_F(GateTest, CommandsAreQuoted) {
   add_run("a");
   GateRequest request = request_;
@@ -75,7 +75,7 @@ TEST_F(GateTest, RequiredDeviceMustHaveMeasured) {
   EXPECT_EQ(with(result, Verdict::cannot_judge).at(0).fact("glob"), "gl:softpipe");
 }
 
-// Its driver is new, so there are only advisory findings about it: the exit code is 2, and the
+// Its driver is new, so there are only advisory findings about it. The exit code is 2, and the
 // reason must be printed.
 TEST_F(GateTest, ADeviceOfWhichNothingIsDecidedIsNamed) {
   accept_first();
@@ -127,7 +127,7 @@ TEST_F(GateTest, ARunOfAnotherPlanTextCannotBeJudged) {
   EXPECT_EQ(with(gate("accepted"), Cause::other_plan).at(0).fact("hash"), "");
 }
 
-// Nothing more and nothing less.
+// The run must have exactly the configurations of the plan.
 TEST_F(GateTest, TheRunHoldsWhatThePlanHas) {
   accept_first();
   for (const auto& configuration : Baselines(folder_.path() / "baselines", plan).configurations()) {
@@ -171,7 +171,7 @@ TEST_F(GateTest, EveryUnhappyOutcomeIsARegressionOnce) {
   }
 }
 
-// Whether a device has measured it before or not, a broken file cannot be judged.
+// A broken data file cannot be judged, whether the device measured it before or not.
 TEST_F(GateTest, BadInputCannotBeJudged) {
   const auto broken = [](record::Record& record, core::Image&) {
     if (record.configuration != bricks_) return;

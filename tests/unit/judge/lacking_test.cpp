@@ -1,4 +1,4 @@
-// A driver version that lacks what another version of the same device has.
+// A driver version may lack a feature that another version of the same device has.
 
 #include <filesystem>
 
@@ -38,8 +38,8 @@ class LackingTest : public JudgeTest {
   }
 };
 
-// Counters belong to the device. A driver version without the feature must not be expected to have
-// them, and one that was accepted with it must.
+// Counters are stored for a device. A driver version that lacks the feature must not be expected to
+// have them, but a version that was accepted with it must.
 TEST_F(LackingTest, IsNotedForTheDriverVersion) {
   add_without("22", "22", record::Cause::not_supported);
   EXPECT_EQ(verdict_of_skip("22"), Verdict::cannot_judge);
@@ -51,7 +51,7 @@ TEST_F(LackingTest, IsNotedForTheDriverVersion) {
   EXPECT_EQ(verdict_of_skip("22 again"), Verdict::skipped);
   add_without("25", "25", record::Cause::not_supported);
   EXPECT_EQ(verdict_of_skip("25"), Verdict::cannot_judge);
-  // A version that lacked it is accepted with it: nothing is lacking any more.
+  // A version that lacked the feature is accepted with it, so nothing is lacking any more.
   driver_versions_[lavapipe] = "22";
   add_run("22 with");
   (void)accept_run("22 with");

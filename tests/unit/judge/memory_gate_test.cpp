@@ -37,7 +37,7 @@ TEST_F(MemoryGateTest, OneByteMoreIsARegression) {
   EXPECT_EQ(change_of(wrong[0], "buffers").unit, Unit::bytes);
 }
 
-// It stores what it draws again, which is not its own fault.
+// The injected slowdown itself allocates memory, which is not the fault of the device.
 TEST_F(MemoryGateTest, AnInjectedSlowdownIsNotJudged) {
   accept_first(taking(4096));
   add_run("b", [](record::Record& record, core::Image& image) {

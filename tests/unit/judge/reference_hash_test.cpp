@@ -17,7 +17,7 @@ core::Image picture(std::uint64_t seed) {
   return image;
 }
 
-// Each colour is changed by the last bit of a float, which is 10⁵ times the effect of another math
+// Each colour changes by the last bit of a float, which is 10⁵ times the effect of another math
 // library.
 TEST(ReferenceHash, LastBitsAreTheSamePicture) {
   int same = 0;
@@ -25,7 +25,7 @@ TEST(ReferenceHash, LastBitsAreTheSamePicture) {
     const core::Image image = picture(seed);
     core::Image other = image;
     core::Random random(1000 + seed);
-    // As for a math library: of a few thousand values, one rounds to another float.
+    // Another math library rounds about one of a few thousand values to another float.
     for (float& value : other.rgba) {
       if (random.uniform() < 1e-3) value = std::nextafter(value, 2.0F);
     }
@@ -61,7 +61,7 @@ TEST(ReferenceHash, SizeCountsAndStrangeNumbersAreNoTrouble) {
   EXPECT_TRUE(is_same_reference(reference_hash(image), reference_hash(image)));
 }
 
-// The colours of scenes are on no edge of either grid.
+// No colour of a scene is near an edge of either rounding grid.
 TEST(ReferenceHash, RoundNumbersMayMoveByALastBit) {
   for (const float value : {0.0F, 0.25F, 0.5F, 1.0F, 1.0F / 4096, 1.0F / 8192}) {
     core::Image image(1, 1);

@@ -1,4 +1,4 @@
-// The findings of the gate about times: they are shown, and affect the verdict only on request.
+// Times are shown, and affect the verdict only on request.
 
 #include <gmock/gmock.h>
 
@@ -53,7 +53,7 @@ TEST_F(TimingGateTest, EveryRatioIsAmongTheNumbers) {
   add_run("b", times(1.5));
   for (const Finding& each : with(gate("b"), Verdict::pass, Check::timing)) {
     EXPECT_NEAR(each.numbers.at("ratio"), 1.5, 0.04);
-    // Of two runs with a scatter of at least 0.5 %.
+    // The interval of two runs with a scatter of at least 0.5 %.
     EXPECT_GE(each.numbers.at("half_width"), 1.96 * std::hypot(0.005, 0.005) - 1e-9);
     EXPECT_LT(each.numbers.at("half_width"), 0.06);
     EXPECT_NEAR(each.numbers.at("median_ns") / each.numbers.at("baseline_ns"), 1.5, 0.04);
@@ -110,7 +110,7 @@ TEST_F(TimingGateTest, ClocksAreNotMixed) {
   EXPECT_EQ(gate("wall").exit_code(), ExitCode::cannot_judge);
 }
 
-// Everything is also timed by the wall clock.
+// All frames are also timed by the wall clock.
 TEST_F(TimingGateTest, AStoredWallTimeIsComparedByTheWall) {
   accept_first();
   add_run("b", [](record::Record& record, core::Image& image) {

@@ -1,4 +1,5 @@
-// Runs for images and counters only: what was not measured is neither judged nor accepted.
+// In runs for images and counters only, values that were not measured are neither judged nor
+// accepted.
 
 #include <gmock/gmock.h>
 
@@ -55,7 +56,7 @@ TEST_F(UntimedGateTest, WhatIsStoredOfTimesAndStatisticsStays) {
   EXPECT_EQ(contents(device_file("statistics", "vulkan")), statistics);
 }
 
-// A plan that judges statistics and no times.
+// The plan judges statistics but no times.
 TEST_F(UntimedGateTest, StatisticsThatWereReadAreAccepted) {
   const auto without_times = [](record::Record& record, core::Image&) {
     record.warm_up_frames = 0;
@@ -69,7 +70,7 @@ TEST_F(UntimedGateTest, StatisticsThatWereReadAreAccepted) {
   EXPECT_EQ(with(result, Verdict::pass, Check::statistics).size(), 8U) << text(result);
 }
 
-// The first run is accepted without times: nothing is stored that looks like a time.
+// The first run is accepted without times, so nothing may be stored that looks like a time.
 TEST_F(UntimedGateTest, AcceptsNoMissingTimeAsATime) {
   add_run("a", untimed);
   (void)accept_run("a");
@@ -79,7 +80,8 @@ TEST_F(UntimedGateTest, AcceptsNoMissingTimeAsATime) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
 }
 
-// Times that were never stored are not lost, for a whole device or for all configurations but one.
+// Times that were never stored are not lost. This holds for a whole device, and for all
+// configurations but one.
 TEST_F(UntimedGateTest, AfterThemTimesAreNewAndOnlyAdvise) {
   add_run("a", untimed);
   (void)accept_run("a");

@@ -98,7 +98,8 @@ TEST_F(GateTest, AWaiverNeedsReasonAndDate) {
   }
 }
 
-// Somebody has to look again within a year. The fixture judges on 2026-03-01.
+// A waiver may last at most a year, so that somebody looks at it again. The fixture judges on
+// 2026-03-01.
 TEST_F(GateTest, AWaiverThatEndsFarAwayIsRefused) {
   add_run("a");
   (void)accept_run("a");
@@ -118,7 +119,7 @@ TEST_F(GateTest, AWaiverThatEndsFarAwayIsRefused) {
   }
 }
 
-// It would excuse every configuration.
+// Without its misspelled key, the waiver would excuse every configuration.
 TEST_F(GateTest, AWaiverWithAMisspelledKeyIsRefused) {
   accept_first();
   write_waivers("2026-12-31");

@@ -42,7 +42,7 @@ TEST(ParseCounts, ReadsLinesOfIntelAndNvidia) {
               AllOf(Contains(Pair("registers", 32)), Contains(Pair("bytes stack frame", 8))));
 }
 
-// What rusticl of Mesa 25.0.7 printed, shortened.
+// Output of rusticl of Mesa 25.0.7, shortened.
 TEST(PrintedKernels, HaveTheNameThatWasPrintedBefore) {
   const auto kernels = parse_printed_kernels(
       "Shader main disassembly:\ns_endpgm\n*** SHADER STATS ***\nVGPRs: 8\n*****\n"
@@ -92,7 +92,8 @@ TEST(CompiledCode, NothingReportedIsNotSupported) {
   EXPECT_THROW(static_cast<void>(code.take()), core::NotSupported);
 }
 
-// Two drivers for one GPU: one reports instructions, and those of the other are counted.
+// Two drivers for one GPU: one reports the number of instructions; for the other one, they are
+// counted in the disassembly.
 TEST(CompiledCode, CountsInstructionsThatAreNotReported) {
   const std::string assembly = "BB0:\n\tv_mov_b32 v0, 0\n\ts_endpgm\n";
   CompiledCode code;

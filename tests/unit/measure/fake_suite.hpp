@@ -54,8 +54,8 @@ class FakeSuite final : public Suite {
     return configuration.at("data") == "absent" ? "absent: no such file" : "";
   }
 
-  // Loading "slow" takes so long that it is reported, "huge" needs more memory than there is, and
-  // "torn" is a broken file.
+  // Loading "slow" takes so long that it is reported, "huge" needs more memory than the machine
+  // has, and "torn" is a broken file.
   Work work(Configuration& configuration, const Device& device) override {
     if (configuration.at("data") == "huge") throw std::bad_alloc();
     if (configuration.at("data") == "torn") {
@@ -77,7 +77,7 @@ class FakeSuite final : public Suite {
     volume.scene.step_voxels = std::strtod(configuration.at("step").c_str(), nullptr);
     volume.scene.width = std::atoi(configuration.at("viewport").c_str());
     volume.scene.height = volume.scene.width;
-    // Another camera is another image; its position does not matter here.
+    // Another camera draws another image. Its exact position does not matter here.
     volume.scene.camera.eye.x = static_cast<double>(
         std::stoul(core::content_hash(configuration.at("camera")).substr(0, 4), nullptr, 16));
     volume.options.ert = std::strtod(configuration.at("ert").c_str(), nullptr);
@@ -91,7 +91,7 @@ class FakeSuite final : public Suite {
     return {.technique = configuration.at("technique"), .scene = std::move(volume)};
   }
 
-  // Nothing in the data "full" is empty.
+  // The data "full" has no empty brick.
   PlainWork plain(const Configuration& configuration, const Work&) const override {
     PlainWork plain{.levels = configuration};
     if (configuration.at("data") == "full" && configuration.at("skip") == "bricks") {

@@ -1,4 +1,4 @@
-// The choice for `auto`, from records only.
+// Tests the choice for `auto`, which uses only records.
 
 #include "measure/request/fastest.hpp"
 
@@ -73,7 +73,8 @@ TEST_F(FastestTest, IsChosenOfEachSceneAndDeviceByItself) {
   EXPECT_EQ(answers().size(), 4U);
 }
 
-// A clock for compute work and one for drawing cannot be compared.
+// A device may have one clock for compute work and another for drawing, whose times cannot be
+// compared.
 TEST_F(FastestTest, IsToldByOneClock) {
   record::Record& trusted = add("raycast", {9e6});
   trusted.device_ns = {1e6};
@@ -85,7 +86,7 @@ TEST_F(FastestTest, IsToldByOneClock) {
   EXPECT_THAT(text(), HasSubstr("raycast is the fastest, 1.000 ms (median 1.000, device clock)"));
 }
 
-// If the records repeat, the choice repeats.
+// The choice repeats if the records repeat, so instructions are used if they were counted.
 TEST_F(FastestTest, IsThatOfTheFewestInstructionsWhereTheyWereCounted) {
   add("raycast", {}).cost = {{"device_code", 5'000'000}, {"driver", 1'000'000}, {"libc", 9}};
   add("raycast_fragment", {}).cost = {{"device_code", 2'000'000}, {"driver", 2'000'000}};
@@ -114,7 +115,7 @@ TEST_F(FastestTest, WhatMayYetBeTheFastestIsTriedAgain) {
       records_.clear();
       for (const Configuration& each : trial.configurations) {
         const bool first = each.at("technique") == "raycast";
-        // Disturbed in the first trial.
+        // The first trial was disturbed.
         add(each.at("technique"), {first ? (tried.empty() ? 1.5e6 : 0.9e6) : second}).technique =
             each.at("technique");
       }

@@ -1,4 +1,4 @@
-// Texts that are not plans, and the errors for them.
+// Texts that are not valid plans, and the errors for them.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -117,7 +117,7 @@ TEST_F(PlanTest, WhatIsNoPlan) {
   EXPECT_THAT(refusal("suite: fake\nname: x\n"), HasSubstr("unknown factor 'name'"));
 }
 
-// yaml-cpp reports empty documents without end if there is such a token at the root.
+// If such a token is at the root, yaml-cpp returns empty documents without end.
 TEST_F(PlanTest, WhatStandsWhereNothingCanBeginIsNoPlan) {
   EXPECT_THAT(refusal(",\n"), AllOf(StartsWith(at(1, 1)), HasSubstr("not valid YAML")));
   EXPECT_THAT(refusal("&R, x\n"), HasSubstr("not valid YAML"));

@@ -67,7 +67,8 @@ TEST_F(PlanTest, AutoIsEveryTechniqueThatDraws) {
 TEST_F(PlanTest, AutoIsForgottenWhereALevelIsNamed) {
   const std::string yaml = "suite: fake\ntechnique: auto\n";
   EXPECT_THAT(load(yaml, {{"technique", {"raycast"}}}).automatic, IsEmpty());
-  EXPECT_THAT(load("suite: fake\nsampler: auto\n").automatic, IsEmpty());  // the default path
+  // Levels of the default path are not automatic.
+  EXPECT_THAT(load("suite: fake\nsampler: auto\n").automatic, IsEmpty());
 }
 
 TEST_F(PlanTest, DataVariesSlowestCameraFastest) {
@@ -123,7 +124,7 @@ TEST_F(PlanTest, AlsoAddsCombinationsBesideTheirDataAndNoneTwice) {
   EXPECT_THAT(plan.varied, ElementsAre("data", "step", "skip", "ert"));
 }
 
-// Values of the plan select configurations that it has. Other values make new ones.
+// Values that the plan has select its configurations. Other values make new configurations.
 TEST_F(PlanTest, AnOverrideOfSeveralBlocksSelectsWhatThePlanHas) {
   const std::string yaml =
       "suite: fake\n"
@@ -152,7 +153,7 @@ TEST_F(PlanTest, AnOverrideOfSeveralBlocksSelectsWhatThePlanHas) {
   }
   EXPECT_THAT(values(load(yaml, {{"step", {"8"}}}), "step"), testing::Each("8"));
   EXPECT_EQ(values(load(yaml, {{"step", {"8"}}}), "data").size(), 5U);
-  // No block has both, so they replace what the blocks have.
+  // No block has both values, so they replace the values of the blocks.
   EXPECT_THAT(values(load(yaml, {{"ert", {"0.5"}}, {"step", {"4"}}}), "step"), testing::Each("4"));
 }
 
@@ -258,7 +259,8 @@ TEST_F(PlanTest, ShardOutOfRange) {
   }
 }
 
-// Five million combinations: a shard stores only its own, and a list stores none.
+// The plan has five million combinations: a shard stores only its own part, and a list stores none
+// of them.
 TEST_F(PlanTest, MillionsAreListedAndCutWithoutBeingHeld) {
   std::string cameras;
   for (int i = 0; i < 250; ++i) cameras += "random:" + std::to_string(i) + ", ";
@@ -281,7 +283,7 @@ TEST_F(PlanTest, MillionsAreListedAndCutWithoutBeingHeld) {
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 20 << 10) << "KiB";
 }
 
-// 10¹² combinations are neither run nor listed, and refused before the first one.
+// A plan with 10¹² combinations can be neither run nor listed. It is refused before the first one.
 TEST_F(PlanTest, AListThatWouldNotEndIsRefused) {
   std::string values;
   for (int i = 1; i <= 1000; ++i) values += std::to_string(0.01 * i) + ", ";

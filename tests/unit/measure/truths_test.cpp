@@ -1,4 +1,4 @@
-// Reference images are rendered once, for a command and for those that follow.
+// Reference images are rendered once and saved, for the same command and for later ones.
 
 #include "measure/truth/truths.hpp"
 
@@ -14,7 +14,7 @@
 namespace triptych::measure {
 namespace {
 
-// Has one image, which depends on the step.
+// A suite whose only image depends on the step.
 class TruthfulSuite final : public SuiteWithTruth {
  public:
   int rendered = 0;
@@ -91,8 +91,8 @@ TEST_F(TruthsTest, AreRenderedOnceAndKeptForTheNext) {
   EXPECT_EQ(suite_.rendered, 2);
 }
 
-// A person who gives a store away can seal whatever they wrote, so only images that were drawn here
-// are believed.
+// Anybody can write a valid seal into a store that they give away, so only reference images that
+// were drawn on this machine are trusted.
 TEST_F(TruthsTest, ABoundThatAnybodyWroteIsDrawnAgain) {
   {
     record::Store first = store();
@@ -108,7 +108,7 @@ TEST_F(TruthsTest, ABoundThatAnybodyWroteIsDrawnAgain) {
   EXPECT_EQ(truths(second).of(record_with("1")).bound.rgba[0], 0.25F);
   EXPECT_EQ(suite_.rendered, 2);
   EXPECT_EQ(truths(second).of(record_with("1")).bound.rgba[0], 0.25F);
-  EXPECT_EQ(suite_.rendered, 2);  // the new one is this user's own
+  EXPECT_EQ(suite_.rendered, 2);  // the new image was drawn by this user
 }
 
 // RFC 4231, test cases 1, 2 and 6.

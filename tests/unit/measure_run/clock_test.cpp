@@ -91,7 +91,7 @@ TEST(Calibrate, TakesFewerFramesWhereTheyAreLong) {
 
 TEST(Plausible, NeedsATimePerFrameAboveZeroAndWithinTheWallTime) {
   EXPECT_TRUE(plausible({1 * millisecond, 2 * millisecond}, {1.1 * millisecond, 2 * millisecond}));
-  EXPECT_TRUE(plausible({5e3}, {4e3}));  // within a tick
+  EXPECT_TRUE(plausible({5e3}, {4e3}));  // the difference is within a tick
   EXPECT_FALSE(plausible({}, {}));
   EXPECT_FALSE(plausible({1 * millisecond}, {1 * millisecond, 1 * millisecond}));
   EXPECT_FALSE(plausible({0}, {1 * millisecond}));
@@ -102,7 +102,8 @@ TEST(Plausible, ExcusesLaunchesAndAFewLateWakeUpsButNotMissingWork) {
   EXPECT_TRUE(
       plausible({0.05 * millisecond}, {0.3 * millisecond}));  // a short frame on a fast device
   EXPECT_FALSE(plausible({0.05 * millisecond},
-                         {1.3 * millisecond}));  // the same of a frame that is not short
+                         // The same difference for a frame that is not short.
+                         {1.3 * millisecond}));
   const std::vector<double> wall_ns(8, 30 * millisecond);
   std::vector<double> device_ns(8, 29 * millisecond);
   device_ns[2] = device_ns[5] = 5 * millisecond;
@@ -127,7 +128,7 @@ class GrowingDevice final : public Device {
     const double step = std::get<VolumeWork>(work.scene).scene.step_voxels;
     longest_ns = 0.1 * millisecond / step;
     return std::make_unique<ScriptedPrepared>(
-        // 30 us of launch that the device's clock leaves out
+        // The wall time includes 30 us of launch, which the device's clock leaves out.
         [ns = longest_ns](int) { return frame_of(ns + 3e4, ns); });
   }
   double longest_ns = 0;

@@ -1,4 +1,4 @@
-// Which configurations do the same work, and how runs use this.
+// Tests which configurations do the same work, and how runs use this.
 
 #include "measure/contract/equivalents.hpp"
 
@@ -28,7 +28,7 @@ core::Image picture(const std::vector<float>& alphas) {
 
 TEST(LeastTransmittance, IsWhatThePictureLeavesOfTheBackground) {
   EXPECT_NEAR(least_transmittance(volume_over(0), picture({0.25F, 0.75F, 0.5F})), 0.25, 1e-6);
-  // 1 − T + T·¼ = 0.85: T = 0.2.
+  // The equation 1 − T + T·¼ = 0.85 gives T = 0.2.
   EXPECT_NEAR(least_transmittance(volume_over(0.25F), picture({0.25F, 0.85F})), 0.2, 1e-6);
 }
 
@@ -85,8 +85,7 @@ class RunTwins : public RunTest {
                  {"camera", {"random:7"}},
                  {"skip", skip}});
   }
-  // By configuration key. Bricks come first, because that is the default level, which keys leave
-  // out.
+  // Records by configuration key. Bricks come first, because keys leave out the default level.
   [[nodiscard]] std::map<std::string, record::Record> by_key(const RunResult& result) const {
     std::map<std::string, record::Record> all;
     for (const record::Record& record : records(result.run)) all[record.configuration] = record;
@@ -130,7 +129,7 @@ TEST_F(RunTwins, AreMeasuredWhereAFaultIsInjected) {
   EXPECT_EQ(run(full()).taken_over, 0);
 }
 
-// A plan shares the same work without times: its records contain the same frames.
+// An untimed plan shares equal work, too: its records contain the same frames.
 TEST_F(RunTwins, TakeOverPicturesOfAnUntimedRunToo) {
   options.protocol.timed = false;
   const RunResult result = run(full());

@@ -1,4 +1,4 @@
-// A libnvidia-ml with two cards, the second of which reports no energy.
+// Imitates libnvidia-ml with two cards, of which the second one reports no energy.
 
 namespace {
 unsigned long long millijoules = 5000;
@@ -21,7 +21,7 @@ int nvmlDeviceGetHandleByIndex_v2(unsigned index, void** card) {
 int nvmlDeviceGetTotalEnergyConsumption(void* card, unsigned long long* told) {
   static void* first = nullptr;
   if (first == nullptr) nvmlDeviceGetHandleByIndex_v2(0, &first);
-  if (card != first) return 3;  // not supported
+  if (card != first) return 3;  // the error code for "not supported"
   *told = millijoules;
   return 0;
 }

@@ -1,19 +1,18 @@
 // measure_run_helper worker DEVICE       serves the null backend's device with the fake suite
-// measure_run_helper supervise STORE     runs the fake suite's quick plan on null:scripted, or goes
-//                                        on with its latest run there
-// measure_run_helper count LOOPS         what a loop in memory without a file takes that often, and
-//                                        one allocation
-// measure_run_helper count-busy LOOPS    the same beside a thread that has much to do first
-// measure_run_helper count-stride BYTES  instructions and cache misses of 1,000 loads, each so far
-//                                        behind the last
-// keeps PID                              0 where this child is alive after a process was started
-// and
-//                                        has ended
+// measure_run_helper supervise STORE     runs the fake suite's quick plan on null:scripted, or
+//                                        continues its latest run in the store
+// measure_run_helper count LOOPS         counts a loop with LOOPS iterations, whose code is in memory
+//                                        without a file, and an allocation
+// measure_run_helper count-busy LOOPS    does the same while another thread has much to do at first
+// measure_run_helper count-stride BYTES  counts instructions and cache misses of 1,000 loads with
+//                                        this distance
+// measure_run_helper keeps PID           exits with code 0 if this child is still alive after another
+//                                        process was started and has ended
 //
-// What counts does so three times, a line each.
+// Each counting command counts three times and prints one line for each time.
 //
-// TRIPTYCH_TEST_STARTS names a file to which each worker appends its process id;
-// TRIPTYCH_TEST_FAILING_STARTS says how many of the first workers leave at once with code 7.
+// TRIPTYCH_TEST_STARTS names a file to which each worker appends its process id.
+// TRIPTYCH_TEST_FAILING_STARTS is the number of workers that exit at once with code 7.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -86,7 +85,7 @@ int supervise(const std::string& program, const std::string& file) {
   return 0;
 }
 
-// Code as the compiler of a driver would leave it in memory.
+// Machine code in memory, as the compiler of a driver would leave it.
 template <typename Function>
 Function* in_memory(std::span<const unsigned char> code) {
   void* memory = ::mmap(nullptr, code.size(), PROT_READ | PROT_WRITE | PROT_EXEC,
@@ -95,14 +94,14 @@ Function* in_memory(std::span<const unsigned char> code) {
   return reinterpret_cast<Function*>(memory);
 }
 
-// mov eax, LOOPS; again: sub eax, 1; jnz again; ret — 2·LOOPS + 2 instructions.
+// mov eax, LOOPS; again: sub eax, 1; jnz again; ret. These are 2·LOOPS + 2 instructions.
 void (*loop_in_memory(std::uint32_t loops))() {
   std::array<unsigned char, 11> code{0xb8, 0, 0, 0, 0, 0x83, 0xe8, 0x01, 0x75, 0xfb, 0xc3};
   std::memcpy(&code[1], &loops, sizeof loops);
   return in_memory<void()>(code);
 }
 
-// Prints what `act` counts, three times, one line each.
+// Prints the counts of `act` three times, one line each.
 template <typename Act>
 void print_counts(const measure::InstructionCounter& counter, const std::vector<std::string>& names,
                   Act act) {
@@ -130,8 +129,8 @@ int count_stride(unsigned char stride) {
   return 0;
 }
 
-// `busy`: besides a thread that has much to do at the beginning, like that of a driver that writes
-// a cache.
+// `busy`: another thread has much to do at the beginning, such as that of a driver that writes a
+// cache.
 int count_loop(std::uint32_t loops, bool busy) {
   const auto counter = measure::InstructionCounter::of_this_process();
   if (!counter) return 2;

@@ -34,7 +34,7 @@ class TurnsTest : public RunTest {
     return result;
   }
 
-  // How a side ended when b holds a configuration with this fault.
+  // The way in which a side ended when b had a configuration with this fault.
   struct Ended {
     Side side;
     Outcome outcome;
@@ -89,14 +89,14 @@ TEST_F(TurnsTest, ShortFramesAreBatchedAlikeOnBothSides) {
   hold(interleaved);
   // The batch of the faster side lasts a millisecond.
   EXPECT_EQ(interleaved.frames_per_batch(), 10);
-  EXPECT_EQ(interleaved.times_per_block(), 10);  // and a block of its batches lasts 40
+  EXPECT_EQ(interleaved.times_per_block(), 10);  // a block of such batches lasts 40 ms
   const Block block = interleaved.block();
-  EXPECT_NEAR(block.a.wall_ns[0], 1e5, 1);  // means and not sums
+  EXPECT_NEAR(block.a.wall_ns[0], 1e5, 1);  // the times are means over the frames of a batch
   EXPECT_NEAR(block.b.wall_ns[1], 4e5, 1);
 }
 
-// The probability that all ten first or all ten second batches of b in a block are disturbed is
-// 1/85000.
+// A block is wrong only if all ten first or all ten second batches of b are disturbed, which has a
+// probability of 1/85000.
 TEST_F(TurnsTest, WhatDisturbsSomeOfABlocksTurnsDoesNotCount) {
   a.environment = {script_with(R"("base_ns": 1e6, "ns_per_sample": 0)")};
   b.environment = {script_with(
@@ -159,7 +159,7 @@ TEST_F(TurnsTest, ALostDeviceCostsItsWorker) {
 TEST_F(TurnsTest, AnErrorInAFrameEndsTheBlockAndNoWorker) {
   b.environment = {script_with(
       R"("base_ns": 3e6, "failures": [{"kind": "api_error", "at": "frame", "frame": 12, "only": "*data=*"}])")};
-  options_.kinds = {};  // otherwise the frames of the calibration would also have the fault
+  options_.kinds = {};  // otherwise the frames of the calibration would have the fault, too
   Interleaved interleaved = open();
   hold(interleaved);
   try {
@@ -170,7 +170,8 @@ TEST_F(TurnsTest, AnErrorInAFrameEndsTheBlockAndNoWorker) {
     EXPECT_EQ(error.outcome(), Outcome::failed);
     EXPECT_EQ(error.reason().code, "NULL_ERROR");
   }
-  EXPECT_THROW(static_cast<void>(interleaved.block()), SideEnded);  // nothing is held any longer
+  // After a side has ended, blocks are refused.
+  EXPECT_THROW(static_cast<void>(interleaved.block()), SideEnded);
   EXPECT_EQ(started_workers().size(), 2U);
 }
 
@@ -204,7 +205,7 @@ TEST_F(TurnsTest, AnEnvironmentThatChangesTheWorkIsRefused) {
 }
 
 TEST(TurnDifferences, ADriftThatIsLinearOverABlockCancels) {
-  // ln t = 0, 0.1, 0.2, 0.3 over the four batches, and b is slower by 0.05.
+  // The times of the four batches are ln t = 0, 0.1, 0.2, 0.3, and b is slower by 0.05.
   const Block abba{.b_first = false,
                    .a = {.wall_ns = {1e6, 1e6 * std::exp(0.3)}, .device_ns = {}},
                    .b = {.wall_ns = {1e6 * std::exp(0.15), 1e6 * std::exp(0.25)}, .device_ns = {}}};

@@ -17,7 +17,7 @@ using ::testing::Field;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-// Reports about loads whose steps happen at known times.
+// Reports about loading whose steps happen at known times.
 class PacedLoading : public testing::Test {
  protected:
   // `steps` + 1 reports: the first one (share 0) now and the last one (share 1) after `length`.
@@ -72,7 +72,7 @@ TEST_F(RunTest, AWorkersSlowLoadingIsToldByTheRun) {
   EXPECT_THAT(loads, AllOf(SizeIs(2), Each(Field(&Loading::what, "slow"))));
   EXPECT_EQ(loads.at(0).share, 0.5);
   EXPECT_EQ(loads.at(1).share, 1);
-  EXPECT_THAT(told, SizeIs(1));  // about the configuration itself, once
+  EXPECT_THAT(told, SizeIs(1));  // only the report about the configuration itself
 }
 
 TEST_F(RunTest, NothingIsToldOfLoadingThatIsSoonDone) {

@@ -26,7 +26,7 @@ Process shell(const std::string& text) {
   return Process({"/bin/sh", "-c", text}, {"PATH=/usr/bin:/bin"});
 }
 
-// Everything that the child wrote until it closed the pipe.
+// Reads everything that the child wrote until it closed the pipe.
 std::string all_from(int fd) {
   std::string text;
   std::array<char, 4096> piece{};
@@ -61,7 +61,7 @@ TEST(Process, GivesNoOtherDescriptorAndOnlyTheGivenEnvironment) {
   const FileDescriptor stray(::dup2(opened.get(), 40));  // neither of them is close-on-exec
   ASSERT_EQ(::setenv("TRIPTYCH_STRAY", "1", 1), 0);
   Process process = shell("for fd in /proc/$$/fd/*; do echo ${fd##*/}; done; echo $TRIPTYCH_STRAY");
-  // 5 is the descriptor that reads the list.
+  // The child has no other open descriptors; 5 is the one with which it reads the list.
   EXPECT_EQ(all_from(process.log_fd()), "0\n1\n2\n3\n4\n5\n\n");
 }
 
@@ -119,8 +119,8 @@ TEST(Process, WhatItLeftBehindDiesWhereItEndsByItself) {
   EXPECT_TRUE(dies(daemon));
 }
 
-// While two processes are running, it is not known whose daemon it is, so neither loses one that it
-// may need.
+// While two processes run, it is unknown which of them started a daemon, so the daemon is ended
+// only with the last one.
 TEST(Process, WhatWasLeftBehindDiesWithTheLastAndHarmsNoOther) {
   pid_t daemon = 0;
   {
@@ -136,7 +136,7 @@ TEST(Process, WhatWasLeftBehindDiesWithTheLastAndHarmsNoOther) {
   EXPECT_TRUE(dies(daemon));
 }
 
-// A program that replaced itself by this one may have children of its own.
+// A program that replaced itself by this one may have left children, which must not be ended.
 TEST(Process, AChildFromBeforeIsLeftAlone) {
   Process process = shell("sleep 100 & exec '" MEASURE_RUN_HELPER "' keeps $!");
   EXPECT_EQ(describe(process.wait(seconds(20)).value()), "exited with code 0");

@@ -17,7 +17,8 @@
 
 namespace triptych::measure {
 
-// The time limit in tests with a hang. All other workers have to answer within this time.
+// The time limit for tests in which a worker hangs. All other workers have to answer within this
+// time.
 inline constexpr std::chrono::seconds hang_limit{MEASURE_RUN_PATIENCE};
 
 class RunTest : public testing::Test {
@@ -31,7 +32,7 @@ class RunTest : public testing::Test {
     return {scratch.path() / "store.sqlite", record::Store::Mode::append};
   }
 
-  // The configurations of one line of factors; the others have the defaults of the suite.
+  // The configurations of one block of factors. All other factors have the suite's defaults.
   [[nodiscard]] Plan plan(const Overrides& overrides) {
     return load_plan("fake/quick", overrides, find());
   }

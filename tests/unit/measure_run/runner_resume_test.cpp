@@ -1,4 +1,4 @@
-// Runs that are stopped from outside, and how a later one continues.
+// Runs are stopped from outside, and a later run continues them.
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -22,7 +22,7 @@ class RunResume : public RunTest {
   // Frames really last 4 ms, so that a configuration takes about 0.15 s.
   Variable slow{"TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 4e6, "sleep": true})"};
 
-  // A separate supervisor, in a process that can be killed.
+  // Starts a separate supervisor, in a process that can be killed.
   [[nodiscard]] Process supervise() const {
     std::vector<std::string> environment;
     for (char** entry = environ; *entry != nullptr; ++entry) environment.emplace_back(*entry);
@@ -41,7 +41,8 @@ class RunResume : public RunTest {
     FAIL() << "the supervisor stores nothing";
   }
 
-  // Runs or continues until a worker is started for the first configuration, and never answers.
+  // Runs or continues until a worker is started for the first configuration. The worker never
+  // answers.
   void end_at_the_first(int signal) const {
     const Variable stuck("TRIPTYCH_NULL_SCRIPT",
                          R"({"failures": [{"kind": "hang", "at": "open"}]})");
@@ -89,7 +90,7 @@ TEST_F(RunResume, AKilledSupervisorLosesAtMostTheConfigurationInFlight) {
   EXPECT_EQ(store.records(result.run).size(), whole.configurations.size());
 }
 
-// Like a driver that crashes the machine: nobody is left to report it.
+// This imitates a driver that crashes the machine, after which no process is left to report it.
 TEST_F(RunResume, WhatTwiceEndedAllIsPassedBy) {
   end_at_the_first(SIGKILL);
   end_at_the_first(SIGKILL);
@@ -132,7 +133,7 @@ TEST_F(RunResume, AWorkerStuckInItsDriverDoesNotOutliveItsSupervisor) {
   for (int i = 0; i < 500 && started_workers().empty(); ++i) {
     std::this_thread::sleep_for(milliseconds(10));
   }
-  std::this_thread::sleep_for(milliseconds(200));  // until it hangs
+  std::this_thread::sleep_for(milliseconds(200));  // so that the worker hangs by now
   ::kill(supervisor.pid(), SIGKILL);
   ASSERT_TRUE(supervisor.wait(seconds(5)));
   ASSERT_EQ(started_workers().size(), 1U);
@@ -184,7 +185,7 @@ TEST_F(RunAgain, AResumedRunKeepsItsClocksAndRefusesAnotherDriver) {
   static_cast<void>(run(plan({{"technique", {"raycast"}}, {"data", {"cube"}}, {"step", {"1"}}})));
   options.resume = true;
   {
-    // It would not be trusted if it were calibrated again.
+    // The clock would not be trusted if it were calibrated again.
     const Variable lying("TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 3e6, "device_over_wall": 0.5})");
     const RunResult more = run(small_plan());
     EXPECT_EQ(more.measured, 4);
@@ -195,7 +196,7 @@ TEST_F(RunAgain, AResumedRunKeepsItsClocksAndRefusesAnotherDriver) {
   EXPECT_THROW(run(plan({{"technique", {"raycast"}}, {"data", {"ball"}}})), core::InputError);
 }
 
-// If nothing is timed.
+// This is allowed if nothing is timed.
 TEST_F(RunTest, WorkersOfOneDeviceShareAPlan) {
   options.jobs = 3;
   options.protocol.timed = false;

@@ -49,7 +49,7 @@ TEST_F(RunTest, ARecordTellsEverythingAboutItsConfiguration) {
   EXPECT_EQ(record.scene, scene_key(suite, one.configurations.front()));
   EXPECT_EQ(record.technique, "raycast");
   EXPECT_EQ(record.device, "null:scripted");
-  EXPECT_NE(record.factors.at("sampler"), "auto");  // resolved with the device
+  EXPECT_NE(record.factors.at("sampler"), "auto");  // the device determines the sampler
   EXPECT_EQ(record.injected, "");
   EXPECT_EQ(record.wall_ns.size(), 8U);
   EXPECT_EQ(record.device_ns.size(), 8U);
@@ -90,7 +90,8 @@ TEST_F(RunTest, TheRunKnowsItsSystemItsDevicesAndTheirClocks) {
   }
   const auto devices = store.devices(result.run);
   ASSERT_EQ(devices.size(), 1U);
-  ASSERT_EQ(devices[0].clocks.size(), 1U);  // the plan draws nothing
+  // The plan draws nothing, so it needs no clock for drawing.
+  ASSERT_EQ(devices[0].clocks.size(), 1U);
   EXPECT_EQ(devices[0].clocks[0].work, "compute");
   EXPECT_TRUE(devices[0].clocks[0].trusted) << devices[0].clocks[0].verdict;
 }

@@ -56,8 +56,8 @@ TEST(SameFailure, WhereNothingIsSharedNothingIsNamed) {
   EXPECT_EQ(reason.shared_levels, "");
 }
 
-// A factor that does not matter in one case does not matter in the next one, so that is tried only
-// once.
+// If a factor does not matter in one case, it is assumed not to matter in the next case, so that is
+// tried only once.
 TEST(SameFailure, WhatDoesNotMatterIsRemembered) {
   SameFailure failures({"data", "step"});
   for (const char* step : {"1", "2", "3"}) {

@@ -28,7 +28,7 @@ using Calibration = std::map<std::string, StatisticWorth>;
 
 const StatisticWorth exact;
 
-// A statistic has this worth.
+// Matches a statistic with this worth.
 MATCHER_P(Is, worth, "") {
   return arg.worth == worth;
 }
@@ -61,7 +61,7 @@ record::Counts exact_counts(const Work& work) {
   throw std::logic_error("a work that is no calibration scene");
 }
 
-// Changes the exact statistics of the n-th statistics frame (from 0) of a work.
+// Changes the exact statistics in the n-th statistics frame of a work, counted from 0.
 using Script = std::function<void(const Work&, int n, record::Counts&)>;
 
 class CountingPrepared final : public Prepared {

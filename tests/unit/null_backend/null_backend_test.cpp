@@ -158,7 +158,8 @@ TEST(NullScript, MistakesAreNamed) {
 
 TEST(NullTime, IsComputedFromTheWork) {
   const Script script{.devices = {1, 2}, .base_ns = 100, .ns_per_sample = 1};
-  // 16·8 pixels, 8 voxels along the longest edge, two samples for each.
+  // The image has 16·8 pixels, the longest edge has 8 voxels, and there are two samples for each
+  // voxel.
   EXPECT_THAT(times(script, 3), Each(100 + 16 * 8 * 8 * 2));
   EXPECT_THAT(times(script, 3, work(), "null:scripted#2"), Each(2 * (100 + 16 * 8 * 8 * 2)));
   measure::VolumeWork slowed = volume();

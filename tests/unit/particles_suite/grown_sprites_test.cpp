@@ -1,4 +1,4 @@
-// Compares the fragments by which ray-aligned sprites grow with their areas on the image.
+// Compares the number of fragments by which ray-aligned sprites grow with their areas on the image.
 
 #include "suites/particles/grown_sprites.hpp"
 
@@ -22,10 +22,10 @@ scene::ParticleScene one(double x, double z, double radius, double fov_y_deg) {
   return scene;
 }
 
-// On the axis, a square with half the size h pixels grows by g: by 8·h·g + 4·g² fragments, except
-// for pixels that its border hits or misses, at most one along each side. With a field of view of
-// 90°, a pixel has the size 1/100 at distance 1; the plane is 1 % in front of the depth of the
-// centre.
+// On the axis, a square with half the size h pixels grows by g, which adds 8·h·g + 4·g² fragments,
+// except for pixels that its border hits or misses: at most one along each side. With a field of
+// view of 90°, a pixel has the size 1/100 at distance 1; the plane is 1 % in front of the depth of
+// the centre.
 TEST(GrownSprites, OnTheAxisAnEdgeMovesByTheGrowth) {
   const double growth = 3;
   const double plane = 10 - 0.5;
@@ -35,8 +35,8 @@ TEST(GrownSprites, OnTheAxisAnEdgeMovesByTheGrowth) {
   EXPECT_NEAR(fragments_of_growth(one(0, 10, 0.5, 90), growth), expected, 8 * grown);
 }
 
-// 70° away from the axis, a length along the radius covers 1/cos 70° as many pixels; here for two
-// edges.
+// At 70° from the axis, a length along the radius covers 1/cos 70° as many pixels. Here, this
+// affects two edges.
 TEST(GrownSprites, AwayFromTheAxisMuchMore) {
   const double sideways = 10 * std::tan(70 * std::acos(-1.0) / 180);
   const double near_axis = fragments_of_growth(one(0, 10, 1, 150), 1);

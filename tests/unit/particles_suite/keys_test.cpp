@@ -24,13 +24,13 @@ TEST(Keys, ChangeWithTheTransferFunctionsFile) {
   measure::Configuration configuration = configuration_of(*suite, "generate:uniform:10");
   configuration["colour"] = "intensity";
   const std::string preset = suite->truth_key(configuration, {});
-  // So reference images in stores remain useful.
+  // The key must not change without reason, so that reference images in stores remain useful.
   EXPECT_EQ(preset.find("table"), std::string::npos);
   configuration["transfer_function"] = "a.rgba";
   test::expect_keys_to_follow_the_table(*suite, configuration, folder);
 }
 
-// The camera of a stress case is not one of the factors.
+// The key of a stress case contains its camera, which is not one of the factors.
 TEST(Keys, HoldTheFrameOfAStressCase) {
   const auto suite = make_suite({});
   measure::Configuration configuration = configuration_of(*suite, "stress:widest");

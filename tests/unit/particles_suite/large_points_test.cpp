@@ -1,4 +1,5 @@
-// What quads instead of points leave open, compared with spheres of known size on the image.
+// Compares the counts that quads instead of points leave open with spheres of known size on the
+// image.
 
 #include "suites/particles/large_points.hpp"
 
@@ -25,7 +26,8 @@ scene::ParticleScene at_distances(const std::vector<float>& distances) {
 }
 
 TEST(OpenByQuads, OnlySpheresThatAreLargerThanThePoints) {
-  const scene::ParticleScene scene = at_distances({3, 5, 9});  // 70.7, 40.9 and 22.4 pixels
+  // Sizes of 70.7, 40.9 and 22.4 pixels.
+  const scene::ParticleScene scene = at_distances({3, 5, 9});
   EXPECT_TRUE(open_by_quads(scene, 71, true).empty());
   EXPECT_EQ(open_by_quads(scene, 70, false).at("vertices"), 3);
   EXPECT_EQ(open_by_quads(scene, 40, false).at("vertices"), 6);
@@ -36,7 +38,7 @@ TEST(OpenByQuads, OnlySpheresThatAreLargerThanThePoints) {
 TEST(OpenByQuads, FragmentsInTheCornersOfSquares) {
   const scene::ParticleScene round = at_distances({3});
   EXPECT_EQ(open_by_quads(round, 10, false).at("fragments"), 72 * 72 - 70 * 70);
-  // Half of it is outside of the image: 72², minus the 70 rows of 35 and a half.
+  // Half of the sphere is outside the image: 72², minus 70 rows of 35 and a half pixels.
   scene::ParticleScene cut = round;
   auto set = std::make_shared<scene::ParticleSet>();
   set->spheres = {{3, 0, -3, 1}};
@@ -61,7 +63,7 @@ TEST(OpenByQuads, BehindQuadsOcclusionCullsMore) {
   EXPECT_FALSE(open.contains("cells"));
 }
 
-// A device whose points are as large as an image draws no quads, whatever it counts.
+// A device whose points are as large as an image draws no quads, whatever its counters are.
 TEST(OpenByQuads, AsADeviceTells) {
   const auto suite = make_suite({});
   measure::Configuration configuration;

@@ -1,4 +1,4 @@
-// Configurations that are the same work in a scene of particles.
+// Finds configurations that do the same work in a scene of particles.
 
 #include "suites/particles/plain_work.hpp"
 

@@ -49,13 +49,14 @@ Seen see(const std::string& data, bool before = false) {
 }
 
 // An image that is mostly uncertain would test nothing. The borders of surfaces are uncertain for
-// 1/256 pixel on each side: a fiftieth if every pixel contains two and a half times its own edge of
-// them, and as much again for chance in an image of 221 pixels.
+// 1/256 pixel on each side, which is a fiftieth of the image if every pixel contains two and a half
+// times the length of its own edge of them. The same amount is added for chance in an image of 221
+// pixels.
 TEST(StressScenes, AreCertainNearlyEverywhere) {
   for (const StressCase& each : stress_cases()) {
     for (std::size_t i = 0; i < std::max<std::size_t>(each.variants.size(), 1); ++i) {
       const StressData data{&each, each.variants.empty() ? std::string_view() : each.variants[i]};
-      if (data.variant == "10000000") continue;  // like 200000 except for its size
+      if (data.variant == "10000000") continue;  // the same as 200000, only larger
       SCOPED_TRACE(name_of(data));
       const Seen seen = see(name_of(data));
       const auto pixels = static_cast<double>(seen.truth.ids.size());
@@ -79,15 +80,15 @@ TEST(StressScenes, OfAnyScaleAreOnePicture) {
   }
 }
 
-// From so far away, both silhouettes are discs, with 32 pixels for a unit of length. A disc of
-// radius R covers πR² pixels within a few times √R (the lattice problem of Gauss).
+// From so far away, both silhouettes are discs, and a unit of length is 32 pixels. A disc of radius
+// R covers πR² pixels within a few times √R (the lattice problem of Gauss).
 TEST(StressScenes, FarSilhouettesAreDiscs) {
   for (const char* distance : {"1e3", "1e4", "1e5", "2e5"}) {
     SCOPED_TRACE(distance);
     const Seen seen = see(fmt::format("stress:far:{}", distance));
     const auto area = [](double radius) { return std::numbers::pi * radius * radius; };
     EXPECT_NEAR(static_cast<double>(seen.covered()), area(32) + area(0.6 * 32), 25);
-    // A ring of 1/256 pixel on each side of both.
+    // Uncertain pixels are in a ring of 1/256 pixel on each side of both rims.
     EXPECT_LE(seen.uncertain(), 10);
   }
 }

@@ -1,4 +1,4 @@
-// The catalogue of hostile scenes, and how plans use it.
+// The catalogue of hostile scenes, and its use by plans.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ TEST(StressCases, WhatIsNoCaseIsToldWithWhatThereIs) {
   EXPECT_NE(message("stress:giant:huge").find("no variants"), std::string::npos);
 }
 
-// All except the pile that takes too long for a test on every device.
+// The plan contains all cases except the pile, which takes too long for a test on every device.
 TEST(StressCases, ThePlanHasThemAll) {
   const auto suite = make_suite({});
   const measure::Plan plan = measure::load_plan(
@@ -86,7 +86,7 @@ TEST(StressSuite, OwnIsTheCameraAndTheViewportOfTheCase) {
   const core::Image limit = suite->limit(configuration).image;
   EXPECT_EQ(limit.width, 16384);
   EXPECT_EQ(limit.height, 8);
-  // Another field of view is another image.
+  // Another field of view draws another image.
   configuration["fov"] = "1";
   EXPECT_NE(suite->limit(configuration).image.ids, limit.ids);
 }

@@ -1,5 +1,5 @@
-// A record knows its technique only by name, and this room cannot use the catalogue. This test
-// compares what both say about images.
+// A record knows its technique only by name, because this room cannot use the catalogue. This test
+// compares which techniques draw images according to each of them.
 
 #include "record/has_picture.hpp"
 

@@ -1,4 +1,4 @@
-// Merges for which the disk has no space: no incomplete store looks complete.
+// Merges for which the disk has no space must not leave an incomplete store that looks complete.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ using ::testing::StartsWith;
 
 class MergeFailure : public StoreTest {
  protected:
-  // The row of its device takes pages of its own, which are written last.
+  // The row of its device takes separate pages, which are written last.
   fs::path shard(int number, std::size_t record_bytes = 100) {
     fs::path file = folder_ / fmt::format("shard-{}", number);
     Store store(file, Store::Mode::append);
@@ -39,7 +39,7 @@ class MergeFailure : public StoreTest {
     return file;
   }
 
-  // Empty, or the reason why it failed.
+  // The reason why the merge failed; empty if it did not.
   static std::string merge(const std::vector<fs::path>& files, const fs::path& out) {
     try {
       static_cast<void>(merge_stores(files, out));
@@ -58,7 +58,7 @@ class MergeFailure : public StoreTest {
   }
 };
 
-// Whichever page is the first for which there is no space.
+// Each page in turn is the first one for which the disk has no space.
 TEST_F(MergeFailure, WithoutRoomLeavesNothing) {
   constexpr std::size_t page = 4096;
   const std::vector<fs::path> files{shard(1), shard(2)};

@@ -1,5 +1,5 @@
-// Merges stores: any order gives the same bytes, everything that was measured is in the result, and
-// some stores are refused.
+// Merges stores: any order gives the same bytes, the result contains everything that was measured,
+// and some stores are refused.
 
 #include "record/merge/merge.hpp"
 
@@ -83,7 +83,7 @@ class Merge : public StoreTest {
     return merge_stores(files, folder_ / out);
   }
 
-  // For a new merge with this name.
+  // The hash of a new merge with this name.
   [[nodiscard]] std::string hash_of_merged(const Files& files, const std::string& out) const {
     for (const char* part : {"", "-wal", "-shm"}) fs::remove(folder_ / (out + part));
     static_cast<void>(merge(files, out));
@@ -103,7 +103,7 @@ class Merge : public StoreTest {
   }
 };
 
-// The same in every field except the run.
+// The text of all fields except the run. It is equal for two records that differ only in the run.
 std::string text_of(Record record) {
   record.run = "";
   return core::Json(record).dump();
@@ -192,8 +192,8 @@ TEST_F(Merge, OfTwoRecordsOneThatWasMeasuredIsKept) {
   EXPECT_EQ(merged_records().at(0).outcome, Outcome::measured);
 }
 
-// A record with an injected fault does not show the behaviour of the device, whether it was
-// measured or not.
+// A record with an injected fault does not show how the device behaves, whether it was measured or
+// not.
 TEST_F(Merge, OneWithoutAnInjectedFaultIsKept) {
   const auto clean = [](Record record) {
     record.injected = "";
@@ -283,7 +283,7 @@ TEST_F(Merge, TheLatestRunOfEachPlanCounts) {
   const fs::path file = shard(1, {record_of(1)});
   {
     Store store(file, Mode::append);
-    record::Run newer = sample_run("run-000");  // whatever its name is
+    record::Run newer = sample_run("run-000");  // the order is by time, whatever the names are
     newer.plan_hash = "text";
     newer.configurations = 2;
     store.add_run(newer);

@@ -118,7 +118,7 @@ TEST(DeviceTest, KeyChangesWithEverythingTimingsDependOn) {
   add([](Device& d) { d.environment["LP_NUM_THREADS"] = "1"; });
   add([](Device& d) { d.environment["GALLIVM_PERF"] = ""; });
   add([](Device& d) { d.environment.clear(); });
-  add([](Device& d) {  // must not look like the part that it contains
+  add([](Device& d) {  // the text must not look like the part that it contains
     d.api_version += "; CPU " + d.cpu_features;
     d.cpu_features.clear();
   });

@@ -1,4 +1,4 @@
-// Failures of a store: other files, access rights, other processes, kills, full disks.
+// Failures of a store: other files, access rights, other processes, kills, and full disks.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fcntl.h>
@@ -66,9 +66,9 @@ TEST_F(StoreTest, AnotherPrograms) {
   }
 }
 
-// Of a store of another version, the fuzzer would reach nothing but the comparison of versions. The
-// schema changes seldom: write the seed anew with `triptych run`, then VACUUM it with a page size
-// of 512 bytes.
+// The fuzzer's seed must have the current schema. With a store of another version, the fuzzer would
+// reach nothing but the comparison of versions. The schema seldom changes: to renew the seed, run
+// `triptych run`, and VACUUM the store with a page size of 512 bytes.
 TEST(StoreSeed, OfTheFuzzerHasThisSchemaAndARecord) {
   const Store store(
       std::filesystem::path(TRIPTYCH_SOURCE_FOLDER) / "tests/fuzz/seeds/stores/one_record",
@@ -156,7 +156,7 @@ TEST_F(StoreTest, DamagedFile) {
   }
 }
 
-// An index that uses the pages of another one: every query through it finds nothing, without an
+// An index uses the pages of another one, so every query through it finds nothing, without an
 // error.
 TEST_F(StoreTest, DamagedIndex) {
   make_store(file_);
@@ -185,8 +185,8 @@ TEST_F(StoreTest, DamagedColumn) {
       ThrowsMessage<core::InputError>(AllOf(StartsWith(file_.string()), HasSubstr("is damaged"))));
 }
 
-// SQLite stores no value of more than 10⁹ bytes. The seal of such a text would take several times
-// that much memory, and minutes.
+// SQLite stores no value of more than 10⁹ bytes. Computing the seal of such a text would take
+// several times that much memory, and minutes.
 TEST_F(StoreTest, ATextOfManyMegabytesIsRefused) {
   make_store(file_);
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE)
@@ -256,8 +256,8 @@ TEST_F(StoreTest, ReadOnlyFolderWithALogLeftBehind) {
   ASSERT_GT(std::filesystem::file_size(file_.string() + "-wal"), 0U);
   std::filesystem::remove(file_.string() + "-shm");
   std::filesystem::permissions(folder_, read_only_folder);
-  // The newest records are in the log: reading nothing is better than reading old ones without a
-  // warning.
+  // The newest records are in the log. Refusing to read is better than reading old records without
+  // a warning.
   EXPECT_THAT(as_nobody([&] { return refusal<core::IoError>(file_, Mode::read); }),
               HasSubstr("log cannot be replayed"));
 }
@@ -342,7 +342,8 @@ std::string fill(const std::filesystem::path& file) {
   }
 }
 
-// The writer is killed, and its log is not copied. The run before it may have passed.
+// The writer is killed, and the store is copied without its log. An earlier run in the copy may
+// have passed, but must not count as the latest one.
 TEST_F(StoreTest, ACopyWithoutItsLogKnowsWhatTheLatestRunSetOutToDo) {
   make_store(file_);
   Store store(file_, Mode::append);

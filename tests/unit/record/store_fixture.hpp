@@ -54,9 +54,10 @@ class StoreTest : public ::testing::Test {
   StoreTest() {
     std::string pattern = ::testing::TempDir() + "triptych-store-XXXXXX";
     folder_ = mkdtemp(pattern.data());
-    // Accessible to other users: some tests drop the rights of root, for whom nothing is read-only.
+    // Gives other users access, because some tests drop the rights of root, for whom nothing is
+    // read-only.
     std::filesystem::permissions(folder_, std::filesystem::perms::all);
-    // Contains characters that must be escaped in a URI of SQLite.
+    // The name contains characters that must be escaped in a URI of SQLite.
     file_ = folder_ / "a store?#%.sqlite";
   }
   ~StoreTest() override {
@@ -64,7 +65,7 @@ class StoreTest : public ::testing::Test {
     std::filesystem::remove_all(folder_);
   }
 
-  // The text that `action` returns in a process of its own, or the text of its exception.
+  // Runs `action` in a separate process, and returns its text or the text of its exception.
   static std::string in_child(const std::function<std::string()>& action) {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) != 0) return "no pipe";
@@ -90,7 +91,7 @@ class StoreTest : public ::testing::Test {
     return text;
   }
 
-  // The same without the rights of root.
+  // Does the same without the rights of root.
   static std::string as_nobody(const std::function<std::string()>& action) {
     return in_child([&]() -> std::string {
       if (geteuid() == 0 && (setgid(65534) != 0 || setuid(65534) != 0)) return "still root";

@@ -21,8 +21,8 @@
 namespace triptych::record {
 namespace {
 
-// For a connection of the test itself: the late writer may look at the file at any time, even while
-// this connection commits.
+// The time limit of the test's own connection, because the late writer may access the file at any
+// time, even during a commit.
 constexpr int patience_ms = 10'000;
 
 using std::chrono::milliseconds;
@@ -61,7 +61,7 @@ TEST_F(StoreTest, BusyForAShortTimeIsNoError) {
   release.join();
 }
 
-// CTest starts the devices of a plan at the same time, and all of them have to add to one run.
+// CTest starts the devices of a plan at the same time, and all of them must add to one run.
 TEST_F(StoreTest, OfManyThatWouldBeginARunOneDoes) {
   { const Store empty(file_, Mode::append); }
   std::array<std::string, 8> ids;
@@ -117,7 +117,7 @@ TEST_F(StoreTest, SeveralProcessesCreateOneStore) {
   for (const record::Run& each : store.runs()) EXPECT_THAT(store.records(each.id), SizeIs(10));
 }
 
-// A process that appends as soon as it is told to. It is forked before its parent opens a
+// A process that appends as soon as it gets a signal. It is forked before its parent opens a
 // connection, because a connection must not be used across a fork.
 class LateWriter {
  public:
@@ -134,7 +134,7 @@ class LateWriter {
   LateWriter(const LateWriter&) = delete;
   LateWriter& operator=(const LateWriter&) = delete;
 
-  // It gets time to proceed as far as it can.
+  // Starts the writer and waits so long that it gets as far as it can.
   void begin() const {
     ASSERT_EQ(write(ends_[1], "x", 1), 1);
     std::this_thread::sleep_for(milliseconds(300));
@@ -150,8 +150,8 @@ class LateWriter {
   pid_t child_ = 0;
 };
 
-// Another process has created the file and is about to switch it to the log. SQLite refuses others
-// that also want to switch it, without waiting.
+// Another process has created the file and is about to switch it to the log. SQLite refuses all
+// others that want to switch it at the same time, without waiting.
 TEST_F(StoreTest, SwitchedToTheLogByAnotherMeanwhile) {
   make_store(file_);
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA journal_mode = DELETE");

@@ -1,4 +1,4 @@
-// Records that fail, and those that do not.
+// Distinguishes records that fail from those that do not.
 
 #include "reduction/failure.hpp"
 

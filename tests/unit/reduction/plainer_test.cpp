@@ -1,4 +1,4 @@
-// The levels that are simpler than a level.
+// Lists the simpler levels of each level.
 
 #include "reduction/plainer.hpp"
 

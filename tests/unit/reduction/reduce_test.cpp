@@ -1,4 +1,4 @@
-// Configurations of the volume suite that fail by a known rule.
+// Reduces configurations of the volume suite that fail by a known rule.
 
 #include "reduction/reduce.hpp"
 
@@ -64,7 +64,7 @@ TEST_F(Reduce, WhatTheFaultNeedsStays) {
                                             {"ert", {"0"}}}));
 }
 
-// One factor cannot be made simpler until another one has been.
+// One factor can be made simpler only after another one.
 TEST_F(Reduce, FactorsAreTriedAgainWhenOthersBecamePlainer) {
   const Reduction result = reduce_from(
       configuration({{"adapt", {"0.1"}}, {"skip", {"bricks"}}}), [](const Configuration& each) {

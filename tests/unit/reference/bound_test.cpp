@@ -21,7 +21,7 @@ struct Comparison {
   int violations = 0;
   int visible = 0;           // pixels that do not show only the background
   int visible_exceeded = 0;  // the number of these whose error exceeds their bound
-  double largest_ratio = 0;  // error divided by bound
+  double largest_ratio = 0;  // largest error divided by its bound
   double largest_bound = 0;
 };
 
@@ -72,12 +72,12 @@ TEST(Bound, HoldsForSinglePrecisionOnRandomScenes) {
       largest_ratio = std::max(largest_ratio, c.largest_ratio);
     }
   }
-  // The bound would also hold if it were any large number. That some pixel comes close to it shows
-  // that it is not.
+  // The bound would also hold if it were any large number. The error of some pixel comes close to
+  // it, which shows that it is not too large.
   EXPECT_GT(largest_ratio, 0.05);
 }
 
-// Every kind of ray that needs a rule of its own: in a face, along an edge, from a corner, with
+// Tests every kind of ray that needs a separate rule: in a face, along an edge, from a corner, with
 // components of zero, grazing, and through a silhouette. With an opaque table, a missing sample has
 // its full effect.
 TEST(Bound, HoldsWhereRaysGrazeTheBox) {
@@ -101,10 +101,10 @@ TEST(Bound, HoldsWhereRaysGrazeTheBox) {
   }
 }
 
-// A device whose positions all have the same error draws what a perfect device sees from an eye
-// that is displaced by that error. That uses the whole position error, so it finds everything that
-// the bound forgets: neighbouring cells and table entries, the lattice that slides along a grazing
-// ray, and samples that appear at its end.
+// If all positions of a device have the same error, its image is the one that a perfect device sees
+// from an eye that is displaced by that error. Such an image uses the whole position error, so it
+// reveals everything that the bound forgets: neighbouring cells and table entries, the lattice that
+// slides along a grazing ray, and samples that appear at its end.
 Comparison compare_displaced(const scene::VolumeScene& scene, const glm::dvec3& sign,
                              double voxels) {
   ErrorModel model;
@@ -118,8 +118,8 @@ Comparison compare_displaced(const scene::VolumeScene& scene, const glm::dvec3& 
   return compare(render_volume(displaced).image(), render_volume(scene, model), scene.background);
 }
 
-// Cuts move with the eye, and cells at grazing angles appear and disappear; the error of the rule
-// itself changes.
+// If the eye moves, cuts move with it, and cells at grazing angles appear and disappear, so the
+// error of the rule itself changes.
 TEST(Bound, OfCellsHoldsForADisplacedEye) {
   double largest_ratio = 0;
   for (std::uint64_t seed = 208; seed < 216; ++seed) {
@@ -159,8 +159,8 @@ TEST(Bound, HoldsForADisplacedEye) {
   EXPECT_GT(largest_ratio, 0.5);
 }
 
-// Rays at a small angle to the faces at which they enter and leave. At their ends every sample is
-// opaque, and colours change along the ray.
+// Rays enter and leave at a small angle to the faces. Every sample at their ends is opaque, and
+// colours change along the ray.
 TEST(Bound, HoldsForADisplacedEyeAtGrazingIncidence) {
   for (const double height : {0.01, 0.2, -0.05}) {
     for (const float alpha : {0.2F, 1.0F}) {
@@ -266,11 +266,11 @@ TEST(Bound, GrowsWithEveryTermOfTheModel) {
     ErrorModel two;
     two.*term = 2e-5;
     EXPECT_GT(total(one), 0.0);
-    EXPECT_NEAR(total(two) / total(one), 2.0, 0.1);  // of first order
+    EXPECT_NEAR(total(two) / total(one), 2.0, 0.1);  // the bound is of first order
   }
 }
 
-// Compares both ways of bounding the corrected opacity with brute force over the allowed range.
+// Compares both ways of bounding the corrected opacity with a search of the allowed range.
 TEST(StepOpacity, EncloseEveryAllowedValue) {
   for (const double alpha : {1e-6, 0.01, 0.5, 0.99, 1 - 1e-7, 1.0}) {
     for (const double error : {0.0, 1e-8, 1e-4, 0.03}) {

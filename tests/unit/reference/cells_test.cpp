@@ -1,5 +1,5 @@
-// Quadrature cells in double precision: exact where nothing bends, of fourth order elsewhere, also
-// for sharp functions.
+// Quadrature cells in double precision: it is exact where the field and the table are linear, and
+// of fourth order elsewhere, also for sharp transfer functions.
 
 #include <gtest/gtest.h>
 
@@ -62,8 +62,8 @@ double order_of(std::string_view data, double ridge) {
   return std::log2(coarse / rms(render_volume(scene), limit)) / 2;
 }
 
-// For rays that touch the surface with the value of a kink, the error has the form of the root of a
-// distance, so the order is slightly below four.
+// Rays that touch the surface on which the value has a kink have an error in the form of the root
+// of a distance, so the order is slightly below four.
 TEST(CellsPicture, IsOfFourthOrder) {
   for (const char* data : {"gaussian_blob", "marschner_lobb"}) {
     EXPECT_GE(order_of(data, 255), 3.9) << data << ", which no kink meets";
@@ -71,7 +71,7 @@ TEST(CellsPicture, IsOfFourthOrder) {
   }
 }
 
-// Steps longer than a cell do not cut any cell.
+// Steps that are longer than a cell do not cut any cell.
 TEST(CellsPicture, IsTheSameForEveryStepFromACellOn) {
   scene::VolumeScene scene = volume_scene_of("mandelbulb", "haze");
   const Truth one = render_volume(scene);

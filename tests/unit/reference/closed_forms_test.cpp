@@ -61,7 +61,7 @@ TEST(ClosedForms, RampMatchesItsFormulaAndQuadrature) {
 TEST(ClosedForms, RandomSegmentsMatchQuadrature) {
   core::Random random(1);
   for (int n = 0; n < 2000; ++n) {
-    // From thin to thick, increasing, decreasing and almost constant.
+    // The cases are thin to thick, and increase, decrease or stay almost constant.
     const double thickness = std::exp2(random.uniform(-12, 6));
     const double length = std::exp2(random.uniform(-4, 4));
     const double start = thickness / length * random.uniform();

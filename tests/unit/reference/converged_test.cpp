@@ -1,5 +1,5 @@
-// The limit of the step: the order of its rule, the number of points that it needs, and that it
-// keeps its stated tolerance.
+// Tests the limit of the step: the order of its rule, the number of points that it needs, and its
+// stated tolerance.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@
 namespace triptych::reference {
 namespace {
 
-// A length along which extinction and colour bend.
+// A piece in which extinction and colour are not linear.
 PieceLight bent(double begin, double end) {
   return gauss_light(end - begin, [&](double share) {
     const double t = begin + share * (end - begin);
@@ -113,7 +113,7 @@ TEST(Converged, StaysWithinItsToleranceAndSaysSo) {
   }
 }
 
-// A rough table has jumps, contains 0 and 1, and bends at every entry.
+// The rough table has jumps, contains 0 and 1, and has a kink at every entry.
 TEST(Converged, StaysWithinItsToleranceAcrossOpacityOne) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     scene::VolumeScene scene = random_scene(seed, Character::rough, scene::VoxelFormat::f32);
@@ -127,7 +127,7 @@ TEST(Converged, StaysWithinItsToleranceAcrossOpacityOne) {
   }
 }
 
-// Nothing is visible through it, however short the way through it is.
+// Nothing behind an opaque layer is visible, however thin the layer is.
 TEST(Converged, ShowsTheFaceOfWhatIsOpaque) {
   scene::VolumeScene scene;
   scene.grid = make_grid({4, 4, 16}, {1, 1, 1}, scene::VoxelFormat::f32,
@@ -146,7 +146,7 @@ TEST(Converged, ShowsTheFaceOfWhatIsOpaque) {
   }
 }
 
-// If it is cut where shading has its kinks, a ray needs hardly more points than without shading.
+// If the ray is cut at the kinks of the shading, it needs hardly more points than without shading.
 TEST(Converged, TakesFewPointsWithShadingToo) {
   const auto points = [](const char* function, bool shaded) {
     return static_cast<double>(

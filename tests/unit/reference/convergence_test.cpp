@@ -100,7 +100,7 @@ double order_against_limit(AnalyticProblem problem, int size, const std::vector<
 }
 
 // The grid of the blob differs from its closed form, so the order in the step is measured against
-// the limit of the grid itself. It begins with one step more, because on a smooth field the kinks
+// the limit of the grid itself. It starts with one more step, because on a smooth field the kinks
 // at the boundaries of cells dominate only for small steps.
 TEST(Convergence, BlobIsOfSecondOrderInTheStep) {
   EXPECT_GE(order_against_limit(AnalyticProblem::v4_gaussian, 24, more_halvings), 1.9);
@@ -134,15 +134,15 @@ TEST(Convergence, LayersAreLimitedByTheirEdge) {
   EXPECT_LT(order, 1.7);
 }
 
-// Compared with the limit of the grid itself, which is not the closed form.
+// The image is compared with the limit of the grid itself, which is not the closed form.
 TEST(Convergence, AShellIsLimitedByItsFaces) {
   const double order = order_against_limit(AnalyticProblem::v7_shell, 24, halvings);
   EXPECT_GT(order, 0.4);
   EXPECT_LT(order, 1.7);
 }
 
-// For the limit of the step, with rays that cross the faces steeply: what remains is the distance
-// of the grid from the centre. The ramp of the table is symmetric about a face.
+// The limit of the step, with rays that cross the faces steeply. The remaining error is the
+// distance of the grid from the centre. The ramp of the table is symmetric about a face.
 TEST(Convergence, AShellIsOfSecondOrderInTheVoxelSize) {
   std::vector<double> sizes;
   std::vector<double> errors;
@@ -169,7 +169,8 @@ TEST(Convergence, LayersSeenFromBehindAreReversed) {
   EXPECT_LT(difference(reversed, render_volume(reversed.scene)).largest, 2e-3);
 }
 
-// The limit of the step must be the closed form, except for what grid and table cannot represent.
+// The limit of the step must equal the closed form, except for the parts that grid and table cannot
+// represent.
 TEST(Convergence, LimitIsTheClosedForm) {
   for (const AnalyticProblem problem : analytic_problems) {
     for (const int size : {8, 32}) {

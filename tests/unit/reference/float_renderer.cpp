@@ -23,7 +23,7 @@ vec3 single(const glm::dvec3& v) {
   return vec3(v);
 }
 
-// One scene in the numbers that a device gets. Positions are in voxels.
+// A scene in the numbers that a device gets. Positions are in voxels.
 class FloatRenderer {
  public:
   FloatRenderer(const scene::VolumeScene& scene, const FloatOptions& options)
@@ -116,7 +116,7 @@ class FloatRenderer {
   [[nodiscard]] float voxel(const ivec3& at) const {
     const ivec3 p = glm::clamp(at, ivec3(0), size_ - 1);
     const auto index = static_cast<std::size_t>(p.x + size_.x * (p.y + size_.y * p.z));
-    // Recovers what is stored, which is exact because the format represents it exactly.
+    // Recovers the stored value. This is exact, because the format represents it exactly.
     return static_cast<float>((grid_.normalised(index) - grid_.offset) / grid_.scale);
   }
 
@@ -228,12 +228,13 @@ ErrorModel float_model(const scene::VolumeScene& scene, const FloatOptions& opti
   const double reach = glm::length(glm::max(glm::abs(eye), glm::abs(eye - size)));
   ErrorModel model;
   model.position_error_voxels = unit * (glm::length(eye) + 50 * reach);
-  // Three interpolations with three operations each, the mapping, and the position in the table.
+  // The value has three interpolations with three operations each, the mapping, and the position in
+  // the table.
   model.value_error = 14 * unit;
   model.filter_weight_error =
       options.weight_bits > 0 ? 3 * std::exp2(-options.weight_bits - 1) : unit;
   model.table_error = 3 * unit;
-  // log1p and expm1 with two units each, and the two factors of the exponent.
+  // log1p and expm1 have two units each, and the two factors of the exponent are added.
   model.opacity_error = 12 * unit;
   model.compositing_error = 4 * unit;
   model.ert = options.ert;

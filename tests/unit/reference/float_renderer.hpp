@@ -1,6 +1,5 @@
 #pragma once
-// The sum over samples in single precision, as a device would compute it, for the tests of the
-// error bound.
+// Sums samples in single precision, as a device would, to test the error bound.
 
 #include "core/image.hpp"
 #include "reference/volume.hpp"
@@ -18,11 +17,11 @@ struct FloatOptions {
                                        const FloatOptions& options);
 
 struct FloatCounts {
-  double hits = 0;     // rays
+  double hits = 0;     // number of rays that hit the volume
   double samples = 0;  // the number of these that have opacity:
   double nonzero = 0;
 };
-// For all rays, none of which ends early.
+// Counts for all rays, none of which ends early.
 [[nodiscard]] FloatCounts count_float(const scene::VolumeScene& scene, const FloatOptions& options);
 
 // The errors that the arithmetic of render_float may make.

@@ -1,4 +1,4 @@
-// Rays, boxes and fields at the limits of what is permitted.
+// Rays, boxes and fields at the limits of what is allowed.
 
 #include <gtest/gtest.h>
 
@@ -179,7 +179,8 @@ TEST(Reference, OneVoxelIsABox) {
   }
 }
 
-// One thick layer is the same field as two thin equal ones, because values are clamped to the edge.
+// One thick layer is the same field as two thin equal layers, because values are clamped to the
+// edge.
 TEST(Reference, OneLayerEqualsTwoHalves) {
   const auto value = [](int i, int j, int) { return ((7 * i + 3 * j) % 13) / 12.0; };
   scene::VolumeScene thick = random_scene(6, Character::smooth, scene::VoxelFormat::u8);

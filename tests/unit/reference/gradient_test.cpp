@@ -21,7 +21,8 @@ constexpr int voxels = 24;
 // Steeper than any field below, so that a white opaque sample is as bright as the field is steep.
 constexpr double steeper = 0.25;
 
-// A cube of voxels with the stored values value(z), with z in voxels. Every value is opaque white.
+// A cube of voxels with the stored values value(z), with z in voxels. The table maps every value to
+// opaque white.
 scene::VolumeScene lit_scene(const std::function<double(double)>& value) {
   scene::Volume volume;
   volume.size = {voxels, voxels, voxels};

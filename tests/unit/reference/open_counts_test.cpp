@@ -1,4 +1,4 @@
-// What rounding leaves open in the counters of a raycaster: enough for arithmetic that rounds
+// Tests how many counts of a raycaster rounding leaves open: enough for arithmetic that rounds
 // differently, but not enough to hide a fault.
 
 #include "reference/open_counts.hpp"
@@ -41,7 +41,7 @@ scene::Camera diagonal() {
   return look_at({-20, 12, -20}, {12, 12, 12});
 }
 
-// The same scene in other units is drawn with other roundings.
+// The same scene in other units is drawn with other rounding errors.
 TEST(OpenCounts, CoverArithmeticThatRoundsOtherwise) {
   const FloatOptions options;
   double largest = 0;
@@ -60,7 +60,7 @@ TEST(OpenCounts, CoverArithmeticThatRoundsOtherwise) {
   EXPECT_GT(largest, 0) << "no rounding decided anything";
 }
 
-// One additional sample for a tenth of the rays exceeds them.
+// An additional sample in a tenth of the rays exceeds the open counts.
 TEST(OpenCounts, AreFewInAGeneralPosition) {
   const scene::VolumeScene scene = volume_seen_by(oblique());
   const FloatOptions options;
@@ -82,7 +82,7 @@ TEST(OpenCounts, AreWholeRaysWhereTheyRunWithinAFace) {
   EXPECT_GT(open.at("bricks_visited"), open.at("rays_hit"));
 }
 
-// If nothing is rounded, rounding decides nothing.
+// If nothing is rounded, no count is open.
 TEST(OpenCounts, AreNoneOfExactArithmetic) {
   for (const scene::Quadrature quadrature :
        {scene::Quadrature::midpoint, scene::Quadrature::cells}) {

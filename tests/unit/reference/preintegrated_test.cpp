@@ -1,5 +1,5 @@
-// Quadrature preintegrated in double: the step against closed forms and brute force, the picture
-// against its limit.
+// Quadrature preintegrated in double precision: compares the step with closed forms and brute
+// force, and the image with its limit.
 
 #include "reference/preintegrated.hpp"
 
@@ -26,7 +26,8 @@ Segment segment(const Table& table, double from, double to, double length) {
                                       {length, length, length});
 }
 
-// Of colours between opaque entries the front's alone is seen; beside one they fade.
+// Between two opaque entries, only the colour of the front one is visible. Next to one opaque
+// entry, colours fade.
 TEST(PreintegratedStep, EndsWhereItsPathIsOpaque) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {
@@ -41,7 +42,8 @@ TEST(PreintegratedStep, EndsWhereItsPathIsOpaque) {
       EXPECT_NEAR(found.looked.colour[i], table.at(from)[i], 1e-12) << from << ' ' << to;
     }
   }
-  // From entry 119 on by ∫ c·τT: deep in the cell before, little is left for the opaque entry.
+  // The integral is ∫ c·τT from entry 119 on. Deep in the cell before it, little light is left for
+  // the opaque entry.
   const Segment ramp = segment(table, 119, 130, 11);
   double seen = 0;
   double left = 1;
@@ -55,8 +57,8 @@ TEST(PreintegratedStep, EndsWhereItsPathIsOpaque) {
   EXPECT_NEAR(ramp.looked.colour[0], seen + left, 1e-6);
 }
 
-// Extinction and colour straight: V3. The table holds opacity, so between entries extinction bends
-// by 1e-7.
+// V3 has linear extinction and colour. The table contains opacity, so between entries extinction
+// deviates from a line by 1e-7.
 TEST(PreintegratedStep, IsV3WhereTheTableIsARamp) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {
@@ -79,7 +81,7 @@ TEST(PreintegratedStep, IsV3WhereTheTableIsARamp) {
   }
 }
 
-// A table with jumps, a spike and full opacity, against many short steps of constant opacity.
+// Compares a table with jumps, a spike and full opacity with many short steps of constant opacity.
 TEST(PreintegratedStep, IsTheIntegralOfASteepTable) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {

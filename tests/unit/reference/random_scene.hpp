@@ -23,7 +23,7 @@ namespace triptych::reference {
 [[nodiscard]] scene::TransferFunction constant_table(const std::array<float, 4>& rgba);
 
 enum class Character {
-  smooth,  // low frequencies and a gentle table, as in images for people
+  smooth,  // low frequencies and a smooth table, as in real images
   rough    // white noise, and a table of random entries with peaks, zeros and full opacity
 };
 [[nodiscard]] scene::VolumeScene random_scene(std::uint64_t seed, Character character,

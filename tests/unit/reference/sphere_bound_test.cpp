@@ -1,5 +1,5 @@
-// What the error model permits for rays and spheres is within the bounds of the reference image,
-// and these are not wider than necessary.
+// Everything that the error model permits for rays and spheres is within the bounds of the
+// reference image, and the bounds are not wider than necessary.
 
 #include <gtest/gtest.h>
 
@@ -45,9 +45,9 @@ std::vector<Place> places_around(std::size_t i, int width, double reach) {
   return places;
 }
 
-// Every certain pixel keeps its id for every ray within the margin, and every pixel its colour
-// within the bound. The depth and colour of certain pixels are within theirs for rays that are
-// `lateral_px` away.
+// Every certain pixel keeps its id for every ray within the margin, and every pixel keeps its
+// colour within the bound. The depth and colour of certain pixels stay within their bounds for rays
+// that are `lateral_px` away.
 void expect_bounded(const scene::ParticleScene& scene, const SphereErrorModel& model,
                     const std::string& what) {
   const SphereTruth truth = render_spheres(scene, model);
@@ -95,7 +95,8 @@ TEST(SphereBounds, CoverEveryRayThatTheModelAllows) {
   }
 }
 
-// From inside, beside the centre: the depth changes because the centre moves along the ray.
+// The eye is inside the sphere, off its centre. The depth changes because the centre moves along
+// the ray.
 TEST(SphereBounds, CoverTheInsideOfASphere) {
   auto scene = scene_of(set_of({{0.3, 0, -0.3, 1}}), 15, 15, 40);
   SphereErrorModel model;
@@ -131,8 +132,8 @@ TEST(SphereBounds, CoverCentresThatAreOff) {
   }
 }
 
-// First order: the largest possible change for a ray that is displaced by a share of a pixel, and
-// not much more.
+// The bound is of first order: the largest possible change for a ray that is displaced by a share
+// of a pixel, and not much more.
 TEST(SphereBounds, AreAsTightAsTheyCanBe) {
   auto scene = scene_of(set_of({{0, 0, -10, 2}}), 101, 101, 30);
   SphereErrorModel model;
@@ -166,7 +167,8 @@ TEST(SphereBounds, OnlyTheSilhouetteIsUncertain) {
 }
 
 TEST(SphereBounds, AParticleSmallerThanTheMarginIsNoticed) {
-  // Beside the central ray, so that neither it nor the rim of the margin meets the sphere.
+  // The sphere is next to the central ray, so that neither the ray nor the rim of the margin meets
+  // it.
   const double pixel = 2 * std::tan(std::numbers::pi / 6) / 9;
   const double off = 0.05 * pixel * 2;
   auto scene = scene_of(set_of({{0, 0, -5, 2}, {off, 0, -2, 0.2 * off}}), 9, 9, 60);
@@ -193,7 +195,7 @@ TEST(SphereBounds, SurfacesAsNearAsTheDepthErrorAreUncertain) {
     return render_spheres(scene, model).certain[middle] != 0;
   };
   EXPECT_TRUE(certain(0.25, 1e-3));
-  EXPECT_FALSE(certain(0.25, 0.02));  // two errors of 0.14
+  EXPECT_FALSE(certain(0.25, 0.02));  // two errors of 0.14 each
   EXPECT_FALSE(certain(0.002, 1e-3));
   EXPECT_TRUE(certain(0.002, 1e-5));
   EXPECT_FALSE(certain(0x1p-20, 1e-6));  // almost the same sphere, but not quite

@@ -63,7 +63,7 @@ TEST(SphereClosedForms, SilhouetteIsTheEllipse) {
     EXPECT_NEAR(0.5 * (seen.right + 1 + seen.left) - 0.5 * size, ellipse->centre, 1.01);
   }
   EXPECT_FALSE(s1_silhouette(1.0, 0, 1));
-  EXPECT_FALSE(s1_silhouette(0.5, 1.1, 1));  // a hyperbola
+  EXPECT_FALSE(s1_silhouette(0.5, 1.1, 1));  // this silhouette is a hyperbola
 }
 
 TEST(SphereClosedForms, EntryIsOnTheSphereAndIsWhatIsShown) {
@@ -91,8 +91,8 @@ TEST(SphereClosedForms, EntryIsOnTheSphereAndIsWhatIsShown) {
   }
 }
 
-// At a distance of 1e5 radii, with a disc of about 200 pixels, the form of S2 has every pixel of
-// the mask right.
+// At a distance of 1e5 radii, where a disc has about 200 pixels, the form of S2 determines every
+// pixel of the mask correctly.
 TEST(SphereClosedForms, FarSpheresKeepTheirMask) {
   const double fov = 2 * std::asin(1e-5) * 180 / pi * 1.3;
   auto scene = scene_of(set_of({{0, 0, 0, 1}}), 256, 256, fov);
@@ -144,7 +144,7 @@ TEST(SphereClosedForms, EqualSpheresMeetInTheBisectingPlane) {
   EXPECT_GT(seen[1], 1000U);
 }
 
-// From far away, spheres are discs at random positions. Within the inner window, the expected share
+// From far away, spheres are discs at random positions. The expected share of the inner window
 // remains free.
 TEST(SphereClosedForms, RandomDiscsLeaveTheExpectedShareFree) {
   core::Random random(11);

@@ -34,7 +34,7 @@ struct Shown {
   std::array<double, 4> rgba{};
 };
 
-// What the ray in this direction shows, found by trying every sphere.
+// The result for a ray in this direction, found by trying every sphere.
 [[nodiscard]] Shown brute_force(const scene::ParticleScene& scene, const glm::dvec3& direction);
 
 // The ray through a position in the image, in pixels from its upper left corner.

@@ -34,7 +34,7 @@ accuracy::AccuracyScene some_scene() {
   return scene;
 }
 
-// For a scene in which no time was measured.
+// The section for a scene in which no time was measured.
 std::string untimed_section(accuracy::AccuracyScene scene = some_scene()) {
   for (accuracy::AccuracyCase& each : scene.cases) each.time_ns.reset();
   accuracy::evaluate(scene);
@@ -59,8 +59,8 @@ TEST(AccuracyChart, ShowsWhatLogarithmicAxesCan) {
   EXPECT_THAT(accuracy_chart(scenes, Cost::energy).text(), HasSubstr("step=2: RMSE 0.004, 0.25 J"));
 }
 
-// Each axis has its own front: the most accurate case that has an error needs the least memory, so
-// it is alone.
+// Each axis has its own front. The most accurate case that has an error also needs the least
+// memory, so it is the only one on that front.
 TEST(AccuracyChart, DrawsTheFrontOfWhatItShows) {
   std::vector<accuracy::AccuracyScene> scenes{some_scene()};
   scenes[0].cases[2].memory = 1U << 20;
@@ -92,7 +92,7 @@ TEST(AccuracySection, TellsOrdersTimesAndParts) {
   EXPECT_THAT(text, HasSubstr("fetched past a cache, MiB"));
 }
 
-// For a plan that counts instructions and reads no clock.
+// The plan counts instructions and measures no time.
 TEST(AccuracySection, TellsInstructionsWhereThereAreNoTimes) {
   const std::string text = untimed_section();
   EXPECT_THAT(text, HasSubstr("1.0 M instructions"));  // to 1/255
@@ -123,7 +123,7 @@ TEST(AccuracySection, ComparesDevicesByTheArea) {
   EXPECT_THAT(text, HasSubstr(">1.00<"));
 }
 
-// Images of another size are scenes of their own, with names of their own.
+// Images of another size are separate scenes with separate names.
 TEST(AccuracySection, TellsPicturesOfOneDataApart) {
   accuracy::AccuracyScene finer = some_scene();
   finer.limit = "ball of 128";

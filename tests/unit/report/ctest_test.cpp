@@ -1,4 +1,4 @@
-// What CTest gets: the list of tests, and the results of a check.
+// Tests the output for CTest: the list of tests, and the results of a check.
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// Stores as CSV.
+// Tests the export of stores as CSV.
 
 #include <gmock/gmock.h>
 
@@ -31,7 +31,7 @@ TEST(Csv, QuotesWhatNeedsItAndLeavesMissingEmpty) {
   EXPECT_EQ(csv_field(std::string("say \"x\"\n")), "\"say \"\"x\"\"\n\"");
 }
 
-// OpenOffice, Excel and Google Sheets run cells that begin so.
+// OpenOffice, Excel and Google Sheets run cells that begin in this way.
 TEST(Csv, NoTextIsAFormula) {
   for (const char* text : {"=1+1", "+1+1", "-1+1", "@SUM(1)", "=cmd|' /C calc'!A0", "＝1", "-"}) {
     const std::string field = csv_field(std::string(text));
@@ -136,10 +136,10 @@ TEST_F(ExportTest, ARowForEachRecordAndAColumnForEachFactor) {
   ASSERT_EQ(cost.size(), 3U);
   EXPECT_EQ(cost.at(1).at("unit"), "cache lines");
   EXPECT_EQ(cost.at(2).at("of"), "prepare");
-  EXPECT_EQ(rows("counters").at(0).at("count"), "0");  // counted, but there were none
+  EXPECT_EQ(rows("counters").at(0).at("count"), "0");  // something was counted, and the result is 0
 }
 
-// There is no zero where nothing was measured.
+// A value that was not measured is empty, and never zero.
 TEST_F(ExportTest, MissingIsEmpty) {
   add("step=1", [](Record& each) {
     each.outcome = record::Outcome::skipped;
@@ -152,7 +152,7 @@ TEST_F(ExportTest, MissingIsEmpty) {
   for (const auto& [column, field] : record) EXPECT_NE(field, "0") << column;
   EXPECT_EQ(record.at("median_wall_ns"), "");
   EXPECT_EQ(record.at("clock"), "");
-  EXPECT_EQ(rows("clocks").at(0).at("ratio"), "");  // for a clock that reports no time
+  EXPECT_EQ(rows("clocks").at(0).at("ratio"), "");  // a clock that reports no time has no ratio
 }
 
 TEST_F(ExportTest, TheDictionaryDescribesEveryColumn) {

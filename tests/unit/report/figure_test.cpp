@@ -25,7 +25,7 @@ TEST(Ticks, AreWholeStepsWithinTheAxis) {
   EXPECT_THAT(ticks(1, 1000, true, 5), ElementsAre(1, 10, 100, 1000));
   EXPECT_THAT(ticks(0.9, 6, true, 5), ElementsAre(1, 2, 5));
   EXPECT_THAT(ticks(1e-9, 1e9, true, 4).size(), testing::Le(5U));
-  // Within a decade as on a linear axis.
+  // A range within a decade has the same ticks as on a linear axis.
   EXPECT_THAT(ticks(100, 102, true, 4).size(), testing::Ge(2U));
 }
 
@@ -110,7 +110,7 @@ TEST(Figure, ABoxLiesWhereItsCornersAre) {
   EXPECT_THAT(figure.svg().text(), HasSubstr("width=\"20.0\" height=\"50.0\""));
 }
 
-// For a single value, or many equal ones, the axis also has a length.
+// An axis for a single value, or for many equal ones, also has a length.
 TEST(Figure, OfOneValueHasAxes) {
   for (const bool logarithmic : {false, true}) {
     Figure figure("f", {.logarithmic = logarithmic}, {.logarithmic = logarithmic}, 100, 50);
@@ -120,7 +120,7 @@ TEST(Figure, OfOneValueHasAxes) {
   }
 }
 
-// Every text is within the view box, by the width that is assumed for it.
+// Every text is within the view box, if it has the assumed width.
 TEST(Figure, LabelsStayInside) {
   Figure figure("f", {.title = "across"}, {.names = {"a device with a long name", "b"}}, 200, 60);
   figure.box({0, -0.3}, {1'000'000, 0.3}, {});
@@ -153,7 +153,7 @@ TEST(Figure, LabelsDoNotCoverEachOther) {
   EXPECT_THAT(figure.svg().text(), Not(HasSubstr("second")));
 }
 
-// Names that differ in the middle, like factors in the order of their names.
+// The names differ in the middle, as those of factors do.
 TEST(Figure, ALegendTellsLongNamesApart) {
   Figure figure("", {}, {}, 100, 100);
   figure.point({1, 1}, {}, "");

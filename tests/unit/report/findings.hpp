@@ -1,5 +1,5 @@
 #pragma once
-// Findings for the tests of texts about them.
+// Findings for the tests of texts.
 
 #include <fmt/format.h>
 

@@ -26,7 +26,7 @@ std::string page_of(const std::vector<double>& times) {
   return history_page(core::Json::array({{{"device", "gl:x"}, {"points", points}}}));
 }
 
-// Two hundredths of a per cent must not look like a step.
+// A change of two hundredths of a per cent must not look like a step.
 TEST(HistoryPage, MakesNoSlopeOfNoise) {
   EXPECT_THAT(page_of({1, 1.0002}), HasSubstr(">1.01<"));
   EXPECT_THAT(page_of({1, 1.5}), Not(HasSubstr(">1.01<")));

@@ -19,7 +19,7 @@ namespace {
 
 using core::Json;
 
-// Tags and attributes that our pages contain. Anything else came from a string.
+// Tags and attributes that Triptych's pages contain. Anything else came from a string.
 const std::set<std::string>& known_tags() {
   static const std::set<std::string> tags{
       "circle", "dd",     "dl",      "dt",      "a",    "article",    "b",      "body",
@@ -71,8 +71,8 @@ bool is_known_attribute(const std::string& name) {
   return names.contains(name) || name.starts_with("data-") || name.starts_with("aria-");
 }
 
-// An element that is not ours; empty if there is none. The script and the style sheet are those in
-// the program, once each.
+// Returns an element that Triptych does not make; empty if there is none. The script and the style
+// sheet must be those in the program, once each.
 std::string stranger_in(std::string page) {
   for (const char* file : {"page.js", "style.css"}) {
     const std::string ours(embedded(file));
@@ -294,7 +294,7 @@ TEST(HostilePage, EveryStringStaysText) {
   }
 }
 
-// Shows that the test can fail: it finds what an unescaped name would insert.
+// Proves that the test can fail: it finds the element that an unescaped name would insert.
 TEST(HostilePage, AStrangerIsSeen) {
   for (const char* page :
        {"<p><blink>x</blink></p>", "<p onload=\"x\">", "<a href=\"javascript:x\">", "<p class=x>",
@@ -319,7 +319,8 @@ TEST(HostilePage, HistoryToo) {
   }
 }
 
-// Even if something is inserted, it does not run: only the page's own script has this hash.
+// Even if an element is inserted, its script does not run, because only the page's own script has
+// the hash that the policy names.
 TEST(HostilePage, ThePolicyNamesTheScriptAlone) {
   const std::string drawn = page_of("x");
   EXPECT_THAT(drawn, testing::HasSubstr("<meta http-equiv=\"Content-Security-Policy\" content=\""

@@ -53,7 +53,7 @@ TEST(LastScreen, OfAPassIsShort) {
   EXPECT_LE(std::ranges::count(text, '\n'), 10);
 }
 
-// A bound to which no image comes close shows nothing, and that must be visible.
+// A bound to which no image comes close is a weak test, and the screen must show that.
 TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   for (const auto& [device, ratio] :
@@ -62,7 +62,7 @@ TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
     result.findings.back().numbers["ratio"] = ratio;
   }
   add(result, Check::image, pass, "", "", {.cause = judge::Cause::reference_as_stored});
-  result.findings.back().numbers["ratio"] = 7;  // about no device
+  result.findings.back().numbers["ratio"] = 7;  // not about a device
   EXPECT_THAT(
       last_screen(std::vector{result}, 3, {}, {.width = 120}),
       HasSubstr("3 within their error bounds; at most 0.61 of the bound, only 0.003 on opencl:y in "
@@ -75,7 +75,7 @@ TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
   EXPECT_EQ(all.bounds[1].share, 0.003);
 }
 
-// A finding that is excused is not an image within its bound.
+// An excused finding must not count as an image within its bound.
 TEST(LastScreen, NamesWhatIsWaived) {
   GateResult result = passing();
   result.findings.back().numbers["ratio"] = 0.5;
@@ -194,7 +194,7 @@ TEST(LastScreen, OneCauseInSeveralPlansIsToldOnce) {
   add(stress, Check::image, regression, "vulkan:lavapipe", "technique=raycast", over_bound(3));
   const std::string text = last_screen(std::vector{failing(), stress}, 3, {});
   EXPECT_THAT(text, HasSubstr("vulkan:lavapipe (7 configurations)"));
-  // The worst configuration is described, and the smallest one reproduced.
+  // The screen describes the worst configuration, and its command reproduces the smallest one.
   EXPECT_THAT(text, HasSubstr("image on vulkan:lavapipe: 11144 of 36864 pixels"));
   EXPECT_THAT(text, HasSubstr("worst in raycast.s6: 11144 of 36864 pixels"));
   EXPECT_THAT(text, Not(HasSubstr("3 of 36864 pixels")));

@@ -73,7 +73,8 @@ TEST(Page, ShowsCostAndTimesBesideWhatIsStored) {
   EXPECT_THAT(page, HasSubstr("<td class=\"number\">-10.00 %</td><td><span class=\"bar less\""));
 }
 
-// The counters of a wrong image are told with the image, and a filter for counters finds both.
+// If a wrong image also has wrong counters, they are reported with the image, and a filter for
+// counters finds both.
 TEST(Page, ListsEveryValueThatDiffersFromTheStoredOne) {
   const std::string page = page_of(true);
   const std::string table = page.substr(page.find("data-kind=\"values\" data-check=\"counters\""));
@@ -84,7 +85,7 @@ TEST(Page, ListsEveryValueThatDiffersFromTheStoredOne) {
   EXPECT_THAT(page_of(false), Not(HasSubstr("data-kind=\"values\"")));
 }
 
-// A single pixel is easily missed, and readers differ in the colors that they can tell apart.
+// A single pixel is easily missed, and readers differ in the colors that they can distinguish.
 TEST(Page, RingsPixelsBeyondTheirBound) {
   EXPECT_THAT(page_of(true), HasSubstr("<circle class=\"over\""));
   EXPECT_THAT(page_of(false), Not(HasSubstr("<circle class=\"over\"")));
@@ -112,7 +113,7 @@ TEST(Page, TellsHowMuchOfWhatWasTakenThePictureNeeded) {
       "<td class=\"number\">0.750</td>";
   EXPECT_THAT(page, HasSubstr(row));
   const std::string devices = before(page.substr(page.find(row) + row.size()), "</tr>");
-  EXPECT_THAT(devices, HasSubstr(", "));  // the same on each device
+  EXPECT_THAT(devices, HasSubstr(", "));  // the page's own script
 }
 
 TEST(Page, NeedsNoNetwork) {
@@ -132,7 +133,7 @@ TEST(Page, KeepsAPictureOnce) {
   EXPECT_THAT(page, HasSubstr("<img data-same=\"0\""));
 }
 
-// The names of factors come from plans, and levels and reasons from anywhere.
+// Names of factors come from plans, and levels and reasons may come from anywhere.
 TEST(Page, KeepsTextText) {
   const std::string page = page_of(true, "<script>\"&\x1b");
   EXPECT_EQ(page.find("<script"), page.rfind("<script"));  // that of the page itself

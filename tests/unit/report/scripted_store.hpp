@@ -1,5 +1,5 @@
 #pragma once
-// A store and a verdict as a gate with two devices leaves them, made without a device.
+// A store and a verdict like those of a gate with two devices, made without a device.
 
 #include <cmath>
 #include <span>

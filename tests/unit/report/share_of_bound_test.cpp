@@ -49,8 +49,8 @@ TEST(ShareOfBound, MarksTheWorstFirstAndNoneOverAnother) {
   }
 }
 
-// Every color of the ramp, with which readers without red or green cones would see the color of
-// pixels beyond the bound, differs from it in blue against yellow or in lightness.
+// The color of pixels beyond the bound differs from every color of the ramp in lightness or in blue
+// against yellow, which readers without red or green cones can distinguish.
 TEST(ShareOfBound, ThePixelsBeyondTheBoundLookLikeNoOther) {
   const auto color = [](float error) {
     return share_of_bound(constant(0.5F + error), constant(0.5F), constant(0.25F)).image;

@@ -45,8 +45,7 @@ TEST(Camera, RaysFollowTheStatedFormula) {
               glm::normalize(dvec3(0, 0.5 * std::tan(std::numbers::pi / 6), -1)), 1e-15);
 }
 
-// Every machine must compute these bits, because everything that is drawn and counted begins with
-// them.
+// Every machine must compute these bits, because all images and counts depend on them.
 TEST(Camera, IsTheSameEverywhere) {
   const Box box{glm::dvec3(-3, 0.5, 1), glm::dvec3(40, 30.25, 77)};
   core::HashBuilder bits("cameras");
@@ -132,7 +131,8 @@ TEST(Camera, StraightPathsEndAtTheCentreLookingAhead) {
     const Camera last = camera_at(spec(path, n - 1, n), slab, 60);
     EXPECT_LT(glm::length(last.eye - centre), 2e-4) << path;
     EXPECT_EQ(first.forward, last.forward);
-    // Half the extent along the axis, plus the distance from which 40 units fill 60 degrees.
+    // The distance is half the extent along the axis, plus the distance from which 40 units fill 60
+    // degrees.
     const int axis = path.back() - 'x';
     const double half = std::array{20.0, 0.5, 6.5}.at(static_cast<std::size_t>(axis));
     expect_near(first.eye, centre - first.forward * (half + 20 * std::sqrt(3)), 1e-12);

@@ -1,4 +1,4 @@
-// Views that a mouse has chosen are cameras like any other, with one spelling each.
+// Views that are chosen with a mouse are cameras like any other, and each has only one spelling.
 
 #include "scene/free_view.hpp"
 
@@ -58,7 +58,7 @@ TEST(FreeView, ASpellingIsReadBackAndSpelledTheSame) {
   EXPECT_EQ(camera_of({725, 100, 1e6}), "view:5/90/1000");
 }
 
-// A drag must not make the scene jump when it begins.
+// The scene must not jump when a drag begins.
 TEST(FreeView, BeginsWhereAPathIs) {
   for (const char* camera : {"orbit_y:1/8", "orbit_y:7/8", "view:12.5/-30/0.4", "path_z:1/3"}) {
     const Camera path = camera_at(camera, Box{}, 60);

@@ -30,7 +30,7 @@ TEST(Half, HasTheValuesOfTheStandard) {
   EXPECT_EQ(value_of(0xc000), -2);
 }
 
-// Between two neighbours: the middle goes to the even one, everything else to the nearer one.
+// A number between two half floats is rounded to the nearer one, and the middle to the even one.
 TEST(Half, IsTheNearestOfAll) {
   for (unsigned bits = 0; bits < 0x7bff; ++bits) {
     const double below = value_of(bits);

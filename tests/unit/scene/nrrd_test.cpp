@@ -36,7 +36,7 @@ void expect_values(const Volume& volume, ScalarType type, const std::vector<T>& 
   EXPECT_EQ(volume.range_hi, static_cast<double>(*std::max_element(values.begin(), values.end())));
 }
 
-// Every spelling of a type, both byte orders, both encodings, attached and detached.
+// Tests every spelling of a type, both byte orders, both encodings, attached and detached.
 template <typename T>
 void expect_reads(ScalarType type, const std::vector<std::string>& spellings) {
   const TemporaryFolder folder;
@@ -98,7 +98,8 @@ TEST(Nrrd, SpaceDirectionsGiveTheLengths) {
   EXPECT_NEAR(turned.spacing[1], 1, 1e-15);
 }
 
-// If nothing states the spacing itself. The library of the format assumes that samples are cells.
+// If the header does not state the spacing, it follows from the ends of the axes. The library of
+// the format assumes that samples are cells.
 TEST(Nrrd, SpacingFollowsFromWhereAxesBeginAndEnd) {
   std::string head = minimal;
   head.replace(head.find("2 1 1"), 5, "2 3 1");
@@ -351,7 +352,7 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-// The size that the header claims is possible for gzip, but far more than the data have.
+// The header claims a size that gzip could have, but that is far larger than the data.
 TEST(Nrrd, AClaimTakesNoMemoryBeforeTheDataAreThere) {
   core::Random random(1);
   std::string bytes(std::size_t{1} << 20, '\0');

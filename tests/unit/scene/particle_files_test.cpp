@@ -39,7 +39,7 @@ TEST(Pdb, TakesElementsFromTheirColumns) {
   EXPECT_THAT(set.ids, ElementsAre(0U, 1U, 2U));
   EXPECT_EQ(set.name, "a.pdb");
   EXPECT_EQ(set.rgba8.size(), 3U);
-  // By atomic number: C, N, Ca.
+  // The intensity is the atomic number: C, N, Ca.
   EXPECT_THAT(load("a.pdb", pdb, ColourKind::intensity).intensity,
               ElementsAre(1.F / 3, 0.F, 2.F / 3));
 }
@@ -54,7 +54,7 @@ TEST(Pdb, TakesElementsFromNamesWhereThereAreNone) {
   EXPECT_EQ(set.spheres[2][3], 1.39F);
 }
 
-// Columns 73 to 80 held the entry and the number of the line once.
+// In old files, columns 73 to 80 contain the id of the entry and the number of the line.
 TEST(Pdb, TakesElementsFromNamesWhereTheirColumnsHoldSomethingElse) {
   const ParticleSet set =
       load("a.pdb",
@@ -77,7 +77,7 @@ TEST(Pdb, FramesAreModels) {
   expect_refused("a.pdb", text.substr(0, text.size() - 7), ":6", "ENDMDL was expected");
 }
 
-// VMD writes no models: each frame ends with END, and may have a heading of its own.
+// VMD writes no models. Each frame ends with END, and may have a heading of its own.
 TEST(Pdb, FramesWithoutModelsEndWithEnd) {
   const auto frame = [](int x) {
     return "CRYST1   52.000   58.600   61.900\nATOM      1  CA  THR A   1       " +
@@ -88,7 +88,7 @@ TEST(Pdb, FramesWithoutModelsEndWithEnd) {
   EXPECT_THAT(load("a.pdb", text, ColourKind::rgba8, "@2").spheres,
               ElementsAre(Sphere{3, 2, 3, 1.7F}));
   expect_refused("a.pdb", text, "", "no frame 3; the file has 3", "@3");
-  // A last frame that is cut off, whichever is asked for.
+  // The last frame is cut off. This is an error, whichever frame is requested.
   const std::string atoms = replaced(frame(1), "CRYST1   52.000   58.600   61.900\n", "");
   expect_refused("a.pdb", atoms + atoms.substr(0, atoms.size() - 4), ":3:", "END was expected");
   const std::string model = "MODEL        1\n" + atoms.substr(0, atoms.size() - 4) + "ENDMDL\n";
@@ -104,7 +104,8 @@ TEST(Pdb, RefusesBrokenFiles) {
   const std::string atom = "ATOM      1  CA  THR A   1       1.000   2.000   3.000\n";
   for (const std::string head :
        {"TITLE     A PROTEIN\n", "CRYST1   52.000   58.600   61.900\n", "HEADER    VESTA_phase_1\n"}) {
-    // Complete files of several programs have no END; only the PDB's own entries must.
+    // Complete files of several programs have no END, so only entries of the PDB itself must have
+    // one.
     EXPECT_EQ(load("a.pdb", head + atom).count(), 1U);
     EXPECT_EQ(load("a.pdb", head + atom + "END\n").count(), 1U);
     EXPECT_EQ(load("a.pdb", head + "MODEL        1\n" + atom + "ENDMDL\n").count(), 1U);
@@ -151,7 +152,7 @@ TEST(Mmcif, RefusesBrokenFiles) {
   expect_refused("a.cif", "data_X\n_a 'text\n", ":2:", "expected a closing '");
 }
 
-// The PDB closes each part with '#', the heading too.
+// The PDB ends each part with '#', also the heading.
 TEST(Mmcif, RefusesALoopThatIsCutOff) {
   const std::string loop =
       "loop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n"
@@ -160,13 +161,13 @@ TEST(Mmcif, RefusesALoopThatIsCutOff) {
   expect_refused("a.cif", closing, ":15:", "the file ends here, where '#' was expected");
   EXPECT_EQ(load("a.cif", closing + "#\n").count(), 2U);
   EXPECT_EQ(load("a.cif", closing + "_entry.more 1\n").count(), 2U);
-  // A few marks only give a note.
+  // If a file has only a few such marks, there is only a note.
   const ParticleSet unsure = load("a.cif", "data_X\n#\n_entry.id X\n#\n" + loop);
   EXPECT_THAT(unsure.facts.notes, ElementsAre(HasSubstr("if the file was cut off")));
-  // Others only put it between parts, or nowhere.
+  // Other programs write '#' only between parts, or not at all.
   EXPECT_EQ(load("a.cif", "# made by hand\n#\ndata_X\n_entry.id X\n#\n" + loop).count(), 2U);
   EXPECT_EQ(load("a.cif", "data_X\n" + loop).count(), 2U);
-  // OpenMM says who wrote it.
+  // OpenMM writes its name into the file.
   for (const std::string marks : {"# Created with OpenMM 8.1\n#\n", "# by hand\n", "#\n#\n"}) {
     EXPECT_EQ(load("a.cif", "data_cell\n" + marks + "_cell.length_a 1\n#\n" + loop).count(), 2U)
         << marks;
@@ -225,7 +226,7 @@ TEST(Xyz, OneElementHasTheRankAsIntensity) {
       ElementsAre(0.F, 0.25F, 0.75F));
 }
 
-// Extended XYZ says in its comment what its columns are.
+// The comment of an extended XYZ file names its columns.
 TEST(Xyz, TakesColumnsFromProperties) {
   const std::string rows = "7 0.5 1 2 3 C\n8 0.5 4 5 6 O\n";
   const auto with = [&](const std::string& comment) { return "2\n" + comment + "\n" + rows; };
@@ -237,7 +238,7 @@ TEST(Xyz, TakesColumnsFromProperties) {
     EXPECT_THAT(load("a.xyz", with(comment)).spheres, expected) << comment;
   }
   EXPECT_EQ(load("a.xyz", "1\nNo Properties, \"Properties=x\"\nC 1 2 3 4\n").count(), 1U);
-  // Of each frame its own.
+  // Each frame has its own names of columns.
   const std::string frames =
       with("Properties=" + list) + "1\nProperties=species:S:1:pos:R:3\nO 1 2 3\n";
   EXPECT_THAT(load("a.xyz", frames, ColourKind::rgba8, "@1").spheres,
@@ -269,7 +270,7 @@ TEST(Xyz, RefusesBrokenFiles) {
   expect_refused("a.xyz", "-1\n\n", ":1:", "expected the number of atoms, found '-1'");
   expect_refused("a.xyz", "0\n\n", ":2:", "expected atoms, found none");
   expect_refused("a.xyz", xyz, "", "no frame 1; the file has 1", "@1");
-  // A count beyond the file's size must not make us ask for that much memory.
+  // A count that exceeds the file's size must not make the reader allocate that much memory.
   expect_refused("a.xyz", replaced(xyz, "3\n", "4294967294\n"), ":5:", "the file ends here");
 }
 
@@ -310,14 +311,15 @@ TEST(ParticleFiles, RefuseWhatTheyCannotRead) {
                core::InputError);
 }
 
-// Nothing to see is a picture too, and a right one.
+// A file without usable particles is refused, because its empty image would be correct on every
+// device.
 TEST(ParticleFiles, WithoutAnyUsableParticleAreRefused) {
   expect_refused("a.xyz", "2\n\nC nan 0 0\nC 0 inf 0\n", ": ",
                  "none of its 2 particles can be drawn");
   EXPECT_EQ(load("a.xyz", "2\n\nC nan 0 0\nC 0 0 0\n").dropped, 1U);
 }
 
-// Tapes and block devices fill their last block.
+// Tapes and block devices pad their last block with zero bytes.
 TEST(ParticleFiles, ZeroBytesBehindGzipAreSkipped) {
   const std::string padded = gzipped(xyz) + std::string(100'000, '\0');
   EXPECT_EQ(load("a.xyz.gz", padded).hash, load("a.xyz.gz", gzipped(xyz)).hash);
@@ -334,7 +336,7 @@ TEST(ParticleFiles, UnpackNoMoreThanIsAllowed) {
                   HasSubstr("a.pdb.gz: unpacks to more than 3145727 bytes; if that is intended")));
 }
 
-// A message is a line that a terminal can show, whatever the file holds.
+// A message is one line that a terminal can show, whatever the file contains.
 TEST(ParticleFiles, QuoteShortlyAndPrintably) {
   const std::string quoted = "found '" + std::string(40, '7') + "…'";
   expect_refused("a.xyz", std::string(100, '7') + "\n", ":1:", quoted);

@@ -22,7 +22,7 @@ using testing::HasSubstr;
 using testing::Le;
 using testing::ThrowsMessage;
 
-// Centres, whose radii a bounding box would include.
+// A box around the centres only, because a bounding box would include the radii.
 Box box_of_centres(const ParticleSet& set) {
   Box box{glm::dvec3(1e30), glm::dvec3(-1e30)};
   for (const auto& sphere : set.spheres) {
@@ -36,7 +36,7 @@ Box box_of_centres(const ParticleSet& set) {
 }
 
 TEST(ParticleGenerators, GiveTheSameBitsEverywhere) {
-  // Pinned: a change here changes every baseline.
+  // These hashes are fixed, because a change here changes every baseline.
   const std::map<std::string, std::string> hashes{
       {"uniform", "61b18ae12f76b005ebf1940b716909a1"},
       {"droplets", "73c7764209bc54a9b7fdd96e99f61ecc"},
@@ -96,7 +96,7 @@ TEST(ParticleGenerators, UniformFillsATenthOfItsBoxEvenly) {
     ++octants.at((x < 5 ? 0U : 1U) + (y < 5 ? 0U : 2U) + (z < 5 ? 0U : 4U));
   }
   EXPECT_NEAR(volume, 100, 1e-3);
-  // Five standard deviations of a binomial distribution.
+  // The tolerance is five standard deviations of a binomial distribution.
   for (const int count : octants) EXPECT_NEAR(count, 10'000, 5 * std::sqrt(80'000 * 7 / 64.0));
   const Box box = box_of_centres(set);
   for (int axis = 0; axis < 3; ++axis) {
@@ -114,8 +114,8 @@ TEST(ParticleGenerators, DropletsAreDenseInAMostlyEmptyBox) {
     cells.insert({static_cast<int>(sphere[0] * 2), static_cast<int>(sphere[1] * 2),
                   static_cast<int>(sphere[2] * 2)});
   }
-  // 16000 cells; the droplets take about 160 units of volume, the 2000 vapour particles a cell
-  // each.
+  // There are 16000 cells. The droplets take about 160 units of volume, and each of the 2000 vapour
+  // particles takes a cell.
   EXPECT_LT(cells.size(), 16'000 / 4);
   EXPECT_LE(box_of_centres(set).hi.x, 20);
 }
@@ -142,7 +142,7 @@ TEST(ParticleGenerators, PlumeThinsOutWithHeightAboveALatticeWithACrater) {
     smallest = std::min(smallest, r);
     largest = std::max(largest, r);
     if (y >= 2 && y < 20) ++heights.at(static_cast<std::size_t>((y - 2) / 6));
-    // The lattice comes first, in layers of falling height; nothing of it lies in the crater.
+    // The lattice comes first, in layers of decreasing height. No part of it lies in the crater.
     if (in_slab == i && y < 0 && (i == 0 || y <= set.spheres[i - 1][1])) {
       ++in_slab;
       EXPECT_GE(x * x + y * y + z * z, 15.99F);
@@ -210,7 +210,7 @@ TEST(ParticleHash, SeesEveryArray) {
   EXPECT_FALSE(changed([](ParticleSet& other) { other.name = "another"; }));
 }
 
-// The same wall in the same box, so that equal cameras see equal pictures of it.
+// Both data sets have the same wall in the same box, so that equal cameras draw equal images of it.
 TEST(ParticleGenerators, WhatIsHiddenStandsBehindAnEqualWall) {
   const ParticleSet wall = generate_particles("wall", 2000, ColourKind::rgba8);
   const ParticleSet hidden = generate_particles("hidden", 20000, ColourKind::rgba8);

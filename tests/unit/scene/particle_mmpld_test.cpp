@@ -36,7 +36,7 @@ std::uint16_t word(int value) {
   return static_cast<std::uint16_t>(value);
 }
 
-// One list: types, what its header holds, and its particles.
+// Makes one list: its types, the contents of its header, and its particles.
 std::string list(int version, int vertex, int colour, const std::string& header,
                  std::uint64_t count, const std::string& data) {
   std::string bytes = pack(byte(vertex), byte(colour)) + header + pack(count);

@@ -1,5 +1,6 @@
-// Real particle files, where there are some: the folder named by TRIPTYCH_DATA, described in docs.
-// Counts, elements and extents come from the data's own description, made with other readers.
+// Reads real particle files from the folder that TRIPTYCH_DATA names, which docs/data.md describes.
+// The expected counts, elements and extents come from the data's own description, which was made
+// with other readers.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +27,7 @@ struct ParticleFacts {
 };
 
 const std::map<std::string, ParticleFacts>& known_particle_facts() {
-  // Mn and Ca share the radius of what is not listed, P and S the radius 1.8.
+  // Mn and Ca have the radius of elements that are not listed; P and S have the radius 1.8.
   static const std::map<std::string, ParticleFacts> facts{
       {"crambin_1crn_327.pdb",
        {327,
@@ -94,7 +95,7 @@ void expect_facts(const std::string& name, const ParticleFacts& facts,
   } else {
     EXPECT_EQ(by_radius.size(), 1U) << "types share one radius";
   }
-  // The description gives three decimals.
+  // The description has three decimals.
   for (std::size_t axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(lo.at(axis), facts.lo.at(axis), 1e-3);
     EXPECT_NEAR(hi.at(axis), facts.hi.at(axis), 1e-3);

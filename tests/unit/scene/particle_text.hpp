@@ -1,5 +1,5 @@
 #pragma once
-// Particle files that a case writes as text.
+// Particle files that a test writes as text.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,8 @@ namespace triptych::scene {
 
 using Sphere = std::array<float, 4>;
 
-// Of a file of this name in a folder where names are looked for; `suffix` goes behind its name.
+// Loads a file with this name and text from a temporary folder. `suffix` follows the name, such as
+// "@2" for a frame.
 inline ParticleSet load(const std::string& name, const std::string& text,
                         ColourKind colour = ColourKind::rgba8, const std::string& suffix = "") {
   const test::TemporaryFolder folder;
@@ -23,7 +24,8 @@ inline ParticleSet load(const std::string& name, const std::string& text,
   return load_particles(name + suffix, colour, {folder.path()});
 }
 
-// With `place` right behind the file's name, and saying what was expected.
+// Expects an error with `place` right after the file's name, and with the text of what was
+// expected.
 inline void expect_refused(const std::string& name, const std::string& text,
                            const std::string& place, const std::string& expectation,
                            const std::string& suffix = "") {

@@ -1,6 +1,6 @@
-// Kinds of mistakes that readers make: lines that are left out, elements that are wrong, numbers
-// cut out of their columns, grammars read by half. Each case comes from a public report of another
-// program's users; the data are ours.
+// Mistakes that readers of other programs made: lines that are left out, wrong elements, numbers
+// cut out of their columns, grammars that are only partly read. Each case comes from a public
+// report by users of such a program; the data were made for these tests.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ TEST(PdbColumns, NumbersThatRunTogetherAreRefused) {
   std::string wide = pdb_atom(" C  ", "LIG", here);
   wide.replace(29, 9, "12345.678");
   expect_refused("a.pdb", wide, ":1:", "x in columns 31 to 38: '2345.678' is not separated");
-  // Touching is fine where each fills its columns as the format has it.
+  // Numbers may touch if each fills the columns that the format gives it.
   EXPECT_EQ(load("a.pdb", pdb_atom(" C  ", "LIG", "-123.456-123.456-123.456")).spheres[0][2],
             -123.456F);
   EXPECT_EQ(load("a.pdb", pdb_atom(" C  ", "LIG", "     1.0     2.0     3.0")).spheres[0][2], 3);
@@ -63,7 +63,7 @@ TEST(PdbRecords, NothingThatBeginsLikeAnAtomIsLeftOut) {
        {"atom  ", "Atom  ", " ATOM ", "hetatm", "Hetatm", "ATOM\t ", "ATOM* "}) {
     expect_refused("a.pdb", begin + rest + atom, ":1:", "");
   }
-  // A serial number of six digits.
+  // The serial number has six digits.
   EXPECT_EQ(load("a.pdb", "ATOM 1" + std::string("00000") + atom.substr(11) + atom).count(), 2U);
   EXPECT_EQ(load("a.pdb", "HETATM100000" + atom.substr(12) + atom).count(), 2U);
   EXPECT_EQ(load("a.pdb", "REMARK ATOM\nATOMS IN ALL\nSIGATM\n" + atom).count(), 1U);
@@ -86,7 +86,7 @@ TEST(PdbElements, ComeFromTheColumnsWhereNamesAreAdjustedToTheRight) {
   EXPECT_THAT(set.facts.notes, IsEmpty());
 }
 
-// The last columns may hold the end of a word.
+// The last columns may contain the end of a word.
 TEST(PdbElements, AreNoPartOfAWord) {
   const ParticleSet set = load(
       "a.pdb", pdb_atom(" C1 ", "POPC", here, "  1.00  0.00      MEMBRANE").replace(21, 1, "") +
@@ -208,11 +208,11 @@ TEST(Pqr, HasItsOwnRadii) {
   expect_refused("a.pqr", "ATOM1 N ALA 1 1 2 3 0 1\n", ":1:", "expected a blank after ATOM");
 }
 
-// The files of a folder that is not part of the project, each with the file that shows what is
-// right.
+// The files of a folder that is not part of the project. Each row names the file with the expected
+// content.
 struct Row {
   const char* file;
-  const char* twin;  // equal to it, or nullptr where it is just read
+  const char* twin;  // the file whose content is equal; nullptr if the file only has to be readable
 };
 
 TEST(ReaderCases, EveryRowOfTheTableIsRight) {

@@ -37,7 +37,8 @@ TEST(TransferFunction, PresetsAreStraightColoursInRange) {
   }
 }
 
-// What empty-space skipping rests on: not small, zero.
+// Skipping of empty space relies on this: low values are not only nearly transparent, their opacity
+// is exactly zero.
 TEST(TransferFunction, LowValuesAreExactlyTransparent) {
   const TransferFunction haze = load_transfer_function("haze");
   for (std::size_t k = 0; k < 32; ++k) EXPECT_EQ(haze.entries.at(k)[3], 0) << k;
@@ -108,7 +109,7 @@ TEST(TransferFunction, BrokenFilesAreNamedWithTheirLine) {
   expect("", ": the file ends after 0 entries; expected 256");
 }
 
-// As long as a table of bytes.
+// The text is as long as a table of bytes.
 TEST(TransferFunction, TextCutOffIsNotTakenForBytes) {
   const TemporaryFolder folder;
   for (const std::string start : {"", "# made by hand: µ\n"}) {
@@ -118,7 +119,7 @@ TEST(TransferFunction, TextCutOffIsNotTakenForBytes) {
                 ThrowsMessage<core::InputError>(HasSubstr(file.string() + ":")))
         << start;
   }
-  // Bytes that could be text, but for one.
+  // All bytes but one could be text.
   std::string bytes = repeated("0 0\n", 256);
   bytes[600] = '\1';
   EXPECT_EQ(load_transfer_function(folder.write("c.rgba", bytes).string()).entries[0][0],

@@ -35,7 +35,7 @@ VoxelGrid natural(Volume volume) {
   return encode(std::move(volume), format);
 }
 
-// A long tail: most values near 0, the largest a thousand times the median.
+// Values with a long tail: most are near 0, and the largest is a thousand times the median.
 std::vector<float> long_tail(int count) {
   core::Random random(7);
   std::vector<float> values;
@@ -87,7 +87,7 @@ TEST(Window, IsLinearBetweenItsEndsAndFlatBeyond) {
   EXPECT_GT(between, 50);
 }
 
-// By the definition alone, whatever sorts them.
+// Compares with the definition, independent of the way in which values are sorted.
 TEST(Window, PercentilesAreTheSmallestValuesThatEnoughVoxelsDoNotExceed) {
   for (const int count : {1, 2, 99, 100, 101, 777}) {
     std::vector<float> values = long_tail(count);
@@ -155,7 +155,7 @@ TEST(Mapping, OfALogarithmHasAPlaceForEveryValue) {
   }
 }
 
-// As with all that is generated: baselines hold such hashes.
+// The bits must be the same on every machine, because baselines contain hashes of such data.
 TEST(Mapping, OfALogarithmHasTheSameBitsEverywhere) {
   std::vector<std::uint16_t> values(65536);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint16_t>(i);
@@ -174,7 +174,7 @@ TEST(LosslessFormat, IsThatOfTheIntegersUnlessAMappingChangesThem) {
   EXPECT_EQ(lossless_format(mapped(volume, "full", Mapping::logarithmic)), VoxelFormat::f32);
 }
 
-// A window helps formats with few steps: all steps of the format lie within it.
+// A window helps formats with few steps, because all steps of the format lie within the window.
 TEST(LosslessFormat, IntegersThatAreClampedAreRoundedToStepsOfTheWindow) {
   std::vector<std::uint16_t> values;
   for (int v = 0; v < 2000; ++v) values.push_back(static_cast<std::uint16_t>(v));

@@ -13,7 +13,7 @@
 namespace triptych::scene {
 namespace {
 
-// Of the process, by what RLIMIT_DATA counts.
+// Limits the memory of the process that RLIMIT_DATA counts.
 class DataLimit {
  public:
   explicit DataLimit(rlim_t bytes) {
@@ -78,7 +78,7 @@ TEST(VoxelMemory, WithoutRoomSaysWhereAndWhatToDo) {
             "/no/such/folder: no file of 512 MiB for voxels (No such file or directory); make room "
             "there, or name another folder by TMPDIR");
   const test::TemporaryFolder folder;
-  // More than any file system holds.
+  // The size is larger than any file system.
   const std::string full = message(folder.path().c_str(), std::size_t{1} << 60U);
   EXPECT_NE(full.find("; make room there"), std::string::npos) << full;
 }

@@ -1,5 +1,4 @@
-// The memory that arranging needs, which is counted by replacing the allocation functions of this
-// program.
+// Measures the memory that arranging needs, by replacing the allocation functions of this program.
 
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -51,7 +50,8 @@ std::size_t bytes_of(const scene::ParticleSet& set) {
 
 class ArrangementMemory : public testing::TestWithParam<scene::ColourKind> {};
 
-// The order is the only array besides those of the set; a hundredth of the set is for cells.
+// The order is the only array besides those of the set. A hundredth of the set's size is allowed
+// for cells.
 TEST_P(ArrangementMemory, ArrangingTakesFourBytesPerParticle) {
   scene::ParticleScene scene;
   const std::size_t before = held_bytes;

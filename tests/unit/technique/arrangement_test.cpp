@@ -33,7 +33,7 @@ std::vector<std::uint32_t> ids_of(const Arrangement& arranged) {
   return ids;
 }
 
-// A property in the pieces in which a device gets it.
+// A property, joined from the pieces in which a device gets it.
 std::vector<std::byte> gathered(const Arrangement& arranged, Property property,
                                 std::size_t piece_bytes) {
   std::vector<std::byte> all(arranged.bytes(property));
@@ -150,8 +150,8 @@ TEST(Arrangement, CellsComeFrontToBackAndIdsAscend) {
   }
 }
 
-// They fill more than one run, and of two at one position, the one with the lower id must be drawn
-// first.
+// The particles fill more than one run. If two are at one position, the one with the lower id must
+// be drawn first.
 TEST(Arrangement, CrowdsThatCannotBeDividedStayInOrder) {
   scene::ParticleSet set = scene::generate_particles("uniform", 2600, scene::ColourKind::rgba8);
   for (auto& sphere : set.spheres) {
@@ -195,7 +195,7 @@ TEST(Arrangement, DoesNotDependOnTheOrderOfTheSet) {
   }
 }
 
-// A sphere that would make the box of its cell too large to be culled gets a cell of its own.
+// A sphere that would make the box of its cell too large for culling gets a separate cell.
 TEST(Arrangement, ALargeSphereGrowsNoCell) {
   scene::ParticleSet set = scene::generate_particles("uniform", 20000, scene::ColourKind::rgba8);
   set.spheres[777][3] = 20;

@@ -1,4 +1,5 @@
-// Which bricks may be merged, compared with a test of every value and every way through a brick.
+// Compares the bricks that may be merged with a search over every value and every path through a
+// brick.
 
 #include "technique/volume/brick_kinds.hpp"
 
@@ -69,7 +70,8 @@ Sample sample_at(const scene::TransferFunction& function, double value) {
   return {{mixed[0], mixed[1], mixed[2]}, -std::log1p(-mixed[3])};
 }
 
-// Colour and opacity of pieces of equal length, front to back, over black or white.
+// Composites pieces of equal length with a colour and an opacity, front to back, over black or
+// white.
 std::array<double, 4> composite(const std::vector<Sample>& samples, double length, double behind) {
   std::array<double, 4> sum{};
   double left = 1;
@@ -96,7 +98,8 @@ TEST(BrickKinds, MergedBricksKeepTheirBudget) {
     const BrickRanges brick = one_brick(static_cast<float>(lo), static_cast<float>(hi));
     if (brick_kinds(brick, scene, adapt)[0] != merged) continue;
     ++merged_bricks;
-    // The volume is full of such bricks: a ray takes one value of each, and the lattice takes many.
+    // The volume is full of such bricks. A ray takes one value from each, whereas the lattice takes
+    // many.
     const int bricks = 9;
     const int steps = 8;
     std::vector<Sample> lattice;
@@ -121,7 +124,7 @@ TEST(BrickKinds, MergedBricksKeepTheirBudget) {
   EXPECT_LT(merged_bricks, 3500);
 }
 
-// The criterion itself, with the extremes found by trying many values.
+// Evaluates the criterion itself. The extremes are found by trying many values.
 TEST(BrickKinds, AreThoseOfTheCriterion) {
   core::Random random(12);
   scene::VolumeScene scene = generated_volume("uniform_box", "haze");
@@ -156,8 +159,7 @@ TEST(BrickKinds, AreThoseOfTheCriterion) {
     const double cost =
         largest.extinction - least.extinction + (colours - spent) * largest.extinction;
     const double budget = (adapt / 2 - spent) * least.extinction + adapt / 2 / longest;
-    // Cases that the rounding of the range, or its widening for rounding, would decide are left
-    // out.
+    // Skips cases that depend on the rounding of the range, or on its widening for rounding.
     if (std::abs(cost - budget) < 1e-3 * (cost + budget)) continue;
     ++decided;
     const BrickRanges brick = one_brick(static_cast<float>(lo), static_cast<float>(hi));
@@ -188,7 +190,7 @@ TEST(BrickKinds, AnOpaqueBrickIsNot) {
   EXPECT_EQ(brick_kinds(one_brick(0.2F, 0.4F), scene, 0.5)[0], sampled);
 }
 
-// Shading brightens by as much as the range of values permits the gradient to be steep.
+// Shading can brighten a brick as much as its range of values allows the gradient to be steep.
 TEST(BrickKinds, ShadingCountsAsColour) {
   scene::VolumeScene scene = generated_volume("uniform_box", "haze");
   scene.transfer_function.entries.fill({0.5F, 0.5F, 0.5F, 0.25F});

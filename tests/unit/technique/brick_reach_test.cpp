@@ -1,4 +1,4 @@
-// How far a ray may leap, compared with a search through every brick.
+// Compares how far a ray may leap with a search through every brick.
 
 #include "technique/volume/brick_reach.hpp"
 
@@ -16,7 +16,7 @@
 namespace triptych::technique {
 namespace {
 
-// The distance to the nearest brick of the other kind, found by testing all of them.
+// The distance to the nearest brick of the other kind, found by testing all bricks.
 int distance_to_other_kind(const std::array<int, 3>& counts,
                            const std::vector<std::uint32_t>& visible,
                            const std::array<int, 3>& at) {

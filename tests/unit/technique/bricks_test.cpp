@@ -12,8 +12,8 @@
 namespace triptych::technique {
 namespace {
 
-// A function that is opaque only in one range of its table, or transparent only there. So the empty
-// bricks may be at a corner or inside.
+// A transfer function that is opaque in only one range of its table, or transparent in only one
+// range. Empty bricks may therefore be at a corner or inside.
 scene::TransferFunction stretch(core::Random& random) {
   scene::TransferFunction function;
   const std::size_t begin = random.bits() % 256;

@@ -35,8 +35,8 @@ std::vector<std::size_t> counts_of(const scene::ParticleScene& scene, const Divi
   return counts;
 }
 
-// 316 × 316 spheres in a wall and 900,144 behind it. Without division, the cells of the grid would
-// contain 71,507 of those together with spheres of the wall.
+// 316 × 316 spheres are in a wall, and 900,144 are behind it. Without division, cells of the grid
+// would contain 71,507 of the latter together with spheres of the wall.
 TEST(Division, AWallIsPartedFromWhatIsBehindIt) {
   constexpr std::size_t wall = 316 * 316;
   const scene::ParticleScene scene = scene_without_camera(generated_set("hidden", 1'000'000));
@@ -51,8 +51,8 @@ TEST(Division, AWallIsPartedFromWhatIsBehindIt) {
   EXPECT_LT(with_wall, wall * 11 / 10);
 }
 
-// With evenly distributed particles, dividing a cell pays from 1.5 times their number on; 512 ± 23
-// stay together.
+// If particles are evenly distributed, dividing a cell is worthwhile from 1.5 times their number
+// on, so cells of 512 ± 23 stay whole.
 TEST(Division, EvenlySpreadParticlesStayInTheCellsOfTheGrid) {
   const scene::ParticleScene scene =
       scene_without_camera(generated_set("uniform", 13 * 13 * 13 * 512));

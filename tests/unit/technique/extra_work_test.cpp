@@ -16,7 +16,7 @@ namespace {
 
 using Pixels = std::vector<std::pair<int, int>>;
 
-// What a launch draws again, in the order of its grid.
+// The pixels that a launch draws again, in the order of its grid.
 Pixels drawn_again(int width, int height, int stride) {
   Pixels pixels;
   const int again = again_from(width);
@@ -54,7 +54,7 @@ TEST(ExtraWork, NoPixelIsDrawnTwiceAndTheShareIsAsAsked) {
   }
 }
 
-// Rows are assigned to processors in advance, half of them to each of two.
+// A driver may assign rows to two processors in advance, half of them to each.
 TEST(ExtraWork, EveryHalfHasItsShare) {
   for (const int size : {192, 320, 512}) {
     for (const int stride : {5, 10, 20, 33}) {
@@ -68,7 +68,7 @@ TEST(ExtraWork, EveryHalfHasItsShare) {
   }
 }
 
-// Rays are long in the middle of an image, so no quarter may have all of the extra work.
+// Rays are longest in the middle of an image, so the extra work must not lie in one quarter only.
 TEST(ExtraWork, IsSpreadOverThePicture) {
   for (const int stride : {5, 10, 20, 33}) {
     const Pixels pixels = drawn_again(512, 512, stride);

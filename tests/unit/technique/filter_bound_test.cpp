@@ -14,7 +14,8 @@ TEST(FilterBound, IsOfTheWeightsAndOfTheFormat) {
   EXPECT_DOUBLE_EQ(allowed_filter_error(8, f32), 3.0 / 256 + 3 * 0x1p-24);
 }
 
-// Between a black and a white voxel, its error is half of their difference.
+// Nearest-voxel sampling must exceed the bound: between a black and a white voxel, its error is
+// half of their difference.
 TEST(FilterBound, TheNearestVoxelIsNoFilter) {
   for (const scene::VoxelFormat format : {u8, u16, f32, f16}) {
     EXPECT_LT(allowed_filter_error(least_weight_bits, format), 0.5);

@@ -1,4 +1,4 @@
-// The hierarchy's shape, the curve that orders it, and the boxes around spheres.
+// Tests the hierarchy's shape, the curve that orders it, and the boxes around spheres.
 
 #include "technique/particles/hierarchy.hpp"
 
@@ -64,8 +64,8 @@ TEST(Hierarchy, GroupsCoverAllInvocations) {
   }
 }
 
-// Cells that follow each other on the curve are neighbours: one step along one axis. An 8×8×8 corner of the grid is the
-// curve's first 512 places, so that it is visited once each.
+// Consecutive cells on the curve are neighbours: they differ by one step along one axis. The first
+// 512 cells of the curve are an 8×8×8 corner of the grid, and each is visited once.
 TEST(BoxMath, HilbertsCurveGoesFromNeighbourToNeighbour) {
   std::vector<std::array<int, 3>> at(512, {-1, -1, -1});
   for (int x = 0; x < 8; ++x) {

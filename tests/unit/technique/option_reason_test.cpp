@@ -50,7 +50,8 @@ TEST(OptionReason, RaysAreMadeAtVerticesWhereThereAreSome) {
 TEST(OptionReason, APolygonHasFourCornersAtLeast) {
   EXPECT_THAT(reason("polygon_tess", {.corners = 3}), HasSubstr("3 corners"));
   EXPECT_EQ(reason("polygon_tess", {.corners = 4}), "");
-  EXPECT_EQ(reason("polygon_adaptive", {.corners = 3}), "");  // it does not use the number
+  // This technique does not use the number.
+  EXPECT_EQ(reason("polygon_adaptive", {.corners = 3}), "");
 }
 
 TEST(OptionReason, AFaultNeedsWhatItBreaks) {

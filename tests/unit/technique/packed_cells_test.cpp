@@ -26,7 +26,7 @@ std::vector<std::byte> packed(const scene::VoxelGrid& grid) {
   return bytes;
 }
 
-// Whether the k-th voxel of a texel equals that of the grid.
+// Whether the k-th voxel of a texel equals the voxel of the grid.
 bool holds(const std::vector<std::byte>& bytes, std::size_t texel, std::size_t k,
            const scene::VoxelGrid& grid, std::array<int, 3> voxel) {
   std::size_t index = 0;

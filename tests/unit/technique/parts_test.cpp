@@ -50,7 +50,7 @@ TEST(Parts, TakeEveryCellOnceAndHoldWhatItsSamplesReach) {
           for (int cell = part.begin; cell < part.end; ++cell)
             ++taken[static_cast<std::size_t>(cell)];
         }
-        // The slices next to the first part also belong to it.
+        // The slices next to the first part belong to it, too.
         const Part& first = parts.front();
         for (const int beside : {first.begin, first.end - 1}) {
           int& times = taken[static_cast<std::size_t>(beside)];
@@ -62,7 +62,8 @@ TEST(Parts, TakeEveryCellOnceAndHoldWhatItsSamplesReach) {
   }
 }
 
-// Every ray meets the parts in this order: they begin where the eye is, and continue up or down.
+// Every ray meets the parts in this order: the first part contains the eye, and the others continue
+// upwards or downwards.
 TEST(Parts, BeginAtTheEyeAndGoOutwards) {
   for (const double eye : {-30.0, 0.0, 37.0, 50.0, 99.0, 200.0}) {
     const std::vector<Part> parts = cut(scene_of(eye), 20);
@@ -83,7 +84,7 @@ TEST(Parts, BeginAtTheEyeAndGoOutwards) {
   }
 }
 
-// A preintegrated step reads both of its ends.
+// A part contains whole steps, because a preintegrated step reads both of its ends.
 TEST(Parts, HoldAWholeStep) {
   scene::VolumeScene scene = scene_of(50);
   scene.quadrature = scene::Quadrature::preintegrated;
@@ -132,7 +133,7 @@ TEST(Parts, AreReadWhereABrickNearThemIsVisible) {
       const bool has_slice_70 = pass.part.begin <= 71 && pass.part.end > 70;
       EXPECT_TRUE(pass.read || !has_slice_70);
     }
-    // A walk reads behind the exit, in whatever part that is.
+    // A walk reads the last sample behind the exit, which may be in another part.
     if (skip == Skip::distance) {
       EXPECT_LE(read, 3);
     } else {
@@ -174,7 +175,7 @@ TEST(Slices, LieAroundTheCells) {
   };
   EXPECT_EQ(slices(0, 3), std::pair(0, 3));   // cells 0 … 2: slices 0 … 2
   EXPECT_EQ(slices(3, 5), std::pair(2, 3));   // between slices 2, 3 and 4
-  EXPECT_EQ(slices(8, 10), std::pair(7, 2));  // the last one's own
+  EXPECT_EQ(slices(8, 10), std::pair(7, 2));  // the slices of the last part
 }
 
 }  // namespace

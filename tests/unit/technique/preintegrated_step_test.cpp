@@ -1,5 +1,5 @@
-// A step of quadrature preintegrated as preintegrated.glsl computes it, in floats on the host,
-// compared with the reference and its bound.
+// Computes a step of quadrature preintegrated in floats on the host, as preintegrated.glsl does,
+// and compares it with the reference and its bound.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,8 @@ namespace {
 using Texel = std::array<float, 4>;
 using Colour = std::array<float, 3>;
 
-// The largest depth of a piece; infinite: all whole cells at once, as in an earlier version.
+// The largest depth of a piece. Infinity means that all whole cells are taken at once, as in an
+// earlier version.
 constexpr float any_depth = 1e30F;
 
 class Step {
@@ -179,8 +180,8 @@ TEST(PreintegratedStep, IsExactHoweverOpaqueItIs) {
   }
 }
 
-// Whole cells are taken at once, however deep they are: three coefficients cannot represent their
-// light, and the bound shows that.
+// If whole cells are taken at once, however deep they are, three coefficients cannot represent
+// their light, and the bound reveals that.
 TEST(PreintegratedStep, ByOneChunkIsWrongAndBeyondTheBound) {
   const scene::TransferFunction function = scene::load_transfer_function("surfaces");
   for (const auto& [length, error] : {std::pair{2.0, 5e-3}, {64.0, 0.25}}) {
@@ -216,11 +217,11 @@ TEST(PreintegratedStep, IsTakenInChunksWhereItMayBeDeep) {
   EXPECT_EQ(preintegration_form(scene), 2);
 }
 
-// The position in a cell as a function of the share of its depth: the error of three coefficients,
-// for linear extinction and for linear opacity.
+// The position in a cell as a function of the share of its depth. Returns the error of three
+// coefficients, for linear extinction and for linear opacity.
 double left_behind(double tau_a, double tau_b, const auto& tau) {
   constexpr int parts = 4000;
-  const auto place = [](int i) {  // closer together at the ends
+  const auto place = [](int i) {  // positions are denser at the ends
     const double x = static_cast<double>(i) / parts;
     return x * x * x * (x * (6 * x - 15) + 10);
   };

@@ -1,5 +1,4 @@
-// Compares the table of paths and the maths around it with integration by brute force in long
-// double.
+// Compares the table of paths and the maths around it with brute-force integration in long double.
 
 #include "technique/volume/preintegration.hpp"
 
@@ -46,7 +45,7 @@ Light integrate(const scene::TransferFunction& function, Wide from, Wide to, Wid
   return light;
 }
 
-// As the kernels compute it.
+// The light of the same path, as the kernels compute it from the table.
 Light by_table(const std::vector<std::array<float, 4>>& pairs, std::size_t from, std::size_t to,
                float length) {
   const auto* pair = &pairs[texels_per_pair * (256 * from + to)];
@@ -71,8 +70,8 @@ double largest_difference(const Light& a, const Light& b) {
   return static_cast<double>(largest);
 }
 
-// A smooth function: what is cut off is at most (range of colour)·D⁴/635, and far less where colour
-// is smooth. The rest is the rounding of a dozen operations.
+// The function is smooth: the truncation error is at most (range of colour)·D⁴/635, and far less
+// where colour is smooth. The rest is the rounding of a dozen operations.
 TEST(PreintegratedPairs, AreTheIntegralsOfPathsBetweenEntries) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {
@@ -157,7 +156,7 @@ TEST(PreintegrationMath, MeanOfTheLogarithmErrsAsItsRestSays) {
     const double r = std::abs(0.5 * (static_cast<double>(b) - static_cast<double>(a))) /
                      (1 - 0.5 * (static_cast<double>(a) + static_cast<double>(b)));
     const double rest = std::min(std::pow(r, 14) / (210 * (1 - r * r)), 0.038);
-    // The opacity in the middle is rounded once.
+    // The opacity in the middle of a cell is rounded once.
     const double middle = 0x1.0p-24 / (1 - 0.5 * (static_cast<double>(a) + static_cast<double>(b)));
     const double found = -0.6931471805599453 * portable::tri_mean_log2_1m(a, b);
     ASSERT_NEAR(found, static_cast<double>(exact),
@@ -172,7 +171,7 @@ TEST(PreintegrationMath, AttenuationIsOfTheLangevinFunction) {
     const float opacity = portable::tri_1m_exp2(-2.885390082F * z);
     const Wide wide = z;
     const Wide q = wide * wide;
-    Wide w = q / 61;  // its continued fraction, with far more terms than needed
+    Wide w = q / 61;  // the continued fraction, with far more terms than needed
     for (int level = 59; level >= 5; level -= 2) w = q / (level + w);
     const Wide langevin = wide / (3 + w);
     const float found = portable::tri_attenuation(z, opacity);

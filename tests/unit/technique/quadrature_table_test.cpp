@@ -9,7 +9,7 @@
 namespace triptych::technique {
 namespace {
 
-// Flat at 0, a ramp from entry 100 to 120, flat again.
+// The function is 0 up to entry 100, a ramp up to entry 120, and constant after it.
 scene::TransferFunction ramp() {
   scene::TransferFunction function;
   for (std::size_t k = 101; k < 256; ++k) {

@@ -1,5 +1,5 @@
-// What a raycaster is given, and why a scene cannot be raycast, which is reported before anything
-// is drawn.
+// Tests the inputs of a raycaster, and the reasons why a scene cannot be raycast, which are
+// reported before anything is drawn.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// A cube with edges of 1, except for `flat`, the thickness of a voxel.
+// A cube with an edge length of 1, except for `flat`, the thickness of a voxel.
 scene::VolumeScene scene_of(double flat) {
   scene::Volume volume = scene::generate_volume("uniform_box", {8, 8, 8});
   volume.spacing = {0.125, 0.125, flat};
@@ -29,7 +29,7 @@ TEST(RaycastReason, SamplesAreCountedInIntegersOfADevice) {
   EXPECT_FALSE(raycast_reason("raycast", scene, {}));
 }
 
-// They go from plane to plane, and there are few planes.
+// Rays go from plane to plane of the grid, and there are few planes.
 TEST(RaycastReason, OfCellsHasNoSamplesToCount) {
   scene::VolumeScene scene = scene_of(1e-10);
   scene.quadrature = scene::Quadrature::cells;

@@ -16,7 +16,8 @@ TEST(Sources, WholeHasWhatItIncludesInTheirPlace) {
     const std::size_t name = at + begin.size();
     const std::size_t end = expected.find('"', name);
     const std::string text(source(expected.substr(name, end - name)));
-    expected.replace(at, end + 2 - at, text);  // with the quotation mark and the end of the line
+    // The text includes the quotation mark and the end of the line.
+    expected.replace(at, end + 2 - at, text);
   }
   EXPECT_GE(included, 5);
   EXPECT_EQ(whole_source("raycast.glsl"), expected);

@@ -1,4 +1,4 @@
-// Compares the portable sphere maths as C++ with double precision.
+// Compares the portable sphere maths, compiled as C++, with double precision.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ float along_axis(const glm::vec3& p, const dvec3& eye, const dvec3& axis) {
                         a.y, a.z, rest(axis.x), rest(axis.y), rest(axis.z));
 }
 
-// Its purpose: right to the last bit even if all three products cancel.
+// The function exists for this case: it is right to the last bit even if all three products cancel.
 TEST(SphereMath, CameraCoordinatesAreRightToTheLastBit) {
   core::Random random(1);
   for (int i = 0; i < 20000; ++i) {
@@ -38,7 +38,7 @@ TEST(SphereMath, CameraCoordinatesAreRightToTheLastBit) {
     };
     const dvec3 axis = glm::normalize(any(1));
     const dvec3 eye = any(1e5);
-    // Almost perpendicular to the axis, at a distance of up to 1e5.
+    // The offset is almost perpendicular to the axis, at a distance of up to 1e5.
     dvec3 offset = any(1e5);
     offset -= glm::dot(offset, axis) * axis;
     const glm::vec3 p(eye + offset);
@@ -58,7 +58,8 @@ TEST(SphereMath, RaysAreClassifiedUpToA100000Radii) {
   int wrong = 0;
   for (int i = 0; i < 20000; ++i) {
     const double distance = std::exp(random.uniform(std::log(1.1), std::log(1e5)));
-    // A sphere of radius 1 near the axis, and a ray at 1e-5 of the radius from its silhouette.
+    // A sphere of radius 1 near the axis, and a ray that passes its silhouette at 1e-5 of the
+    // radius.
     const dvec3 c{random.uniform(-1, 1), random.uniform(-1, 1), distance};
     const double angle = random.uniform(0, 2 * std::numbers::pi);
     const double off = 1 + (random.uniform() < 0.5 ? -1e-5 : 1e-5);
@@ -84,7 +85,7 @@ TEST(SphereMath, TheIntervalEnclosesTheSilhouetteTightly) {
     const glm::vec2 interval =
         tri_sphere_interval(static_cast<float>(s.centre.x), static_cast<float>(s.centre.z),
                             static_cast<float>(s.radius));
-    // Every direction in this plane that meets the sphere in front of the eye is within the
+    // Every direction in this plane whose ray meets the sphere in front of the eye is within the
     // interval.
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
@@ -100,7 +101,7 @@ TEST(SphereMath, TheIntervalEnclosesTheSilhouetteTightly) {
       high = std::max(high, std::tan(phi));
     }
     if (low > high) {
-      // Nothing, or less than the sampling can see.
+      // The interval is empty, or smaller than the sampling can see.
       EXPECT_TRUE(interval.x > interval.y || interval.y - interval.x < 2e-3 ||
                   std::abs(interval.x) > 1000 || std::abs(interval.y) > 1000);
       continue;

@@ -41,7 +41,8 @@ TEST(TileRounds, HoldEveryCellOnceAndKeepTheirLimits) {
   }
 }
 
-// An invocation takes 32 of 2,048 spheres around the eye, each of which is in every tile.
+// Each of the 2,048 spheres around the eye is in every tile, and an invocation processes 32 of
+// them.
 TEST(TileRounds, SpheresAroundTheEyeMakeAsManyPassesAsTheyHaveTiles) {
   scene::ParticleScene scene = uniform(2048, 1000);
   scene.camera.eye = {0.5, 0.5, 0.5};
@@ -62,7 +63,7 @@ TEST(TileRounds, SmallSpheresNeedNoEntries) {
   EXPECT_TRUE(rounds.small);
 }
 
-// If there cannot be any small spheres, nothing is cleared for them.
+// If all spheres are large, nothing is cleared for small ones.
 TEST(TileRounds, LargeSpheresAlonePromiseThatNoneIsSmall) {
   const scene::ParticleScene large = uniform(8, 2);
   EXPECT_FALSE(tile_rounds(large, arrange(large), 65535, 1U << 20U).small);
@@ -71,8 +72,8 @@ TEST(TileRounds, LargeSpheresAlonePromiseThatNoneIsSmall) {
   EXPECT_TRUE(tile_rounds(edge, arrange(edge), 65535, 1U << 20U).small);
 }
 
-// Their entries are read once for each pixel. If there are more, they are resolved once for all
-// pixels of a column.
+// If there are few large spheres, their entries are read once for each pixel. If there are more,
+// they are resolved once for all pixels of a column.
 TEST(TileRounds, FewLargeSpheresAreDrawnAtOnce) {
   for (const auto& [count, at_once] : {std::pair{8U, true}, {200U, false}, {60000U, false}}) {
     const scene::ParticleScene scene = uniform(count, 2);
@@ -83,7 +84,7 @@ TEST(TileRounds, FewLargeSpheresAreDrawnAtOnce) {
   }
 }
 
-// The loop of a tile over its entries has fewer passes than Mesa's drivers permit.
+// The loop of a tile over its entries has fewer iterations than Mesa's drivers permit.
 TEST(TileRounds, ARoundHasNotMoreLargeSpheresThanALoopMayTake) {
   scene::ParticleScene scene = uniform(200000, 1000);
   scene.width = scene.height = 16;

@@ -44,8 +44,8 @@ class VolumeMath : public testing::Test {
  protected:
   using Number = typename Precision::Real;
 
-  // From the smallest opacity that differs from 0 to the largest below 1; dense at both ends, and
-  // around √½, where an exponent is split off.
+  // The opacities reach from the smallest one that differs from 0 to the largest one below 1. They
+  // are dense at both ends, and around √½, where an exponent is split off.
   static std::vector<Number> opacities() {
     core::Random random(5);
     const Number step = static_cast<Number>(2 * Precision::roundoff);

@@ -46,7 +46,7 @@ TEST_F(ViewChoices, WhatIsRefusedChangesNothing) {
   EXPECT_EQ(choices.configuration(), before);
 }
 
-// Nothing that is offered may be refused, unless its file is not here.
+// Every value that the window offers must be valid, unless its file is missing.
 TEST_F(ViewChoices, EveryOfferIsAccepted) {
   for (const measure::Suite* suite : {static_cast<const measure::Suite*>(volume.get()),
                                       static_cast<const measure::Suite*>(particles.get())}) {

@@ -28,7 +28,8 @@ TEST(Keys, ChangeWithTheTransferFunctionsFile) {
   test::expect_keys_to_follow_the_table(*suite, configuration, folder);
 }
 
-// So that reference images in stores remain useful.
+// The key must not contain tables that cannot change, so that reference images in stores remain
+// useful.
 TEST(Keys, SayNothingOfTablesThatCannotChange) {
   const auto suite = make_suite({});
   for (const char* function : {"haze", "surfaces", "own"}) {
@@ -38,7 +39,7 @@ TEST(Keys, SayNothingOfTablesThatCannotChange) {
   }
 }
 
-// Entries that were stored before windows existed must still be found.
+// Entries that were stored before windows existed must be found under the same keys.
 TEST(Keys, NameAWindowAndAMappingOnlyWhereThereIsOne) {
   const auto suite = make_suite({});
   measure::Configuration configuration = configuration_of(*suite, "haze");

@@ -30,7 +30,7 @@ double largest_difference(const core::Image& a, const core::Image& b) {
   return largest;
 }
 
-// The part that the table cannot represent is below 4e-5 for the ramp, by the model of
+// The error that the table cannot represent is below 4e-5 for the ramp, according to the model in
 // analytic_scenes.hpp.
 TEST(Limit, OfARampIsItsClosedForm) {
   const auto suite = make_suite({});

@@ -1,4 +1,4 @@
-// Configurations that are the same work in a scene with a volume.
+// Finds configurations that do the same work in a scene with a volume.
 
 #include "suites/volume/plain_work.hpp"
 
@@ -35,7 +35,7 @@ TEST(PlainVolumeWork, LeapsOverNothingAreNone) {
   EXPECT_EQ(full.levels, plain("uniform_box", technique::Skip::none).levels);
 }
 
-// A ray counts the brick in which it sees that.
+// A ray must visit a brick to find that it is not empty, and counts that visit.
 TEST(PlainVolumeWork, OfCellsLeapsOverNothingAreWork) {
   measure::VolumeWork work = work_of("uniform_box", technique::Skip::distance);
   work.scene.quadrature = scene::Quadrature::cells;

@@ -1,5 +1,5 @@
-// The stress cases of volumes: each is a scene, the plan contains all of them, and their reference
-// images can show what they are meant to test.
+// The stress cases of volumes: each is a valid scene, the plan contains all of them, and their
+// reference images show what the cases test.
 
 #include <gtest/gtest.h>
 
@@ -114,7 +114,7 @@ TEST(Stress, UnknownNamesAreRefusedWithWhatThereIs) {
   }
 }
 
-// Up and down, left and right: every flip is far outside of the bound.
+// Flips up and down, left and right: the error of every flip is far beyond the bound.
 TEST(Stress, TheAsymmetricSceneTellsEveryFlip) {
   const accuracy::TruthPair truth = truth_of("stress:asymmetric");
   EXPECT_GT(largest_ratio(truth, true, false), 100);
@@ -150,7 +150,7 @@ TEST(Stress, FaintSamplesAddUpToTheirClosedForm) {
   EXPECT_NEAR(samples, 3.9 / scene.step_voxels, 0.05 / scene.step_voxels);
 }
 
-// Their bounds alone would permit that a third of the samples is missing.
+// The bounds of these images alone would not reveal that a third of the samples is missing.
 TEST(Stress, ScenesOfManySamplesExpectEverySample) {
   for (const std::string data : {"stress:faint", "stress:march:1e5", "stress:march:1e6"}) {
     const StressScene scene = stress_scene(*stress_data(data));
@@ -163,10 +163,10 @@ TEST(Stress, ScenesOfManySamplesExpectEverySample) {
   }
 }
 
-// An empty image would be right on every device.
+// A case with an empty image would be right on every device.
 TEST(Stress, EveryCaseShowsSomething) {
   for (const std::string& data : all_data()) {
-    // A second each; the images of the plan show it.
+    // each of these takes a second; the images of the plan show them
     if (data.starts_with("stress:march")) continue;
     const StressScene scene = stress_scene(*stress_data(data));
     const bool is_empty = std::ranges::any_of(scene.expectations, [&](const auto& each) {
@@ -190,8 +190,8 @@ TEST(Stress, EveryCaseShowsSomething) {
   }
 }
 
-// An image through a long lens is as accurate as one from nearby; with the position of the eye
-// itself, nothing would be known.
+// The image of a far eye through a long lens is as accurate as the image from nearby. If the bound
+// used the position of the eye itself, it would allow any image.
 TEST(Stress, AFarEyeCostsNoPrecision) {
   const auto error_at = [](const char* data) {
     const StressScene stress = stress_scene(*stress_data(data));
@@ -208,8 +208,8 @@ TEST(Stress, AFarEyeCostsNoPrecision) {
   EXPECT_LT(error_at("stress:far:1e7"), 1e-3);
 }
 
-// The rounding of a direction moves samples by voxels of the smallest spacing, whatever the others
-// are.
+// The rounding of a direction moves samples by multiples of the smallest spacing, whatever the
+// other spacings are.
 TEST(Stress, AnisotropicVoxelsAreCountedInTheSmallest) {
   scene::VolumeScene scene;
   scene::VoxelGrid grid;

@@ -1,4 +1,4 @@
-// The bound by which devices are judged, tested with known arithmetic.
+// Tests the bound by which devices are judged with known arithmetic.
 
 #include "suites/volume/tolerance.hpp"
 
@@ -33,7 +33,7 @@ TEST(Tolerance, PaysForTheWayToTheFarthestEntry) {
   };
   expect({1, 5, 1}, std::hypot(63, 5, 63), std::hypot(63, 1, 63));
   expect({1, 3, 1}, std::hypot(63, 3, 63), 0);
-  // Outside of an edge the eye sees two faces, and the farthest corner is on the larger one.
+  // From outside an edge, the eye sees two faces, and the farthest corner is on the larger one.
   expect({-10, 5, 1}, std::hypot(74, 5, 63), std::hypot(74, 1, 63));
 }
 
@@ -59,7 +59,7 @@ TEST(Tolerance, HoldsForSinglePrecision) {
   for (const glm::dvec3& eye : {glm::dvec3{1, 5, 1}, {-40, 4.1, -30}, {32, 300, 32}}) {
     judge(plate(eye));
   }
-  EXPECT_GT(largest, 0.02);  // otherwise any large number would do
+  EXPECT_GT(largest, 0.02);  // otherwise the bound could be any large number
 }
 
 // An image of rounded voxels compared with the reference image of the original ones. Without the

@@ -1,6 +1,6 @@
 #pragma once
-// Files with the texts that are expected. TRIPTYCH_WRITE_GOLDEN=1 writes them anew: review the
-// difference like any other change.
+// Files with the expected texts. TRIPTYCH_WRITE_GOLDEN=1 writes them again: review the difference
+// like any other change.
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-// Nothing decides by a text that is meant for people: the same runs, judged once with plain texts
-// and once with random words in every place where a driver, a library or a person may put one, get
-// the same verdicts, groups, retries, reductions and exit codes.
+// No decision depends on a text that is written for people. The same runs are judged once with
+// plain texts, and once with random words in every place where a driver, a library or a person may
+// put a text. Verdicts, groups, retries, reductions and exit codes must be the same.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@
 namespace triptych::judge {
 namespace {
 
-// Words that once meant something to this program, and letters that did not.
+// Random texts: words that once had a meaning for this program, and letters without a meaning.
 class Words {
  public:
   explicit Words(std::uint64_t seed) : random_(seed) {}
@@ -46,7 +46,7 @@ class Words {
 
 class RandomWords : public GateTest {
  protected:
-  // Without noise, which would order findings by their times.
+  // Removes noise, which would sort findings by their times.
   static void steady(record::Record& record, core::Image&) { record.wall_ns.assign(5, 1e6); }
 
   // Failures of every kind, by configuration and device.
@@ -80,7 +80,7 @@ class RandomWords : public GateTest {
     });
   }
 
-  // All that the judge and its report decide, without a word.
+  // All decisions of the judge and its report, without any text.
   static std::string decided(const GateResult& result) {
     std::string text = fmt::format("exit {}\n", static_cast<int>(result.exit_code()));
     for (const Finding& each : result.findings) {
@@ -100,8 +100,8 @@ class RandomWords : public GateTest {
     return text;
   }
 
-  // A run of failures as gate and validate judge it: drawn again without them, and expected the
-  // next time. Then as reduce, compare and diff judge it.
+  // Judges a run with failures as gate and validate do, when they are drawn again and when they are
+  // expected the next time. Then reduces and compares it, as reduce, compare and diff do.
   std::string everything(const std::string& name, Words* words) {
     add_failing_run(name, words);
     add_run(name + "-again", steady);
@@ -124,7 +124,7 @@ class RandomWords : public GateTest {
     return text;
   }
 
-  // How frames fail, for making them small.
+  // The failures of frames, from which `reduce` starts.
   std::string failures(const std::string& run) {
     const reduction::Evidence evidence{
         .truth = request_.truth,
@@ -140,7 +140,7 @@ class RandomWords : public GateTest {
     return text + "\n";
   }
 
-  // Everything that another program reads of a comparison, except for the members that are texts.
+  // All members of a comparison that another program reads, except for texts.
   static core::Json without_texts(core::Json json) {
     if (json.is_object()) {
       for (const char* text : {"text", "headline", "detail", "last_words"}) json.erase(text);
@@ -192,7 +192,7 @@ TEST_F(RandomWords, DecideNothing) {
   }
 }
 
-// A reference image that cannot be computed leads to the same findings for any exception text.
+// If a reference image cannot be computed, the findings are the same for any text of the exception.
 TEST_F(RandomWords, OfAnExceptionDecideNothing) {
   accept_first();
   add_run("b");

@@ -1,4 +1,5 @@
-// The last screens that a user meets: a pass, each kind of failure, and what could not be judged.
+// The last screens that users see: a pass, each kind of failure, and a run that could not be
+// judged.
 
 #include "findings.hpp"
 #include "golden.hpp"
@@ -14,7 +15,8 @@ using enum judge::Verdict;
 
 const std::string lavapipe = "vulkan:lavapipe";
 
-// Six configurations of each of two devices and techniques; `what` of raycast on lavapipe.
+// Two devices with two techniques and six configurations each. Raycast on lavapipe has the finding
+// `what`.
 judge::GateResult result_with(Check check, judge::Verdict verdict, const judge::Observation& what,
                               const judge::Advised& advice = {}) {
   judge::GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
