@@ -6,8 +6,8 @@
 
 namespace triptych::core {
 
-// The code that counts if there are two: usage before regression before could not judge before
-// pass.
+// Returns the more severe of two exit codes. The order of severity is usage, regression,
+// cannot_judge, skip, pass.
 [[nodiscard]] inline ExitCode worse_of(ExitCode a, ExitCode b) {
   constexpr std::array by_weight{ExitCode::pass, ExitCode::skip, ExitCode::cannot_judge,
                                  ExitCode::regression, ExitCode::usage};

@@ -17,7 +17,8 @@ namespace triptych::core {
 // The limit for files that people write, such as plans, tables and descriptions. Larger files are
 // refused before they are read.
 inline constexpr std::size_t most_text_bytes = std::size_t{1} << 20;
-// The limit for files that `accept` writes and people merge, with one value per line.
+// The limit for JSON files that `accept` writes with one value per line, and that people merge by
+// hand.
 inline constexpr std::size_t most_json_bytes = std::size_t{64} << 20;
 
 // Like read_file, but throws InputError for a file of more than `most` bytes.

@@ -24,11 +24,12 @@ namespace triptych::core {
 //               hashed like the widest type.
 //   text        its length as a number, then its bytes
 //   an array    as text, the content hash of its elements' bytes in memory
-// The kind decides which and how many parts there are. A list of variable length is preceded by its
-// length.
+// The kind determines which parts there are and how many. A list of variable length is preceded by
+// its length.
 class HashBuilder {
  public:
-  // The first part is the name of the kind of thing that is identified.
+  // The first part of the hash is the name of the kind of object, such as a table or a set of
+  // particles.
   explicit HashBuilder(std::string_view kind) { add(kind); }
 
   template <std::integral T>

@@ -24,7 +24,7 @@ namespace {
 constexpr std::array<const char*, 4> colour_channels{"R", "G", "B", "A"};
 constexpr const char* depth_channel = "Z";
 constexpr const char* id_channel = "id";
-constexpr int largest_side = 1 << 16;  // of an image
+constexpr int largest_side = 1 << 16;  // pixels along either axis
 
 class MemoryOut : public Imf::OStream {
  public:
@@ -154,9 +154,10 @@ Image allocate(const Imf::Header& header, std::size_t file_bytes) {
 }
 
 // OpenEXR allocates the memory that an attribute claims before it checks whether the file is that
-// long. After magic number and version an attribute consists of a name and a type, each terminated
-// by a zero, its size in 32 bits, and its value; an empty name ends the list. For channels (a name
-// and 16 bytes each, up to an empty name) it reads the list without regard to the stated size.
+// long. After the magic number and the version, a header is a list of attributes. Each attribute
+// has a name and a type, which end with a zero byte, its size in 32 bits, and its value; an empty
+// name ends the list. OpenEXR reads the attribute with the list of channels (a name and 16 bytes
+// for each, up to an empty name) without regard to the stated size.
 void require_attributes_inside(std::span<const std::byte> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::size_t place = 8;

@@ -32,9 +32,9 @@ std::string bare_message(std::string_view what) {
   return std::string(start == std::string_view::npos ? what : what.substr(start));
 }
 
-// The place where the value at a path begins, found by searching its keys one after the other. This
-// is exact for files that `accept` writes. For a hand-made file it may be an earlier line with the
-// same keys; the path is in the message, too.
+// Finds where the value at a path begins by searching for its keys one after the other. This is
+// exact for files that `accept` writes. In a file that was written by hand, the result may be an
+// earlier line with the same keys; the message also contains the path.
 std::size_t offset_of(std::string_view text, const std::vector<std::string>& path) {
   std::size_t offset = 0;
   for (const std::string& step : path) {
@@ -52,7 +52,8 @@ std::size_t offset_of_key(std::string_view text, const std::string& key, std::si
   return std::min(offset, text.size());
 }
 
-// "… number overflow parsing '1e999'": the library reports the number, but not its place.
+// The quoted part of a message such as "… number overflow parsing '1e999'", because the library
+// reports the number but not its place.
 std::string quoted_in(std::string_view what) {
   const auto begin = std::min(what.find('\''), what.size());
   const auto end = std::min(what.rfind('\''), what.size());

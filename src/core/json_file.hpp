@@ -29,7 +29,7 @@ class JsonNode {
   [[nodiscard]] bool has(const std::string& key) const { return value_->contains(key); }
   [[nodiscard]] std::string text() const;
   [[nodiscard]] double positive_number() const;
-  [[nodiscard]] double number_from_zero() const;  // 0 or more
+  [[nodiscard]] double number_from_zero() const;  // not negative
   [[nodiscard]] std::uint64_t whole_number() const;
   [[nodiscard]] const Json& value() const noexcept { return *value_; }
   [[noreturn]] void fail(std::string_view message) const;
@@ -43,8 +43,8 @@ class JsonNode {
 
 class JsonFile {
  public:
-  // nullopt if the file does not exist. InputError with line and column if it is not JSON, or if an
-  // object has a key twice, which happens in careless merges.
+  // Returns nullopt if the file does not exist. Throws InputError with line and column if it is not
+  // JSON, or if an object has the same key twice, which can happen in a careless merge.
   [[nodiscard]] static std::optional<JsonFile> read(const std::filesystem::path& file);
   // Uses `text` as the content of the file, which need not exist yet.
   JsonFile(std::filesystem::path file, std::string text);

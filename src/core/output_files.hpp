@@ -19,11 +19,11 @@ struct NamedFile {
   std::string file;  // empty: none was named
 };
 
-// Throws InputError if a file to be written is also one to be read, or is written twice. A target
-// that is not a regular file, such as /dev/null, may be written several times.
+// Throws InputError if an output file is also an input file, or is written twice. A target that is
+// not a regular file, such as /dev/null, may be written several times.
 void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<NamedFile>& written);
 
-// Like write_file, but makes the folder if it is missing. Throws IoError.
+// Like write_file, but creates the folder if it is missing. Throws IoError.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace triptych::core

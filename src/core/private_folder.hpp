@@ -14,12 +14,13 @@ namespace triptych::core {
 // files can be opened relative to it, whatever happens to its name.
 class PrivateFolder {
  public:
-  // Makes root and root/names[0]/names[1]/… where they are missing, with mode 0700. Throws IoError
-  // that names the folder and the reason
-  // - where one below `root` is a symbolic link or no folder, belongs to another user, or can be
-  //   written by other users, who may have put something there. One that others can only read is
-  //   closed to them.
-  // - where other users can rename what is in `root`: it can be written by them and is not sticky.
+  // Creates root and root/names[0]/names[1]/… where they are missing, with mode 0700. Throws
+  // IoError that names the folder and the reason in two cases:
+  // - A folder below `root` is a symbolic link or not a folder, belongs to another user, or can be
+  //   written by other users, who may have put something there. If others can only read it, the
+  //   constructor removes their permission instead.
+  // - Other users can rename the content of `root`, because they can write to it and it has no
+  //   sticky bit.
   PrivateFolder(const std::filesystem::path& root, std::span<const std::string> names);
   PrivateFolder(PrivateFolder&& other) noexcept
       : path_(std::move(other.path_)), fd_(std::exchange(other.fd_, -1)) {}
@@ -36,8 +37,8 @@ class PrivateFolder {
   int fd_ = -1;
 };
 
-// "triptych-UID" in the folder for temporary files, with the folder `name` in it: for files that
-// have to outlive the process.
+// The folder "triptych-UID/NAME" in the system's folder for temporary files, where NAME is `name`.
+// It is for files that must outlive the process.
 [[nodiscard]] PrivateFolder private_temporary_folder(const std::string& name);
 // The first part of that path: a name that is unique to this user.
 [[nodiscard]] std::string name_of_this_user();

@@ -32,8 +32,8 @@ std::string within_quotes(std::string_view word) {
   return text + "'";
 }
 
-// A format of printf(1) within double quotes. There, '!' is history expansion in an interactive
-// bash.
+// A printf(1) format inside double quotes, where an interactive bash would expand '!' from its
+// history.
 std::string within_printf(std::string_view word) {
   std::string text = "\"$(printf '";
   for (std::string_view rest = word; !rest.empty();) {

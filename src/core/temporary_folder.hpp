@@ -3,7 +3,8 @@
 
 namespace triptych::core {
 
-// A new folder among the system's temporary ones. It is removed with its content.
+// A new folder in the system's folder for temporary files. The destructor removes it with its
+// content.
 class TemporaryFolder {
  public:
   TemporaryFolder();  // throws IoError if it cannot be made

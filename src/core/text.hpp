@@ -14,23 +14,22 @@ inline constexpr std::string_view replacement_character = "\uFFFD";
 // text; 0 if there is none.
 [[nodiscard]] std::size_t utf8_length(std::string_view text);
 
-// The code point of a well-formed UTF-8 character.
 [[nodiscard]] char32_t code_point(std::string_view character);
 
-// Whether a well-formed UTF-8 character controls how the text around it is shown instead of showing
-// something itself: C0 and C1 control characters, DEL, line and paragraph separators, characters
-// that change the direction of text (U+202E and its kin), invisible ones, and noncharacters. Such a
-// character in a name can make a reader see a different name or obey a terminal sequence, so every
-// output shows it as an escape. The joiners U+200C and U+200D are
-// part of words in some scripts and are not hidden.
+// Whether a well-formed UTF-8 character changes how the text around it is displayed instead of
+// displaying something itself: C0 and C1 control characters, DEL, line and paragraph separators,
+// characters that change the direction of text (such as U+202E), invisible characters, and
+// noncharacters. In a name, such a character can make a reader see a different name or send a
+// control sequence to the terminal, so every output shows it as an escape. The joiners U+200C and
+// U+200D are part of words in some scripts and are not hidden.
 [[nodiscard]] bool is_hidden(std::string_view character);
 
 // Whether the text is UTF-8 without hidden characters. Such a text can be written in a line, in JSON
 // and in XML, and is read back unchanged.
 [[nodiscard]] bool is_line(std::string_view text);
 
-// The text with every word that contains a digit replaced by #. The result is the same for messages
-// of one kind.
+// The text with every word that contains a digit replaced by #, so that messages that differ only
+// in their numbers become equal.
 [[nodiscard]] std::string without_numbers(std::string_view text);
 
 }  // namespace triptych::core

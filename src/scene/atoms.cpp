@@ -17,15 +17,15 @@
 namespace triptych::scene {
 namespace {
 
-// The radius and colour of one kind.
+// The radius and colour of one element or type.
 struct Look {
   double radius = 0;
   Rgb rgb{};
   double intensity = 0;
 };
 
-// The ranks of the kinds. They do not depend on the order in the file: elements are sorted by
-// atomic number, types by number, and all others after these by name.
+// The rank of each kind, which does not depend on the order in the file: elements are sorted by
+// atomic number, types by number, and all others follow, sorted by name.
 std::vector<std::size_t> ranks_of(const Atoms& atoms) {
   const auto key = [&atoms](std::size_t kind) {
     const std::string& name = atoms.kind_names[kind];
@@ -40,7 +40,7 @@ std::vector<std::size_t> ranks_of(const Atoms& atoms) {
   return ranks;
 }
 
-// Half the median distance to the nearest neighbour; ½ if there is only one position.
+// Half the median distance to the nearest neighbour; ½ if all atoms are at the same position.
 double radius_without_elements(const Atoms& atoms) {
   constexpr double lonely_radius = 0.5;
   const auto distance = median_nearest_distance(atoms.places);

@@ -13,8 +13,9 @@
 
 namespace triptych::scene {
 
-// The common data of the text formats: positions, and elements or types, which decide radius and
-// colour. `places` and `kinds` have one entry per particle, in the order of the file.
+// The data that all text formats have in common: positions, and an element or a type for each atom,
+// which determines its radius and colour. `places` and `kinds` have one entry per particle, in the
+// order of the file.
 struct Atoms {
   std::vector<std::array<double, 3>> places;  // in the file's unit
   std::vector<std::uint32_t> kinds;           // indices into kind_names
@@ -25,7 +26,7 @@ struct Atoms {
   double angstrom = 1;              // the length of an ångström in the file's unit
   std::vector<std::string> notes;   // guesses that were made (ReadFacts::notes)
 
-  // The index of a kind, which is new or known.
+  // Returns the index of the kind with this name, and adds the kind if it is new.
   [[nodiscard]] std::uint32_t kind(std::string_view name);
   void add(const std::array<double, 3>& place, std::uint32_t kind_index) {
     places.push_back(place);

@@ -33,7 +33,7 @@ struct Stage {
   dvec3 size;
   double largest = 0;
   double tangent = 0;   // the tangent of half the field of view
-  double distance = 0;  // the distance at which the largest extent just fills the view
+  double distance = 0;  // distance at which the largest extent exactly fills the view
 
   Stage(const Box& box, double fov_y_deg)
       : centre(0.5 * (box.lo + box.hi)),
@@ -157,8 +157,8 @@ double coverage(const Stage& stage, const Pose& pose) {
 }
 
 Pose random_view(const Stage& stage, std::uint64_t seed) {
-  // From a distance beyond L/2 + D most of the box is in view, so a few attempts are enough for any
-  // box.
+  // This ends soon for any box, because a camera farther away than L/2 + D has most of the box in
+  // view.
   core::Random random(seed);
   Pose pose = random_pose(stage, random);
   while (coverage(stage, pose) < random_view_coverage) pose = random_pose(stage, random);
@@ -169,7 +169,7 @@ Pose random_view(const Stage& stage, std::uint64_t seed) {
   throw core::InputError(fmt::format("camera '{}': expected {}", spec, expected));
 }
 
-// λ, from the text "i/n".
+// Parses λ from the text "i/n".
 double parse_lambda(std::string_view spec, std::string_view text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string_view::npos) reject(spec, "PATH:i/n");
@@ -223,7 +223,7 @@ Pose pose_of(std::string_view spec, const Stage& stage) {
   return on_path(stage, path, parse_lambda(spec, rest));
 }
 
-// Sets near and far from the depths of the box's corners, widened by a hundredth; near is at least
+// Sets near and far from the depths of the box's corners, widened by one per cent. near is at least
 // a thousandth of the diagonal.
 void set_depth_range(Camera& camera, const Box& box) {
   double nearest = std::numeric_limits<double>::infinity();

@@ -25,8 +25,8 @@ struct Camera {
 // tan(fov/2) with the same bits on every machine; std::tan may differ between C libraries.
 [[nodiscard]] double tangent_of_half(double fov_y_deg);
 
-// A camera at `eye` that looks at `target`, with y pointing up as far as possible. It must not look
-// along y.
+// A camera at `eye` that looks at `target`, with its up vector as close to +y as possible. The view
+// direction must not be parallel to y.
 [[nodiscard]] Camera looking(const glm::dvec3& eye, const glm::dvec3& target, double fov_y_deg);
 
 struct Box {
@@ -50,9 +50,9 @@ struct Box {
 //                    half of the box), drawn again until at least `random_view_coverage` of the centres
 //                    of the box's 8×8×8 cells lie inside a frustum of aspect 1.
 // clang-format on
-// near and far enclose the box, as far as it lies before the eye. Equal arguments give equal bits
-// on every machine. Throws InputError for any other spec, a field of view outside (0, 180)° or a
-// box without extent.
+// near and far enclose the part of the box that lies in front of the eye. Equal arguments give
+// equal bits on every machine. Throws InputError for any other spec, a field of view outside (0,
+// 180)° or a box without extent.
 [[nodiscard]] Camera camera_at(std::string_view spec, const Box& box, double fov_y_deg);
 inline constexpr double random_view_coverage = 0.3;
 [[nodiscard]] std::array<std::string_view, 16> camera_paths();

@@ -25,7 +25,7 @@ enum class Packing : std::uint8_t { none, gzip, bzip2 };
 // The bytes of a file from `start` on, without unpacking. Throws IoError.
 [[nodiscard]] ByteSource file_bytes(const std::filesystem::path& file, std::uint64_t start = 0);
 
-// The compression of a file; `none` if its format decides that.
+// The compression of the whole file, judged by its first bytes; `none` if it is not compressed.
 [[nodiscard]] Packing packing_of_file(const std::filesystem::path& file);
 
 // The content of a file, unpacked if it is compressed.
@@ -34,7 +34,8 @@ enum class Packing : std::uint8_t { none, gzip, bzip2 };
 // Up to `most` bytes of a file's content, unpacked, from its beginning.
 [[nodiscard]] std::string content_start(const std::filesystem::path& file, std::size_t most);
 
-// Reads and drops so many bytes, or all where there are fewer; returns how many.
+// Reads and discards `count` bytes, or all remaining ones if there are fewer. Returns the number of
+// discarded bytes.
 std::uint64_t skip_bytes(const ByteSource& source, std::uint64_t count);
 
 }  // namespace triptych::scene

@@ -48,7 +48,7 @@ class Description {
  private:
   static constexpr std::array<std::string_view, 13> known{
       "objectfilename", "resolution", "format", "slicethickness", "endianness",
-      // `endianess` is a misspelling of some programs.
+      // Some programs write `endianess`.
       "taggedfilename", "nbrtags", "objecttype", "objectmodel", "gridtype", "modality", "timestep",
       "endianess"};
 
@@ -99,7 +99,7 @@ bool parse_endianness(const Entry* entry) {
       fmt::format("unknown endianness '{}'; expected LITTLE or BIG", quotable(entry->value)));
 }
 
-// Both spellings of the key are in use.
+// Some programs misspell the key as "endianess".
 const Entry* endianness_in(const Description& description) {
   const Entry* right = description.find("endianness");
   const Entry* wrong = description.find("endianess");

@@ -5,17 +5,18 @@
 
 namespace triptych::scene {
 
-// A .dat description with its raw voxels in a file beside it. Lines "Key: value", keys in any case:
+// A .dat description, with the raw voxels in a separate file next to it. It consists of lines "Key:
+// value", whose keys may be in upper or lower case:
 // clang-format off
-//   ObjectFileName   the raw file                               required
-//   Resolution       sizes along x, y, z                        required
-//   Format           UCHAR, CHAR, USHORT, SHORT, UINT, INT, FLOAT, DOUBLE: required
-//   SliceThickness   spacings along x, y, z                     1 1 1 where missing
-//   Endianness       LITTLE or BIG; Endianess, too              LITTLE where missing
+//   ObjectFileName   the raw file (required)
+//   Resolution       the sizes along x, y and z (required)
+//   Format           UCHAR, CHAR, USHORT, SHORT, UINT, INT, FLOAT or DOUBLE (required)
+//   SliceThickness   the spacings along x, y and z; the default is 1 1 1
+//   Endianness       LITTLE or BIG; the default is LITTLE. The spelling Endianess is also accepted.
 // clang-format on
-// TimeStep, TaggedFileName, NbrTags, ObjectType, ObjectModel, GridType and Modality are allowed and have no
-// effect; any other key is an error, as is anything after the voxels. The caller sets the volume's
-// name. Throws InputError with the line, IoError.
+// TimeStep, TaggedFileName, NbrTags, ObjectType, ObjectModel, GridType and Modality are allowed and
+// have no effect. Any other key is an error, and so are data after the voxels. The caller sets the
+// volume's name. Throws InputError with the line, and IoError.
 [[nodiscard]] Volume read_dat(const std::filesystem::path& file,
                               const Component& component = {});
 

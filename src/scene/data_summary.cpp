@@ -13,7 +13,8 @@
 namespace triptych::scene {
 namespace {
 
-// A picture of letters, from empty to dense. A letter is about twice as high as it is wide.
+// A picture made of characters, from blank to dense. A character is about twice as high as it is
+// wide.
 class SmallPicture {
  public:
   // The picture has no more columns and rows than the grid, so that no cell remains empty.
@@ -65,8 +66,8 @@ std::string unit_text(const ReadFacts& facts) {
   return facts.unit.empty() ? " (the file states no unit)" : " " + facts.unit;
 }
 
-// A histogram with equal steps of the range: exact for integers with at most 65536 different
-// values, otherwise with steps of a 65535th of the range.
+// A histogram with bins of equal width: exact for integers with at most 65536 different values,
+// otherwise with a bin width of 1/65535 of the range.
 struct Histogram {
   double step = 0;
   std::vector<std::uint64_t> counts = std::vector<std::uint64_t>(65536);

@@ -1,7 +1,7 @@
 #pragma once
-// Processors either process denormal floats, at a cost of a hundred cycles each, or treat them as
-// 0. Therefore they are set to 0 before data are sent to a device, which changes every value by
-// less than 2⁻¹²⁶.
+// Some processors need about a hundred cycles for each operation on a denormal float, and others
+// treat it as 0. Therefore denormals are set to 0 before data are sent to a device, which changes
+// every value by less than 2⁻¹²⁶.
 
 #include <cmath>
 #include <limits>

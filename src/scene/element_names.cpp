@@ -63,8 +63,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 18> ion_name
      {"IP", "Na"},
      {"BRO", "Br"}}};
 
-// Symbols that begin like an organic element but are not names of carbon, nitrogen and so on. Those
-// names continue with a Greek letter (A, B, G, D, E, Z, H) or with the letter of a bound atom.
+// Two-letter symbols that begin like an organic element but cannot be the name of a carbon,
+// nitrogen or other organic atom, because such a name continues with a Greek letter (A, B, G, D, E,
+// Z, H) or with the letter of a bound atom.
 constexpr std::string_view clear_symbols = "CL BR SI SE FE CU NI PT PB CR IR";
 constexpr std::string_view one_letter_symbols = "HBCNOFPSKVYIWUD";
 
@@ -93,7 +94,7 @@ std::string_view first_letters(std::string_view upper) {
   return upper.substr(0, static_cast<std::size_t>(end - upper.begin()));
 }
 
-// AMBER marks the ends of a chain: NALA and CALA, A5 and A3, DA5 and DA3.
+// AMBER marks the residues at the ends of a chain: NALA and CALA, A5 and A3, DA5 and DA3.
 bool is_organic(const std::string& residue) {
   static const Names known = split_names(organic_residues);
   if (known.contains(residue)) return true;
@@ -111,18 +112,20 @@ std::string_view ion_of(std::string_view letters) {
   return found == ion_names.end() ? std::string_view{} : found->second;
 }
 
-// The element that a word names as an ion, by its symbol or in a force field's spelling.
+// The element of a word that names an ion, either by the element's symbol or as a force field
+// spells it.
 std::string ion_symbol(std::string_view letters) {
   if (const std::string_view ion = ion_of(letters); !ion.empty()) return std::string(ion);
   return atomic_number(letters) ? proper_symbol(letters) : std::string{};
 }
 
-// An ion is the only atom of its residue and has its name.
+// An ion is the only atom of its residue, and the atom and the residue have the same name.
 std::string element_of_ion(std::string_view atom, std::string_view residue) {
   const std::string symbol = ion_symbol(atom);
   if (symbol.empty()) return {};
   if (atom == residue || residue == "ION" || residue == "IONS") return symbol;
-  // One of them may be in the force field's spelling and the other an element's symbol.
+  // The atom's name may be an element's symbol and the residue's name a force field's spelling, or
+  // vice versa.
   const bool spelled = !ion_of(residue).empty() || !ion_of(atom).empty();
   return spelled && ion_symbol(residue) == symbol ? symbol : std::string{};
 }
@@ -158,7 +161,7 @@ std::string element_of_residue(std::string_view letters, const std::string& resi
   return is_organic(residue) ? organic_element(letters) : std::string{};
 }
 
-// "\x01NAME\x01RESIDUE", which cannot be a symbol in a file.
+// A marked name has the form "\x01NAME\x01RESIDUE", which cannot be a symbol in a file.
 constexpr char unnamed_mark = '\x01';
 
 struct Unnamed {
@@ -173,8 +176,8 @@ std::optional<Unnamed> as_unnamed(std::string_view kind) {
   return Unnamed{kind.substr(0, end), kind.substr(end + 1)};
 }
 
-// Whether the names of known residues are aligned so that symbols end in the second column. Some
-// programs align all names to the left.
+// Whether the names in known residues are aligned so that symbols end in the second column. Some
+// programs left-align all names.
 bool are_aligned(const Atoms& atoms) {
   bool any = false;
   for (const std::string& kind : atoms.kind_names) {
@@ -235,7 +238,7 @@ NamedElement element_of_columns(std::string_view columns, std::string_view resid
 }
 
 std::uint32_t unnamed_kind(Atoms& atoms, std::string_view columns, std::string_view residue) {
-  // Short enough for the small-string optimization.
+  // This string is short enough for the small-string optimization.
   std::string key(1, unnamed_mark);
   key += columns.empty() ? std::string_view(" ") : columns;
   key += unnamed_mark;

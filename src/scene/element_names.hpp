@@ -1,6 +1,6 @@
 #pragma once
-// Elements of atoms for which a file has only a name and a residue, such as CA in ALA (carbon) or
-// CA in CA (calcium).
+// Derives the elements of atoms from an atom name and a residue name, for files that state no
+// elements. For instance, CA in the residue ALA is carbon, but CA in the residue CA is calcium.
 
 #include <string>
 #include <string_view>
@@ -27,8 +27,8 @@ inline constexpr std::string_view unknown_element = "X";
 // columns 13 and 14: in a residue that is not known, "CA " is calcium and " CA " is carbon.
 [[nodiscard]] NamedElement element_of_columns(std::string_view columns, std::string_view residue);
 
-// The kind of an atom for which the file has no element, until name_elements is called. `columns`
-// may contain the blanks that align the name.
+// The kind of an atom whose element the file does not state. It is valid until name_elements is
+// called. `columns` may contain the blanks that align the name.
 [[nodiscard]] std::uint32_t unnamed_kind(Atoms& atoms, std::string_view columns,
                                          std::string_view residue);
 

@@ -9,8 +9,8 @@
 namespace triptych::scene {
 namespace {
 
-// A Taylor series by Horner's scheme. The coefficients are 1/n! with the sign of the series,
-// correctly rounded by the compiler.
+// A Taylor series, evaluated by Horner's scheme. The coefficients are 1/n! with the signs of the
+// series; the compiler rounds them correctly.
 template <std::size_t N>
 double horner(const std::array<double, N>& coefficients, double x) {
   double sum = 0;
@@ -18,7 +18,7 @@ double horner(const std::array<double, N>& coefficients, double x) {
   return sum;
 }
 
-// Both hold for |x| ≤ π/4, where the first omitted term is below 2⁻⁵⁶.
+// Both series are used for |x| ≤ π/4, where the first omitted term is below 2⁻⁵⁶.
 double sine_series(double x) {
   static constexpr std::array<double, 9> c{1.0,
                                            -1.0 / 6,

@@ -21,7 +21,7 @@ namespace {
 template <typename Take>
 void unpack(const std::vector<std::byte>& packed, Packing packing, const std::string& name,
             ProgressSteps& steps, Take&& take) {
-  // Small enough that the progress is reported in steps of at most one per cent.
+  // This is small enough to report the progress in steps of at most one per cent.
   const std::size_t sip = std::max<std::size_t>(packed.size() / 200, 1);
   std::size_t taken = 0;
   const ByteSource source = unpacked(
@@ -41,7 +41,8 @@ void unpack(const std::vector<std::byte>& packed, Packing packing, const std::st
   }
 }
 
-// The stream is read twice: its unpacked size is determined before memory is allocated.
+// The stream is read twice: the first pass determines the unpacked size, so that memory is
+// allocated only once.
 std::uint64_t count_unpacked(const std::vector<std::byte>& packed, Packing packing,
                              const std::string& name, ProgressSteps& steps, std::uint64_t most) {
   std::uint64_t count = 0;

@@ -5,8 +5,8 @@
 
 namespace triptych::scene {
 
-// The content hash of a table that was read from a file, because a file of the same name may have
-// other content on another day. Empty for a preset, which its name describes completely.
+// The content hash of a transfer function that was read from a file, because the file may change
+// while its name stays the same. Empty for a preset, which its name identifies completely.
 [[nodiscard]] std::string file_table_hash(const TransferFunction& function);
 
 }  // namespace triptych::scene

@@ -13,8 +13,8 @@
 namespace triptych::scene {
 namespace {
 
-// A format that is not supported, the nearest supported one, and the conversion command of a common
-// program.
+// A format that is not supported, the nearest supported one, and the command of a common program
+// that converts between them.
 struct Conversion {
   std::string_view endings;
   std::string_view what;

@@ -1,5 +1,5 @@
 #pragma once
-// Cameras that may stand anywhere around the scene, for a view that a mouse has chosen.
+// Cameras at arbitrary positions around the scene, for views that are chosen with the mouse.
 
 #include <optional>
 #include <string>
@@ -20,23 +20,24 @@ struct FreeView {
   static constexpr double farthest = 1000;
 };
 
-// nullopt if the text after "view:" is no such view.
+// Returns nullopt if the text after "view:" does not describe such a view.
 [[nodiscard]] std::optional<FreeView> parse_free_view(std::string_view text);
 
-// The value of the factor `camera` for this view, with a tenth of a degree and a thousandth of the
-// radius (of a nearer view, three significant digits). Angles and distance are brought into their
-// ranges.
+// The value of the factor `camera` for this view. Angles are rounded to a tenth of a degree, and
+// the distance to a thousandth of the radius (or to three significant digits, for a view from
+// nearby). Angles and distance are brought into their ranges.
 [[nodiscard]] std::string camera_of(const FreeView& view);
 
-// The free view that is nearest to a camera on a path of a cube, from which turning begins: it has
-// the same direction and distance, but neither its roll nor its target. Throws as camera_at() does.
+// The free view that is nearest to a camera on a path around a cube. It is the view from which
+// turning with the mouse starts. It has the same direction and distance, but neither the roll nor
+// the target of the camera. Throws as camera_at() does.
 [[nodiscard]] FreeView free_view_near(std::string_view camera);
 
-// The view after the mouse has moved by this share of the image's height, with the button pressed:
-// the scene follows the mouse, and half a turn is one height.
+// The view after a mouse drag. `right` and `down` are shares of the image's height. The scene
+// follows the mouse, and a drag of one image height turns it by half a turn.
 [[nodiscard]] FreeView turned(FreeView view, double right, double down);
 
-// The view after the wheel has moved by this many notches; positive ones go nearer.
+// The view after the wheel has moved by this many notches. Positive notches move the camera closer.
 [[nodiscard]] FreeView approached(FreeView view, double notches);
 
 }  // namespace triptych::scene

@@ -28,7 +28,7 @@ constexpr ScalarType scalar_type_of() {
   return ScalarType::f32;
 }
 
-// Rounds a value in [0, 1] to the steps of an integer type; floats are not changed.
+// Rounds a value in [0, 1] to the steps of an integer type; floats are unchanged.
 template <typename T>
 T quantise(double x) {
   if constexpr (std::is_integral_v<T>) {
@@ -69,7 +69,7 @@ Volume sample(std::array<int, 3> size, Field&& field) {
   });
 }
 
-// 1 at 0, falling smoothly to exactly 0 at |t| = 1 and beyond.
+// A function that is 1 at t = 0 and falls smoothly to exactly 0 at |t| = 1 and beyond.
 double bump(double t) {
   const double s = 1 - t * t;
   return s > 0 ? s * s : 0;
@@ -147,8 +147,8 @@ std::array<Blob, 40> sparse_blobs() {
   core::Random random(20240229);
   std::array<Blob, 40> blobs;
   for (Blob& blob : blobs) {
-    // One random number per statement, because the compiler may choose the order of evaluation
-    // within an expression.
+    // Each statement draws one random number, because the compiler may choose the order of
+    // evaluation within an expression.
     blob.centre.x = random.uniform(0.1, 0.9);
     blob.centre.y = random.uniform(0.1, 0.9);
     blob.centre.z = random.uniform(0.1, 0.9);

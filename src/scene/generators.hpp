@@ -1,12 +1,13 @@
 #pragma once
-// Seeded generators: the same voxels on every machine, compiler and standard library. They use only
-// + − × ÷ and sqrt of IEEE doubles, which are exactly rounded, and tables or polynomials built from
-// them (scene/exact_math.hpp); never the C library's sin, pow or exp, whose last bits differ
-// between implementations.
+// Seeded generators, which make the same voxels on every machine, compiler and standard library.
+// They use only + − × ÷ and sqrt of IEEE doubles, which are exactly rounded, and tables or
+// polynomials built from these operations (scene/exact_math.hpp). They never use the C library's
+// sin, pow or exp, whose last bits differ between implementations.
 //
-// Fields are sampled at voxel centres: u = (i+½)/nx, v = (j+½)/ny, w = (k+½)/nz are the places in
-// the unit cube, (x, y, z) = 2(u, v, w) − 1. Spacing is 1. b(t) is (1 − t²)² inside |t| < 1 and 0
-// outside. Integers hold f as floor(f·hi + ½), hi the top of the range.
+// Fields are sampled at voxel centres: u = (i+½)/nx, v = (j+½)/ny and w = (k+½)/nz are the
+// coordinates in the unit cube, and (x, y, z) = 2(u, v, w) − 1. The spacing is 1. b(t) is (1 − t²)²
+// for |t| < 1 and 0 elsewhere. Integer formats store f as floor(f·hi + ½), where hi is the upper
+// end of the range.
 //
 // clang-format off
 //   uniform_box     f32  0..1       ½ everywhere
@@ -41,7 +42,8 @@ struct GeneratorInfo {
 // The eight generators above, in that order.
 [[nodiscard]] std::vector<GeneratorInfo> volume_generators();
 
-// Throws InputError for an unknown name or a size outside 1…4096 per axis. Generates nothing.
+// Throws InputError for an unknown name or a size outside 1…4096 per axis. Does not generate the
+// volume.
 void check_volume_generator(std::string_view name, std::array<int, 3> size);
 
 // Throws as check_volume_generator does. The volume's name is generate:NAME:SIZE.

@@ -14,8 +14,9 @@ namespace {
 constexpr double nanometre = 0.1;  // an ångström in this file's unit
 constexpr std::size_t places_begin = 20;
 
-// Numbers are written as "%{n+5}.{n}f": the first decimal point is always in column 25, and their
-// distance gives the width. One line is enough, because no number may be wider than its columns.
+// Numbers are written as "%{n+5}.{n}f", so the first decimal point is always in column 25, and the
+// distance between decimal points is the width of a number. One line is enough to determine the
+// width, because no number may be wider than its columns.
 std::size_t place_width(std::string_view line, const LineReader& reader) {
   constexpr std::size_t first_point = places_begin + 4;
   const std::size_t first = line.find('.', places_begin);
@@ -54,8 +55,8 @@ void add_gro_atom(Atoms& atoms, std::string_view line, std::size_t width,
   atoms.add(place, unnamed_kind(atoms, trimmed(line.substr(10, 5)), line.substr(5, 5)));
 }
 
-// The numbers of a box above 1000 nm run into each other. The box is not used, so the line is only
-// checked not to be a further atom.
+// In a box above 1000 nm, the numbers run into each other. The box is not used, so this only checks
+// that the line is not another atom.
 void check_box(std::string_view line, const LineReader& reader) {
   const std::size_t words = split_words(line).size();
   const bool numbers = line.find_first_not_of("0123456789.+-eE \t") == std::string_view::npos;

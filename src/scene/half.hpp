@@ -1,5 +1,5 @@
 #pragma once
-// Half floats, IEEE 754 binary16: 11 significant bits, 2⁻¹⁴ (normal) … 65504.
+// IEEE 754 binary16 ("half") floats: 11 significant bits, normal values from 2⁻¹⁴ to 65504.
 
 #include <cstdint>
 

@@ -35,7 +35,7 @@ struct Inflater::Stream {
     throw core::InputError({.file = name}, "broken gzip stream: " + reason);
   }
 
-  // Whether there is compressed input, fetching more when it is used up.
+  // Whether there is compressed input; reads more if all of it has been used.
   bool has_input() {
     if (zlib.avail_in == 0) {
       zlib.avail_in = static_cast<uInt>(source(buffer));

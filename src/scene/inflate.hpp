@@ -8,15 +8,16 @@
 
 namespace triptych::scene {
 
-// The largest unpacked size of a gzip stream, because a few megabytes can unpack to a thousand
-// times as much. Users can unpack a larger file themselves, because uncompressed files may have any
-// size.
+// The largest unpacked size of a gzip stream. There is a limit because a few megabytes can unpack
+// to a thousand times as much. Users can unpack a larger file themselves, because uncompressed
+// files may have any size.
 inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{1} << 30;
 
-// Throws InputError: the file unpacks to more than `most` bytes.
+// Throws InputError with the message that the file unpacks to more than `most` bytes.
 [[noreturn]] void refuse_unpacked(const std::string& file, std::uint64_t most);
 
-// Fills a buffer and returns how many bytes were there, fewer only at the end.
+// Fills a buffer and returns the number of bytes read, which is smaller than the buffer only at the
+// end.
 using ByteSource = std::function<std::size_t(std::span<std::byte>)>;
 
 enum class Wrapper : std::uint8_t { gzip, gzip_or_zlib };
@@ -36,7 +37,7 @@ class Inflater {
   // stream that is damaged, ends early, has a wrong check sum, or is followed by other data.
   std::size_t read(std::span<std::byte> out);
 
-  // Reads and drops so many bytes, or all where there are fewer.
+  // Reads and discards `count` bytes, or all remaining ones if there are fewer.
   void skip(std::uint64_t count);
 
  private:

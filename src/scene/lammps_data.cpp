@@ -68,8 +68,8 @@ bool are_whole(const Words& words, std::size_t first) {
                      });
 }
 
-// Without a comment, the number of columns must determine the style: 5 columns are atomic. 8
-// columns that end in image flags are atomic, too, but only if the position has a decimal point,
+// Determines the style from the number of columns if there is no comment. 5 columns are always
+// atomic. 8 columns that end in image flags are atomic only if the position has a decimal point,
 // because the styles electron and line have 8 columns that end with the position, which may consist
 // of whole numbers. 6 and 7 columns are ambiguous.
 const Style& guessed_style(const Words& words, const LineReader& reader) {

@@ -39,8 +39,8 @@ struct Frame {
   std::optional<Cell> cell;
 };
 
-// Three lines "lo hi [tilt]". For a tilted box these are the bounds of the surrounding box (LAMMPS
-// manual, "Triclinic simulation boxes").
+// Reads three lines "lo hi [tilt]". For a tilted box, lo and hi are the bounds of the surrounding
+// orthogonal box (LAMMPS manual, "Triclinic simulation boxes").
 Cell read_cell(LineReader& reader, std::string_view header) {
   constexpr std::array<std::string_view, 3> axes{"x bounds", "y bounds", "z bounds"};
   const bool tilted = header.find("xy xz yz") != std::string_view::npos;

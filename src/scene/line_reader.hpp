@@ -11,7 +11,7 @@
 
 namespace triptych::scene {
 
-// The largest number of particles: ids have 32 bits, and the highest id means "none".
+// The largest number of particles, because ids have 32 bits and the highest id means "none".
 inline constexpr std::uint64_t most_particles = 0xFFFFFFFEU;
 
 // Reads the lines of a text and counts them, so that errors can name the file and the line. The
@@ -20,11 +20,12 @@ class LineReader {
  public:
   LineReader(std::string_view text, std::string file, ProgressSteps progress);
 
-  // The next line without its end (LF or CR LF), or nothing after the last one.
+  // Returns the next line without its end (LF or CR LF), or nullopt after the last line.
   [[nodiscard]] std::optional<std::string_view> next();
-  // Returns the next line; throws InputError "ends where WHAT was expected" if there is none.
+  // Returns the next line. If there is none, throws InputError that the file ends where `what` was
+  // expected.
   [[nodiscard]] std::string_view require(std::string_view what);
-  // Whether only blank lines are left, which are then skipped.
+  // Skips blank lines; returns whether nothing else is left.
   [[nodiscard]] bool at_end();
   // Skips this many lines; all of them must exist.
   void skip(std::uint64_t count, std::string_view what);
@@ -40,8 +41,8 @@ class LineReader {
   [[nodiscard]] std::uint64_t count(std::string_view word, std::string_view what) const;
   [[nodiscard]] std::int64_t integer(std::string_view word, std::string_view what) const;
 
-  // An upper limit for the number of further lines of at least `shortest` characters. This much
-  // memory may be reserved, whatever count the file claims.
+  // An upper limit for the number of further lines, each of which has at least `shortest`
+  // characters. Memory may be reserved for this many, whatever count the file claims.
   [[nodiscard]] std::size_t room(std::uint64_t claimed, std::size_t shortest) const;
 
   [[nodiscard]] int line() const { return line_; }

@@ -133,7 +133,7 @@ std::uint64_t whole_number(const MetaField& field) {
   return *number;
 }
 
-// The first three words: those of the axes in space.
+// The first three words, which belong to the spatial axes.
 std::string first_three(const MetaField& field, std::uint64_t dimensions) {
   auto words = split_words(field.value);
   if (words.size() != dimensions) {
@@ -171,13 +171,13 @@ void take_meta_sizes(const MetaHeader& header, Volume& volume, ValueLayout& layo
       parse_spacings(first_three(*spacing, dimensions), volume.size, spacing->place);
 }
 
-// The directions of the axes, which are the rows of TransformMatrix; the space is LPS.
+// Records the directions of the axes, which are the rows of TransformMatrix, in the space LPS.
 void note_directions(const MetaHeader& header, Volume& volume) {
   for (const char* key : {"transformmatrix", "orientation", "rotation"}) {
     const MetaField* field = header.find(key);
     if (field == nullptr) continue;
     const auto words = split_words(field->value);
-    if (words.size() != 9) return;  // of four dimensions
+    if (words.size() != 9) return;  // four dimensions have a larger matrix
     std::array<Vector3, 3> axes{};
     for (std::size_t i = 0; i < 9; ++i) {
       const auto number = parse_number<double>(words[i]);
@@ -262,7 +262,8 @@ Volume read_metaimage(const std::filesystem::path& file, const Component& compon
   take_meta_sizes(header, volume, source.layout);
   note_directions(header, volume);
   const MetaField& type = header.require("ElementType");
-  // "MET_UCHAR_ARRAY" is one way to declare the channels of a voxel.
+  // A type such as "MET_UCHAR_ARRAY" is one of the ways to declare that a voxel has several
+  // channels.
   MetaField element = type;
   constexpr std::string_view array = "_array";
   if (lower_case(element.value).ends_with(array)) {

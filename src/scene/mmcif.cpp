@@ -17,7 +17,7 @@ constexpr std::string_view category = "_atom_site.";
 
 struct Token {
   std::string_view text;
-  bool quoted = false;  // whether it was quoted, so that it is a value in any case
+  bool quoted = false;  // a quoted word is always a value
 
   [[nodiscard]] bool is_tag() const { return !quoted && text.starts_with('_'); }
   // The words that end a loop: loop_, data_NAME, save_NAME, global_, stop_.
@@ -30,20 +30,21 @@ struct Token {
   [[nodiscard]] bool is_value() const { return !is_tag() && !is_keyword(); }
 };
 
-// The words of a CIF: quoted words and text fields between lines that begin with a semicolon;
-// comments are left out. The content of a text field is not needed and is dropped.
+// Splits a CIF into words: plain words, quoted words, and text fields, which are enclosed by lines
+// that begin with a semicolon. Comments are skipped. The content of a text field is not needed and
+// is discarded.
 class Tokens {
  public:
   explicit Tokens(LineReader& reader) : reader_(reader) {}
 
-  // The next word, which remains the next word; nullopt at the end of the file.
+  // Returns the next word without taking it; nullopt at the end of the file.
   [[nodiscard]] const std::optional<Token>& peek() {
     if (!ahead_ && !ended_) ahead_ = read();
     return ahead_;
   }
   void take() { ahead_.reset(); }
-  // The number of lines that begin with '#' before the current word (or the end): all of them, and
-  // those directly before it.
+  // The number of lines that begin with '#' before the current word (or the end of the file):
+  // marks() counts all of them, and marks_before() only those directly before it.
   [[nodiscard]] std::uint64_t marks() const { return marks_; }
   [[nodiscard]] std::uint64_t marks_before() const { return marks_before_; }
 
@@ -133,7 +134,7 @@ struct AtomColumns {
   }
 };
 
-// Crystals of small molecules have other items: positions as fractions of the cell.
+// CIF files of small molecules state positions as fractions of the unit cell, in other items.
 void refuse_small_molecule(std::string_view tag, const LineReader& reader) {
   if (tag != "_atom_site_fract_x") return;
   reader.reject(
@@ -141,7 +142,8 @@ void refuse_small_molecule(std::string_view tag, const LineReader& reader) {
       "molecules; expected mmCIF with _atom_site.Cartn_x. To convert: obabel IN.cif -O OUT.xyz");
 }
 
-// The tags of a loop whose keyword was read already; empty if it is not the loop over atoms.
+// Reads the tags of a loop whose keyword has been read. Empty if the loop is not the one over
+// atoms.
 std::optional<AtomColumns> read_columns(Tokens& tokens, const LineReader& reader) {
   AtomColumns columns;
   bool atoms = false;
@@ -275,9 +277,9 @@ Atoms read_pairs(Tokens& tokens, std::uint64_t frame, const LineReader& reader) 
   return rows.take();
 }
 
-// A writer that closes the heading and every category with '#', as the PDB does, also closes the
-// last one; otherwise the file was cut off. A few '#' prove nothing, because some programs only put
-// them between categories.
+// Detects files that were cut off. If a program ends the heading and every category with '#', as
+// the PDB does, the last category must end with '#', too. A few '#' do not suffice as evidence,
+// because some programs write them only between categories.
 class ClosingMarks {
  public:
   void heading(const Tokens& tokens) {
@@ -300,7 +302,7 @@ class ClosingMarks {
   std::uint64_t closed_ = 0;
 };
 
-// Describes the other content of a file without atoms, as far as its loops show it.
+// Describes the other content of a file without atoms, to the extent that its loops reveal it.
 std::string_view other_content(std::string_view tag) {
   if (tag.starts_with("_chem_comp_atom.")) {
     return "the file describes a chemical component (_chem_comp_atom), not a structure";

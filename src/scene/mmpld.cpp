@@ -133,7 +133,7 @@ List read_list(Bytes& bytes, int version) {
   return list;
 }
 
-// Reads the file up to the wanted frame; afterwards the position is at its beginning. Returns the
+// Reads the file up to the requested frame and leaves the position at its beginning. Returns the
 // position at which the frame ends.
 std::uint64_t find_frame(Bytes& bytes, std::uint64_t frame, int& version) {
   constexpr std::array<char, 6> magic{'M', 'M', 'P', 'L', 'D', '\0'};

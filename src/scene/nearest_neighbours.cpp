@@ -17,9 +17,9 @@ double distance_squared(const Place& a, const Place& b) {
   return sum;
 }
 
-// A k-d tree without pointers: the middle element of each range splits it along the axis of its
-// depth. A grid would suit most data, but one distant outlier would put all other points into a
-// single cell.
+// A k-d tree without pointers: the middle element of each range splits it along the axis that
+// belongs to its depth in the tree. A grid would suit most data, but a single distant outlier would
+// put all other points into one cell.
 class Tree {
  public:
   explicit Tree(std::vector<Place>& places) : places_(places) { build(places_, 0); }

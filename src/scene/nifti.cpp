@@ -135,7 +135,7 @@ class NiftiHeader {
 struct Datatype {
   int code;
   StoredType type;
-  std::uint64_t components;  // that stand together
+  std::uint64_t components;  // consecutive values of a voxel
 };
 constexpr std::array<Datatype, 12> datatypes{{{2, StoredType::u8, 1},
                                               {4, StoredType::i16, 1},
@@ -196,7 +196,8 @@ std::array<double, 3> spacing_of(const NiftiHeader& header, const Volume& volume
   return spacing;
 }
 
-// Columns of the matrix from voxels to millimetres, from the quaternion (nifti1.h, method 2).
+// The columns of the matrix that maps voxels to millimetres, from the quaternion (nifti1.h, method
+// 2).
 std::array<Vector3, 3> axes_of_quaternion(const NiftiHeader& header,
                                           const std::array<double, 3>& spacing) {
   const double b = header.quatern(0);

@@ -79,7 +79,7 @@ std::array<double, 3> lengths_of(const std::array<Vector, 3>& axes, const std::a
   return spacing;
 }
 
-// The words of a field that has one for each axis, without the word of the component axis.
+// The words of a field that has one word per axis, without the word of the component axis.
 std::vector<std::string_view> words_of_axes(std::string_view value, const LeftOut& left_out) {
   auto words = split_words(value);
   if (left_out && words.size() == 4) {
@@ -88,7 +88,7 @@ std::vector<std::string_view> words_of_axes(std::string_view value, const LeftOu
   return words;
 }
 
-// The positions at which the axes begin or end; NaN if unknown.
+// The positions at which the axes begin or end; NaN where a position is unknown.
 Vector parse_ends(const Field& field, const LeftOut& left_out) {
   const auto words = words_of_axes(field.value, left_out);
   Vector ends{};
@@ -107,8 +107,8 @@ Vector parse_ends(const Field& field, const LeftOut& left_out) {
   return ends;
 }
 
-// Whether samples are at the ends of an axis. Otherwise they are in the middle of cells, which is
-// also the default of the format's own library.
+// Whether the first and the last sample are at the ends of an axis. Otherwise samples are in the
+// middle of cells, which is the default of the format's own library, too.
 std::array<bool, 3> parse_node_centred(const Field* field, const LeftOut& left_out) {
   std::array<bool, 3> node{};
   if (field == nullptr) return node;
@@ -154,7 +154,8 @@ std::optional<Vector> spacing_of_ends(const Header& header, const std::array<int
   return spacing;
 }
 
-// The letters of a space whose axes have anatomical names, such as left-posterior-superior.
+// The orientation in letters, for a space whose axes have anatomical names, such as
+// left-posterior-superior.
 std::string orientation_of(const std::array<Vector, 3>& axes, const Field* space) {
   if (space == nullptr) return {};
   const std::string name = lower_case(space->value);
@@ -176,7 +177,8 @@ bool is_space(std::string_view kind) {
   return name == "domain" || name == "space" || name == "none" || name == "???";
 }
 
-// Colours or vectors along one of three axes would be drawn as if they were positions.
+// Rejects colours or vectors along one of three axes, because they would be drawn as if they were
+// positions.
 void require_places(const Field& kinds) {
   const auto words = split_words(kinds.value);
   if (words.size() != 3) {
@@ -192,8 +194,8 @@ void require_places(const Field& kinds) {
   }
 }
 
-// Finds the component axis of four axes: the one whose kind is not spatial, else the one without a
-// direction, else the only one of size 1.
+// Finds the component axis among four axes: the one whose kind is not spatial, otherwise the one
+// without a direction, otherwise the only one of size 1.
 std::size_t component_axis(const Header& header, const std::vector<std::string_view>& sizes) {
   const core::FilePlace& place = header.require("dimension").place;
   std::vector<std::size_t> found;

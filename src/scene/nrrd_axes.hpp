@@ -12,8 +12,8 @@
 
 namespace triptych::scene::nrrd {
 
-// The axis that is not spatial if there are four, because it has the components. Fields with one
-// word for each axis have one for this axis, too.
+// The index of the axis that is not spatial and holds the components, if there are four axes.
+// Fields with one word per axis have a word for this axis, too.
 using LeftOut = std::optional<std::size_t>;
 
 // Sets the sizes and, for four axes, the layout of the components. Throws InputError with file and

@@ -63,8 +63,8 @@ std::uint64_t skip_lines(const std::filesystem::path& file, std::uint64_t start,
   return static_cast<std::uint64_t>(in.tellg());
 }
 
-// A pattern "FORMAT MIN MAX STEP", optionally followed by a dimension. A plain name may also
-// contain a '%'. nullopt if the text is not a pattern.
+// Returns the files that a pattern "FORMAT MIN MAX STEP" names; a dimension may follow. A plain
+// file name may also contain a '%'. nullopt if the text is not a pattern.
 std::optional<std::vector<std::string>> files_of_pattern(std::string_view value,
                                                          const core::FilePlace& place) {
   constexpr std::size_t most_files = 100'000;

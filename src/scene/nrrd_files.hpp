@@ -1,5 +1,5 @@
 #pragma once
-// The location of an NRRD file's values: in the file itself, in another one, or in several.
+// Locates the values of an NRRD file: in the file itself, in another file, or in several.
 
 #include <filesystem>
 
@@ -8,8 +8,8 @@
 
 namespace triptych::scene::nrrd {
 
-// Finds the files, the encoding, and the bytes or lines to skip before the values. The caller
-// determines the layout of the values. Throws InputError with file and line.
+// Finds the files, the encoding, and the bytes or lines to skip before the values. The layout of
+// the values is left for the caller to set. Throws InputError with file and line.
 [[nodiscard]] RawVoxels locate(const Header& header, const std::filesystem::path& file);
 
 }  // namespace triptych::scene::nrrd

@@ -11,7 +11,7 @@
 namespace triptych::scene::nrrd {
 namespace {
 
-// Key/value pairs may be long, because some contain whole documents.
+// Headers can be long, because some key/value pairs contain whole documents.
 constexpr std::size_t usual_header = std::size_t{1} << 16U;
 constexpr std::size_t longest_header = std::size_t{64} << 20U;
 
@@ -38,7 +38,7 @@ std::string canonical(std::string_view name) {
 
 Header::Header(const std::filesystem::path& file) : file_(file.string()) {
   std::string start = content_start(file, usual_header);
-  // More than the usual size is read only if the header has not ended before.
+  // Read more than the usual size only if the header does not end within it.
   const bool ends = start.find("\n\n") != std::string::npos ||
                     start.find("\n\r\n") != std::string::npos || start.size() < usual_header;
   if (!ends) start = content_start(file, longest_header);

@@ -23,8 +23,8 @@ struct Field {
 // The fields of a header by their canonical names.
 class Header {
  public:
-  // Throws InputError with the line if the text is not a supported header or has a field twice;
-  // IoError.
+  // Throws InputError with the line if the text is not a supported header or contains a field
+  // twice, and IoError.
   explicit Header(const std::filesystem::path& file);
 
   [[nodiscard]] const Field* find(const std::string& name) const {
@@ -38,7 +38,8 @@ class Header {
     }
     return *field;
   }
-  // The position after the blank line that ends the header, if there is one, in unpacked bytes.
+  // The position in the unpacked bytes after the blank line that ends the header; nullopt if there
+  // is no such line.
   [[nodiscard]] std::optional<std::uint64_t> data_start() const noexcept { return data_start_; }
   // The lines after "data file: LIST".
   [[nodiscard]] const std::vector<Field>& listed_files() const noexcept { return files_; }

@@ -1,5 +1,5 @@
 #pragma once
-// The colours of particles, in each kind that a set can contain.
+// The colours of particles, in each form that a set of particles can contain.
 
 #include <array>
 #include <cstdint>
@@ -10,11 +10,12 @@ namespace triptych::scene {
 
 using Rgb = std::array<double, 3>;  // not premultiplied, each in [0, 1]
 
-// The nearest bytes, with red in the lowest one, opaque. Values outside [0, 1] are clamped.
+// The colour in 8 bits per channel, opaque, with red in the lowest byte. Values outside [0, 1] are
+// clamped.
 [[nodiscard]] std::uint32_t rgba8_of(const Rgb& rgb);
 [[nodiscard]] std::array<float, 4> rgba32_of(const Rgb& rgb);
 
-// The colour of a hue, which is given in turns: 0 is red, then follow green and blue; 0 ≤ hue ≤ 1.
+// The colour of a hue in turns, 0 ≤ hue ≤ 1: 0 is red, ⅓ is green and ⅔ is blue.
 [[nodiscard]] Rgb hue_colour(double hue, double saturation = 0.75);
 
 // Appends the colour of the particle that was appended last, in the kind of the set. Intensity is

@@ -70,14 +70,14 @@ constexpr std::array<ParticleFormat, 8> formats{
      {"LAMMPS data", ".data .lmp .lammps .lmpdat", "", never, true, read_lines<read_lammps_data>},
      {"MMPLD", ".mmpld", "", begins_as_mmpld, false, read_binary_mmpld}}};
 
-// The ending that names the format, without the ending of a compression.
+// The ending that determines the format, without the ending of a compression.
 std::string ending_of(const std::filesystem::path& file) {
   const std::string last = lower_case(file.extension().string());
   const bool packed = last == ".gz" || last == ".bz2";
   return packed ? lower_case(file.stem().extension().string()) : last;
 }
 
-// A PQR file has the records of a PDB file.
+// The content of a PQR file begins like that of a PDB file, because both have the same records.
 bool begin_alike(const ParticleFormat& named, const ParticleFormat& begun) {
   return named.name == "PQR" && begun.name == "PDB";
 }
@@ -100,7 +100,7 @@ const ParticleFormat& particle_format(const std::string& file, std::string_view 
   }
   if (named == formats.end()) return *begun;
   if (begun == formats.end() || begun == named || begin_alike(*named, *begun)) return *named;
-  // Endings such as .lammps and .data are used for both LAMMPS formats.
+  // Some endings, such as .lammps and .data, are used for both LAMMPS formats.
   if (begun->name == "LAMMPS dump" && named->name == "LAMMPS data") return *begun;
   throw core::InputError(
       {.file = file},

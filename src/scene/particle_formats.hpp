@@ -23,18 +23,18 @@ struct ParticleFormat {
   std::string_view name;
   std::string_view endings;  // in lower case, separated by blanks; the first one is the usual one
   std::string_view unit;     // unit of lengths; empty if the files do not state one
-  // Whether only content of this format can begin like this; always false for a format whose files
-  // begin with free text.
+  // Whether the content can only be of this format, judged by its beginning. Always false for a
+  // format whose files begin with free text.
   bool (*begins)(std::string_view start);
-  bool text;  // lines, and not bytes
+  bool text;  // true for lines of text, false for binary data
   ParticleSet (*read)(const ParticleContent& content, std::uint64_t frame, ColourKind colour);
 };
 
 [[nodiscard]] std::span<const ParticleFormat> particle_formats();
 
-// Determines the format of a file from its name, without .gz or .bz2, and from the beginning of its
-// content. Throws InputError for an unknown name if the content does not identify a format either,
-// and for content of another format than that of the name.
+// Determines the format of a file from its name (without .gz or .bz2) and from the beginning of its
+// content. Throws InputError if the name is unknown and the content does not identify a format
+// either, or if the content has another format than the name.
 [[nodiscard]] const ParticleFormat& particle_format(const std::string& file,
                                                     std::string_view start);
 

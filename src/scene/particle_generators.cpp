@@ -27,8 +27,8 @@ double cube_root(double x) {
   return exponential(logarithm(x) / 3);
 }
 
-// The radius at which `count` spheres fill the share `filling` of a volume. Overlaps are counted
-// twice.
+// The radius at which the volumes of `count` spheres add up to the share `filling` of a volume.
+// Overlaps are counted twice.
 double filling_radius(double filling, double volume, double count) {
   return cube_root(filling * volume / count * 3 / (4 * std::numbers::pi));
 }
@@ -52,7 +52,7 @@ glm::dvec3 place_in_box(core::Random& random, const Box& box) {
   return place;
 }
 
-// A set that is being generated. Colours come from a random sequence of their own, so that the
+// A set that is being generated. Colours are drawn from a random sequence of their own, so that the
 // positions do not depend on the kind of colour.
 class Maker {
  public:
@@ -103,8 +103,8 @@ void uniform(Maker& maker) {
   while (maker.left() > 0) maker.add(place_in_box(maker.random(), cube), radius);
 }
 
-// In a liquid, half of the volume is filled. That is close to the density at which spheres would
-// freeze.
+// The spheres of a liquid fill half of its volume. That is close to the density at which a liquid
+// of hard spheres would freeze.
 constexpr double liquid_filling = 0.5;
 
 struct Ball {
@@ -168,8 +168,8 @@ void layer(Maker& maker) {
   }
 }
 
-// The target of the plume. Its upper face is at y = 0; the crater is half a ball that was cut out
-// of it.
+// The slab below the plume. Its upper face is at y = 0. The crater is a half-ball that was removed
+// from it.
 struct Slab {
   double half_side = 10;
   double depth = 5;
@@ -200,8 +200,8 @@ void add_lattice(Maker& maker, const Slab& slab, double spacing) {
   }
 }
 
-// A position in a cone that opens upwards from the crater. The square makes low positions more
-// likely.
+// A position in a cone that opens upwards from the crater. Squaring the random number makes low
+// positions more likely.
 glm::dvec3 place_in_plume(core::Random& random, const Slab& slab, double height) {
   const double u = random.uniform();
   const double h = height * u * u;
@@ -241,8 +241,7 @@ void coincident(Maker& maker) {
   const std::uint64_t places = (maker.count() + copies - 1) / copies;
   maker.colour_along(2, cube);
   const double radius = filling_radius(paper_filling, cube_volume, static_cast<double>(places));
-  // The same random sequence is used from its beginning each time, so that equal positions are far
-  // apart in the set.
+  // Each copy restarts the same random sequence, so that equal positions are far apart in the set.
   for (std::uint64_t copy = 0; copy < copies; ++copy) {
     core::Random random(place_seed);
     for (std::uint64_t i = 0; i < places && maker.left() > 0; ++i) {
@@ -251,11 +250,11 @@ void coincident(Maker& maker) {
   }
 }
 
-// A wall across the front of the cube, as seen from +z, and spheres behind it that nobody sees. In
-// the plane of the wall its spheres leave no gap, because each one reaches beyond the corners of
-// its square, so no ray passes the wall. About `seen` spheres are in the wall, in complete rows.
-// The very last sphere touches the back of the cube, so that sets with equal walls have equal boxes
-// and are seen by the same cameras.
+// A wall across the front of the cube, as seen from +z, with hidden spheres behind it. The wall has
+// no gaps: in its plane, each sphere reaches beyond the corners of its square, so no ray passes
+// through. The wall consists of about `seen` spheres in complete rows. The very last sphere touches
+// the back of the cube, so that sets with equal walls have equal boxes and are seen by the same
+// cameras.
 void walled(Maker& maker, std::uint64_t seen) {
   static constexpr double reach = 0.75;  // as a share of a square's edge; the corner is at √½
   maker.colour_along(2, cube);
@@ -272,8 +271,8 @@ void walled(Maker& maker, std::uint64_t seen) {
   }
   const auto rest = static_cast<double>(maker.left());
   const double small = rest > 1 ? filling_radius(paper_filling, cube_volume, rest) : radius;
-  // Behind the plane of the wall and within its sides. A few large spheres might not fit there, so
-  // they are made smaller.
+  // The hidden spheres are behind the plane of the wall and within its sides. A few large spheres
+  // might not fit there, so their radius is limited.
   const double hidden_radius = std::min(small, 0.05 * cube.hi.x);
   const Box behind{
       cube.lo + hidden_radius,

@@ -22,13 +22,13 @@ struct SphereShading {
   return static_cast<float>(static_cast<double>(radius) * scale);
 }
 
-// Everything that determines the image, without the way in which it is computed. A pixel shows the
-// nearest surface point in front of the eye along the ray through the pixel's centre (Camera). That
-// is where the ray enters a sphere or, if the eye is inside the sphere, where it leaves it. No near
-// or far plane cuts anything off. camera.near only scales the depth buffer: z = near/Z, where Z is
-// the distance along the view axis (reversed depth with an infinite far plane; 0 if there is no
-// surface). It is a power of two that is so small that no relevant surface is nearer. If two depths
-// are equal, the particle with the lowest id is visible.
+// Everything that determines the image, independent of the technique that draws it. A pixel shows
+// the nearest surface point in front of the eye along the ray through the pixel's centre (Camera).
+// That is where the ray enters a sphere or, if the eye is inside the sphere, where it leaves it.
+// Near and far planes do not clip anything. camera.near only scales the depth buffer: z = near/Z,
+// where Z is the distance along the view axis (reversed depth with an infinite far plane; 0 if
+// there is no surface). camera.near is a power of two, small enough that no relevant surface is
+// nearer. If two depths are equal, the particle with the lowest id is visible.
 struct ParticleScene {
   std::shared_ptr<const ParticleSet> particles;
   TransferFunction intensity_colours;  // for ColourKind::intensity; its opacity is not used
@@ -39,14 +39,14 @@ struct ParticleScene {
   SphereShading shading;
   std::array<float, 4> background{0, 0, 0, 0};  // premultiplied
 
-  // The radius with which the particle is drawn.
+  // The radius with which a particle is drawn.
   [[nodiscard]] float radius(std::size_t index) const {
     return scaled_radius(particles->spheres[index][3], radius_scale);
   }
 };
 
-// The camera that the `camera` factor describes for these particles (camera_at with bounding_box),
-// with the value of `near` that ParticleScene requires.
+// The camera that the `camera` factor describes for these particles (camera_at with their
+// bounding_box), with `near` as ParticleScene requires it.
 [[nodiscard]] Camera particle_camera(std::string_view spec, const ParticleSet& set,
                                      double fov_y_deg);
 

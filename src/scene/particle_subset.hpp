@@ -6,7 +6,7 @@
 
 namespace triptych::scene {
 
-// The particles with these indices, in this order. They keep their ids.
+// The particles with these indices, in the same order as the indices. They keep their ids.
 [[nodiscard]] inline ParticleSet particle_subset(const ParticleSet& set,
                                                  std::span<const std::uint32_t> indices) {
   ParticleSet subset;

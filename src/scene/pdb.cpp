@@ -21,7 +21,7 @@ bool is_letter_of_pdb(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-// Columns are counted from 1, as in the specification, and both ends are included.
+// Returns the given columns, counted from 1 as in the specification, including both ends.
 std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
   return line.size() < first ? std::string_view{} : line.substr(first - 1, last - first + 1);
 }
@@ -38,7 +38,7 @@ std::string letters_of_name(std::string_view name) {
 }
 
 // The symbol in columns 77 and 78; empty if there is none. Older files have other text there, such
-// as the end of a segment's name: "MEMBRANE" does not mean radium.
+// as the end of a segment's name: the "RA" of "MEMBRANE" does not mean radium.
 std::string symbol_in_columns(std::string_view line) {
   const std::string_view field = columns(line, 77, 78);
   const std::string_view symbol = trimmed(field);
@@ -53,7 +53,7 @@ std::string symbol_in_columns(std::string_view line) {
 std::uint32_t kind_of_atom(Atoms& atoms, std::string_view line) {
   const std::string symbol = symbol_in_columns(line);
   if (!symbol.empty()) return atoms.kind(symbol);
-  // CHARMM's residues have four letters, the last of which is in column 21.
+  // CHARMM's residue names have four letters, the last of which is in column 21.
   return unnamed_kind(atoms, columns(line, 13, 16), columns(line, 18, 21));
 }
 
@@ -93,7 +93,7 @@ void add_pdb_atom(Atoms& atoms, std::string_view line, const LineReader& reader)
 }
 
 // Whether a line describes an atom. A serial number of six digits may begin in column 5 or 6.
-// Throws for a line that begins like an atom's but is not one, because it would be left out
+// Throws for a line that looks like an atom but is not valid, because it would be left out
 // silently.
 bool is_atom(std::string_view line, const LineReader& reader) {
   if (line.starts_with("HETATM")) return true;
@@ -134,7 +134,7 @@ class PdbFrames {
       in_model_ = false;
       closed_ = true;
     } else if (name == "HEADER") {
-      // Entries of the PDB itself have their name there.
+      // In entries of the PDB itself, these columns contain the name of the entry.
       is_entry_ = !trimmed(columns(line, 63, 66)).empty();
     }
     if (name == "END") ended_ = true;
@@ -158,12 +158,12 @@ class PdbFrames {
   }
 
   const LineReader& reader_;
-  std::uint64_t count_ = 0;  // that have begun
+  std::uint64_t count_ = 0;  // number of frames that have begun
   bool has_models_ = false;
   bool in_model_ = false;
-  bool closed_ = false;    // the last frame
-  bool ended_ = false;     // frames ended by END, at least once
-  bool is_entry_ = false;  // of the PDB
+  bool closed_ = false;    // whether the last frame has ended
+  bool ended_ = false;     // whether there was an END
+  bool is_entry_ = false;  // whether the file is an entry of the PDB
 };
 
 }  // namespace

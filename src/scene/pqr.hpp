@@ -6,9 +6,9 @@
 
 namespace triptych::scene {
 
-// PQR as written by PDB2PQR and APBS: ATOM and HETATM records of words, "ATOM number name residue
-// [chain] number x y z charge radius", in ångström. The radius comes from the file. Frames are
-// models, or end with END. Throws InputError with file and line.
+// Reads PQR as written by PDB2PQR and APBS: ATOM and HETATM records of words, "ATOM number name
+// residue [chain] number x y z charge radius", in ångström. The radius comes from the file. Frames
+// are models, or end with END. Throws InputError with file and line.
 [[nodiscard]] ParticleSet read_pqr(LineReader& reader, std::uint64_t frame, ColourKind colour);
 
 }  // namespace triptych::scene

@@ -56,7 +56,7 @@ std::vector<std::string_view> parts_of(std::string_view data) {
   }
 }
 
-// An option after the type.
+// Parses an option after the type.
 void take_option(RawSpec& spec, std::string_view part, std::string_view data) {
   constexpr std::string_view skip = "skip=";
   constexpr std::string_view components = "components=";
@@ -84,7 +84,7 @@ void take_option(RawSpec& spec, std::string_view part, std::string_view data) {
 
 std::optional<RawSpec> parse_raw_spec(std::string_view data) {
   const std::vector<std::string_view> parts = parts_of(data);
-  // The first part that is a size ends the file's name, which may contain colons.
+  // The file's name may contain colons; it ends before the first part that is a size.
   std::size_t at = 1;
   while (at < parts.size() && !three_numbers<int>(parts[at])) ++at;
   if (at >= parts.size()) return std::nullopt;

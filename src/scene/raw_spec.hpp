@@ -10,9 +10,10 @@
 
 namespace triptych::scene {
 
-// "FILE:256x256x128:u8", and after the type in any order: the spacing (":1x1x2.5"), "big" or
-// "little" (the default), "skip=BYTES" before the voxels, "components=N" (consecutive values of a
-// voxel). Types: u8 i8 u16 i16 u32 i32 u64 i64 f32 f64, or their names in NumPy (uint8, float32).
+// A description such as "FILE:256x256x128:u8". After the type follow in any order: the spacing
+// (":1x1x2.5"), "big" or "little" (the default), "skip=BYTES" for bytes before the voxels, and
+// "components=N" for consecutive values of a voxel. Types are u8 i8 u16 i16 u32 i32 u64 i64 f32
+// f64, or their names in NumPy (uint8, float32).
 struct RawSpec {
   std::string file;
   std::array<int, 3> size{};
@@ -21,7 +22,7 @@ struct RawSpec {
   std::int64_t skip = 0;
 };
 
-// nullopt if `data` states no size. Throws InputError for a description with a mistake.
+// Returns nullopt if `data` states no size. Throws InputError for an incorrect description.
 [[nodiscard]] std::optional<RawSpec> parse_raw_spec(std::string_view data);
 
 [[nodiscard]] Volume read_raw(const RawSpec& spec, const std::filesystem::path& file,

@@ -35,7 +35,7 @@ std::uint64_t size_of_file(const std::filesystem::path& file) {
   return size;
 }
 
-// The name of the encoded data in messages.
+// The name in messages of the stream that contains the voxels; empty for plain data.
 std::string_view stream_name(const RawVoxels& source) {
   switch (source.encoding) {
     case RawEncoding::gzip:
@@ -115,8 +115,8 @@ void check_claim(const Volume& volume, const RawVoxels& source, std::uint64_t ne
       source.packing == Packing::none ? size - std::min(source.start, size) : size;
   const auto skip = static_cast<std::uint64_t>(std::max<std::int64_t>(source.skip, 0));
   if (is_compressed(source)) {
-    // The densest code of Deflate spends one bit on 129 bytes, which limits the size of the
-    // unpacked data. There is no useful limit for bzip2.
+    // Deflate expands one bit to at most 129 bytes, which limits the size of the unpacked data.
+    // There is no useful limit for bzip2.
     constexpr std::uint64_t largest_ratio = 1032;
     const bool deflated =
         source.encoding != RawEncoding::bzip2 && source.packing != Packing::bzip2;
@@ -131,7 +131,7 @@ void check_claim(const Volume& volume, const RawVoxels& source, std::uint64_t ne
     }
     return;
   }
-  // A value in a text has at least one character, and a separator before the next one.
+  // In a text, a value takes at least one character and a separator before the next value.
   const bool text = source.encoding == RawEncoding::text;
   const bool hex = source.encoding == RawEncoding::hex;
   const std::uint64_t least = text  ? share / bytes_of(source.layout.type) * 2 - 1
@@ -180,7 +180,7 @@ class Files {
     return filled;
   }
 
-  // Checks the file that was read last: a text may only have blanks left.
+  // Checks that nothing follows the values in the file that was read last, except blanks in a text.
   void check_surplus() const {
     if (source_.more_may_follow) return;
     std::vector<std::byte> surplus(source_.encoding == RawEncoding::text
@@ -236,8 +236,8 @@ void read_plain(Volume& volume, const RawVoxels& source, std::uint64_t needed) {
   }
 }
 
-// Address space is reserved for all voxels, so that none is copied, but memory is used only as they
-// are read. A false claim in a header therefore costs no memory.
+// Address space is reserved for all voxels at once, so that the vector never copies them. The
+// system provides memory only as voxels are read, so a false claim in a header costs no memory.
 void take_plain(VoxelBytes& voxels, std::uint64_t needed, Files& files) {
   constexpr std::uint64_t piece = std::uint64_t{16} << 20;
   voxels.reserve(needed);
@@ -293,7 +293,7 @@ void note_values(Volume& volume, const RawVoxels& source) {
 void read_voxels(Volume& volume, const RawVoxels& given) {
   RawVoxels source = given;
   ValueLayout& layout = source.layout;
-  // Numbers in a text are converted in the machine's byte order.
+  // Numbers in a text are converted to the machine's byte order.
   if (source.encoding == RawEncoding::text) {
     layout.big_endian = std::endian::native == std::endian::big;
   }

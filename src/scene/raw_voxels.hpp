@@ -19,32 +19,34 @@ struct RawVoxels {
   static constexpr std::int64_t at_end = -1;
 
   std::filesystem::path file;
-  // Further files with the continuation of the voxels, each with as many as the first one.
+  // Further files that continue the voxels. Each of them holds as many voxels as the first one.
   std::vector<std::filesystem::path> more_files = {};
-  Packing packing = Packing::none;  // for the file as a whole: `start` counts unpacked bytes
-  std::uint64_t start = 0;          // where the data begin in the file, including skipped bytes
-  // Bytes of the decoded stream to skip before the voxels; at_end: the voxels are its last bytes.
+  Packing packing = Packing::none;  // compression of the whole file; `start` counts unpacked bytes
+  std::uint64_t start = 0;          // where the data begin, including the skipped bytes
+  // The number of bytes to skip before the voxels in the decoded stream. at_end means that the
+  // voxels are its last bytes.
   std::int64_t skip = 0;
   RawEncoding encoding = RawEncoding::plain;
   ValueLayout layout = {};
   Component component = {};
   bool more_may_follow = false;  // data after the voxels are allowed; otherwise they are an error
-  core::FilePlace sizes_place = {};  // where the header states the sizes; named when bytes disagree
+  core::FilePlace sizes_place = {};  // where the header states the sizes, for errors
 };
 
-// Fills volume.voxels, whose size is set, and sets its type, its facts, and its range from the
-// finite voxels (0..0 if there is none). Only one copy of the voxels is kept. For an uncompressed
-// file, memory is allocated after the file is known to be long enough; for a compressed one, memory
-// is used as the voxels are unpacked. Throws InputError if the data are shorter or longer than size
-// and type require or a compressed stream is broken, and IoError if the file cannot be read.
+// Fills volume.voxels, whose size is already set, and sets the volume's type, its facts, and its
+// range from the finite voxels (0..0 if there is none). Only one copy of the voxels is kept. For an
+// uncompressed file, memory is allocated only after the file is known to be long enough; for a
+// compressed one, memory is used as the voxels are unpacked. Throws InputError if the data are
+// shorter or longer than size and type require or if a compressed stream is broken, and IoError if
+// the file cannot be read.
 void read_voxels(Volume& volume, const RawVoxels& source);
 
-// Like read_voxels, from values that are already decoded. More values may follow them. At most
+// Like read_voxels, but takes values that are already decoded. More values may follow them. At most
 // most_unpacked_bytes are read.
 void read_stream(Volume& volume, const ValueLayout& layout, const Component& component,
                  const ByteSource& values, const std::filesystem::path& file);
 
-// Parts of a header that all formats share; errors carry `place`.
+// These parts of a header occur in all formats. Errors name `place`.
 [[nodiscard]] std::array<int, 3> parse_sizes(std::string_view text, const core::FilePlace& place);
 [[nodiscard]] std::array<double, 3> parse_spacings(std::string_view text,
                                                    const std::array<int, 3>& size,

@@ -1,5 +1,5 @@
 #pragma once
-// Facts that a reader found in a file in addition to the data: for `render --describe`, and for
+// Facts that a reader found in a file in addition to the data, for `render --describe` and for
 // warnings about guesses.
 
 #include <cstdint>

@@ -22,11 +22,12 @@ namespace triptych::scene {
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 [[nodiscard]] std::string lower_case(std::string_view text);
 
-// A word of a file in the form in which messages quote it: on one line, at most 40 characters,
-// without characters that control a terminal.
+// A word of a file in the form in which messages quote it: on one line, with at most 40 characters,
+// and without characters that control a terminal.
 [[nodiscard]] std::string quotable(std::string_view word);
 
-// The number that the whole word spells, if it does and the type can hold it.
+// The number that the whole word represents; nullopt if it is not a number or the type cannot hold
+// it.
 template <typename Number>
 [[nodiscard]] std::optional<Number> parse_number(std::string_view word) {
   Number value{};

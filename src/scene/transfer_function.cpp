@@ -37,8 +37,9 @@ constexpr std::array<ControlPoint, 7> haze{{
     {1.00, {1.00, 0.90, 0.80, 0.060}},
 }};
 
-// Shells at 0.40, at 0.54 and from 0.66 on, each opaque within a few voxels, with nothing between
-// or below them: in most scans, the lowest third is air and noise.
+// Opaque shells at 0.40, at 0.54 and from 0.66 on. Each reaches its opacity within a few voxels.
+// The space between and below them is empty, because in most scans the lowest third is air and
+// noise.
 constexpr std::array<ControlPoint, 12> surfaces{{
     {0.00, {0.80, 0.45, 0.30, 0}},
     {0.35, {0.85, 0.52, 0.36, 0}},
@@ -131,8 +132,8 @@ Entries from_text(std::string_view text, const std::string& file) {
   return entries;
 }
 
-// Whether the bytes are the beginning of a text: lines that consist of comments or of the
-// characters of numbers.
+// Whether the bytes look like the beginning of a text: several lines, each of which is a comment or
+// consists of characters that occur in numbers.
 bool starts_a_text(std::string_view bytes) {
   const auto lines = split_lines(bytes);
   return lines.size() > 1 && std::ranges::all_of(lines, [](std::string_view line) {
@@ -145,8 +146,8 @@ bool starts_a_text(std::string_view bytes) {
 Entries from_file(const std::filesystem::path& file) {
   const std::string text = core::read_text(file);
   const auto bytes = std::as_bytes(std::span(text));
-  // A text with 256 entries is longer, because four digits, three blanks and a line end each are
-  // 2047 bytes. But a text that was cut off can have any length.
+  // A complete text with 256 entries is longer than 1024 bytes, because four digits, three blanks
+  // and a line end for each entry are 2047 bytes. But a text that was cut off can have any length.
   const bool is_table = bytes.size() == 4 * std::tuple_size_v<Entries> && !starts_a_text(text);
   return is_table ? from_bytes(bytes) : from_text(text, file.string());
 }

@@ -7,9 +7,9 @@
 
 namespace triptych::scene {
 
-// 256 entries of RGBA in [0, 1], not premultiplied. Entry k is at (k+½)/256. Between the centres of
-// entries all four channels are linear; outside they are constant. Alpha is the opacity of one
-// voxel length (the smallest spacing): a step of s voxels has the opacity 1 − (1−α)^s.
+// 256 entries of RGBA in [0, 1], not premultiplied. Entry k is at (k+½)/256. All four channels are
+// linear between the centres of entries, and constant outside of them. Alpha is the opacity of one
+// voxel length (the smallest spacing), so a step of s voxels has the opacity 1 − (1−α)^s.
 struct TransferFunction {
   std::string name;
   std::array<std::array<float, 4>, 256> entries{};

@@ -37,7 +37,7 @@ std::string text_of(const Range& range) {
   return fmt::format("{}..{}", range.lo, range.hi);
 }
 
-// The values of a volume that are used: finite ones, and for a logarithm only positive ones.
+// Selects the values of a volume that count: finite ones, and only positive ones for a logarithm.
 template <typename Scalar>
 class Counted {
  public:
@@ -51,8 +51,7 @@ class Counted {
   [[nodiscard]] bool empty() const { return range_.lo > range_.hi; }
   [[nodiscard]] const Range& range() const { return range_; }
 
-  // The percentile by nearest rank. The first call stores a copy of the values, which later calls
-  // use.
+  // The percentile by nearest rank. The first call stores a copy of the values for later calls.
   [[nodiscard]] double percentile(double percent) {
     if (values_.empty()) for_each([this](Scalar value) { values_.push_back(value); });
     const auto count = static_cast<double>(values_.size());

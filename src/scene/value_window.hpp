@@ -22,22 +22,22 @@ struct Window {
   WindowEnd hi;
 };
 
-// "full" means no window, but the range of the volume. Otherwise the text is LOW..HIGH, and each of
-// them is a number or pN with 0 ≤ N ≤ 100: "0.5..3", "p1..p99", "0..p99.5". Throws InputError for
-// any other text, and for two numbers or two percentiles if the first is not smaller than the
-// second.
+// Parses a window. "full" is the range of the volume and gives nullopt. Any other text has the form
+// LOW..HIGH, where each end is a number or pN with 0 ≤ N ≤ 100: "0.5..3", "p1..p99", "0..p99.5".
+// Throws InputError for any other text, and for two numbers or two percentiles if the first is not
+// smaller than the second.
 [[nodiscard]] std::optional<Window> parse_window(std::string_view text);
 
 // "linear" or "log"; throws InputError.
 [[nodiscard]] Mapping mapping(std::string_view name);
 
-// Sets the values that encode maps to 0 and to 1, and the kind of mapping. Values outside the
-// window are clamped to its ends, voxel by voxel, before anything is interpolated. Percentiles are
-// nearest ranks: the smallest value that at least N % of the voxels do not exceed. Values that are
-// not finite do not count; for a logarithm only positive values count, and its full range begins at
-// the smallest of them. The full range with a linear mapping does not change the volume. Throws
-// InputError for a window that is empty for these voxels, for a logarithm if no voxel is positive,
-// and for a logarithm with a window that does not begin above 0.
+// Sets the values that encode() maps to 0 and to 1, and the kind of mapping. Each voxel outside the
+// window is clamped to the window's ends before anything is interpolated. Percentiles are nearest
+// ranks: the smallest value that at least N % of the voxels do not exceed. Values that are not
+// finite do not count. For a logarithm only positive values count, and the full range begins at the
+// smallest of them. The full range with a linear mapping does not change the volume. Throws
+// InputError if no value counts, if the window's lower end is not below its upper end for these
+// voxels, and if the mapping is logarithmic and the window does not begin above 0.
 void set_window(Volume& volume, const std::optional<Window>& window, Mapping mapping);
 
 }  // namespace triptych::scene

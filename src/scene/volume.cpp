@@ -46,7 +46,7 @@ class Normaliser {
   }
 
  private:
-  // For a logarithmic mapping, the whole range is positive.
+  // With a logarithmic mapping, the whole range is positive.
   [[nodiscard]] double transformed(double value) const {
     return mapping_ == Mapping::logarithmic ? logarithm(value) : value * unit_;
   }
@@ -59,7 +59,7 @@ class Normaliser {
   double extent_;
 };
 
-// Converts element by element; in place if both types have the same size.
+// Converts element by element, in place if both types have the same size.
 template <typename From, typename To, typename Convert>
 VoxelBytes convert(VoxelBytes&& voxels, Convert&& each) {
   const std::size_t n = voxels.size() / sizeof(From);
@@ -73,7 +73,7 @@ VoxelBytes convert(VoxelBytes&& voxels, Convert&& each) {
   return std::move(out);
 }
 
-// The unsigned form of an integer of type From: signed types are shifted so that they begin at 0.
+// The unsigned form of an integer type: signed types are shifted so that they begin at 0.
 template <typename From>
 inline constexpr int shift_of = std::is_signed_v<From> ? -int{std::numeric_limits<From>::min()} : 0;
 

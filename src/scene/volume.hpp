@@ -33,13 +33,14 @@ struct Volume {
   std::array<double, 3> spacing{1, 1, 1};
   ScalarType type = ScalarType::u8;
   VoxelBytes voxels;
-  // The values mapped to 0 and 1 of the transfer function: minimum and maximum over the finite
-  // voxels of a file; a generator states its own. lo == hi is allowed: every voxel then maps to 0.
+  // The values that are mapped to 0 and 1 of the transfer function: the minimum and maximum of the
+  // finite voxels of a file; a generator sets its own. lo == hi is allowed, and then every voxel
+  // maps to 0.
   double range_lo = 0;
   double range_hi = 1;
   Mapping mapping = Mapping::linear;
   bool clipped = false;  // some values lie beyond the range (set_window)
-  ReadFacts facts;       // of a file
+  ReadFacts facts;       // about the file
 
   [[nodiscard]] std::size_t voxel_count() const noexcept;
   // Values as stored in the file; may be NaN or infinite.
@@ -54,12 +55,14 @@ enum class VoxelFormat : std::uint8_t { u8, u16, f32, f16 };
 // The largest integer that u8 and u16 store; 1 for floats, whose texels contain the stored value.
 [[nodiscard]] double largest_stored(VoxelFormat format);
 
-// Voxels as uploaded. The normalised value, 0..1 over the range, is
+// Voxels as uploaded to a device. The normalised value, 0..1 over the range, is
 //   x = stored·scale + offset     (stored: the integer, or the float itself)
-// u8 and u16 hold 8- and 16-bit integer files exactly whatever their range; f32 holds x itself,
-// clamped to [0, 1], NaN as 0. f16 holds halves ≥ 0 of which none is subnormal: the integers of a
-// file less the range's lower end where that loses nothing (fits_halves), else 2¹⁵·x, rounded, and
-// below 2⁻²⁹ x is 0. So no voxel overflows, and what a device does with subnormals plays no part.
+// - u8 and u16 hold integer files with 8 and 16 bits exactly, whatever their range is.
+// - f32 holds x itself, clamped to [0, 1], with NaN as 0.
+// - f16 holds halves ≥ 0, none of which is subnormal. They are the integers of a file minus the
+//   lower end of the range, if halves represent these exactly (fits_halves). Otherwise they are
+//   2¹⁵·x, rounded, and x below 2⁻²⁹ becomes 0. So no voxel overflows, and it does not matter how a
+//   device treats subnormals.
 struct VoxelGrid {
   VoxelFormat format = VoxelFormat::f32;
   std::array<int, 3> size{};
@@ -69,7 +72,7 @@ struct VoxelGrid {
   double offset = 0;
   double range_lo = 0;
   double range_hi = 1;
-  Mapping mapping = Mapping::linear;  // range of the values; that of `stored` is linear
+  Mapping mapping = Mapping::linear;  // of the values; the mapping of `stored` is linear
   std::string name;
   std::string hash;  // content_hash of the voxels and the mapping
 
@@ -77,41 +80,42 @@ struct VoxelGrid {
   [[nodiscard]] double normalised(std::size_t index) const;  // x of a voxel
 };
 
-// The smallest format that represents every value of this type exactly; f64 becomes f32.
+// The smallest format that represents every value of this type exactly, except that f64 gives f32.
 [[nodiscard]] VoxelFormat lossless_format(ScalarType type);
-// The format after mapping: integers that are clamped, or whose logarithm is taken, become f32.
+// The format after the mapping: integers that are clamped, or whose logarithm is taken, become f32.
 [[nodiscard]] VoxelFormat lossless_format(const Volume& volume);
 
-// Whether f16 represents every voxel exactly. This is so for integers with a linear mapping, each
-// of which has at most 11 significant bits after the whole part of the range's lower end is
-// subtracted.
+// Whether f16 represents every voxel exactly. This is the case for integers with a linear mapping
+// if each of them has at most 11 significant bits after the whole part of the range's lower end has
+// been subtracted.
 [[nodiscard]] bool fits_halves(const Volume& volume);
 
 // Converts the volume. If the format is too small, values are rounded to its steps over the range.
-// If the representation is the same, the volume's voxels are moved, so that there is only one copy
-// in memory.
+// If the volume already has the representation of the format, its voxels are moved, so that there
+// is only one copy in memory.
 [[nodiscard]] VoxelGrid encode(Volume&& volume, VoxelFormat format);
 
-// The value of a voxel that is drawn if a file has several: the levels of the factor `component`.
+// The value that is drawn for voxels with several values: the levels of the factor `component`.
 struct Component {
   std::uint64_t index = 0;  // counted from 0
-  bool magnitude = false;   // the Euclidean length of all of them instead
+  bool magnitude = false;   // draw the Euclidean length of all values instead
 };
 [[nodiscard]] Component parse_component(std::string_view text);  // "2" or "magnitude"; InputError
 
-// `data` as in a plan: "generate:NAME:SIZE" or "generate:NAME:NXxNYxNZ" (scene/generators.hpp), a
-// file of one of the formats in scene/volume_formats.hpp, or "FILE:NXxNYxNZ:TYPE", voxels without a
-// header (scene/raw_spec.hpp). A relative file is looked for as it is, then in each of `folders`.
-// Throws InputError with file and line, IoError when nothing is there.
+// Loads a volume. `data` has the form used in a plan: "generate:NAME:SIZE" or
+// "generate:NAME:NXxNYxNZ" (scene/generators.hpp), a file in one of the formats in
+// scene/volume_formats.hpp, or "FILE:NXxNYxNZ:TYPE" for voxels without a header
+// (scene/raw_spec.hpp). A relative file name is searched first as it is, then in each of `folders`.
+// Throws InputError with file and line, and IoError if the file does not exist.
 [[nodiscard]] Volume load_volume(std::string_view data,
                                  const std::vector<std::filesystem::path>& folders = {},
                                  const Component& component = {});
 
-// Throws as load_volume does of a generated volume that cannot be made, without making it. Files
-// are left to load_volume.
+// Throws as load_volume does for a generated volume that cannot be made, but does not make it. Does
+// not check files.
 void check_generated_volume(std::string_view data);
 
-// Whether `data` names something that can be loaded here; false for a file that is not present.
+// Whether `data` can be loaded: false for a file that does not exist here.
 [[nodiscard]] bool is_present(std::string_view data,
                               const std::vector<std::filesystem::path>& folders = {});
 

@@ -24,25 +24,27 @@ struct Shading {
   double gradient_floor = 1.0 / 256;
 };
 
-// The rule by which the integral over one step of the ray is computed.
-//   - midpoint: the sample in the middle of a whole step stands for the step.
-//   - preintegrated: the field is assumed to run straight from its value at the front of the step
-//     to its value at the back. The transfer function, with the light that is lost within the step,
-//     is integrated exactly along that line. The last step ends where the ray leaves the box.
-//     Shading uses the gradient in the middle of the step.
-//   - cells: a rule of fourth order. The ray is cut at the planes through voxel centres, between
-//     which the field is a cubic. The way through each cell is cut into ⌈1/step⌉ equal parts, and
-//     these again where the value passes a kink of the transfer function (kinks.hpp). On each
-//     piece, Gauss's rule with two points gives the optical depth, and the colour runs straight
-//     from point to point in the share of the depth. Shading uses the gradient at the points. An
-//     opacity of 1 counts as an extinction of 8192·ln 2 per voxel.
+// The rule that computes the integral over one step of the ray.
+//   - midpoint: the sample in the middle of a whole step represents the step.
+//   - preintegrated: the field is assumed to be linear between its values at the front and at the
+//     back of the step. Emission and absorption of the transfer function are integrated exactly
+//     along that line, which includes the light that is absorbed within the step. The last step
+//     ends where the ray leaves the box. Shading uses the gradient in the middle of the step.
+//   - cells: a rule of fourth order. The ray is cut at the planes through voxel centres; between
+//     two cuts the field is a cubic polynomial. Each such segment is cut into ⌈1/step⌉ equal
+//     parts, and these are cut again where the value passes a kink of the transfer function
+//     (kinks.hpp). On each piece, Gauss's rule with two points gives the optical depth, and the
+//     colour changes linearly with the optical depth from one point to the other. Shading uses
+//     the gradients at the points. An opacity of 1 counts as an extinction of 8192·ln 2 per
+//     voxel.
 enum class Quadrature : std::uint8_t { midpoint, preintegrated, cells };
 [[nodiscard]] std::string_view name_of(Quadrature quadrature);
 [[nodiscard]] Quadrature quadrature(std::string_view name);  // throws InputError
 
-// Everything that determines the image, without the way in which it is computed. Samples are at t₀
-// + (i+½)·h, where h = step_voxels · smallest spacing, and t₀ is where the ray enters the box.
-// Sample i represents the length min(h, t₁ − t₀ − i·h), so that only the last one is partial.
+// Everything that determines the image, independent of the technique that draws it. Samples are at
+// t₀ + (i+½)·h, where h = step_voxels · smallest spacing, and the ray enters the box at t₀ and
+// leaves it at t₁. Sample i represents the length min(h, t₁ − t₀ − i·h), so only the last sample is
+// partial.
 struct VolumeScene {
   std::shared_ptr<const VoxelGrid> grid;
   TransferFunction transfer_function;
@@ -57,7 +59,7 @@ struct VolumeScene {
   [[nodiscard]] Box box() const;
   [[nodiscard]] double smallest_spacing() const;
   [[nodiscard]] double step_world() const { return step_voxels * smallest_spacing(); }
-  // For Quadrature::cells: the number of parts into which the ray's segment in a cell is cut.
+  // The number of parts into which Quadrature::cells cuts the segment of the ray in a cell.
   [[nodiscard]] int parts_of_cell() const;
 };
 

@@ -8,13 +8,14 @@
 
 namespace triptych::scene {
 
-// Each throws InputError with the file if its input has another form. Reading ends with the input.
+// Each function throws InputError with the file's name if its input has another form. Reading ends
+// with the input.
 
-// Two digits per byte; white space may be anywhere.
+// Reads two hexadecimal digits per byte; white space may be anywhere.
 [[nodiscard]] ByteSource hex_bytes(ByteSource source, std::string file);
 
-// Several runs may follow one another, each with its own padding. Reading ends at the first
-// character that does not belong to the encoding, such as the '<' of a closing tag.
+// Reads base64. Several runs may follow one another, each with its own padding. Reading ends at the
+// first character that does not belong to the encoding, such as the '<' of a closing tag.
 [[nodiscard]] ByteSource base64_bytes(ByteSource source, std::string file);
 
 // Reads numbers that are separated by white space or commas, and returns them as bytes of `type` in

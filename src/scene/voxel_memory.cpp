@@ -15,7 +15,7 @@
 namespace triptych::scene {
 namespace {
 
-// Not /tmp, because many systems keep it in memory.
+// The default is not /tmp, because many systems keep /tmp in memory.
 std::string folder_of_files() {
   const char* named = std::getenv("TMPDIR");
   return named != nullptr && *named != '\0' ? named : "/var/tmp";

@@ -1,6 +1,6 @@
 #pragma once
-// The memory for voxels: on the heap or, for large volumes, in an unnamed file, of which the
-// operating system keeps in memory as much as there is room for.
+// Memory for voxels: on the heap or, for large volumes, in an unnamed file, so that the operating
+// system can write parts of it to disk when memory is short.
 
 #include <cstddef>
 #include <new>
@@ -9,12 +9,12 @@
 
 namespace triptych::scene {
 
-// From this size on, voxels are stored in a file. The system can write its pages back, and it does
-// not count towards a limit on the data of a process.
+// Voxels of this size or more are stored in a file. The system can write its pages back to disk,
+// and they do not count towards a limit on the data of a process.
 inline constexpr std::size_t least_bytes_in_a_file = std::size_t{512} << 20U;
 
-// Returns memory filled with 0. Throws std::bad_alloc, and for a file IoError if its folder
-// (TMPDIR, or /var/tmp) has no space.
+// Returns memory filled with 0. Throws std::bad_alloc or, if the folder for the file (TMPDIR, or
+// /var/tmp) has no space, IoError.
 [[nodiscard]] void* allocate_voxels(std::size_t bytes);
 void free_voxels(void* voxels, std::size_t bytes) noexcept;
 
@@ -26,7 +26,7 @@ struct VoxelAllocator {
     return static_cast<T*>(allocate_voxels(n * sizeof(T)));
   }
   void deallocate(T* voxels, std::size_t n) noexcept { free_voxels(voxels, n * sizeof(T)); }
-  // Memory that resize() adds is already 0. Writing it again would fill a file twice.
+  // Memory that resize() adds is already 0. Initializing it again would write the whole file twice.
   template <typename U>
   void construct(U* /*fresh*/) noexcept {}
   template <typename U, typename... From>
@@ -36,7 +36,8 @@ struct VoxelAllocator {
   bool operator==(const VoxelAllocator&) const = default;
 };
 
-// Must only grow: if it was made smaller, a later resize() shows the old values instead of 0.
+// Such a vector must only grow: after shrinking, a later resize() would show old values instead of
+// 0.
 using VoxelBytes = std::vector<std::byte, VoxelAllocator<std::byte>>;
 
 }  // namespace triptych::scene

@@ -56,7 +56,7 @@ T swapped(T value) {
   return value;
 }
 
-// Appends to a volume's voxels, whose memory grows in large steps.
+// Appends values to the voxels of a volume, whose memory grows in large steps.
 template <typename To>
 class Voxels {
  public:
@@ -78,8 +78,8 @@ class Voxels {
   std::size_t at_ = 0;
 };
 
-// Calls `use` with each value and its component, in native byte order. Returns how many bytes there
-// were.
+// Calls `use` with each value, in native byte order, and the index of its component. Returns the
+// number of bytes that were read.
 template <typename From, typename Use>
 std::uint64_t for_each_value(const ValueLayout& layout, std::uint64_t needed,
                              const ByteSource& source, Use&& use) {
@@ -126,7 +126,7 @@ template <typename From, typename To>
 std::uint64_t lengths(Volume& volume, const ValueLayout& layout, std::uint64_t needed,
                       const ByteSource& source) {
   Voxels<To> voxels(volume.voxels, volume.voxel_count());
-  std::vector<double> sums;  // values of a block; grows as values are read
+  std::vector<double> sums;  // one for each voxel of a block; grows as values are read
   std::size_t at = 0;
   return for_each_value<From>(layout, needed, source, [&](From value, std::uint64_t component) {
     const double scaled = layout.slope * static_cast<double>(value) + layout.intercept;
@@ -150,7 +150,7 @@ void convert_in_place(Volume& volume, ScalarType type) {
   volume.type = type;
 }
 
-// 32-bit integers that a float cannot represent.
+// Converts 32-bit integers that a float cannot represent.
 template <typename From>
 void convert_to_doubles(Volume& volume) {
   if constexpr (sizeof(From) == sizeof(double)) {

@@ -12,8 +12,8 @@
 
 namespace triptych::scene {
 
-// Types of values in files. Volume has no 32- and 64-bit integers: they become the smallest type
-// that holds all values of the file exactly (u8, i8, u16, i16, f32), else f64.
+// The types of values in files. Volume has no integers of 32 and 64 bits: they become the smallest
+// type that holds all values of the file exactly (u8, i8, u16, i16, f32), otherwise f64.
 enum class StoredType : std::uint8_t { u8, i8, u16, i16, u32, i32, u64, i64, f32, f64 };
 [[nodiscard]] std::size_t bytes_of(StoredType type);
 [[nodiscard]] std::string_view name_of(StoredType type);
@@ -34,7 +34,7 @@ struct ValueLayout {
   [[nodiscard]] bool is_scaled() const { return slope != 1 || intercept != 0; }
 };
 
-// Whether the voxels are the file's bytes, but for their order within a value.
+// Whether the voxels are exactly the file's bytes, apart from the byte order within a value.
 [[nodiscard]] bool is_plain(const ValueLayout& layout);
 
 // Reads all values of a volume, whose size is set, and fills its voxels and its type. Memory is
@@ -43,7 +43,7 @@ struct ValueLayout {
 [[nodiscard]] std::uint64_t take_values(Volume& volume, const ValueLayout& layout,
                                         const Component& component, const ByteSource& source);
 
-// The number of bytes of a volume's values in the file; nothing if 64 bits cannot count them.
+// The number of bytes of a volume's values in the file; nullopt if it exceeds 64 bits.
 [[nodiscard]] std::optional<std::uint64_t> value_bytes(const Volume& volume,
                                                        const ValueLayout& layout);
 

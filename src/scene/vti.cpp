@@ -36,9 +36,9 @@ struct VtiFile {
   XmlTag image;
   std::vector<XmlTag> pieces;
   std::vector<VtiArray> arrays;
-  std::array<std::string, 2> active;  // the names of the point and cell arrays that are the scalars
+  std::array<std::string, 2> active;  // arrays declared as scalars: of points, of cells
   std::optional<XmlTag> appended;
-  std::uint64_t appended_start = 0;  // behind its '_'
+  std::uint64_t appended_start = 0;  // position after the '_'
 
   [[noreturn]] void reject(const std::string& message) const {
     throw core::InputError({.file = file}, message);
@@ -82,7 +82,7 @@ VtiFile read_tags(const std::filesystem::path& file) {
     } else if (tag->name == "AppendedData") {
       vti.appended = *tag;
       vti.appended_start = start_of_appended(file, tag->end);
-      break;  // bytes follow, not text
+      break;  // binary data follow
     }
   }
   if (vti.root.attribute("type") != "ImageData" || vti.image.name.empty()) {
@@ -99,8 +99,8 @@ VtiFile read_tags(const std::filesystem::path& file) {
   return vti;
 }
 
-// Chooses the point scalars, else the cell scalars, else the first point array, else the first cell
-// array.
+// Chooses the array to draw: the scalars of the points, otherwise the scalars of the cells,
+// otherwise the first array of the points, otherwise the first array of the cells.
 const VtiArray& chosen_array(const VtiFile& vti) {
   for (const bool by_name : {true, false}) {
     for (const bool of_cells : {false, true}) {
@@ -180,7 +180,7 @@ StoredType vti_type(const VtiFile& vti, const XmlTag& array) {
                          quotable(name)));
 }
 
-// Numbers before the data, in the file's byte order, with 4 or 8 bytes each.
+// Reads the numbers before the data, which have 4 or 8 bytes each, in the file's byte order.
 class BlockHeader {
  public:
   BlockHeader(const VtiFile& vti, const ByteSource& source)
@@ -211,7 +211,7 @@ class BlockHeader {
   bool big_;
 };
 
-// Blocks compressed with zlib, after a header that states their sizes.
+// Reads blocks that are compressed with zlib and follow a header with their sizes.
 class ZlibBlocks {
  public:
   ZlibBlocks(const VtiFile& vti, ByteSource source) : file_(vti.file), source_(std::move(source)) {
@@ -276,7 +276,7 @@ class ZlibBlocks {
   std::size_t at_ = 0;
 };
 
-// A source of the array's values from the first byte on; nothing has been read.
+// A source of the array's values. It begins at the first byte.
 ByteSource open_array(const VtiFile& vti, const XmlTag& array, const std::filesystem::path& file,
                       StoredType type) {
   const std::string format = array.attribute("format", "ascii");
@@ -302,7 +302,7 @@ ByteSource open_array(const VtiFile& vti, const XmlTag& array, const std::filesy
   const std::string compressor = vti.root.attribute("compressor");
   if (compressor.empty()) {
     const BlockHeader header(vti, bytes);
-    // The number of following bytes, which also follows from the sizes.
+    // Skip the byte count in the header, because it also follows from the sizes.
     static_cast<void>(header.take());
     return bytes;
   }

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t longest_vtk_header = std::size_t{1} << 20U;
 
-// The lines of a header, and the position at which each ends.
+// Reads the lines of a header and keeps the position at which each ends.
 class VtkLines {
  public:
   explicit VtkLines(const std::filesystem::path& file)
@@ -96,7 +96,7 @@ std::uint64_t count_of(const VtkLines& lines, std::string_view word) {
   return *count;
 }
 
-// The properties of the image that precede its array.
+// The properties of the image, which the file states before its array.
 struct VtkHeader {
   bool binary = false;
   std::string sizes;

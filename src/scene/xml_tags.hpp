@@ -1,6 +1,7 @@
 #pragma once
-// The tags of an XML file, one by one, with the position at which each ends: for formats with large
-// data between tags. This is not a whole XML parser: entities in attributes are left as they are.
+// Reads the tags of an XML file one by one, with the position at which each ends. This suits
+// formats with large data between the tags. It is not a complete XML parser: entities in attributes
+// are not replaced.
 
 #include <cstdint>
 #include <map>

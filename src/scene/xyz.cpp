@@ -15,12 +15,12 @@
 namespace triptych::scene {
 namespace {
 
-// The columns of the element and the position in a line.
+// The columns in a line that contain the element and the position.
 struct XyzColumns {
   std::size_t element = 0;
   std::size_t place = 1;
   bool numbered = false;  // the element is an atomic number, according to the file
-  // Number of columns, as stated; a plain file may have further ones.
+  // The number of columns that the file states; a plain XYZ file may have further ones.
   std::optional<std::size_t> count;
 };
 
@@ -31,7 +31,7 @@ std::string_view take_part(std::string_view& list) {
   return part;
 }
 
-// Properties=NAME:TYPE:COUNT:…, in the order of the columns.
+// Parses Properties=NAME:TYPE:COUNT:…, whose items are in the order of the columns.
 XyzColumns stated_columns(std::string_view list, const LineReader& reader) {
   constexpr std::size_t most_columns = 10'000;
   std::optional<std::size_t> species;
@@ -75,8 +75,7 @@ XyzColumns columns_of(std::string_view text, const LineReader& reader) {
   return comment.properties ? stated_columns(*comment.properties, reader) : XyzColumns{};
 }
 
-// Numbers in the notations of other programs: with Fortran's exponent (1.0D+00), or Mathematica's
-// (8.4*^-6).
+// Also reads numbers in the notations of Fortran (1.0D+00) and Mathematica (8.4*^-6).
 double xyz_number(std::string_view word, std::string_view what, const LineReader& reader) {
   const std::size_t mark = word.find_first_of("dD*");
   if (mark == std::string_view::npos) return reader.number(word, what);
@@ -86,7 +85,7 @@ double xyz_number(std::string_view word, std::string_view what, const LineReader
   } else if (word[mark] != '*') {
     plain[mark] = 'e';
   }
-  // The original word is quoted if this is not a number either.
+  // If this is not a number either, the error quotes the original word.
   const auto value = parse_number<double>(plain);
   return value ? *value : reader.number(word, what);
 }
@@ -139,8 +138,8 @@ std::string_view letters_of_word(std::string_view word) {
   return word.substr(0, word.find_first_of("0123456789_-+."));
 }
 
-// "CB" or "HG" is not an element but the name of an atom in a protein. Then "CA" is such a name,
-// too.
+// Whether a word is the name of an atom in a protein, such as "CB" or "HG", and not an element. If
+// a file has such names, its "CA" is one of them, too.
 bool is_atom_name(std::string_view word) {
   const std::string_view letters = letters_of_word(word);
   const bool upper = std::ranges::all_of(letters, [](char c) { return c >= 'A' && c <= 'Z'; });
@@ -193,8 +192,8 @@ void name_words(Atoms& atoms, bool numbered) {
   name_elements(atoms);
 }
 
-// After a frame, either the file ends or the next count follows. The data set QM9 has three other
-// lines there: frequencies, SMILES and InChI.
+// Checks that after a frame either the file ends or the next count follows. The data set QM9 has
+// three other lines there: frequencies, SMILES and InChI.
 void check_what_follows(LineReader& reader) {
   if (reader.at_end()) return;
   const std::string_view line = reader.require("a frame");
