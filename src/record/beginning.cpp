@@ -20,7 +20,7 @@ std::vector<std::string> all_in(const std::vector<Beginning>& parts,
   return {all.begin(), all.end()};
 }
 
-// The values are stored in the form in which they are read back, so that seals match.
+// Converts the values to the form in which they are read back, so that seals match.
 std::vector<std::string> mended(std::vector<std::string> texts) {
   for (std::string& each : texts) each = core::mended_utf8(each);
   return texts;

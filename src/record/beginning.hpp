@@ -15,12 +15,13 @@ namespace triptych::record {
 
 // A loader, platform, driver or device that was found to be unusable while devices were listed.
 struct Unusable {
-  // "OpenCL platform Clover". If the process that listed devices ended, its API, "vulkan", with the
-  // part of it in parentheses if there are several, "gl (EGL)".
+  // The failing part, such as "OpenCL platform Clover". If the process that listed devices ended,
+  // this is its API, such as "vulkan", with the part of the API in parentheses if there are
+  // several: "gl (EGL)".
   std::string what;
   std::string reason = {};  // the message of the loader or driver
-  // How the process that listed devices crashed, hung or returned garbage. The devices that it
-  // would have listed are not known.
+  // The way in which the process that listed devices ended: it crashed, hung or returned garbage.
+  // The devices that it would have listed are not known.
   std::optional<Reason> ended = {};
   bool operator==(const Unusable&) const = default;
 
@@ -28,12 +29,12 @@ struct Unusable {
   [[nodiscard]] std::string api() const { return what.substr(0, what.find(' ')); }
 };
 
-// One command's part of a run: the requested devices and the devices that were found. A run that
-// was resumed or merged has several parts.
+// The part of a run that one command contributed: the requested devices and the devices that were
+// found. A run that was resumed or merged has several parts.
 struct Beginning {
   std::string host = {};
   std::string program = {};               // the version of Triptych that measured; may be unknown
-  std::vector<std::string> asked = {};    // globs over device ids; empty: all
+  std::vector<std::string> asked = {};    // globs over device ids; all devices if empty
   std::vector<std::string> found = {};    // ids of all devices that were listed
   std::vector<std::string> devices = {};  // ids of the devices to be measured
   std::vector<Unusable> unusable = {};
@@ -50,10 +51,12 @@ void from_json(const nlohmann::json& json, Unusable& unusable);
 void to_json(nlohmann::json& json, const Beginning& beginning);
 void from_json(const nlohmann::json& json, Beginning& beginning);
 
-// The parts without duplicates, in an order that does not depend on the order of the argument.
+// Removes duplicates and sorts the parts in an order that does not depend on the order of the
+// argument.
 [[nodiscard]] std::vector<Beginning> joined(std::vector<Beginning> parts);
 
-// The ids of the devices that all parts together planned to measure, or found.
+// devices_of: the ids of the devices that any of the parts planned to measure. found_in: the ids of
+// the devices that any of the parts found.
 [[nodiscard]] std::vector<std::string> devices_of(const std::vector<Beginning>& parts);
 [[nodiscard]] std::vector<std::string> found_in(const std::vector<Beginning>& parts);
 

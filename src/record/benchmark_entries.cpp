@@ -9,8 +9,8 @@ namespace {
 using core::Json;
 constexpr const char* patches_key = "merge_patches";
 
-// The patch that converts `from` to `to`: it has the values that are new or different, and null for
-// the removed ones.
+// The merge patch that converts `from` to `to`. It contains the values that are new or different,
+// and null for the removed ones.
 Json patch(const Json& from, const Json& to) {
   Json changes = Json::object();
   for (const auto& [key, value] : to.items()) {

@@ -1,6 +1,7 @@
 #pragma once
-// Google Benchmark's own entries, as a record keeps them. Every configuration has about eighteen of
-// them (each frame, the aggregates, the loop), and they all repeat its name and its counters.
+// Google Benchmark's own entries in the form in which a record stores them. Every configuration has
+// about eighteen entries (each frame, the aggregates, the loop), which all repeat its name and its
+// counters, so only the differences are stored.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

@@ -7,8 +7,8 @@
 namespace triptych::record {
 namespace {
 
-// In the order of the enum. This is a switch, so that the compiler warns about a check without a
-// name.
+// The names are in the order of the enum. This is a switch, so that the compiler warns about a
+// check without a name.
 constexpr std::string_view checked_name(Check check) {
   switch (check) {
     case Check::image:

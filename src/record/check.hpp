@@ -11,12 +11,12 @@ namespace triptych::record {
 
 enum class Check : std::uint8_t {
   image,        // against the reference, within a derived bound
-  counters,     // ours, exact
+  counters,     // Triptych's own counters, exact
   statistics,   // the driver's pipeline statistics, exact by driver version
   cost,         // instructions per frame, by driver version
   code,         // the report of a GPU's compiler, exact by driver version
   memory,       // bytes allocated on the device, exact
-  timing,       // shown; affects the verdict only on request
+  timing,       // reported; affects the verdict only on request
   correlation,  // the cost on one device as a function of the cost on another
   accuracy,     // orders of convergence and error against run time
   stress        // scores of hostile scenes

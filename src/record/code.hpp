@@ -1,5 +1,5 @@
 #pragma once
-// A compiler's report about the device code that it generated. Nothing is executed for it.
+// A compiler's report about the device code that it generated. The code is never executed for this.
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
@@ -9,16 +9,16 @@ namespace triptych::record {
 
 // One executable of a configuration: a shader stage of a pipeline, or a kernel.
 struct Executable {
-  // The keys are the driver's own names, such as "VGPRs" or "Inverse Throughput", and "Loop …" and
-  // "Instructions", which Triptych counts in the disassembly. A statistic that a driver does not
-  // report is absent, never zero.
+  // The keys are the driver's own names, such as "VGPRs" or "Inverse Throughput", and the names of
+  // the statistics that Triptych counts in the disassembly ("Instructions" and those that begin
+  // with "Loop"). A statistic that a driver does not report is absent, never zero.
   std::map<std::string, double> statistics;
   // Content hash of its disassembly, the key of Store::listing(); empty if there is none.
   std::string assembly = {};
   bool operator==(const Executable&) const = default;
 };
 
-// The keys are names of shaders, "raycast.comp" or "sphere.frag", or of kernels.
+// The keys are the names of shaders, such as "raycast.comp" or "sphere.frag", or of kernels.
 using Code = std::map<std::string, Executable>;
 
 void to_json(nlohmann::json& json, const Executable& executable);

@@ -5,7 +5,8 @@
 
 namespace triptych::record {
 
-// The factors, as a device resolved them, on which a record's data_hash depends.
+// The factors on which a record's data_hash depends, with the values that the device resolved them
+// to.
 inline constexpr std::array<std::string_view, 5> data_factors{"data", "voxel", "colour", "window",
                                                               "mapping"};
 

@@ -11,7 +11,7 @@ namespace triptych::record {
 
 enum class DeviceFaultKind : std::uint8_t {
   clock_reads_zero,      // the device's timer reads 0 for work that takes time
-  clock_rate_wrong,      // its ticks do not have the length that the device reports
+  clock_rate_wrong,      // a tick does not have the length that the device reports
   clock_not_written,     // a time stamp was never written
   statistics_all_zero,   // pipeline statistics of a frame that drew something are all 0
   statistics_crash,      // the driver crashes when it reads pipeline statistics

@@ -1,6 +1,6 @@
 #pragma once
 // The expectations of a stress case in addition to its error bound: relations between its image and
-// others, and limits of its counters. A suite states them as data, and the judge checks them.
+// other images, and limits of its counters. A suite states them as data, and the judge checks them.
 
 #include <array>
 #include <map>
@@ -9,21 +9,21 @@
 
 namespace triptych::record {
 
-// Another record of the same run and device, whose configuration differs only in these factors.
-// Values are written as in the key of a configuration. There, data, camera and technique are always
-// present, and any other factor only if it does not have its default value.
+// Selects another record of the same run and device, whose configuration differs only in these
+// factors. Values are written as in the key of a configuration, which always contains data, camera
+// and technique, and any other factor only if it does not have its default value.
 using Changed = std::map<std::string, std::string>;
 
-// The picture equals that of another configuration.
+// The image equals that of another configuration.
 struct SamePicture {
   Changed changed;
-  bool mirrored_x = false;  // left and right exchanged
-  bool mirrored_y = false;  // top and bottom exchanged
+  bool mirrored_x = false;  // with left and right exchanged
+  bool mirrored_y = false;  // with top and bottom exchanged
   // Pixel (0, 0) equals the pixel at this position of the other image, which may be larger.
   std::array<int, 2> at{0, 0};
-  bool to_the_bit = true;  // otherwise within the sum of both images' bounds
-  bool same_ids = true;  // if not: the particles are numbered differently, and ids are not compared
-  float depth_scale = 1;  // depths of the other picture over depths of this one; a power of two
+  bool to_the_bit = true;  // if false, equal within the sum of both images' bounds
+  bool same_ids = true;    // if false, ids are not compared, because numbering differs
+  float depth_scale = 1;   // depths of the other image over depths of this one; a power of two
 };
 
 // Every pixel has exactly this colour.
@@ -45,7 +45,7 @@ struct CountAtMost {
 struct MayBeRefused {};
 
 struct Expectation {
-  std::string what;  // one line for people: the expectation and its reason
+  std::string what;  // one line that states the expectation and its reason
   std::variant<SamePicture, OneColour, CountAtMost, MayBeRefused> rule;
 };
 

@@ -13,12 +13,12 @@ namespace triptych::record {
 // values. '%' becomes '%25' only if it would otherwise begin one of these three sequences. All
 // other text is unchanged.
 [[nodiscard]] std::string escaped(std::string_view value);
-// The value for such a text. A text without an escape is unchanged.
+// The inverse of escaped(). A text without an escape sequence is unchanged.
 [[nodiscard]] std::string unescaped(std::string_view text);
 
-// Sorted by the factors, whose names contain neither ',' nor '='.
+// Joins the factors, sorted by name. Names contain neither ',' nor '='.
 [[nodiscard]] std::string factor_list(const std::map<std::string, std::string>& factors);
-// The inverse. A part without '=' is ignored.
+// The inverse of factor_list(). A part without '=' is ignored.
 [[nodiscard]] std::map<std::string, std::string> parse_factor_list(std::string_view list);
 
 }  // namespace triptych::record

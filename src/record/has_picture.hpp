@@ -1,13 +1,13 @@
 #pragma once
-// Distinguishes records that have an image to judge from others.
+// Distinguishes records that have an image to compare from records without one.
 
 #include "record/record.hpp"
 
 namespace triptych::record {
 
-// speed_of_light leaves sums instead of an image, and where only compilers were asked, nothing was
-// drawn. A record knows only the name of its technique; a test compares it with the catalogue,
-// which lists the techniques without a picture.
+// The technique speed_of_light computes sums instead of an image, and a compile-only device draws
+// nothing. A record contains only the name of its technique, so a test compares that name with the
+// catalogue, which lists the techniques without an image.
 [[nodiscard]] inline bool has_picture(const Record& record) {
   return record.technique != "speed_of_light" && record.code.empty();
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Enumerations and the names of their values, in one table for both directions.
+// Converts between the values of enumerations and their names, with one table for both directions.
 
 #include <fmt/format.h>
 

@@ -8,8 +8,9 @@
 
 namespace triptych::record {
 
-// The first device of each driver version, API and processor. OpenGL devices of one driver, through
-// EGL and through OSMesa, differ only in how they are opened and how their images are read.
+// Returns the first device of each combination of driver version, API and processor. For OpenGL,
+// EGL and OSMesa count as one driver, because they differ only in how devices are opened and images
+// are read.
 [[nodiscard]] inline std::vector<Device> one_per_driver(std::span<const Device> devices) {
   const auto driver_of = [](const Device& device) {
     return std::tie(device.api, device.name, device.driver, device.driver_version);

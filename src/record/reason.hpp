@@ -1,6 +1,6 @@
 #pragma once
-// The reason why a record was not measured, as data; report/words/ turns it into sentences. Nothing
-// compares `detail` or `last_words`, which quote drivers and libraries.
+// The reason why a record was not measured, as data. report/words/ turns it into sentences.
+// `detail` and `last_words` quote drivers and libraries, so no code compares them.
 
 #include <chrono>
 #include <cstdint>
@@ -26,35 +26,34 @@ enum class Outcome : std::uint8_t {
 [[nodiscard]] Outcome outcome(std::string_view name);  // throws InputError
 
 enum class Cause : std::uint8_t {
-  none,           // it was measured
-  same_frames,    // measured as another configuration, whose frames would be the same
-  not_supported,  // the device, driver or technique does not support this; `detail` has the missing
-                  // feature
-  bad_input,      // a broken file, or factor levels that contradict each other
-  no_emulator,    // instructions cannot be counted on this machine
+  none,              // it was measured
+  same_frames,       // same frames as another configuration, from which they were copied
+  not_supported,     // the device, driver or technique lacks the feature in `detail`
+  bad_input,         // a broken file, or factor levels that contradict each other
+  no_emulator,       // instructions cannot be counted on this machine
   not_on_processor,  // instructions can be counted only on a processor
   api_error,         // `subject` is the call, `code` the code that it returned
   device_lost,       // `subject` and `code` as for api_error
   not_drawn,         // the driver reported success, but drew nothing
-  out_of_memory,     // host memory, with the data `subject`; "limit_bytes" where there is a limit
+  out_of_memory,     // host memory, for the data `subject`; "limit_bytes" if there is a limit
   error,             // any other exception
-  signal,            // the worker was killed: "signal"
-  exit_code,         // the worker left early: "exit_code"
+  signal,            // the worker was killed by the signal "signal"
+  exit_code,         // the worker exited early with the code "exit_code"
   unknown_end,       // the worker could not be killed
   timeout,           // no answer within "limit_s"
   bad_answer,        // the worker's answer makes no sense
-  no_greeting,       // the worker did not greet
+  no_greeting,       // the worker did not send its greeting
   cannot_start,      // the worker's program cannot be started
-  under_way          // "times" abnormal exits, of Triptych or the machine, while it was measured
+  under_way          // "times" abnormal exits happened while it was measured
 };
 [[nodiscard]] std::string_view name_of(Cause cause);
 [[nodiscard]] Cause cause(std::string_view name);  // throws InputError
 
-// The activity of the worker at that moment.
+// The activity of the worker when it failed.
 enum class Stage : std::uint8_t {
-  working,   // on the configuration
-  opening,   // the device
-  counting,  // the configuration's instructions, under an emulator
+  working,   // on the configuration itself
+  opening,   // opening the device
+  counting,  // counting the configuration's instructions under an emulator
 };
 [[nodiscard]] std::string_view name_of(Stage stage);
 [[nodiscard]] Stage stage(std::string_view name);  // throws InputError
@@ -62,11 +61,11 @@ enum class Stage : std::uint8_t {
 struct Reason {
   Cause cause = Cause::none;
   Stage stage = Stage::working;
-  std::map<std::string, double> numbers = {};  // the unit is part of the name
+  std::map<std::string, double> numbers = {};  // each name contains the unit
   std::string subject = {};                    // an identifier: a call, a device, a data set
   std::string code = {};                       // the error code of an API call
-  // Not attempted, because configurations that share these levels ended in this way. If there are
-  // no levels, all configurations did.
+  // The configuration was not attempted, because configurations with the same `shared_levels` ended
+  // in this way. Without levels, all configurations did.
   bool not_tried = false;
   std::string shared_levels = {};  // "factor=value,…"
   std::string detail = {};         // the message of a driver, a library or an exception
@@ -78,19 +77,18 @@ struct Reason {
   [[nodiscard]] std::optional<std::chrono::seconds> limit() const;
 };
 
-// Whether two reasons are of the same kind, whatever their texts and time limits are.
+// Whether two reasons are of the same kind, regardless of their texts and time limits.
 [[nodiscard]] bool is_same_kind(const Reason& a, const Reason& b);
-// This text is equal for two reasons if and only if they are of the same kind.
+// A text that is equal for two reasons if and only if they are of the same kind.
 [[nodiscard]] std::string kind_of(const Reason& reason);
 
-// Thrown if a configuration or a device that was not measured ends a command.
+// Thrown when a configuration or a device was not measured and the command therefore ends.
 class NotMeasured : public core::Error {
  public:
   NotMeasured(Outcome outcome, Reason reason);
   [[nodiscard]] Outcome outcome() const noexcept { return outcome_; }
   [[nodiscard]] const Reason& reason() const noexcept { return reason_; }
-  // If the device does not support the request (skipped), the command ends with cannot_judge,
-  // otherwise with usage.
+  // cannot_judge if the device does not support the request (outcome skipped), otherwise usage.
   [[nodiscard]] core::ExitCode exit_code() const noexcept;
 
  private:
@@ -98,7 +96,7 @@ class NotMeasured : public core::Error {
   Reason reason_;
 };
 
-// The time that a configuration may take, unless the option --limit says otherwise.
+// The time that a configuration may take if the option --limit does not set another.
 inline constexpr std::chrono::seconds standard_limit{60};
 
 void to_json(nlohmann::json& json, const Reason& reason);

@@ -14,7 +14,7 @@
 namespace triptych::record {
 namespace {
 
-// Keeps a key on one line and its parts separate: "; " appears only between parts.
+// Keeps a key on one line and its parts distinguishable: "; " occurs only between parts.
 std::string one_line(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -30,8 +30,8 @@ std::string one_line(std::string_view text) {
   return result;
 }
 
-// Letters and digits in lower case. Every sequence of other characters becomes one '-', with none
-// at the ends.
+// Keeps letters and digits, in lower case. Every sequence of other characters becomes one '-',
+// except at the ends.
 std::string slug(std::string_view text, std::size_t longest) {
   std::string result;
   for (const char c : text) {
@@ -70,7 +70,7 @@ double quantile_of_sorted(const std::vector<double>& sorted, double share) {
   const auto below = static_cast<std::size_t>(place);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
   const double weight = place - static_cast<double>(below);
-  // Not a + w·(b−a), which would be NaN for an infinite b and w = 0.
+  // The form a + w·(b−a) would be NaN for an infinite b and w = 0.
   return weight == 0 ? sorted[below] : (1 - weight) * sorted[below] + weight * sorted[above];
 }
 
@@ -85,7 +85,7 @@ std::vector<double> sorted_numbers(std::vector<double> samples) {
 std::string Device::key() const {
   std::string key = fmt::format("{}; driver {}; API {}", one_line(id), one_line(driver_version),
                                 one_line(api_version));
-  // For a CPU device the features determine the generated code. GPUs with the same driver are
+  // For a CPU device, the CPU features determine the generated code. GPUs with the same driver are
   // distinguished by their names.
   if (!cpu_features.empty()) {
     key += "; CPU " + one_line(cpu_features);

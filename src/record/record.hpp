@@ -1,6 +1,6 @@
 #pragma once
-// The measurements: one Record for each configuration, device and run. Everything above (judge,
-// report) works from records only, on a machine without any of the devices.
+// The measurements: one Record for each configuration, device and run. The judge and the reports
+// work from records only, on a machine without any of the devices.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,52 +29,54 @@ struct Device {
   std::string driver;          // name of the driver
   std::string driver_version;  // as the driver reports it, on one line
   std::string api_version;
-  std::string cpu_features;  // the features for which code is generated; empty for a GPU
-  // Variables that are set and change code generation.
+  std::string cpu_features;  // features that code is generated for; empty for a GPU
+  // The environment variables that are set and change code generation.
   std::map<std::string, std::string> environment;
-  std::map<std::string, std::string> limits;  // in the API's own names
-  // One entry for each statistic; empty if no scene was drawn. It depends only on the driver, so it
-  // is not a part of any key.
+  std::map<std::string, std::string> limits;  // with the API's own names
+  // One entry for each statistic; empty if no calibration scene was drawn. The calibration depends
+  // only on the driver, so it is not part of any key.
   std::map<std::string, StatisticWorth> statistics_calibration = {};
-  std::vector<DeviceFault> faults = {};  // not part of any key either
-  // The GPU family, such as "navi31", of a device that only compiles: its driver generates code for
-  // hardware that is not here, and nothing is ever executed on it. Empty: the device executes.
+  std::vector<DeviceFault> faults = {};  // not part of any key
+  // The GPU family of a compile-only device, such as "navi31": its driver generates code for
+  // hardware that is not present, and nothing is ever executed on it. Empty for a device that
+  // executes.
   std::string compiles_for = {};
 
-  // Everything that times and the bits of images depend on: id, driver version, API version, CPU
-  // features or otherwise the name of the hardware, and environment. It is one line of text;
-  // `key_hash` is a short file name that is computed from it.
+  // Everything that the times and the bits of images depend on: id, driver version, API version,
+  // environment, and the CPU features or otherwise the name of the hardware. The key is one line of
+  // text; `key_hash` is a short file name that is computed from it.
   [[nodiscard]] std::string key() const;
   [[nodiscard]] std::string key_hash() const;
-  // Everything that pipeline statistics depend on: id and driver version. It is also a file name: a
-  // readable part and a hash.
+  // Everything that pipeline statistics depend on: id and driver version. The key is also a file
+  // name, which consists of a readable part and a hash.
   [[nodiscard]] std::string statistics_key() const;
   bool operator==(const Device&) const = default;
 };
 
-// Whether the clock of a device is trusted, for each kind of work ("compute", "draw"): the device
-// time of a calibration workload divided by its wall-clock time, as the median and the range.
+// Whether the clock of a device is trusted, for one kind of work ("compute", "draw"). The ratio is
+// the device time of a calibration workload divided by its wall-clock time, as the median and the
+// range.
 struct ClockTrust {
   std::string work;
-  bool offered = false;  // the device reports a time at all
+  bool offered = false;  // whether the device reports a time
   bool trusted = false;
-  double ratio = 0;  // median of device/wall; meaningless unless offered
+  double ratio = 0;  // median of device/wall; valid only if offered
   double ratio_low = 0;
   double ratio_high = 0;
-  std::string verdict;  // one line, for people
+  std::string verdict;  // one line of text
   bool operator==(const ClockTrust&) const = default;
 };
 
-// The pipeline statistics. One that a device cannot count is absent, never zero. Names:
-// input_assembly_vertices, input_assembly_primitives, vertex_invocations, geometry_invocations,
+// The pipeline statistics. A statistic that a device cannot count is absent, never zero. The names
+// are input_assembly_vertices, input_assembly_primitives, vertex_invocations, geometry_invocations,
 // geometry_primitives, clipping_invocations, clipping_primitives, fragment_invocations,
-// tessellation_control_patches, tessellation_evaluation_invocations, compute_invocations.
+// tessellation_control_patches, tessellation_evaluation_invocations and compute_invocations.
 using Counts = std::map<std::string, std::uint64_t>;
 
 struct Record {
-  std::string run;  // id of the run (one command `triptych run`), see Run
+  std::string run;  // Run::id of the command `triptych run` that made this record
   std::string suite;
-  std::string plan;  // "volume/quick" or the file's name
+  std::string plan;  // "volume/quick", or the name of the plan's file
   std::string
       configuration;  // canonical "factor=value,…" of all factors that do not have their defaults
   std::string scene;  // canonical text of the factors that determine the image
@@ -83,15 +85,16 @@ struct Record {
   std::map<std::string, std::string> factors;  // every factor; defaults are resolved
 
   Outcome outcome = Outcome::failed;
-  // Set for every outcome except measured, and for records that copied their frames.
+  // The reason for every outcome except measured, and for records with copied frames.
   Reason reason;
-  // The configuration of the same run and device whose frames these are: in this scene both are the
-  // same work, and the other one was measured. Empty: this one was measured.
+  // The configuration of the same run and device from which the frames were copied, because both
+  // configurations are the same work in this scene. Empty if this configuration itself was
+  // measured.
   std::string same_as;
   std::string injected;  // name of an injected fault; such a record is never accepted as a baseline
 
-  // Times in nanoseconds, one for each timed frame. Device time is used if it is trusted for this
-  // kind of work, otherwise the wall clock.
+  // Times in nanoseconds, one for each timed frame. The device time is used if it is trusted for
+  // this kind of work, otherwise the wall clock.
   std::vector<double> wall_ns;
   std::vector<double> device_ns;  // empty if the device reports no time
   bool device_clock_trusted = false;
@@ -99,52 +102,55 @@ struct Record {
   int frames_per_100ms = 0;  // estimated during warm-up
   double loop_wall_ns = 0;   // the whole wall-clock loop at the end
   int loop_frames = 0;
-  double prepare_ns = 0;   // data, pipelines, upload
-  double overhead_ns = 0;  // wall clock of this configuration outside device work and warm-up
+  double prepare_ns = 0;                // time for data, pipelines and upload
+  double overhead_ns = 0;               // wall-clock time outside device work and warm-up
   std::uint64_t peak_memory_bytes = 0;  // peak of the worker process so far
 
-  // Instructions that the worker executed during one frame of the timed build, by the memory in
-  // which they were: "device_code", "driver", "libc", "program". Also "allocations", which are
-  // calls for memory, and "misses" of device code in a simulated cache. Empty if they were not
-  // counted. `prepare_cost` is the same for preparing.
+  // The instructions that the worker executed during one frame of the timed build, grouped by the
+  // memory that contains them: "device_code", "driver", "libc", "program". There are also
+  // "allocations", the number of memory allocations, and "misses" of device code in a simulated
+  // cache. Empty if instructions were not counted. `prepare_cost` contains the same for the
+  // preparation.
   Counts cost;
   Counts prepare_cost;
-  Code code;                // of plans that check `code`; empty where no compiler reported any
+  Code code;  // for plans that check `code`; empty if no compiler reported any
   std::string
       counted_by;  // the counter: the emulator, its version, and the processor that it simulates
   Counts memory;            // bytes allocated on the device for this configuration, by kind
   Counts energy;            // microjoules per frame, by meter; empty if there are no meters
   Counts counters;          // Triptych's own counters; empty if no counting frame was drawn
-  Counts statistics;        // the driver's
-  std::string image;        // content hash, the key for Store::image(); empty if there is none
+  Counts statistics;        // the driver's pipeline statistics
+  std::string image;        // content hash, the key for Store::image(); empty without an image
   std::string data_hash;    // content hash of the scene's data
   std::string kernel_hash;  // content hash of the device code
-  // Facts for the bound of the image, e.g. "filter_weight_error".
+  // Facts that determine the bound of the image, such as "filter_weight_error".
   std::map<std::string, double> precision;
   std::string benchmark_json;  // the entry of Google Benchmark's own output for this configuration
 
-  // Drawn only for its image and its counts, so neither warmed up nor timed. A record that was
-  // timed and lost its times does not count as untimed.
+  // Whether the configuration was drawn only for its image and its counts, without warm-up and
+  // timing. A record that was timed but lost its times does not count as untimed.
   [[nodiscard]] bool untimed() const {
     return outcome == Outcome::measured && warm_up_frames == 0 && wall_ns.empty();
   }
-  // The instructions of a frame that repeat from process to process: those of the device code and
-  // of the driver. nullopt if none were counted.
+  // The instructions of a frame that are the same in every process: those of the device code and of
+  // the driver. nullopt if none were counted.
   [[nodiscard]] std::optional<std::uint64_t> instructions() const;
-  // The bytes that device code fetched because they were not in the simulated cache, whose lines
-  // have 64 bytes.
+  // The number of bytes that device code fetched because they were not in the simulated cache,
+  // whose lines have 64 bytes.
   [[nodiscard]] std::optional<std::uint64_t> fetched_bytes() const;
-  // The times that are used, and the name of their clock: "device" or "wall".
+  // The times of the clock that is used, and the name of that clock: "device" or "wall".
   [[nodiscard]] const std::vector<double>& time_ns() const;
   [[nodiscard]] const std::vector<double>& time_ns_by(std::string_view clock) const {
     return clock == "wall" ? wall_ns : device_ns;
   }
   [[nodiscard]] std::string_view clock() const;
-  // "<suite>.<plan's last part>.<check>.<device>", e.g. volume.quick.image.vulkan:lavapipe.
+  // The form is "<suite>.<last part of the plan>.<check>.<device>", such as
+  // volume.quick.image.vulkan:lavapipe.
   [[nodiscard]] std::string test_id(std::string_view check) const;
 };
 
-// Broken input is not the device's fault: the configurations are skipped and cannot be judged.
+// Whether the input was broken. That is not the device's fault, so such configurations are skipped
+// and cannot be judged.
 [[nodiscard]] inline bool has_bad_input(const Record& record) {
   return record.outcome == Outcome::skipped && record.reason.cause == Cause::bad_input;
 }
@@ -154,28 +160,28 @@ inline void require_measured(const Record& record) {
   if (record.outcome != Outcome::measured) throw NotMeasured(record.outcome, record.reason);
 }
 
-// One command `triptych run` on one machine.
+// One execution of the command `triptych run` on one machine.
 struct Run {
-  std::string id;  // unique: time and random digits
+  std::string id;  // unique, made of the time and random digits
   std::string plan;
   std::string started_at;  // ISO 8601, UTC
-  // Processor, cores, memory, OS, kernel, compiler, version of Triptych.
+  // Processor, cores, memory, operating system, kernel, compiler, and version of Triptych.
   std::map<std::string, std::string> system;
   Checks checks = {};                // the checks of its plan
   std::string plan_hash = {};        // hash of the plan's text
-  std::uint64_t configurations = 0;  // the number that it was to measure on each device
-  // One for each command that measured for this run; empty in a store that no command wrote.
+  std::uint64_t configurations = 0;  // number to be measured on each device
+  // One entry for each command that measured for this run. Empty in a store that no command wrote.
   std::vector<Beginning> begun = {};
-  std::string planned_hash = {};  // hash of the keys of those configurations, Store::planned()
+  std::string planned_hash = {};  // hash of the keys of those configurations (Store::planned())
 };
 
-// The argument PLAN of `triptych run` and `triptych compare` for a run's plan: SUITE/PLAN is used
-// as it is. A plan from a file is known by the name of the file without its folder, which is not
-// recorded.
+// The argument PLAN of `triptych run` and `triptych compare` that selects the plan of a run.
+// SUITE/PLAN is used as it is. For a plan from a file, only the name of the file is known, because
+// its folder is not recorded.
 [[nodiscard]] std::string plan_argument(const std::string& plan);
 
-// Minimum, quartiles, median and maximum of samples (linear interpolation between order
-// statistics); nullopt if there are none. NaN does not count as a sample.
+// Minimum, quartiles, median and maximum of samples (with linear interpolation between order
+// statistics); nullopt if there are no samples. NaN does not count as a sample.
 struct Summary {
   double minimum, lower_quartile, median, upper_quartile, maximum;
 };

@@ -90,9 +90,9 @@ void decode(const Json& json, Executable& value) {
 template <typename T>
 requires std::is_integral_v<T>
 void decode(const Json& json, T& value) {
-  // A number below zero is refused too, because every integer of a record counts something. A
-  // number that was written here is a signed or unsigned JSON number; one that was read from text
-  // is always unsigned.
+  // Numbers below zero are rejected too, because every integer of a record is a count. A number
+  // that was written by this code is a signed or unsigned JSON number; one that was parsed from
+  // text is always unsigned.
   const bool natural =
       json.is_number_unsigned() || (json.is_number_integer() && json.get<std::int64_t>() >= 0);
   if (!natural ||
@@ -166,7 +166,7 @@ void visit_fields(auto& trust, Visit&& visit) requires
   visit("verdict", trust.verdict);
 }
 
-// Enumerations are not in the lists, because they are stored by their names.
+// Enumerations are not in these lists, because they are stored by name.
 template <typename Visit>
 void visit_fields(auto& reason, Visit&& visit) requires
     std::is_same_v<std::remove_cvref_t<decltype(reason)>, Reason> {
@@ -259,7 +259,7 @@ void read_fields(const Json& json, T& value) {
   visit_fields(value, [&](const char* name, auto& field) { read(json, name, field); });
 }
 
-// An enumeration by its name. If it is absent, the variable keeps its value.
+// Reads an enumeration by its name. If the key is absent, the variable keeps its value.
 template <typename Enum>
 void read_name(const Json& json, const char* name, Enum& value, Enum (*named)(std::string_view)) {
   std::string text(name_of(value));

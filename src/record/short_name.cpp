@@ -18,7 +18,7 @@ bool is_plain(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-// Distinguishes values that a name cannot spell.
+// Distinguishes values that differ only in characters that a name cannot contain.
 std::string hash_of(std::string_view value) {
   constexpr std::size_t digits = 4;
   return "_" + core::content_hash(value).substr(0, digits);
@@ -34,8 +34,8 @@ std::string spelled(std::string_view value) {
   return usual ? text : text + hash_of(value);
 }
 
-// "mandelbulb_96" for "generate:mandelbulb:96", "bonsai" for "bonsai.nrrd", "x_64x64x64_u8" for
-// "x.raw:64x64x64:u8". The folder of a file is left out and replaced by a hash.
+// Examples: "mandelbulb_96" for "generate:mandelbulb:96", "bonsai" for "bonsai.nrrd",
+// "x_64x64x64_u8" for "x.raw:64x64x64:u8". The folder of a file is replaced by a hash.
 std::string spelled_data(std::string_view value) {
   for (const std::string_view scheme : {"generate:", "stress:", "analytic:"}) {
     if (value.starts_with(scheme)) return spelled(value.substr(scheme.size()));

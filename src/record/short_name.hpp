@@ -8,13 +8,14 @@ namespace triptych::record {
 
 struct Record;
 
-// "volume.quick.raycast.mandelbulb_96.surfaces.orbit_y_1_8.s0_5.v192" for a configuration key
-// "camera=orbit_y:1/8,data=generate:mandelbulb:96,step=0.5,…": the suite, the plan, the technique,
-// the data, the transfer function and the camera by their values, and then all other factors that
-// do not have their defaults, sorted, as factor_value (`s` stands for step and `v` for viewport).
-// It depends on nothing but its arguments, so it stays the same when a plan changes. It contains
-// only letters, digits, '_' and '.'. The names of all configurations of a plan differ unless two
-// values differ only in characters that a name cannot contain, or in a file's ending.
+// Makes a name such as "volume.quick.raycast.mandelbulb_96.surfaces.orbit_y_1_8.s0_5.v192" for the
+// configuration key "camera=orbit_y:1/8,data=generate:mandelbulb:96,step=0.5,…". The name contains
+// the suite, the plan, and the values of technique, data, transfer function and camera. Then follow
+// all other factors that do not have their defaults, sorted, each as an abbreviation and a value
+// (`s` stands for step and `v` for viewport). The name depends only on the arguments, so it stays
+// the same when a plan changes. It contains only letters, digits, '_' and '.'. All configurations
+// of a plan have different names, unless two values differ only in characters that a name cannot
+// contain, or in a file's ending.
 [[nodiscard]] std::string short_name(std::string_view suite, std::string_view plan,
                                      std::string_view configuration);
 [[nodiscard]] std::string short_name(const Record& record);
@@ -22,8 +23,8 @@ struct Record;
 // The name without suite and plan: "raycast.mandelbulb_96.surfaces.orbit_y_1_8.s0_5.v192".
 [[nodiscard]] std::string short_name(std::string_view configuration);
 
-// Whether a glob matches the configuration's key, its short name, or the short name without suite
-// and plan.
+// Whether a glob matches the key of the configuration, its short name, or its short name without
+// suite and plan.
 [[nodiscard]] bool names_configuration(const std::string& glob, std::string_view suite,
                                        std::string_view plan, std::string_view configuration);
 

@@ -1,6 +1,6 @@
 #pragma once
-// How exactly a driver counts a pipeline statistic, determined with scenes whose numbers are known
-// (measure/protocol/statistics_calibration.hpp).
+// How accurately a driver counts a pipeline statistic. This is determined with scenes whose correct
+// numbers are known (measure/protocol/statistics_calibration.hpp).
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -10,11 +10,11 @@
 namespace triptych::record {
 
 enum class Worth : std::uint8_t {
-  exact,          // the true number in every scene
-  counts,         // always the value of Triptych's counter `counter`, which is another quantity
-  proportional,   // always "low" times the true number
-  inflated,       // between "low" and "high" times the true number
-  differs,        // not the true number in some scene
+  exact,          // the correct number in every scene
+  counts,         // always equal to Triptych's counter `counter`, another quantity
+  proportional,   // always "low" times the correct number
+  inflated,       // between "low" and "high" times the correct number
+  differs,        // not the correct number in some scene
   unsteady,       // not the same number when the same frame is drawn again
   absent,         // never reported
   unknown,        // a scene could not be drawn
@@ -25,10 +25,10 @@ enum class Worth : std::uint8_t {
 
 struct StatisticWorth {
   Worth worth = Worth::exact;
-  double low = 1;   // reported number over true number: the least
-  double high = 1;  // and the greatest
+  double low = 1;   // smallest ratio of the reported to the correct number
+  double high = 1;  // largest ratio
   std::string counter = {};
-  std::string detail = {};  // in which scenes, for people
+  std::string detail = {};  // text that names the affected scenes
   bool operator==(const StatisticWorth&) const = default;
 
   [[nodiscard]] bool is_exact() const { return worth == Worth::exact; }
@@ -37,7 +37,7 @@ struct StatisticWorth {
 };
 
 void to_json(nlohmann::json& json, const StatisticWorth& worth);
-// Also reads a bare name of a Worth. Throws InputError.
+// Also reads the bare name of a Worth. Throws InputError.
 void from_json(const nlohmann::json& json, StatisticWorth& worth);
 
 }  // namespace triptych::record

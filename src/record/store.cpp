@@ -18,8 +18,8 @@
 namespace triptych::record {
 namespace {
 
-// While this object lives, commits wait for the disk: they, and all earlier ones, survive a loss of
-// power.
+// While this object lives, each commit waits for the disk, so that it and all earlier commits
+// survive a loss of power.
 class WaitsForDisk {
  public:
   explicit WaitsForDisk(SQLite::Database& database) : database_(database) {
@@ -39,8 +39,8 @@ struct Store::State {
   std::filesystem::path file;
   SQLite::Database database;
 
-  // Runs `action` in one transaction. The lock is taken at the beginning, because a reader that
-  // becomes a writer could not wait for it.
+  // Runs `action` in one transaction. It takes the write lock at the beginning, because SQLite does
+  // not wait for the lock when a reader becomes a writer.
   template <typename Action>
   void write(Action&& action) {
     on_store(file, [&] {
@@ -69,8 +69,8 @@ const std::filesystem::path& Store::file() const {
   return state_->file;
 }
 
-// SQLite works around most damage without reporting it. quick_check walks through every page, which
-// takes 0.2 s for a store of 50 MB. It does not compare indexes with their tables.
+// SQLite works around most damage without reporting it. quick_check reads every page, which takes
+// 0.2 s for a store of 50 MB. It does not compare indexes with their tables.
 void Store::require_whole() const {
   on_store(state_->file, [&] {
     SQLite::Statement row(state_->database, "PRAGMA quick_check(1)");
@@ -113,9 +113,9 @@ void Store::begin(const std::string& run, const Beginning& beginning,
       known.planned_hash = hash_of_planned(planned);
       insert_run(state_->database, known);
     });
-    // A copy of the store's file without its log, after a run was killed, must still contain the
-    // beginning of the run. Otherwise the copy would end with the previous run, which may have
-    // passed.
+    // After a run was killed, a copy of the store's file without its log must still contain the
+    // beginning of the run. Otherwise the latest run in the copy would be an earlier one, which may
+    // have passed.
     static_cast<void>(state_->database.tryExec("PRAGMA wal_checkpoint(PASSIVE)"));
   });
 }
@@ -219,7 +219,8 @@ std::vector<Store::DeviceEntry> Store::devices(std::string_view run) const {
 
 std::vector<Record> Store::records(std::string_view run) const {
   return on_store(state_->file, [&] {
-    // All queries see the same state of the file, even if another process writes to it.
+    // A transaction lets all queries see the same state of the file, even if another process writes
+    // to it.
     SQLite::Transaction snapshot(state_->database, SQLite::TransactionBehavior::DEFERRED);
     return read_records(state_->database, run);
   });

@@ -15,19 +15,19 @@
 namespace triptych::record {
 namespace {
 
-// A connection is used by one thread at a time, so SQLite need not lock around every value.
+// Only one thread uses a connection at a time, so SQLite need not lock around every value.
 constexpr int one_thread = SQLITE_OPEN_NOMUTEX;
 
-// Whether there is the log of a writer that did not close the store. Without the log, the newest
-// records would be missing and nobody would notice.
+// Whether a log exists that a writer left without closing the store. If it were ignored, the newest
+// records would be missing without notice.
 bool has_log(const std::filesystem::path& file) {
   std::error_code ignored;
   const auto size = std::filesystem::file_size(file.string() + "-wal", ignored);
   return !ignored && size > 0;
 }
 
-// SQLite does not take ":memory:" and "file:…" as names of files; a name that begins with a slash
-// always is one.
+// SQLite gives names such as ":memory:" and "file:…" another meaning. A name that begins with a
+// slash is always the name of a file.
 std::string file_name(const std::filesystem::path& file) {
   return std::filesystem::absolute(file).string();
 }
@@ -66,9 +66,9 @@ SQLite::Database open_to_read(const std::filesystem::path& file,
           file.string()));
     }
   }
-  // Reading a file in WAL mode needs two more files next to it. If the folder is read-only, SQLite
-  // opens the file only if the caller guarantees that nobody else writes to it, which is true for
-  // such a folder.
+  // To read a file in WAL mode, SQLite needs two more files next to it. In a read-only folder it
+  // cannot create them, and opens the file only if the caller guarantees that nobody else writes to
+  // it, which is true there.
   SQLite::Database database(immutable_uri(file),
                             SQLite::OPEN_READONLY | SQLite::OPEN_URI | one_thread,
                             milliseconds_of(busy_limit));
@@ -76,8 +76,8 @@ SQLite::Database open_to_read(const std::filesystem::path& file,
   return database;
 }
 
-// If several processes switch to the log at once, SQLite refuses all but one of them immediately,
-// whatever the busy limit is, because each holds a read lock that another one waits for.
+// If several processes switch to WAL mode at once, SQLite rejects all but one of them immediately,
+// regardless of the busy limit, because each holds a read lock that another one waits for.
 void write_ahead(SQLite::Database& database, std::chrono::milliseconds busy_limit) {
   const auto end = std::chrono::steady_clock::now() + busy_limit;
   for (;;) {
@@ -97,16 +97,16 @@ SQLite::Database open_to_append(const std::filesystem::path& file,
   SQLite::Database database(file_name(file),
                             SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE | one_thread,
                             milliseconds_of(busy_limit));
-  // SQLite opens a read-only file for reading, without reporting it.
+  // SQLite opens a read-only file for reading and does not report that it cannot be written.
   if (sqlite3_db_readonly(database.getHandle(), "main") == 1) {
     throw core::IoError(fmt::format("{}: is read-only; nothing can be added", file.string()));
   }
   if (is_blank(database)) create_schema(database);
   require_our_schema(database, file);
   write_ahead(database, busy_limit);
-  // In WAL mode, NORMAL survives the death of any process. Only a loss of power can cost the last
-  // transactions, and even then the file stays intact. Data that must survive a loss of power are
-  // flushed to the disk (Store::begin_record).
+  // In WAL mode, synchronous = NORMAL keeps all data when a process dies. Only a loss of power can
+  // lose the last transactions, and even then the file stays intact. Data that must survive a loss
+  // of power are flushed to the disk (Store::begin_record).
   database.exec("PRAGMA synchronous = NORMAL");
   database.exec("PRAGMA foreign_keys = ON");
   return database;

@@ -16,19 +16,19 @@
 
 namespace triptych::record {
 
-// Connects to a file that is a store of our schema version. The errors are those of the constructor
-// of Store.
+// Connects to a file that is a store of this program's schema version. Throws the errors that are
+// described at the constructor of Store.
 [[nodiscard]] SQLite::Database open_store_file(const std::filesystem::path& file, Store::Mode mode,
                                                std::chrono::milliseconds busy_limit);
 
-// Connects to a store that is being written and that nobody else sees yet; creates its tables if
-// there are none. It has no log and waits for no disk, so after any failure the file has to be
-// removed. Throws SQLite::Exception and no InputError, because the user did not choose the name of
-// this file.
+// Connects to a store that is still being written and that nobody else uses yet. Creates its tables
+// if there are none. The store has no log and does not wait for the disk, so the file must be
+// removed after any failure. Throws SQLite::Exception but no InputError, because the user did not
+// choose the name of this file.
 [[nodiscard]] SQLite::Database open_new_store_file(const std::filesystem::path& file);
 
-// Throws IoError if the file that was opened no longer has its name, or if the log with the latest
-// changes is gone.
+// Throws IoError if the name no longer belongs to the file that was opened, or if the log with the
+// latest changes is gone.
 void require_file(const std::filesystem::path& file, SQLite::Database& database);
 
 // Throws IoError or InputError for an error of SQLite with `file`.
@@ -37,7 +37,7 @@ void require_file(const std::filesystem::path& file, SQLite::Database& database)
 
 [[noreturn]] void throw_damaged(const std::filesystem::path& file, std::string_view what);
 
-// Runs `action` and converts SQLite's errors, and errors of reading columns, to those of this
+// Runs `action` and converts errors of SQLite, and errors in reading columns, to those of this
 // project.
 template <typename Action>
 decltype(auto) on_store(const std::filesystem::path& file, Action&& action) {

@@ -18,8 +18,8 @@
 namespace triptych::record {
 namespace {
 
-// The same columns in the same order for writing and reading. What can be derived from a record
-// (clock, frames, medians) is also written, for queries by people, and never read back.
+// The columns, which are written and read in the same order. Values that can be derived from a
+// record (clock, frames, medians) are also written, for users' queries, but never read back.
 constexpr std::string_view record_columns =
     "run, suite, plan, configuration, scene, technique, device, outcome, cause, stage, "
     "numbers, subject, code, not_tried, shared_levels, detail, last_words, injected, "
@@ -63,7 +63,7 @@ std::int64_t insert_row(const SQLite::Database& database, const Record& r) {
   return database.getLastInsertRowid();
 }
 
-// The columns of a record in its row, which does not contain all of the record.
+// The part of a record that is in its row of the table `record`.
 struct Row {
   std::int64_t seq = 0;
   std::string seal;
@@ -102,8 +102,8 @@ void insert_samples(const SQLite::Database& database, std::int64_t record, std::
 
 using RecordsBySeq = std::unordered_map<std::int64_t, Record*>;
 
-// Calls `read(record, row)` for every row of a table that belongs to the run's records. The first
-// column names the record; `columns` are the others.
+// Calls `read(record, row)` for every row of a table that belongs to a record of the run. The first
+// column refers to the record; `columns` are the others.
 template <typename Read>
 void read_rows(const SQLite::Database& database, std::string_view table, std::string_view columns,
                std::string_view order, std::string_view run, const RecordsBySeq& records,
@@ -177,7 +177,7 @@ void require_record_seal(const Row& row, const Record& record) {
                fmt::format("the record of {} on {}", record.configuration, record.device));
 }
 
-// The rows of a record in another table, read by a statement that is prepared once.
+// Reads the rows of a record in another table, with a statement that is prepared once.
 class RowsOf {
  public:
   RowsOf(const SQLite::Database& database, std::string_view table, std::string_view columns,
@@ -198,7 +198,7 @@ class RowsOf {
   SQLite::Statement rows_;
 };
 
-// The parts of a record that are in other tables.
+// Reads the parts of a record that are in other tables.
 class PartsOf {
  public:
   explicit PartsOf(const SQLite::Database& database)

@@ -1,6 +1,6 @@
 #pragma once
-// Writes records to the store's tables and reads them. Callers handle the transactions. Used by
-// store.cpp only.
+// Writes records to the store's tables and reads them. Callers handle the transactions. Only
+// store.cpp uses this file.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -12,7 +12,7 @@
 
 namespace triptych::record {
 
-// The run must exist. A record of the same run, configuration and device must not.
+// The run must exist. A record of the same run, configuration and device must not exist.
 void insert_record(const SQLite::Database& database, const Record& record);
 
 // See Store::records.

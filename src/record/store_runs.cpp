@@ -42,7 +42,7 @@ Run read_run(SQLite::Statement& row) {
   return run;
 }
 
-// Selects runs, with their columns in the order of read_run.
+// An SQL statement that selects runs, with their columns in the order in which read_run reads them.
 std::string select_runs(std::string_view rest) {
   return fmt::format(
       "SELECT id, plan, started_at, system, checks, plan_hash, configurations, begun, planned_hash, "

@@ -15,9 +15,9 @@
 
 namespace triptych::record {
 
-// An existing entry with the same key is replaced; insert_device does the same.
+// Replaces an existing run with the same id. insert_device does the same for devices.
 void insert_run(const SQLite::Database& database, const Run& run);
-// Adds the keys of configurations that the run is to measure; some may already exist.
+// Adds the keys of the configurations that the run is to measure. Some of them may exist already.
 void insert_planned(const SQLite::Database& database, const std::string& run,
                     std::span<const std::string> configurations);
 [[nodiscard]] std::vector<std::string> read_planned(const SQLite::Database& database,

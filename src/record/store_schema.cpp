@@ -14,8 +14,8 @@ namespace {
 
 constexpr int application_id = 0x54524950;  // "TRIP": distinguishes a store from other SQLite files
 
-// docs/store.md explains the tables. STRICT restricts columns to their types for other programs
-// that write here. NaN is stored as NULL, because SQLite turns it into that.
+// docs/store.md explains the tables. STRICT makes columns reject values of other types from
+// programs that write to the store. NaN is stored as NULL, because SQLite converts it to NULL.
 constexpr const char* schema = R"sql(
 CREATE TABLE run (
   seq INTEGER PRIMARY KEY,
@@ -240,12 +240,12 @@ int pragma(const SQLite::Database& database, const std::string& name) {
   return query.getColumn(0).getInt();
 }
 
-// The objects of a database by type and name, each with the statement that makes it.
+// The objects of a database by type and name, each with the SQL statement that creates it.
 using Objects = std::map<std::pair<std::string, std::string>, std::string>;
 
 Objects objects_of(const SQLite::Database& database) {
   Objects objects;
-  // SQLite makes the other indexes itself, for keys.
+  // Indexes without a statement are those that SQLite creates itself for keys.
   SQLite::Statement rows(database,
                          "SELECT type, name, sql FROM sqlite_schema WHERE sql IS NOT NULL");
   while (rows.executeStep()) {
@@ -264,8 +264,8 @@ const Objects& our_objects() {
   return ours;
 }
 
-// A trigger could replace new rows, and a view or another form of a table could replace the rows
-// that are read. Other tables are left alone.
+// Rejects objects that could falsify data: a trigger could replace new rows, and a view or another
+// form of a table could replace the rows that are read. Other tables are allowed.
 void require_our_objects(const SQLite::Database& database, const std::filesystem::path& file) {
   const Objects found = objects_of(database);
   for (const auto& [object, statement] : our_objects()) {
@@ -313,8 +313,8 @@ void require_our_schema(const SQLite::Database& database, const std::filesystem:
                                                 : "measure again, or use the older Triptych"));
 }
 
-// Two processes may find the same blank file. The second one waits for the lock, and then finds the
-// tables.
+// Two processes may find the same blank file. The second one waits for the lock and then finds that
+// the tables exist.
 void create_schema(SQLite::Database& database) {
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::EXCLUSIVE);
   if (!is_blank(database)) return;

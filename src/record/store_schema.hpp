@@ -1,5 +1,5 @@
 #pragma once
-// The tables of a store. Used by store_file.cpp only; all functions throw SQLite::Exception.
+// The tables of a store. Only store_file.cpp uses this file. All functions throw SQLite::Exception.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -7,7 +7,7 @@
 
 namespace triptych::record {
 
-// Whether nobody has written anything into the file.
+// Whether the file does not contain anything yet.
 [[nodiscard]] bool is_blank(const SQLite::Database& database);
 
 // Creates the tables, unless another process has created them in the meantime.

@@ -1,6 +1,6 @@
 #pragma once
-// Moves values into SQL statements and out of them. Used by store.cpp, store_records.cpp and
-// store_runs.cpp only.
+// Moves values into SQL statements and out of them. Only store.cpp, store_records.cpp and
+// store_runs.cpp use this file.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
@@ -38,8 +38,7 @@ class Binder {
     }
     return *this;
   }
-  // Unsigned 64-bit numbers keep their bits, so SQL shows those of 2⁶³ and more as negative
-  // numbers.
+  // Unsigned 64-bit numbers keep their bits, so SQL displays numbers of 2⁶³ and more as negative.
   template <typename T>
   requires std::integral<T> Binder& operator<<(T number) {
     statement_.bind(++index_, static_cast<std::int64_t>(number));
@@ -48,7 +47,7 @@ class Binder {
   Binder& operator<<(std::span<const std::byte> bytes) {
     constexpr std::size_t largest = std::numeric_limits<int>::max();
     if (bytes.size() > largest) throw core::InputError("an image of 2 GiB or more cannot be kept");
-    // SQLite takes a null pointer for NULL, so that an empty blob needs another pointer.
+    // SQLite treats a null pointer as NULL, so an empty blob needs another pointer.
     const void* data = bytes.empty() ? static_cast<const void*>("") : bytes.data();
     statement_.bind(++index_, data, static_cast<int>(bytes.size()));
     return *this;
@@ -66,7 +65,8 @@ class Reader {
 
   Reader& operator>>(std::string& text) {
     const SQLite::Column column = row_.getColumn(index_++);
-    // An object that is made from a text, and its seal, take several times the text's size.
+    // Building an object from a text and computing its seal need several times the size of the
+    // text.
     constexpr int most = 64 << 20;
     if (column.getBytes() > most) {
       throw core::InputError(fmt::format("holds a text of {} bytes; the longest that is read has {}",

@@ -20,8 +20,8 @@ struct Chord {
   [[nodiscard]] double length() const { return end - begin; }
 };
 
-// Deliberately different from the renderer's code, because the two check each other. It cuts the
-// ray by one plane after the other.
+// This code is deliberately different from the renderer's, because the two check each other. It
+// clips the ray against one plane after the other.
 Chord chord_of(const Setting& setting, int x, int y) {
   Chord chord;
   chord.direction =
@@ -54,7 +54,7 @@ AnalyticPixel finish(const Setting& setting, const std::array<Radiance, 3>& chan
   return pixel;
 }
 
-// The error of the image caused by the table alone; derived in the header.
+// The error of the image that the table alone causes. It is derived in the header.
 double table_error(const Setting& setting, double length) {
   const Medium& medium = setting.medium;
   const double u = setting.voxel;
@@ -65,8 +65,8 @@ double table_error(const Setting& setting, double length) {
   return length * alpha / (u * left) + 2.0 * float_rounding;
 }
 
-// The distances along the ray at which z crosses one of the planes, with both ends, in ascending
-// order.
+// The distances along the ray at which z crosses one of the planes, and both ends of the ray, in
+// ascending order.
 std::vector<double> cuts(const Setting& setting, const Chord& chord,
                          const std::vector<double>& planes) {
   std::vector<double> at{chord.begin, chord.end};
@@ -80,7 +80,7 @@ std::vector<double> cuts(const Setting& setting, const Chord& chord,
   return at;
 }
 
-// The g of the problems along z, constant in the outermost half voxels.
+// The value g of the problems along z. It is constant in the outermost half voxels.
 double height(const Setting& setting, double z) {
   const double half = 0.5 * setting.layer_z;
   return std::clamp(z, half, setting.extent.z - half) / setting.extent.z;
@@ -90,7 +90,8 @@ double z_at(const Setting& setting, const Chord& chord, double t) {
   return setting.camera.eye.z + t * chord.direction.z;
 }
 
-// The kinks of the field, and of the medium as the table represents it.
+// The z at which the field has kinks, and at which the medium has kinks in its representation by
+// the table.
 std::vector<double> kinks(const Setting& setting) {
   std::vector<double> at{0.5 * setting.layer_z, setting.extent.z - 0.5 * setting.layer_z};
   for (const double g : setting.medium.kinks) at.push_back(g * setting.extent.z);
@@ -139,9 +140,10 @@ Radiance atmosphere_piece(const Setting& setting, double g0, double g1, double l
   return v1_constant(depth, colour, 1.0);
 }
 
-// ∫ |error of g| ds caused by trilinear interpolation and, near the faces, by clamping. The
-// derivatives are replaced by their maximum within a cell's diagonal: |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ²,
-// |∂ᵢg| = rᵢ·g/σ².
+// ∫ |error of g| ds, where trilinear interpolation and, near the faces, clamping cause the error.
+// The derivatives are replaced by their maxima within a cell's diagonal: |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ²
+// and
+// ∂ᵢg| = rᵢ·g/σ².
 double blob_interpolation_error(const Setting& setting, const Chord& chord) {
   constexpr int intervals = 512;
   const double sigma = blob_sigma(setting);
@@ -166,8 +168,8 @@ double blob_interpolation_error(const Setting& setting, const Chord& chord) {
   return sum;
 }
 
-// The distances at which the ray crosses the outermost voxel centres, with both ends, in ascending
-// order.
+// The distances at which the ray crosses the planes of the outermost voxel centres, and both ends
+// of the ray, in ascending order.
 std::vector<double> cuts_of_all_axes(const Setting& setting, const Chord& chord) {
   std::vector<double> at{chord.begin, chord.end};
   for (int axis = 0; axis < 3; ++axis) {
@@ -192,7 +194,8 @@ Closest closest_to_centre(const Setting& setting, const Chord& chord) {
   return {along, glm::length(to_centre - along * chord.direction)};
 }
 
-// The light of a medium with one colour, which depends only on its depth, tau times length.
+// The light of a medium with one colour. It depends only on the optical depth, which is tau times
+// length.
 std::array<Radiance, 3> of_one_colour(const Setting& setting, double tau, double length) {
   std::array<Radiance, 3> channels;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -201,7 +204,7 @@ std::array<Radiance, 3> of_one_colour(const Setting& setting, double tau, double
   return channels;
 }
 
-// The length of the ray within a radius of the centre.
+// The length of the part of the ray that is within a radius of the centre.
 double length_within(const Chord& chord, const Closest& closest, double radius) {
   if (!(radius > closest.beside)) return 0;
   const double half = std::sqrt((radius - closest.beside) * (radius + closest.beside));
@@ -209,11 +212,11 @@ double length_within(const Chord& chord, const Closest& closest, double radius) 
       0.0, std::min(chord.end, closest.along + half) - std::max(chord.begin, closest.along - half));
 }
 
-// Half the width of the zone about a face in which grid and table may differ from the closed form.
-// The table changes from one entry to the next within R/510 on each side. The grid's r has an error
-// of at most D/(r − d), with D = Σ Δᵢ²/8 because |∂ᵢ²r| ≤ 1/r, and d a cell's diagonal, plus its
-// rounding. w is therefore the smaller root of (w − h)(s − w) = D with s = face − d. It is infinite
-// if there is no root, which means that the grid is too coarse.
+// Half the width w of the zone around a face in which grid and table may differ from the closed
+// form. The table changes from one entry to the next within h ≈ R/510 on each side. The grid's r
+// has an error of at most D/(r − d), with D = Σ Δᵢ²/8 because |∂ᵢ²r| ≤ 1/r, and with the diagonal d
+// of a cell, plus its rounding. Therefore w is the smaller root of (w − h)(s − w) = D with s = face
+// − d. It is infinite if there is no root, which means that the grid is too coarse.
 double unsure_zone(const Setting& setting, double face) {
   const auto& spacing = setting.options.spacing;
   double squares = 0;
@@ -247,7 +250,7 @@ Shell shell_of(const Setting& setting) {
 
 Wave wave_of(const Setting& setting) {
   const double length = setting.extent.z;
-  // The slope of the stored value (½ + 255·g)/256 for an amplitude of 1.
+  // The largest slope of the stored value (½ + 255·g)/256 for an amplitude of 1.
   const double slope = 255.0 / 256.0 * 0.5 * std::numbers::pi / length * setting.voxel;
   const double amplitude = std::min(1.0, 0.9 * scene::Shading{}.gradient_floor / slope);
   return {.length = length, .amplitude = amplitude, .steepest = amplitude * slope};
@@ -255,8 +258,8 @@ Wave wave_of(const Setting& setting) {
 
 AnalyticPixel constant_pixel(const Setting& setting, int x, int y) {
   const double length = chord_of(setting, x, y).length();
-  // The table's float is regarded as exact, so only the rounding of the colour would remain, and
-  // the colour is exact in float, too.
+  // The medium is defined by the table's float, so that float has no error. Only the rounding of
+  // the colour would remain, but the colour is exact in float.
   const double tau = -std::log1p(-static_cast<double>(static_cast<float>(
                          -std::expm1(-setting.voxel * setting.medium.largest)))) /
                      setting.voxel;
@@ -325,8 +328,8 @@ AnalyticPixel shell_pixel(const Setting& setting, int x, int y) {
       -std::expm1(-setting.medium.largest * unsure) + table_error(setting, chord.length()));
 }
 
-// A product of three heights is a cubic along the ray, which Gauss's rule with two points
-// integrates exactly.
+// The product of three heights is a cubic polynomial along the ray, which Gauss's rule with two
+// points integrates exactly.
 AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y) {
   const Chord chord = chord_of(setting, x, y);
   const std::vector<double> at = cuts_of_all_axes(setting, chord);
@@ -344,9 +347,9 @@ AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y) {
   return finish(setting, channels, error);
 }
 
-// Colours are c·(ambient + diffuse·l) + specular·lⁿ with
-// l = |direction · z|·steepest/floor·sin(πz/L). The gradient is that of the wave itself; the model
-// error contains the effect of central differences.
+// A colour is c·(ambient + diffuse·l) + specular·lⁿ with l = |direction ·
+// z|·steepest/floor·sin(πz/L). The gradient is that of the continuous wave; the model error
+// contains the effect of central differences.
 AnalyticPixel wave_pixel(const Setting& setting, int x, int y) {
   const Chord chord = chord_of(setting, x, y);
   const Wave wave = wave_of(setting);

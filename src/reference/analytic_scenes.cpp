@@ -16,8 +16,9 @@ namespace triptych::reference {
 
 namespace {
 
-// Optical depths of the box along z (for the blob: through its centre) are between 1 and 2.5, so
-// that nothing is hidden and nothing is negligible. Colours of constant media are exact in float.
+// The optical depth of the box along z (for the blob: through its centre) is between 1 and 2.5, so
+// that nothing is hidden and nothing is negligible. The colours of constant media are exact in
+// float.
 Medium medium_of(AnalyticProblem problem, const Setting& setting) {
   const double depth = 1.0 / setting.extent.z;
   const auto constant = [](double) { return Rgb{0.75, 0.5, 0.25}; };
@@ -55,8 +56,8 @@ Medium medium_of(AnalyticProblem problem, const Setting& setting) {
                 5.0 * depth, 10.0 * depth};
       break;
     case AnalyticProblem::v6_layers:
-      // Constant on either side of the middle, so there is neither slope nor curvature within a
-      // layer.
+      // The medium is constant on either side of the middle, so it has neither slope nor curvature
+      // within a layer.
       medium = {[=](double g) { return (g < 0.5 ? 1.2 : 2.0) * depth; },
                 [](double g) {
                   return g < 0.5 ? Rgb{0.75, 0.25, 0.0} : Rgb{0.0, 0.5, 1.0};

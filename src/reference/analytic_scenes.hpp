@@ -1,7 +1,7 @@
 #pragma once
-// Scenes whose every pixel is known in closed form (closed_forms.hpp) and that a device can draw. A
-// perspective camera can see them from anywhere: the formula uses the ray and the chord of each
-// pixel.
+// Scenes that a device can draw and in which every pixel is known in closed form
+// (closed_forms.hpp). The camera can be anywhere, because the formula uses the ray and the chord of
+// each pixel.
 
 #include <array>
 #include <functional>
@@ -12,18 +12,18 @@
 
 namespace triptych::reference {
 
-// The problems, and the order of convergence of a midpoint renderer with step h (errors are against
-// the closed form):
+// The problems, and the order of convergence of a midpoint renderer with step h, measured by the
+// error against the closed form:
 // clang-format off
 enum class AnalyticProblem {
   v1_constant,    // homogeneous box                          exact for every h
   v2_ramp,        // τ = k·z, colour linear in z              order 2 in h
-  v3_segment,     // τ and colour linear in z, τ falling      order 2 in h
+  v3_segment,     // τ and colour linear in z, τ decreasing   order 2 in h
   v3_plateaus,    // the same between two plateaus            order 2 in h; see below
   v4_gaussian,    // Gaussian blob in the middle of the box   order 2 in h and in the voxel size
   v5_atmosphere,  // τ = τ₀·e^(−z/H), constant colour         order 2 in h
-  v6_layers,      // two homogeneous layers along z           ≤ 1 and irregular in h: the edge limits it
-  v7_shell,       // homogeneous between two spheres          as v6_layers; 2 in the voxel size
+  v6_layers,      // two homogeneous layers along z           irregular in h, ≤ 1 due to the edge
+  v7_shell,       // homogeneous between two spheres          as v6_layers in h; 2 in the voxel size
   v8_trilinear,   // τ = k·xyz, constant colour               order 2 in h
   v9_wave,        // constant τ, lit by a sine gradient      order 2 in h and in the voxel size
 };
@@ -44,53 +44,53 @@ struct AnalyticOptions {
   int width = 32;
   int height = 32;
   double step_voxels = 1;
-  // Default: outside, oblique to all axes, with the whole box in view.
+  // The default camera is outside of the box, oblique to all axes, with the whole box in view.
   std::optional<scene::Camera> camera;
   std::array<float, 4> background{0, 0, 0, 0};
 };
 
 struct AnalyticPixel {
-  std::array<double, 4> rgba{};  // premultiplied, with background
+  std::array<double, 4> rgba{};  // premultiplied, over the background
   // The largest difference in any channel between this closed form and the exact integral over the
-  // scene's grid and table, which represent it with finitely many floats.
+  // scene's grid and table, which have only finitely many values in float.
   double model_error = 0;
 };
 
-// The grid of each problem varies with position so that the table represents it. A voxel has the
-// value x = (½ + 255·g)/256, so that table entry k is at g = k/255.
+// In each problem, the value g varies with the position in such a way that the table can represent
+// the medium. A voxel has the value x = (½ + 255·g)/256, so that table entry k is at g = k/255.
 //
 //   - The problems along z have g = z/L at voxel centres, so g is exactly linear between the first
 //     and the last one. In the outermost half voxels the field is constant, and so is τ in the
 //     closed form.
 //   - v4_gaussian: g = e^(−r²/2σ²), with σ a tenth of the smallest extent.
-//   - v6_layers: g = 0 and 1.
+//   - v6_layers: g is 0 in one layer and 1 in the other.
 //   - v7_shell: g is the distance from the centre.
-//   - v8_trilinear: g is the product of the three heights, which trilinear interpolation
-//     reproduces.
-//   - v9_wave, the only shaded one, is a homogeneous box with g = a·(1 − cos(πz/L))/2: half a wave,
-//     which is symmetric about both faces, as clamping to the edge makes the grid. `a` keeps the
-//     gradient below nine tenths of the shading's floor, so that brightness is proportional to the
-//     gradient.
-//   - v3_plateaus: the kinks of the field, at the outermost voxel centres, lie on the plateaus,
-//     which are the lowest and the highest fifth of z. The kinks of its medium lie at table
+//   - v8_trilinear: g is the product of the heights along the three axes, which trilinear
+//     interpolation reproduces.
+//   - v9_wave, the only shaded problem, is a homogeneous box with g = a·(1 − cos(πz/L))/2. That is
+//     half a wave, which is symmetric about both faces, like a grid that is clamped to the edge.
+//     The amplitude a keeps the gradient below nine tenths of the shading's floor, so that
+//     brightness is proportional to the gradient.
+//   - v3_plateaus: the kinks of the field, at the outermost voxel centres, are on the plateaus,
+//     which are the lowest and the highest fifth of z. The kinks of its medium are at table
 //     entries. A rule that is exact for a linear field therefore has only rounding errors, as long
-//     as a step along z does not reach from a kink of the field to one of the medium, which is
-//     size/5 − ½ voxels.
+//     as a step along z does not reach from a kink of the field to one of the medium, which is a
+//     distance of size/5 − ½ voxels.
 //
-// The model error, with u the smallest spacing and α(g) = 1 − e^(−u·τ(g)): interpolating α over
-// 1/255 has an error of at most (1/255)²/8·max|α''|, and rounding to float adds 2⁻²⁴·(α + |α'|).
-// Dividing both by u·(1 − α) gives the error of τ, and multiplying by the chord gives that of the
-// image, because
-// c − colour behind| is at most 1. Some problems have additional errors:
+// Derivation of the model error, with u the smallest spacing and α(g) = 1 − e^(−u·τ(g)):
+// interpolating α over 1/255 has an error of at most (1/255)²/8·max|α''|, and rounding to float
+// adds 2⁻²⁴·(α + |α'|). Dividing both by u·(1 − α) gives the error of τ. Multiplying that by the
+// length of the chord gives the error of the image, because the difference between c and the colour
+// behind it is at most 1. Some problems have additional errors:
 //
-//   - v4_gaussian: trilinear interpolation, Σ Δᵢ²/8·|∂ᵢ²g|, integrated along the ray.
-//   - v6_layers: the transition, which is 1/255 voxel thick.
+//   - v4_gaussian: the error of trilinear interpolation, Σ Δᵢ²/8·|∂ᵢ²g|, integrated along the ray.
+//   - v6_layers: the transition between the layers, which is 1/255 voxel thick.
 //   - v7_shell: the part of the ray that is so close to a face that table and interpolation may
 //     move it to the other side.
-//   - v9_wave: the gradient. With k = π/L, Δ the spacing along z and m the steepest gradient,
-//     central differences have an error of (kΔ)²/6·m, their interpolation (kΔ)²/8·m, in the
-//     outermost half voxels at most kΔ/2·m instead, and the rounding of two voxels 2⁻²⁴ of their
-//     value.
+//   - v9_wave: the error of the gradient. With k = π/L, the spacing Δ along z and the steepest
+//     gradient m, central differences have an error of (kΔ)²/6·m. Their interpolation has an error
+//     of (kΔ)²/8·m, or of at most kΔ/2·m in the outermost half voxels. The rounding of two voxels
+//     adds 2⁻²⁴ of their value.
 struct AnalyticScene {
   scene::VolumeScene scene;
   std::function<AnalyticPixel(int x, int y)> exact;

@@ -12,7 +12,7 @@
 namespace triptych::reference {
 
 using Rgb = std::array<double, 3>;
-// τ and straight colour as functions of g, with the derivatives of τ.
+// τ and the colour (not premultiplied) as functions of g, with the derivatives of τ.
 struct Medium {
   std::function<double(double)> tau;
   std::function<Rgb(double)> colour;
@@ -32,15 +32,15 @@ struct Setting {
   Medium medium;
 };
 
-// The σ of v4_gaussian.
+// The standard deviation σ of v4_gaussian.
 [[nodiscard]] double blob_sigma(const Setting& setting);
 
-// The g of v8_trilinear: the product of the heights along all axes. Each height is constant in the
-// outermost half voxels.
+// The value g of v8_trilinear: the product of the heights along all axes. Each height is constant
+// in the outermost half voxels.
 [[nodiscard]] double heights_product(const Setting& setting, const glm::dvec3& p);
 
-// The g of v7_shell: the distance from the centre in units of `reach`, and 1 beyond. The faces of
-// the shell lie halfway between two table entries.
+// The value g of v7_shell: the distance from the centre in units of `reach`, and 1 beyond. The
+// faces of the shell are halfway between two table entries.
 struct Shell {
   double reach;
   double inner;
@@ -56,7 +56,8 @@ struct Wave {
 };
 [[nodiscard]] Wave wave_of(const Setting& setting);
 
-// The pixel (x, y) by each closed form, composited over the background.
+// These functions compute the pixel (x, y) by the closed form of each problem, composited over the
+// background.
 [[nodiscard]] AnalyticPixel constant_pixel(const Setting& setting, int x, int y);
 [[nodiscard]] AnalyticPixel linear_pixel(const Setting& setting, int x, int y);
 [[nodiscard]] AnalyticPixel atmosphere_pixel(const Setting& setting, int x, int y);

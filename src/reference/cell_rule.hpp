@@ -1,31 +1,32 @@
 #pragma once
-// Quadrature::cells along one ray, with its error.
+// Quadrature::cells along one ray, with its error bounds.
 //
 // A piece is integrated by Gauss's rule with two points. Its optical depth is its length times the
-// mean of the extinctions τ₁ and τ₂. Its colour is c₁ + f·(c₂ − c₁), because colour is assumed to
-// be linear in the share y of the depth passed. Collocation puts the points at
-// y = ½ ∓ (1 ± δ)/(2√3), with δ = (τ₂ − τ₁)/(τ₁ + τ₂). The mean of y under e^(−Dy) is ½ − ½·L(D/2)
-// with L(z) = coth z − 1/z, so
+// mean of the extinctions τ₁ and τ₂. The colour is assumed to be linear in y, the share of the
+// piece's optical depth that has been passed, so the colour of the piece is c₁ + f·(c₂ − c₁).
+// Collocation puts the points at y = ½ ∓ (1 ± δ)/(2√3), with δ = (τ₂ − τ₁)/(τ₁ + τ₂). The mean of y
+// under the weight e^(−Dy), where D is the optical depth, is ½ − ½·L(D/2) with L(z) = coth z − 1/z,
+// so
 //
 //   f = ½·(1 + δ − √3·L(D/2)), within [0, 1].
 //
-// A device cuts the ray, and looks up values, at slightly different positions, because of its
-// errors of position and value. The exact integral does not depend on the cuts. The image of a
-// device can therefore differ by two errors:
+// A device cuts the ray, and looks up values, at slightly different positions, because its
+// positions and values have errors. The exact integral does not depend on the cuts. The image of a
+// device can therefore differ because of two kinds of errors:
 //
-//   - the errors of the values at the points, as for a sample, which change the integrand along the
-//     way;
-//   - the rule's own error, on the device and here. It is measured by halving a piece, which leaves
-//     a sixteenth of the error, so that the change is 15/16 of it. If an extremum of the field is
-//     within the error of a kink, a device may keep a piece that is cut in two here, which
-//     multiplies its error by 16.
+//   - The values at the points have errors, as for a sample. They change the integrand along the
+//     ray.
+//   - The rule itself has an error, both on the device and here. It is measured by halving a piece,
+//     which leaves a sixteenth of the error, so that the change is 15/16 of it. If an extremum of
+//     the field is within the error of a kink, a device may leave a piece uncut that is cut in two
+//     here, which multiplies its error by 16.
 //
-// If a device makes the same cuts, both errors are nearly equal. If an end of a piece of length h
-// moves by ε, rule and integral of f change by at most ε·(range of f + h·|f′| at the points/2). A
-// cubic has h·|f′| ≤ 3√(3/2)·range there (Bernstein), so the change is less than 3·ε·range. The six
-// points that are looked up here see more than three quarters of that range. A cut beside an
-// extremum moves by up to twice the error divided by the slope, because its distance from the
-// extremum exceeds its error. The factor is therefore eight.
+// If a device makes the same cuts, both rules have nearly the same error. If an end of a piece of
+// length h moves by ε, the rule and the integral of f change by at most ε·(range of f + h·|f′| at
+// the points/2). A cubic has h·|f′| ≤ 3√(3/2)·range there (Bernstein), so the change is less than
+// 3·ε·range. The six points that are looked up here cover more than three quarters of that range. A
+// cut next to an extremum moves by up to twice the error divided by the slope, because its distance
+// from the extremum exceeds its error. The factor is therefore eight.
 
 #include <algorithm>
 #include <array>
@@ -49,7 +50,7 @@
 
 namespace triptych::reference {
 
-// Points of one piece that a device looks at: two, and `open` more or fewer are possible.
+// The points of one piece that a device looks up: two, or up to `open` more or fewer.
 struct OpenPoints {
   double begin = 0;  // distance of the piece from the ray's entry
   double end = 0;
@@ -72,8 +73,8 @@ class CellRule {
         smallest_spacing_(scene.smallest_spacing()),
         gradient_scale_(gradient_scale(*scene.grid)) {}
 
-  // Calls take(looked, opacity) for every piece that a device may see, front to back, until take
-  // returns false. The alpha of `looked` is not used.
+  // Calls take(looked, opacity) for every piece that a device may find visible, from front to back,
+  // until `take` returns false. The alpha of `looked` is not used.
   template <typename Take>
   void walk(const Ray& ray, Take take) {
     const auto take_visible = [&](const Piece& piece) {
@@ -87,7 +88,7 @@ class CellRule {
     if (slack > 0.0 && passed) take_visible(piece_beyond(ray, ray.length, ray.length + slack));
   }
 
-  // Calls take(points, opacity) in the same way, for the points that a device looks at.
+  // Calls take(points, opacity) in the same way, for the points that a device looks up.
   template <typename Take>
   void walk_open(const Ray& ray, Take take) {
     for_each_piece(ray, [&](const Part& part, double from, double to) {
@@ -120,7 +121,7 @@ class CellRule {
 
   [[nodiscard]] bool is_kink(double knot) const { return kinks_[static_cast<std::size_t>(knot)]; }
 
-  // Whether on a device an extremum may pass a kink that it does not pass here, or the reverse.
+  // Whether the field's extremum may pass a kink on a device but not here, or the reverse.
   [[nodiscard]] bool touches_a_kink(const Cubic& cubic, double error) const {
     const std::array<double, 4> ends = cubic.monotone_ends();
     return std::any_of(ends.begin() + 1, ends.end() - 1, [&](double s) {
@@ -134,18 +135,18 @@ class CellRule {
     });
   }
 
-  // The way through a cell, or one of the parts that it is cut into.
+  // The segment of the ray in a cell, or one of the parts into which it is cut.
   struct Part {
     double begin = 0;
     double end = 0;
     Cubic cubic;           // values as positions among the table's entries, along the part
     double error = 0;      // error of these positions
-    bool certain = false;  // whether every device sees some of it
+    bool certain = false;  // whether it is visible on every device
     bool touches_a_kink = false;
     std::array<double, 2> of_cell{};  // the ends of its cell
   };
 
-  // The part if a device may see something of it, otherwise nullopt.
+  // Returns the part if it may be visible on a device, otherwise nullopt.
   [[nodiscard]] std::optional<Part> visible_part(const Ray& ray, double begin, double end) const {
     Part part{.begin = begin, .end = end};
     part.cubic = Cubic::along(ray, begin, end,
@@ -165,8 +166,8 @@ class CellRule {
     return part;
   }
 
-  // Calls take(part, from, to) for every piece, front to back, until take returns false. Returns
-  // whether it never did.
+  // Calls take(part, from, to) for every piece, from front to back, until `take` returns false.
+  // Returns whether `take` always returned true.
   template <typename Take>
   bool for_each_piece(const Ray& ray, Take take) {
     cut_at_planes(ray, scene_.grid->size, planes_);
@@ -199,9 +200,9 @@ class CellRule {
     return true;
   }
 
-  // How far from t a device may cut, wherever the ray begins on it: for the ends of a part the
-  // distance to the nearest plane of voxel centres, otherwise the error of the position where
-  // values pass a kink.
+  // The largest distance between a cut at t and the same cut on a device, wherever the device's ray
+  // begins. For the ends of a part it is the position error at the nearest plane of voxel centres,
+  // otherwise the error of the position where values pass a kink.
   [[nodiscard]] double time_error(const Ray& ray, const Part& part, double t) const {
     if (t > part.begin && t < part.end) {
       const double s = (t - part.begin) / (part.end - part.begin);
@@ -230,7 +231,7 @@ class CellRule {
     return std::minmax({b0, b1, b2, b3});
   }
 
-  // The length of a piece that may be outside of the volume on a device.
+  // The length of the part of a piece that may be outside of the volume on a device.
   [[nodiscard]] static double doubtful_length(const Ray& ray, double from, double to) {
     const double slack = ray.slack();
     const double begin = std::max(std::min(to, slack) - from, 0.0);
@@ -243,26 +244,27 @@ class CellRule {
     return {nominal, nominal - doubtful_length(ray, from, to) / smallest_spacing_, nominal};
   }
 
-  // The ray with all positions uncertain by up to `way`.
+  // The same ray with all positions uncertain by up to `way`.
   [[nodiscard]] static Ray widened(Ray ray, double way) {
     ray.position_error = ray.position_error_within(way);
     return ray;
   }
 
-  // The piece that a device may see where only its own ray is inside the volume.
+  // A piece outside of this ray's chord that only the ray of a device may pass.
   [[nodiscard]] Piece piece_beyond(const Ray& ray, double from, double to) const {
     const Ray wide = widened(ray, 0.5 * (to - from));
     return gauss(wide, from, to, {0.0, 0.0, (to - from) / smallest_spacing_});
   }
 
-  // How far from t, which is an end of a piece, a device may cut. A cell is cut into equal parts.
+  // The largest distance between the end t of a piece and the same end on a device. If a cell is
+  // cut into equal parts, the cuts move with the ends of the cell.
   [[nodiscard]] double end_error(const Ray& ray, const Part& part, double t) const {
     if (parts_ == 1 || (t > part.begin && t < part.end)) return time_error(ray, part, t);
     return std::max(time_error(ray, part, part.of_cell[0]), time_error(ray, part, part.of_cell[1]));
   }
 
-  // The share of its length by which a device may move a piece; 1 or more means that the cuts
-  // differ.
+  // The distance by which a device may move a piece, as a share of the piece's length. A share of 1
+  // or more means that the cuts differ.
   [[nodiscard]] double shift_of(const Ray& ray, const Part& part, double from, double to) const {
     if (part.touches_a_kink || doubtful_length(ray, from, to) > 0.0) return 1.0;
     const double moved = end_error(ray, part, from) + end_error(ray, part, to);
@@ -307,7 +309,7 @@ class CellRule {
     return {std::min({a.first, b.first, c.first}), std::max({a.second, b.second, c.second})};
   }
 
-  // The extinction at a point, with the smallest and largest value that a device may find.
+  // The extinction at a point, with the smallest and largest extinction that a device may find.
   struct Extinction {
     double nominal;
     double lo;
@@ -337,7 +339,7 @@ class CellRule {
         scene_.shading, rounding);
   }
 
-  // coth z − 1/z. For z < 0.05, where that cancels, its series is used, with an error below 1e-15.
+  // coth z − 1/z, by its series for z < 0.05, where it would cancel, with an error below 1e-15.
   [[nodiscard]] static double langevin(double z) {
     if (z < 0.05) return z * (1.0 / 3.0 - z * z * (1.0 / 45.0 - z * z * 2.0 / 945.0));
     return 1.0 / std::tanh(z) - 1.0 / z;

@@ -29,7 +29,7 @@ Radiance v2_ramp(double k) {
 Radiance v3_segment(const LinearSegment& s) {
   const double depth = s.length * (s.tau0 + 0.5 * s.tau1 * s.length);
   const double opacity = -std::expm1(-depth);
-  // −(c₀+c₁l)·E(l) + c₀ = c₀·A − c₁·l·E(l) is used, because the left side would cancel.
+  // −(c₀+c₁l)·E(l) + c₀ is computed as c₀·A − c₁·l·E(l), because the first form would cancel.
   const double integral = transmittance_integral(s.tau0, s.tau1, s.length);
   const double colour = s.colour0 * opacity + s.colour1 * (integral - s.length * std::exp(-depth));
   return {colour, opacity};
@@ -37,8 +37,8 @@ Radiance v3_segment(const LinearSegment& s) {
 
 namespace {
 
-// E' = −(a + bt)·E gives the Taylor coefficients (n+1)·eₙ₊₁ = −a·eₙ − b·eₙ₋₁. Here they are
-// multiplied by lengthⁿ.
+// The differential equation E' = −(a + bt)·E gives the Taylor coefficients (n+1)·eₙ₊₁ = −a·eₙ −
+// b·eₙ₋₁. They are multiplied by lengthⁿ here.
 double taylor_integral(double a, double b, double length) {
   const double x = a * length;
   const double y = b * length * length;

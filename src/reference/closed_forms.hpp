@@ -1,14 +1,14 @@
 #pragma once
 // Rays whose emission–absorption integral is known in closed form:
 //   I = ∫ c·τ·exp(−∫τ) dt,   A = 1 − exp(−∫τ),
-// where τ is the extinction per unit length (the unit of the lengths below) and c the straight
-// colour. All formulas follow from that definition by the given substitution. V1 … V9 are the
-// numbers of the problems in this project (Etiene et al. 2014 verify volume renderers with such
-// problems).
+// where τ is the extinction per unit length (in the unit of the lengths below) and c is the colour
+// before premultiplication. All formulas follow from that definition by the given substitution. V1
+// … V9 are the numbers of the problems in this project (Etiene et al. 2014 verify volume renderers
+// with such problems).
 
 namespace triptych::reference {
 
-// Premultiplied colour of one channel, and opacity.
+// The premultiplied colour of one channel, and the opacity.
 struct Radiance {
   double colour = 0;
   double opacity = 0;
@@ -17,14 +17,15 @@ struct Radiance {
 // Composites `front` over `behind`.
 [[nodiscard]] Radiance over(const Radiance& front, const Radiance& behind);
 
-// V1: constant τ and c over a length. A = 1 − e^(−τℓ), I = c·A.
+// V1: constant τ and c over a length ℓ. A = 1 − e^(−τℓ), I = c·A.
 [[nodiscard]] Radiance v1_constant(double tau, double colour, double length);
 
 // V2: τ = k·t and c = t for 0 ≤ t ≤ 1, k ≥ 0. I = −e^(−k/2) + √(π/2k)·erf √(k/2), A = 1 − e^(−k/2).
 // Derived by parts with the transmittance e^(−kt²/2).
 [[nodiscard]] Radiance v2_ramp(double k);
 
-// V3: τ = a + b·t and c = c₀ + c₁·t for 0 ≤ t ≤ length, with τ ≥ 0 everywhere. By parts,
+// V3: τ = a + b·t and c = c₀ + c₁·t for 0 ≤ t ≤ length, with τ ≥ 0 everywhere. Integration by parts
+// gives
 //   I = [−(c₀ + c₁t)·E]₀ˡ + c₁·∫E dt,   E = exp(−at − bt²/2).
 struct LinearSegment {
   double tau0 = 0;     // a
@@ -36,22 +37,22 @@ struct LinearSegment {
 [[nodiscard]] Radiance v3_segment(const LinearSegment& segment);
 
 // ∫ exp(−at − bt²/2) dt over [0, length], for a + bt ≥ 0 there, with a relative error of about
-// 1e-14. For b > 0 completing the square gives erf, which is written with erfcx so that nothing
+// 1e-14. For b > 0, completing the square gives erf, which is expressed by erfcx so that nothing
 // overflows or cancels. For b < 0 it gives Dawson's function. Optically thin segments and b → 0 use
 // a Taylor series.
 [[nodiscard]] double transmittance_integral(double a, double b, double length);
 
-// V4: optical depth of τ = τ₀·exp(−r²/2σ²) along a line at distance p from the centre, between s₀
-// and s₁ from its nearest point: τ₀σ√(π/2)·e^(−p²/2σ²)·[erf(s₁/√2σ) − erf(s₀/√2σ)]. For the whole
-// line it is τ₀σ√(2π)·e^(−p²/2σ²).
+// V4: the optical depth of τ = τ₀·exp(−r²/2σ²) along a line at distance p from the centre, between
+// s₀ and s₁ (measured from the point that is nearest to the centre):
+// τ₀σ√(π/2)·e^(−p²/2σ²)·[erf(s₁/√2σ) − erf(s₀/√2σ)]. For the whole line it is τ₀σ√(2π)·e^(−p²/2σ²).
 [[nodiscard]] double v4_gaussian_depth(double tau0, double sigma, double p, double s0, double s1);
 
-// V5: optical depth of τ = τ₀·e^(−z/H) from height z₀ to z₁ ≠ z₀ along a ray at an angle θ to the
-// axis: τ₀H·|e^(−z₀/H) − e^(−z₁/H)|/|cos θ|.
+// V5: the optical depth of τ = τ₀·e^(−z/H) from height z₀ to z₁ ≠ z₀ along a ray at an angle θ to
+// the axis: τ₀H·|e^(−z₀/H) − e^(−z₁/H)|/|cos θ|.
 [[nodiscard]] double v5_atmosphere_depth(double tau0, double scale_height, double z0, double z1,
                                          double cosine);
 
-// V6: two homogeneous layers, the first in front.
+// V6: two homogeneous layers; layer 1 is in front.
 [[nodiscard]] Radiance v6_layers(double tau1, double colour1, double length1, double tau2,
                                  double colour2, double length2);
 
@@ -59,12 +60,12 @@ struct LinearSegment {
 // sin(kx): (sin k(x+Δ) − sin k(x−Δ))/2Δ = k·cos(kx) · sin(kΔ)/(kΔ).
 [[nodiscard]] double v9_difference_factor(double k, double delta);
 
-// V9's light: ∫ sinⁿ(phase + rate·t)·τ·e^(−τt) dt over [0, length], for n = 1 or even n and τ > 0.
-// It is the Fourier sum of sinⁿ with ∫ e^(i(φ+ωt))·e^(−τt)
-// dt = e^(iφ)·(e^((iω−τ)·length) − 1)/(iω − τ).
+// The light of V9: ∫ sinⁿ(phase + rate·t)·τ·e^(−τt) dt over [0, length], for τ > 0 and n that is 1
+// or even. It is computed as the Fourier sum of sinⁿ, where ∫ e^(i(φ+ωt))·e^(−τt) dt =
+// e^(iφ)·(e^((iω−τ)·length) − 1)/(iω − τ).
 [[nodiscard]] double v9_lit_wave(double tau, int power, double phase, double rate, double length);
 
-// Scaled complementary error function e^(x²)·erfc(x) for x ≥ 0.
+// The scaled complementary error function e^(x²)·erfc(x) for x ≥ 0.
 [[nodiscard]] double erfcx(double x);
 
 // Dawson's function e^(−x²)·∫₀ˣ e^(t²) dt.

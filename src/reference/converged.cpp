@@ -1,12 +1,12 @@
-// The limit for step → 0. The ray is cut at the planes of voxel centres, between which the field
-// along it is a cubic. It is also cut where that cubic passes an entry of the transfer function,
-// between which opacity and colour are linear in it. Central differences reach from p − 1 to p + 1,
-// so the gradient g is also a cubic between the same planes. With shading the ray is also cut where
-// g is perpendicular to the ray direction d, or where its length passes the floor, which are the
-// roots of g·d and of |g|² − floor². The integrand is therefore smooth on every piece, and Gauss's
-// rule with three points has order 6 there. A piece is halved until that changes its light by no
-// more than its share of the tolerance. The stated bound is the sum of these changes, which for
-// order 6 is about sixty times the error.
+// The limit for step → 0. The ray is cut at the planes of voxel centres; between these, the field
+// along the ray is a cubic polynomial. It is also cut where that cubic passes an entry of the
+// transfer function; between two entries, opacity and colour are linear in the cubic. Central
+// differences reach from p − 1 to p + 1, so the gradient g is also a cubic between the same planes.
+// With shading, the ray is also cut where g is perpendicular to the ray direction d and where its
+// length passes the floor, which are the roots of g·d and of |g|² − floor². The integrand is
+// therefore smooth on every piece, and Gauss's rule with three points has order 6 there. A piece is
+// halved until that changes its light by no more than its share of the tolerance. The stated bound
+// is the sum of these changes, which for order 6 is about sixty times the error.
 
 #include <algorithm>
 #include <array>
@@ -34,7 +34,8 @@ using Rgba = std::array<double, 4>;
 
 // The largest number of halvings of a piece. Only pieces where opacity reaches 1 come close to it.
 constexpr int most_halvings = 48;
-// The extinction per voxel length of opacity 1: nothing behind 1e-10 of a voxel is visible.
+// The extinction per voxel length that represents opacity 1. It hides everything behind 1e-10 of a
+// voxel.
 constexpr double most_extinction = 1e12;
 // A smaller change is regarded as rounding.
 constexpr double least_tolerance = 0x1.0p-48;
@@ -111,14 +112,14 @@ class ConvergedRaycaster {
     }
   }
 
-  // Adds the piece between two cuts.
+  // Adds the light of the piece between two cuts.
   void add_piece(const Cell& cell, const glm::dvec3& direction, double begin, double end) {
     const double entry = std::floor(std::clamp(cell.knot(0.5 * (begin + end)), 0.0, 254.0));
     const Rgba lower = table_.at(entry);
     const Rgba upper = table_.at(entry + 1.0);
     const auto point_at = [&](double s) {
-      // Keeps away from the entries, where opacity may be 1: a cut is known to 2⁻⁴⁰ only, and an
-      // opaque sliver of that length would hide everything.
+      // The piece keeps a distance from the entries, where opacity may be 1, because a cut is known
+      // only to 2⁻⁴⁰, and an opaque sliver of that length would hide everything.
       constexpr double margin = 0x1.0p-44;
       const double f = std::clamp(cell.knot(s) - entry, margin, 1.0 - margin);
       Rgba rgba;
@@ -133,10 +134,10 @@ class ConvergedRaycaster {
     add(light, cell.length, begin, end, light(begin, end), 0);
   }
 
-  // Whether nothing behind can be visible any more, for any tolerance.
+  // Whether nothing behind can be visible any more at any tolerance.
   [[nodiscard]] bool dark() const { return sum_.depth > 60.0; }
 
-  // Between two knots the same pair of entries is interpolated.
+  // Whether the piece is transparent. Between two knots, the same pair of entries is interpolated.
   [[nodiscard]] bool transparent(const Cell& cell, double a, double b) const {
     const double middle = std::clamp(cell.knot(0.5 * (a + b)), 0.0, 255.0);
     return table_.transparent({middle, middle, middle});
@@ -149,8 +150,8 @@ class ConvergedRaycaster {
   }
 
   void cut_at_kinks(const Cell& cell, const glm::dvec3& direction) {
-    std::array<double, 4> across{};  // this is g·d
-    std::array<double, 7> excess{};  // this is |g|² − floor²
+    std::array<double, 4> across{};  // the polynomial g·d
+    std::array<double, 7> excess{};  // the polynomial |g|² − floor²
     const double floor = scene_.shading.gradient_floor;
     excess[0] = -floor * floor;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -179,7 +180,8 @@ class ConvergedRaycaster {
     return {std::min(-std::log1p(-rgba[3]), most_extinction), looked.colour};
   }
 
-  // Integrates the piece from a to b; `whole` is its light by one application of the rule.
+  // Integrates the piece from a to b. `whole` is its light according to one application of the
+  // rule.
   template <typename Light>
   void add(const Light& light, double length, double a, double b, const PieceLight& whole,
            int level) {

@@ -1,5 +1,5 @@
 #pragma once
-// A cubic on [0, 1], and the places where it passes whole numbers.
+// A cubic polynomial on [0, 1], and the positions where it passes whole numbers.
 
 #include <algorithm>
 #include <array>
@@ -25,8 +25,8 @@ struct Cubic {
             9.0 * (-f[0] + 3.0 * f[1] - 3.0 * f[2] + f[3]) / 2.0};
   }
 
-  // The cubic of value(position in voxels) along a ray from distance `begin` to `end`, with s from
-  // 0 to 1.
+  // The cubic that interpolates value(position in voxels) along a ray from distance `begin` to
+  // `end`, with s from 0 to 1.
   template <typename Value>
   [[nodiscard]] static Cubic along(const Ray& ray, double begin, double end, const Value& value) {
     std::array<double, 4> f;
@@ -41,8 +41,8 @@ struct Cubic {
 
   [[nodiscard]] double slope(double s) const { return c1 + s * (2.0 * c2 + s * 3.0 * c3); }
 
-  // Appends, in ascending order, every s in (0, 1) where the cubic passes one of 0, 1, …, 255 for
-  // which `keep` returns true.
+  // Appends every s in (0, 1), in ascending order, where the cubic passes one of the numbers 0, 1,
+  // …, 255 for which `keep` returns true.
   template <typename Keep>
   void append_knots(std::vector<double>& at, Keep keep) const {
     const std::array<double, 4> ends = monotone_ends();
@@ -68,7 +68,7 @@ struct Cubic {
     const double half = c2;  // c1 + 2·half·s + 3·c3·s² = 0
     const double discriminant = half * half - 3.0 * c3 * c1;
     if (discriminant > 0.0) {
-      // Computes both roots from the sum that does not cancel.
+      // Compute both roots from the sum that does not cancel.
       const double q = -(half + std::copysign(std::sqrt(discriminant), half));
       double a = c3 != 0.0 ? q / (3.0 * c3) : 0.0;
       double b = q != 0.0 ? c1 / q : 0.0;
@@ -80,7 +80,7 @@ struct Cubic {
   }
 
  private:
-  // Bisection on a monotone interval, down to 2⁻⁴⁰ of it.
+  // Bisects a monotone interval down to 2⁻⁴⁰ of its length.
   [[nodiscard]] double solve(double value, double a, double b) const {
     const bool rising = (*this)(a) < (*this)(b);
     for (int i = 0; i < 40; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Shared by the renderers in this folder: checking a scene and filling an image.
+// Code that the renderers in this folder share: checking a scene and filling an image.
 
 #include <algorithm>
 #include <cstddef>
@@ -34,7 +34,7 @@ inline void check(const scene::VolumeScene& scene) {
   if (scene.width < 0 || scene.height < 0) throw core::InputError("negative viewport");
 }
 
-// Calls function(Stored{}), where Stored is the type of one voxel.
+// Calls function(Stored{}), where Stored is the type of the grid's voxels.
 template <typename Function>
 auto with_stored_type(scene::VoxelFormat format, Function&& function) {
   switch (format) {
@@ -57,7 +57,7 @@ inline glm::dvec3 gradient_scale(const scene::VoxelGrid& grid) {
   return {smallest / grid.spacing[0], smallest / grid.spacing[1], smallest / grid.spacing[2]};
 }
 
-// Fills an image with `Pixel caster(x, y)`. Every thread makes its own caster.
+// Fills an image with the pixels that caster(x, y) returns. Every thread makes its own caster.
 template <typename MakeCaster>
 Truth draw(const scene::VolumeScene& scene, int threads, const MakeCaster& make_caster) {
   Truth truth;
@@ -69,7 +69,7 @@ Truth draw(const scene::VolumeScene& scene, int threads, const MakeCaster& make_
   truth.bound.resize(pixels);
   std::vector<std::uint64_t> samples(static_cast<std::size_t>(scene.height));
   for_each_row(scene.height, threads, [&]() -> RowWorker {
-    // A shared pointer, because std::function requires a callable that can be copied.
+    // A shared pointer is used because std::function requires a callable that can be copied.
     auto caster = std::make_shared<decltype(make_caster())>(make_caster());
     return [&truth, &samples, width, caster](int y) {
       for (std::size_t x = 0; x < width; ++x) {

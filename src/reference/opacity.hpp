@@ -23,8 +23,9 @@ struct StepOpacity {
   double hi = 0;
 };
 
-// The bounds hold even where the derivative is unbounded: near alpha = 1 with steps < 1, and where
-// a whole step appears or vanishes. `relative_error` is the error of the device's own correction.
+// The bounds are valid even where the derivative is unbounded: near alpha = 1 with steps < 1, and
+// where a whole step appears or vanishes. `relative_error` is the error of the device's own opacity
+// correction.
 [[nodiscard]] StepOpacity step_opacity(const Looked& looked, const StepLength& steps,
                                        double relative_error);
 

@@ -41,12 +41,12 @@ struct Tally {
   }
 };
 
-// The crossings of one ray with planes of bricks.
+// The crossings of one ray with the planes between bricks.
 class Crossings {
  public:
   Crossings(const BrickPlanes& planes, const Ray& ray) : planes_(planes), ray_(ray) {}
 
-  // Whether p, a point on the ray, may count on either side of a plane.
+  // Whether the point p on the ray may count on either side of a plane.
   [[nodiscard]] bool is_near(const glm::dvec3& p) const {
     if (planes_.edge == 0) return false;
     for (int axis = 0; axis < 3; ++axis) {
@@ -65,7 +65,7 @@ class Crossings {
     return sum;
   }
 
-  // The number of planes that a device may pass together with the previous one, if its ray runs
+  // The number of planes that a device may pass together with the previous plane, if its ray is
   // within `position_error` voxels of this one.
   [[nodiscard]] double ties(double position_error) const {
     if (planes_.edge == 0) return 0;
@@ -102,7 +102,7 @@ class Crossings {
   const Ray& ray_;
 };
 
-// The samples after which a device may end the ray.
+// Determines the samples after which a device may end the ray.
 class Stops {
  public:
   explicit Stops(const ErrorModel& model) : model_(model) {}
@@ -112,7 +112,7 @@ class Stops {
     largest_ = std::min(largest_ * (1.0 - opacity.lo) + rounding, 1.0);
     smallest_ = std::max(smallest_ * (1.0 - opacity.hi) - rounding, 0.0);
   }
-  // Once true, it stays true.
+  // Once this is true, it stays true.
   [[nodiscard]] bool may_end() const { return smallest_ < model_.ert; }
   [[nodiscard]] bool must_end() const { return largest_ < model_.ert; }
 
@@ -122,14 +122,15 @@ class Stops {
   double smallest_ = 1;
 };
 
-// A device sees opacity at a place, sees none, or may see some.
+// What a device sees at a position: `possible` if it may see opacity, `certain` if it does.
 struct Sight {
   bool possible = false;
   bool certain = false;
   StepOpacity opacity;
 };
 
-// Counts what is open for the pixels of one scene. Each thread has its own.
+// Counts what may differ between devices for the pixels of one scene. Each thread has its own
+// object.
 template <typename Stored>
 class Counter {
  public:
@@ -153,13 +154,13 @@ class Counter {
     const bool cells = scene_.quadrature == scene::Quadrature::cells;
     Tally tally = cells ? in_cells(*ray, crossings) : on_lattice(*ray, crossings);
     tally.skipped += ties;
-    if (cells) tally.visited += ties;  // a ray looks at a brick where it enters it
+    if (cells) tally.visited += ties;  // a device visits a brick where the ray enters it
     if (ray->shortest <= 0 && ray->longest > 0) tally.hits += 1;
     return tally;
   }
 
  private:
-  // The number of steps in a chord, with the few roundings of the division.
+  // The number of steps in a chord, not rounded to a whole number.
   [[nodiscard]] double steps(double chord) const {
     return chord / (smallest_spacing_ * scene_.step_voxels);
   }
@@ -185,8 +186,8 @@ class Counter {
       tally.skipped += passed + (near ? 1 : 0);
       if (sight.possible) stops.add(sight.opacity);
       if (stops.must_end()) break;
-      // Bricks are visited until the end of a run of visible samples. A device may begin a run and
-      // end the ray within it.
+      // Bricks are visited until the end of a run of visible samples, and a device may begin a run
+      // and end the ray within it.
       if (!ended && stops.may_end()) {
         const double rest = crossings.between(p, ray.entry + most * stride);
         tally.visited += rest;
@@ -245,7 +246,7 @@ class Counter {
       if (!ended && stops.may_end() && !stops.must_end()) tally.terminated += 1;
       return !stops.must_end();
     });
-    if (all) tally.visited += 1;  // a device may leave the volume before it has begun
+    if (all) tally.visited += 1;  // a device may leave the volume before its first cell
     return tally;
   }
 

@@ -8,15 +8,15 @@
 
 namespace triptych::reference {
 
-// The light of the piece alone: premultiplied colour, and the depth by which e^(−depth) attenuates
-// everything behind it.
+// The light of the piece alone: its premultiplied colour, and its optical depth, by which
+// e^(−depth) attenuates everything behind it.
 struct PieceLight {
   std::array<double, 3> colour{};
   double depth = 0.0;
 
   [[nodiscard]] double opacity() const { return -std::expm1(-depth); }
 
-  // This piece with the next one behind it.
+  // The light of this piece together with that of the next one, which is behind it.
   [[nodiscard]] PieceLight before(const PieceLight& next) const {
     PieceLight both = *this;
     const double left = std::exp(-depth);
@@ -26,8 +26,8 @@ struct PieceLight {
   }
 };
 
-// The largest difference in any channel between two results for a piece, for any colour in [0, 1]
-// behind it.
+// The largest difference in any channel between two results for a piece, whatever colour in [0, 1]
+// is behind it.
 [[nodiscard]] inline double difference(const PieceLight& a, const PieceLight& b) {
   const double opacity = a.opacity() - b.opacity();
   double largest = std::abs(opacity);
@@ -38,7 +38,7 @@ struct PieceLight {
   return largest;
 }
 
-// Extinction per length and straight colour at a point of the ray.
+// The extinction per length and the colour (not premultiplied) at a point of the ray.
 struct RayPoint {
   double extinction = 0.0;
   std::array<double, 3> colour{};
@@ -72,7 +72,7 @@ template <typename PointAt>
   }
   const double opacity = light.opacity();
   for (std::size_t i = 0; i < 3; ++i) {
-    // Used if all of the light comes from in front of the first point.
+    // This colour is used if all of the light comes from in front of the first point.
     const double colour = whole > 0.0 ? light.colour[i] / whole : points[0].colour[i];
     light.colour[i] = opacity * colour;
   }

@@ -15,8 +15,8 @@ template <std::size_t N>
   return value;
 }
 
-// Whether the Bernstein coefficients, which enclose the polynomial, all have one sign, so that it
-// has no root.
+// Whether all Bernstein coefficients, which enclose the polynomial, have the same sign, so that the
+// polynomial has no root.
 template <std::size_t N>
 [[nodiscard]] bool has_one_sign(const std::array<double, N>& c) {
   bool positive = true;
@@ -35,8 +35,8 @@ template <std::size_t N>
   return positive || negative;
 }
 
-// Appends, in ascending order, every s in (0, 1) where the sign changes. Between two extrema, which
-// are the roots of the derivative, it changes at most once. Uses bisection down to 2⁻⁵⁰.
+// Appends every s in (0, 1) where the sign changes, in ascending order. The sign changes at most
+// once between two extrema, which are the roots of the derivative. Uses bisection down to 2⁻⁵⁰.
 template <std::size_t N>
 void append_roots(const std::array<double, N>& c, std::vector<double>& at) {
   if constexpr (N > 1) {

@@ -28,8 +28,8 @@ bool Preintegration::transparent(const Bounded& front, const Bounded& back) cons
       {.centre = a.centre, .lo = std::min(a.lo, b.lo), .hi = std::max(a.hi, b.hi)});
 }
 
-// The function is constant beyond the table, so the path is cut at the table's ends as at its
-// entries.
+// Beyond the table, the function is constant, so the path is cut at the table's ends in the same
+// way as at its entries.
 std::vector<PathPiece> Preintegration::cut(double from, double to, double length) const {
   std::vector<PathPiece> pieces;
   const double direction = to < from ? -1.0 : 1.0;
@@ -108,7 +108,7 @@ Segment Preintegration::operator()(const Bounded& front, const Bounded& back,
   for (const PathPiece& piece : pieces) {
     const double before = light.depth;
     add({piece.a, piece.b, piece.length * length.nominal, piece.middle}, 0, light);
-    // Behind an opaque piece the depth cannot be determined.
+    // If the pieces in front are opaque, the depth of this piece cannot be determined.
     bound.add(piece, std::isfinite(before) ? light.depth - before : 0.0);
   }
   Segment segment;

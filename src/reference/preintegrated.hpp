@@ -15,19 +15,19 @@
 namespace triptych::reference {
 
 struct Segment {
-  Looked looked;  // colour is light divided by opacity; alpha is not used
+  Looked looked;  // the colour is light divided by opacity; alpha is not used
   StepOpacity opacity;
 };
 
-// The step is integrated in double precision to about 1e-10: it is cut at the entries of the table
-// and halved where the integrand is steep, and each part uses Gauss's rule with four points. The
-// bound is derived at PreintegrationBound.
+// The step is integrated in double precision to about 1e-10. It is cut at the entries of the table
+// and halved where the integrand is steep; each part is integrated by Gauss's rule with four
+// points. The bound is derived at PreintegrationBound.
 class Preintegration {
  public:
   Preintegration(const Table& table, const ErrorModel& model);
 
-  // Whether no value that a device may find has any opacity. `front` and `back` are normalised
-  // values, `length` is in voxel lengths.
+  // Whether every value that a device may find is completely transparent. `front` and `back` are
+  // normalised values; `length` is in voxel lengths.
   [[nodiscard]] bool transparent(const Bounded& front, const Bounded& back) const;
   [[nodiscard]] Segment operator()(const Bounded& front, const Bounded& back,
                                    const StepLength& length) const;

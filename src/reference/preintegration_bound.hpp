@@ -1,5 +1,5 @@
 #pragma once
-// The largest error that a device may have in one step of quadrature preintegrated.
+// Bounds the error that a device may have in one step of quadrature preintegrated.
 
 #include <array>
 #include <cstddef>
@@ -18,8 +18,8 @@ struct PathPiece {
   double middle = 0;  // position of its middle among the table's entries
 };
 
-// The path of one step: positions among the table's entries, and the largest error of its ends on a
-// device.
+// The path of one step: the positions of its ends among the table's entries, and their largest
+// error on a device.
 struct StepPath {
   double from = 0;
   double to = 0;
@@ -28,36 +28,39 @@ struct StepPath {
   std::size_t pieces = 0;
 };
 
-// The bound applies to a device that tabulates the paths between entries. It cuts a step at the
-// first and the last entry that it passes, and processes the whole cells between them front to
-// back, singly or in chunks of optical depth at most (ln 2)/2; when less than 2⁻²⁰ of the light is
-// left, the rest is one chunk. All light below is premultiplied. R is the range of the colour along
-// the path, A the opacity of the step, and T the transmittance from the step's front.
+// The bound applies to a device that tabulates the paths between entries. The device cuts a step at
+// the first and the last entry that it passes. It processes the whole cells between them from front
+// to back, singly or in chunks whose optical depth is at most (ln 2)/2; when less than 2⁻²⁰ of the
+// light is left, the rest is one chunk. All light below is premultiplied. R is the range of the
+// colour along the path, A the opacity of the step, and T the transmittance from the step's front.
 //
-//   - Values. A device's front and back are within e of the exact ones, and so is its whole path.
-//     Opacity and colour in every piece therefore have an error of at most e times the steepest
-//     slope of the cells in reach, plus table_error. The optical depth lies between those for the
-//     lowered and the raised opacity.
-//   - Weights. With C the step's colour, ∫(c − C)·τT = 0. By the identity of composite.hpp a change
-//     of extinction by δ changes the light by the change of the opacity times C, and by at most
-//     2R·∫T'δ, in total R·A. For a piece ∫T'δ is at most T' at its front times the change of its
-//     depth, and at most the largest relative change of extinction times the piece's opacity.
+//   - Values. A device's values at front and back are within e of the exact ones, and so is its
+//     whole path. Opacity and colour in every piece therefore have an error of at most e times the
+//     steepest slope of the cells in reach, plus table_error. The optical depth is between the
+//     depths for the lowered and the raised opacity.
+//   - Weights. With the step's colour C, ∫(c − C)·τT = 0. By the identity of composite.hpp, a
+//     change of the extinction by δ changes the light by the change of the opacity times C, and by
+//     at most 2R·∫T'δ, in total R·A. For a piece, ∫T'δ is at most T' at its front times the change
+//     of its depth, and at most the largest relative change of extinction times the piece's
+//     opacity.
 //   - Chunks. e^(−Dy) = Σ (−1)ⁿ·(2n + 1)·e^(−D/2)·i_n(D/2)·Pn(y). The remainder after n = 2 has a
-//     norm of at most D³/(120·√7), because e^(−z)·i₃(z) ≤ z³/105 and the further terms fall faster
-//     than e^(−z) lets this one grow. At most R/2 of the colour is left, so the light of a chunk of
-//     depth D has an error of at most R·D⁴/635 (Cauchy–Schwarz). With D ≤ (ln 2)/2 that is 7.8e-5·R
-//     times the chunk's opacity, so all chunks together have an error of at most 7.8e-5·R·A.
-//   - Deep cells. Along one cell the colour is linear in the position. The position, as a function
-//     of the share of the depth passed, differs from its first three coefficients by at most t²/4,
-//     where extinction changes by t around its mean (a test checks all cases). The light of a cell
-//     with colour range R therefore has an error of at most R·A·t²/4 for any depth.
-//   - Ends. Within the first and the last cell extinction is taken as linear. Its deviation is at
-//     most Δ²/8(1 − α)², with Δ the rise of the opacity over the cell; it is treated like the
-//     weights. The series of the mean logarithm is truncated after r¹², with r = Δ/2(1 − α):
-//     r¹⁴/(210·(1 − r²)) per voxel, at most 0.038.
+//     norm of at most D³/(120·√7), because e^(−z)·i₃(z) ≤ z³/105 and the further terms decrease
+//     faster than e^(−z) lets this one grow. At most R/2 of the colour is left, so the light of a
+//     chunk of depth D has an error of at most R·D⁴/635 (Cauchy–Schwarz). With D ≤ (ln 2)/2 that is
+//     7.8e-5·R times the chunk's opacity, so all chunks together have an error of at most
+//     7.8e-5·R·A.
+//   - Deep cells. Along one cell, the colour is linear in the position. Consider the position as a
+//     function of the share of the depth that has been passed. It differs from its first three
+//     coefficients by at most t²/4, where t is the change of the extinction around its mean (a test
+//     checks all cases). The light of a cell with colour range R therefore has an error of at most
+//     R·A·t²/4 for any depth.
+//   - Ends. Within the first and the last cell, extinction is assumed to be linear. Its deviation
+//     is at most Δ²/8(1 − α)², where Δ is the rise of the opacity over the cell; it is treated like
+//     the weights. The series of the mean logarithm is truncated after r¹², with r = Δ/2(1 − α),
+//     which loses r¹⁴/(210·(1 − r²)) per voxel, at most 0.038.
 //   - Lengths. A device's cells are longer or shorter than the exact ones by a factor of at most
-//     1/(1 − 2e/|to − from|). If that is more than 2, the path hardly leaves a cell, and its R
-//     bounds the error.
+//     1/(1 − 2e/|to − from|). If that is more than 2, the path hardly leaves a cell, and R of that
+//     path bounds the error.
 //   - Rounding. The opacity has the model's opacity_error, and one compositing_error for each piece
 //     beyond three. The colour has eight compositing_errors for the sum of three coefficients, and
 //     two for each piece.
@@ -65,13 +68,13 @@ class PreintegrationBound {
  public:
   PreintegrationBound(const Table& table, const ErrorModel& model, const StepPath& path);
 
-  // Adds the pieces of the path in order. Lengths are shares of the step; `depth` is the exact
-  // depth.
+  // Adds the pieces of the path in order. Their lengths are shares of the step. `depth` is the
+  // exact optical depth.
   void add(const PathPiece& piece, double depth);
 
-  // The opacity, after the last piece was added.
+  // The opacity of the step. Call this after the last piece was added.
   [[nodiscard]] StepOpacity opacity(double nominal) const;
-  // The error of the straight colour.
+  // The error of the colour before premultiplication.
   [[nodiscard]] double colour_error(std::size_t channel, const StepOpacity& opacity) const;
 
  private:
@@ -101,16 +104,16 @@ class PreintegrationBound {
   const Table& table_;
   const ErrorModel& model_;
   StepPath path_;
-  double span_;      // in entries
-  double widening_;  // of a device's cells; 0 if the path hardly leaves one
+  double span_;      // length of the path in entries
+  double widening_;  // factor for a device's cells; 0 if the path hardly leaves one
   Reach around_;
   double alpha_error_;
-  double least_ = 0;         // smallest and …
-  double most_ = 0;          // … largest depth so far
+  double least_ = 0;         // smallest depth so far
+  double most_ = 0;          // largest depth so far
   double depth_ = 0;         // exact depth so far
   double tails_ = 0;         // truncation errors of the series, per voxel
-  double front_ = 1;         // largest share of the light that is left …
-  double front_before_ = 1;  // … and that was left before the last piece
+  double front_ = 1;         // largest share of the light that is left
+  double front_before_ = 1;  // largest share that was left before the last piece
   std::size_t added_ = 0;
   double weights_ = 0;  // ∫T'δ
   Rgba values_{};       // ∫T'τ' times the errors of the values

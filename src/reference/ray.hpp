@@ -18,28 +18,28 @@ struct Ray {
   double length = 0;             // of the chord inside the volume; 0 if the ray misses it
   double shortest = 0;           // smallest chord on a device
   double longest = 0;            // largest chord on a device
-  glm::dvec3 position_error{};   // of a sample's position per axis, including the uncertain entry
+  glm::dvec3 position_error{};   // of a sample, per axis; includes the uncertainty of the entry
 
-  // The distance by which the ray may begin or end earlier or later on a device.
+  // The largest distance by which the ray may begin or end earlier or later on a device.
   [[nodiscard]] double slack() const;
-  // The position error of a place that may be displaced along the ray by up to `way`.
+  // The position error of a point that may be displaced along the ray by up to `way`.
   [[nodiscard]] glm::dvec3 position_error_within(double way) const;
 };
 
-// Sets `at` to the distances from the entry at which the ray crosses planes of voxel centres of a
-// grid of `size`, in ascending order, with both ends of the chord.
+// Sets `at` to the distances from the entry at which the ray crosses the planes of voxel centres of
+// a grid of `size`, and both ends of the chord, in ascending order.
 void cut_at_planes(const Ray& ray, const std::array<int, 3>& size, std::vector<double>& at);
 
 // Makes the rays of one scene.
 class RayMaker {
  public:
-  // A device's ray runs within `position_error_voxels` per axis of the exact one. Its chord
-  // therefore lies between those of the volume shrunk and grown by that distance on every side. All
-  // its samples shift along the ray with the entry point, and at grazing incidence by far more than
-  // the error across the ray.
+  // A device's ray runs within `position_error_voxels` per axis of the exact one. The length of its
+  // chord is therefore between that of the volume shrunk and that of the volume grown by this
+  // distance on every side. All its samples shift along the ray with the entry point. At grazing
+  // incidence, this shift is far larger than the error across the ray.
   RayMaker(const scene::VolumeScene& scene, double position_error_voxels);
 
-  // nullopt if no device that the model allows can hit the volume.
+  // Returns nullopt if the ray misses the volume on every device that the model allows.
   [[nodiscard]] std::optional<Ray> operator()(int x, int y) const;
 
  private:
@@ -47,9 +47,9 @@ class RayMaker {
     double begin = 0;
     double end = 0;
   };
-  // The part of the ray with t ≥ 0 inside the volume grown by `margin` voxels on every side. A
-  // direction component of ±0 is never a divisor: such a ray is between the two planes for all t or
-  // for none.
+  // The part of the ray with t ≥ 0 inside the volume grown by `margin` voxels on every side. There
+  // is no division by a direction component of ±0: such a ray is between the two planes for all t
+  // or for none.
   [[nodiscard]] std::optional<Chord> clip(const glm::dvec3& voxels_per_unit, double margin) const;
 
   const scene::VolumeScene* scene_;

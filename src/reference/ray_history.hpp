@@ -18,8 +18,8 @@ struct HistorySample {
   std::int64_t index = 0;
   glm::dvec3 place{};  // in voxels; the middle of a step
   glm::dvec3 place_error{};
-  std::optional<Bounded> front;  // for quadrature preintegrated: where the step begins
-  Bounded value;                 // and where it ends
+  std::optional<Bounded> front;  // the value at the front of a step, for quadrature preintegrated
+  Bounded value;                 // the value of the sample, or at the back of the step
   Looked looked;                 // after shading; for a step, the alphas are not used
   StepLength length;             // in voxel lengths
   StepOpacity opacity;
@@ -31,8 +31,9 @@ struct RayHistory {
   std::vector<HistorySample> samples;  // samples of every index, including those without opacity
 };
 
-// The ray of pixel (x, y) in render_volume with the same model. Quadrature midpoint and
-// preintegrated only: cells have no samples with numbers. Throws as render_volume does.
+// The samples of the ray of pixel (x, y) in render_volume with the same model. Only for the
+// quadratures midpoint and preintegrated, because samples of cells have no numbers. Throws the same
+// errors as render_volume.
 [[nodiscard]] RayHistory ray_history(const scene::VolumeScene& scene, const ErrorModel& model,
                                      int x, int y);
 

@@ -21,7 +21,7 @@ void for_each_row(int rows, int threads, const std::function<RowWorker()>& make_
       for (int row = next++; row < rows; row = next++) draw(row);
     } catch (...) {
       failure = std::current_exception();
-      next = rows;  // so that the other threads stop
+      next = rows;  // stops the other threads
     }
   };
   {

@@ -1,5 +1,5 @@
 #pragma once
-// Facts about spheres that are known without drawing them. S1 … S6 are their numbers in this
+// Properties of spheres that are known without drawing them. S1 … S6 are their numbers in this
 // project.
 
 #include <cstdint>
@@ -8,23 +8,23 @@
 
 namespace triptych::reference {
 
-// S1: the silhouette of a sphere in a pinhole image. It is an ellipse whose major axis runs through
-// the image's centre: the cone with half angle α (sin α = radius/distance) at an angle θ to the
-// view axis, intersected with the plane at distance `focal` from the eye. Lengths are in the unit
-// of `focal`.
+// S1: the silhouette of a sphere in a pinhole image. It is an ellipse whose major axis passes
+// through the image's centre: the intersection of the image plane at distance `focal` from the eye
+// with a cone that has the half angle α (sin α = radius/distance) and an angle θ to the view axis.
+// Lengths are in the unit of `focal`.
 struct SilhouetteEllipse {
   double centre = 0;      // distance from the image's centre
-  double semi_major = 0;  // in the direction of the image's centre
+  double semi_major = 0;  // towards the image's centre
   double semi_minor = 0;
   double area = 0;
 };
-// nullopt if the plane does not cut the cone completely (θ + α ≥ 90°) or if the eye is inside the
-// sphere (sin α ≥ 1).
+// Returns nullopt if the plane does not cut the cone completely (θ + α ≥ 90°) or if the eye is
+// inside the sphere (sin α ≥ 1).
 [[nodiscard]] std::optional<SilhouetteEllipse> s1_silhouette(double sin_alpha, double theta,
                                                              double focal);
 
-// S2: the first intersection of a ray from the origin, in the unit vector `direction`, with a
-// sphere that does not contain the origin.
+// S2: the first intersection of a sphere and a ray from the origin along the unit vector
+// `direction`. The sphere must not contain the origin.
 struct SphereEntry {
   double t = 0;
   glm::dvec3 normal{};
@@ -32,7 +32,8 @@ struct SphereEntry {
 [[nodiscard]] std::optional<SphereEntry> s2_entry(const glm::dvec3& direction,
                                                   const glm::dvec3& centre, double radius);
 
-// S3: the mean cosine to the view axis over the disc, seen from far away: ∫₀¹ √(1−ρ²)·2ρ dρ.
+// S3: the mean cosine to the view axis over the disc of a sphere that is far away: ∫₀¹ √(1−ρ²)·2ρ
+// dρ.
 inline constexpr double s3_mean_cosine = 2.0 / 3.0;
 
 // S4: two equal spheres intersect in the plane that bisects their centres. Returns the signed
@@ -40,11 +41,12 @@ inline constexpr double s3_mean_cosine = 2.0 / 3.0;
 [[nodiscard]] double s4_bisector(const glm::dvec3& point, const glm::dvec3& first,
                                  const glm::dvec3& second);
 
-// S5: the expected share of an area that stays free if N discs are placed on it at random, with
-// wrap-around.
+// S5: the expected share of an area that remains uncovered if N discs are placed on it at random,
+// with wrap-around.
 [[nodiscard]] double s5_uncovered(std::uint64_t discs, double radius, double area);
 
-// S6: the area of a disc divided by that of the regular n-gon around it, for n ≥ 3.
+// S6: the area of a disc divided by that of the regular n-gon that is circumscribed around it, for
+// n ≥ 3.
 [[nodiscard]] double s6_tightness(int corners);
 
 }  // namespace triptych::reference

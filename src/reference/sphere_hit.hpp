@@ -1,5 +1,5 @@
 #pragma once
-// One ray and one sphere: their intersection, and the possible intersections of nearby rays.
+// The intersection of a ray and a sphere, and the possible intersections of nearby rays.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace triptych::reference {
 
-// How a ray from the origin passes a sphere. It computes the foot of the perpendicular first and
+// How a ray from the origin passes a sphere. The foot of the perpendicular is computed first, and
 // then r² − p², which does not cancel, however far away the sphere is.
 struct Passage {
   double distance = 0;      // distance of the centre from the eye
@@ -28,8 +28,8 @@ inline Passage passage(const glm::dvec3& direction, const glm::dvec3& centre, do
           radius};
 }
 
-// The distance along the ray to the first surface point in front of the eye, which is where the ray
-// enters the sphere, or leaves it if the eye is inside; +inf if there is none.
+// The distance along the ray to the first surface point in front of the eye. That is where the ray
+// enters the sphere, or where it leaves it if the eye is inside. +inf if there is none.
 inline double first_surface(const Passage& ray) {
   if (!(ray.half_squared >= 0)) return std::numeric_limits<double>::infinity();
   const double half = std::sqrt(ray.half_squared);
@@ -38,23 +38,23 @@ inline double first_surface(const Passage& ray) {
   return std::numeric_limits<double>::infinity();
 }
 
-// The possible errors. `chord` is the largest |d' − d| of two unit directions. `shift` is the
-// displacement of the sphere's centre across the ray, relative to the radius. `skin` is the largest
-// distance of the eye from the surface at which a device may see it on the other side, relative to
-// distance + radius.
+// The errors that a device may have. `chord` is the largest |d' − d| of two unit directions.
+// `shift` is the displacement of the sphere's centre across the ray, relative to the radius. If the
+// eye is closer to the surface than `skin` (relative to distance + radius), a device may find it on
+// the other side.
 struct Wobble {
   double chord = 0;
   double shift = 0;
   double skin = 0;
 };
 
-// The results for one sphere of all rays that a wobble allows.
+// The possible results for one sphere, over all rays that a wobble allows.
 struct Reach {
   bool possible = false;  // some ray may meet it; otherwise the values below are meaningless
   bool covers = false;    // every ray meets it
-  double nearest = 0;     // smallest and largest distance along a ray …
+  double nearest = 0;     // smallest distance along a ray that meets it
   double farthest = 0;
-  double half_lo = 0;  // … and half chord, where it is met
+  double half_lo = 0;  // smallest half chord of a ray that meets it
   double half_hi = 0;
 };
 
@@ -64,7 +64,7 @@ struct Reach {
 //   |b' − b| = |b·(cos φ − 1) ± p·sin φ| ≤ Δb = p·chord + |b|·chord²/2,
 //   h'² = r² − p'² between h² − ((p + δ)² − p²) and h² + (p² − (p − δ)²),
 // with p' between 0 and |C| + shift·r. The interval of t = b' ∓ h' follows term by term. h² is
-// adjusted and not computed again, so that without a wobble not even a bit changes.
+// adjusted instead of computed again, so that without a wobble not a single bit changes.
 inline Reach reach(const Passage& ray, const Wobble& wobble) {
   Reach result;
   const double shift = wobble.shift * ray.radius;
@@ -83,7 +83,7 @@ inline Reach reach(const Passage& ray, const Wobble& wobble) {
   const double rounding = 1e-14;
   const double skin = shift + (wobble.skin + rounding) * (ray.distance + ray.radius);
   const double outside = ray.distance - ray.radius;
-  if (std::abs(outside) <= skin) {  // the eye may be on either side, so both surfaces are possible
+  if (std::abs(outside) <= skin) {  // the eye may be on either side, so both are possible
     result.farthest = ray.along + slide + result.half_hi;
     result.possible = result.farthest > 0;
   } else if (outside < 0) {

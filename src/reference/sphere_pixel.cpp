@@ -29,19 +29,18 @@ SpherePicture::SpherePicture(const scene::ParticleScene& scene_, const SphereErr
       table_(scene.intensity_colours, 0.0),
       tree(scene, growth()) {}
 
-// A displacement by ε in the plane at distance 1, which the ray reaches at the distance 1/along,
-// rotates it by φ with sin φ ≤ x = ε·along, and 2·sin(φ/2) = x/cos(φ/2). For x ≥ 1 even opposite
-// rays are possible.
+// The ray reaches the plane at distance 1 after a distance of 1/along. A displacement by ε in that
+// plane rotates the ray by φ with sin φ ≤ x = ε·along, and 2·sin(φ/2) = x/cos(φ/2). For x ≥ 1, even
+// opposite rays are possible.
 double SpherePicture::chord(double pixels, double along) const {
   const double sine = pixels * pixel_ * along;
   if (!(sine < 1)) return 2;
   return sine / std::sqrt(0.5 + 0.5 * std::sqrt(1 - sine * sine));
 }
 
-// With D the distance of a box's farthest corner (no radius in it is above D) and
-// κ = chord + shift, a sphere inside is reached if the central ray comes within δ ≤ κD of it, at a
-// point that Reach moves along the ray by up to Δb ≤ (chord + chord²/2)·D. 1e-12 is added for
-// rounding.
+// Let D be the distance of a box's farthest corner (no radius in the box is above D) and κ = chord
+// + shift. A sphere inside is reached if the central ray comes within δ ≤ κD of it, at a point that
+// Reach moves along the ray by up to Δb ≤ (chord + chord²/2)·D. 1e-12 is added for rounding.
 double SpherePicture::growth() const {
   const double turn = chord(std::max(model.margin_px, model.lateral_px), 1.0);
   const double kappa = turn + model.lateral_relative;
@@ -157,7 +156,7 @@ void SphereTracer::meet(const View& view, std::uint32_t place) {
 }
 
 bool SphereTracer::is_rival(const Candidate& candidate) const {
-  if (candidate.nearest > covered_) return false;  // it became a candidate before that was known
+  if (candidate.nearest > covered_) return false;  // it is behind a surface that was found later
   if (distance_ == unreached) return true;
   const SphereTree::Sphere& shown = picture_.tree.sphere(shown_);
   const SphereTree::Sphere& other = picture_.tree.sphere(candidate.place);
@@ -171,9 +170,9 @@ std::array<double, 4> SphereTracer::shaded(std::uint32_t place, double half) con
   return {colour[0] * light, colour[1] * light, colour[2] * light, 1.0};
 }
 
-// t' lies in Reach's interval and h' in its own. Z = t·cos α, where the rotation also changes the
-// angle α to the view axis:  |cos α' − cos α| = 2·sin(φ/2)·|sin(α ± φ/2)| ≤ chord·(sin
-// α + chord/2). The colour is linear in h.
+// t' is in Reach's interval, and h' in its own. Z = t·cos α, where the rotation also changes the
+// angle α to the view axis: |cos α' − cos α| = 2·sin(φ/2)·|sin(α ± φ/2)| ≤ chord·(sin α + chord/2).
+// The colour is linear in h.
 void SphereTracer::bound_shown(const View& view, SpherePixel& pixel) const {
   const Passage ray = pass(view, shown_);
   const Reach reached = reach(ray, view.lateral);

@@ -1,6 +1,6 @@
 #pragma once
-// One pixel of a particle scene: the surface that its ray shows, and the surfaces that nearby rays
-// may show instead.
+// One pixel of a particle scene: the surface that its ray hits first, and the surfaces that nearby
+// rays may hit instead.
 
 #include <array>
 #include <cstddef>
@@ -33,38 +33,39 @@ class SpherePicture {
   // The largest distance of two unit directions that are `pixels` apart in the image, if one of
   // them has the cosine `along` to the view axis.
   [[nodiscard]] double chord(double pixels, double along) const;
-  // The straight colour of a particle before shading.
+  // The colour of a particle before shading, not premultiplied.
   [[nodiscard]] std::array<double, 3> colour(std::size_t index) const;
 
   const scene::ParticleScene& scene;
   const SphereErrorModel& model;
 
  private:
-  // The growth of the tree's boxes that is necessary to find every sphere that may be reached.
+  // The growth of the tree's boxes that guarantees that every sphere that may be reached is found.
   [[nodiscard]] double growth() const;
 
-  double pixel_;  // at distance 1 along the view axis
+  double pixel_;  // size of a pixel at distance 1 along the view axis
   Table table_;
 
  public:
   const SphereTree tree;
 };
 
-// Draws pixels. Each thread has its own tracer, because it keeps its memory from pixel to pixel.
+// Draws pixels. Each thread has its own tracer, because a tracer keeps its memory from pixel to
+// pixel.
 //
-// A sphere is a candidate if some ray within the margin may meet it (Reach) no farther away than
-// the farthest depth at which another sphere covers all these rays. Z values are compared after
-// widening them by their relative error. A pixel is certain if there is exactly one candidate and
-// it covers all rays, or if there is none. Particles with the same centre and radius as the shown
-// one do not count as rivals, because on an exact tie the lowest id must win. This is an interval
-// of depth over the whole disc of rays, not a sample of rays. It therefore finds particles that are
-// smaller than the margin, and in doubt it reports uncertainty.
+// A sphere is a candidate if some ray within the margin may meet it (Reach) before the farthest
+// depth at which another sphere covers all these rays. Z values are compared after widening them by
+// their relative error. A pixel is certain if there is exactly one candidate and it covers all
+// rays, or if there is none. Particles with the same centre and radius as the visible one do not
+// count as rivals, because on an exact tie the lowest id must win. This method computes an interval
+// of depth over the whole disc of rays instead of sampling rays. It therefore finds particles that
+// are smaller than the margin, and in case of doubt it reports uncertainty.
 class SphereTracer {
  public:
   explicit SphereTracer(const SpherePicture& picture) : picture_(picture) {}
   [[nodiscard]] SpherePixel operator()(int x, int y);
-  // The indices in the particle set of all spheres that some ray within the margin may meet, also
-  // of hidden ones, by the smallest Z at which it may do so.
+  // The indices in the particle set of all spheres that some ray within the margin may meet,
+  // including hidden ones, sorted by the smallest Z at which it may do so.
   [[nodiscard]] std::vector<std::uint32_t> spheres_near(int x, int y) const;
 
  private:
@@ -75,7 +76,7 @@ class SphereTracer {
   struct View {
     glm::dvec3 direction{};
     double along = 0;  // cosine to the view axis
-    Wobble margin;     // within which the pixel must keep its id
+    Wobble margin;     // the pixel must keep its id within this margin
     Wobble lateral;    // error of a device's ray and sphere
   };
 
@@ -91,8 +92,8 @@ class SphereTracer {
   const SpherePicture& picture_;
   std::vector<Candidate> candidates_;
   double covered_ = 0;       // smallest Z at which every ray within the margin has met something
-  double distance_ = 0;      // distance of the shown surface along the ray …
-  std::uint32_t shown_ = 0;  // … and its index in the tree
+  double distance_ = 0;      // distance of the visible surface along the ray
+  std::uint32_t shown_ = 0;  // index of the visible sphere in the tree
 };
 
 }  // namespace triptych::reference

@@ -32,7 +32,7 @@ SphereTree::SphereTree(const scene::ParticleScene& scene, double growth)
     if (radius > 0) spheres_.push_back({{x, y, z}, radius, static_cast<std::uint32_t>(i)});
   }
   if (spheres_.empty()) return;
-  nodes_.reserve(spheres_.size());  // a leaf has at least two spheres, unless it is the root
+  nodes_.reserve(spheres_.size());  // a leaf has at least two spheres, except for the root
   build(0, static_cast<std::uint32_t>(spheres_.size()));
 }
 

@@ -16,8 +16,8 @@
 namespace triptych::reference {
 
 // Nodes are split at the median centre along the widest axis, so that neither clusters nor a giant
-// sphere among small ones make the tree deep: ⌈log₂(count/4)⌉ levels. It takes at most 52 bytes per
-// sphere.
+// sphere among small ones make the tree deeper than ⌈log₂(count/4)⌉ levels. It needs at most 52
+// bytes per sphere.
 class SphereTree {
  public:
   struct Sphere {
@@ -27,15 +27,16 @@ class SphereTree {
   };
 
   // Every box is grown by `growth` times the distance of its farthest corner from the eye. Throws
-  // InputError if a scaled radius is not finite. A vanishing radius is left out.
+  // InputError if a scaled radius is not finite. Spheres whose scaled radius vanishes are left out.
   SphereTree(const scene::ParticleScene& scene, double growth);
 
   // The distance from the eye to the farthest point of any sphere's box.
   [[nodiscard]] double farthest() const { return farthest_; }
   [[nodiscard]] const Sphere& sphere(std::uint32_t place) const { return spheres_[place]; }
 
-  // Calls visit(place) at least for every sphere whose grown box the ray meets at some t ≥ 0 with
-  // t ≤ limit(), nearer boxes first. `limit` may decrease meanwhile. `direction` is a unit vector.
+  // Calls visit(place) at least for every sphere whose grown box the ray meets at some t ≥ 0 with t
+  // ≤ limit(), in the order of the boxes' distances. limit() may decrease in the meantime.
+  // `direction` is a unit vector.
   template <typename Limit, typename Visit>
   void walk(const glm::dvec3& direction, const Limit& limit, const Visit& visit) const {
     if (nodes_.empty()) return;
@@ -64,7 +65,7 @@ class SphereTree {
   }
 
  private:
-  // The first child is the next node.
+  // The first child of a node directly follows it.
   struct Node {
     std::array<float, 3> lo{};  // relative to the eye
     std::array<float, 3> hi{};

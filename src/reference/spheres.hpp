@@ -1,6 +1,6 @@
 #pragma once
 // The reference renderer for particles. It intersects every pixel's ray with the spheres in double
-// precision and takes the nearest surface point, and on a tie the lowest id
+// precision and takes the nearest surface point; on a tie, the lowest id wins
 // (scene/particle_scene.hpp defines what a pixel shows). It shares no code with the techniques.
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace triptych::reference {
 // (suites/particles/tolerance.hpp).
 struct SphereErrorModel {
   // A pixel is certain if its id is the same for every ray within this distance from its centre, in
-  // pixels, and if no other surface is within the bounds on depth.
+  // pixels, and if no other surface is within the bounds of the depth.
   double margin_px = 1.0 / 256;
   double lateral_px = 0;  // error of a device's ray in pixels
   // Error of the sphere's centre across the ray, relative to its radius.
@@ -30,20 +30,20 @@ struct SphereTruth {
   std::vector<double> rgba;           // as core::Image, top row first
   std::vector<double> depth;          // Z; +inf if no particle is visible
   std::vector<std::uint32_t> ids;     // core::Image::no_particle if none is visible
-  std::vector<double> bound;          // per pixel and any channel; for an uncertain pixel it covers
-                                      // everything that a ray within margin_px may show
+  std::vector<double> bound;          // per pixel, for any channel; for an uncertain pixel it
+                                      // covers everything that a ray within margin_px may show
   std::vector<double> depth_bound;    // of Z; +inf if the pixel is not certain
   std::vector<std::uint8_t> certain;  // 1 or 0
   double coverage = 0;                // share of pixels that show a particle
 
   [[nodiscard]] core::Image image() const;  // rounded to float, with depth and ids
-  // The bound in all four channels, rounded up. Its depth is the bound on Z. Its ids are 0 where
-  // the id must be right, and no_particle where it may differ.
+  // An image with the bound in all four channels, rounded up. Its depth is the bound on Z. Its ids
+  // are 0 where the id must be equal, and no_particle where it may differ.
   [[nodiscard]] core::Image bound_image() const;
 };
 
-// The result does not depend on `threads` (0: as many as the machine has). Throws InputError for a
-// scene without particle data or without pixels.
+// The result does not depend on `threads` (0 means as many as the machine has). Throws InputError
+// for a scene without particle data or without pixels.
 [[nodiscard]] SphereTruth render_spheres(const scene::ParticleScene& scene,
                                          const SphereErrorModel& model = {}, int threads = 0);
 

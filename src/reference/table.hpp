@@ -1,5 +1,5 @@
 #pragma once
-// The transfer function of the normalised value, and its range over an interval.
+// Looks up the transfer function for a normalised value, or its range over an interval of values.
 
 #include <array>
 #include <cstddef>
@@ -9,9 +9,9 @@
 
 namespace triptych::reference {
 
-// The result of looking up a value, and the possible results for a value within its error.
+// The result for a value, and the possible results for a value within its error.
 struct Looked {
-  std::array<double, 3> colour{};        // straight
+  std::array<double, 3> colour{};        // not premultiplied
   std::array<double, 3> colour_error{};  // largest difference from `colour`
   double alpha = 0;                      // per voxel length
   double alpha_lo = 0;
@@ -35,12 +35,12 @@ class Table {
   [[nodiscard]] static double knot_of(double x) { return x * 256.0 - 0.5; }
   [[nodiscard]] static Span span_of(const Bounded& x);
 
-  // Extremes over the span of the piecewise linear function itself, widened by table_error. They
+  // The extremes of the piecewise linear function over the span, widened by table_error. They
   // include the ends and the entries between them, so that no kink or spike is missed.
   [[nodiscard]] Looked look_up(const Span& span) const;
 
   // Whether every entry that contributes anywhere in the span is completely transparent.
-  // Interpolating zeros gives zero in any arithmetic, so table_error is not needed.
+  // table_error does not matter here, because interpolating zeros gives zero in any arithmetic.
   [[nodiscard]] bool transparent(const Span& span) const {
     const auto last = static_cast<std::size_t>(span.hi);
     const std::size_t above = static_cast<double>(last) < span.hi ? last + 1 : last;
@@ -48,7 +48,7 @@ class Table {
   }
 
   using Rgba = std::array<double, 4>;
-  // Straight colour and opacity per voxel length at a position 0 … 255.
+  // The colour (not premultiplied) and the opacity per voxel length at a position 0 … 255.
   [[nodiscard]] Rgba at(double position) const;
 
  private:
@@ -56,7 +56,7 @@ class Table {
   [[nodiscard]] Looked look_up_across_entries(const Span& span) const;
 
   std::array<Rgba, entries> rgba_{};
-  // First entry with alpha > 0, from each entry on.
+  // For each entry, the first entry from there on with alpha > 0.
   std::array<std::size_t, entries> next_visible_{};
   double table_error_;
 };

@@ -21,7 +21,7 @@ namespace triptych::reference {
 
 namespace {
 
-// Draws the pixels of one scene. Each thread has its own.
+// Draws the pixels of one scene. Each thread has its own object.
 template <typename Stored>
 class Raycaster {
  public:
@@ -45,7 +45,7 @@ class Raycaster {
     return compositor_.finish();
   }
 
-  // The samples of the pixel, in the same loops.
+  // The samples of the pixel, computed by the same loops.
   [[nodiscard]] RayHistory history(int x, int y) {
     RayHistory history;
     history_ = &history;
@@ -96,8 +96,8 @@ class Raycaster {
     }
   }
 
-  // The same with the values at the ends of the steps. The last step ends with the ray, and its end
-  // is as uncertain as the ray's length.
+  // The same for the values at the ends of the steps. The last step ends where the ray ends, and
+  // its end is as uncertain as the ray's length.
   void walk_segments(const Ray& ray) {
     const double step = scene_.step_voxels;
     const double length = ray.length / smallest_spacing_;
@@ -144,7 +144,7 @@ class Raycaster {
     if (history_ != nullptr) {
       history_->samples.back().looked = looked;
       history_->samples.back().opacity = opacity;
-      return true;  // to the end of the ray
+      return true;  // the end of the ray was reached
     }
     return compositor_.add(looked, opacity);
   }
@@ -159,7 +159,7 @@ class Raycaster {
   CellRule<Stored> cells_;
   double smallest_spacing_;
   glm::dvec3 gradient_scale_;
-  RayHistory* history_ = nullptr;  // where the samples are kept, if they are
+  RayHistory* history_ = nullptr;  // receives the samples, if they are requested
 };
 
 }  // namespace

@@ -12,45 +12,46 @@
 namespace triptych::reference {
 
 // The errors that the arithmetic of a device may have. The suite derives each term
-// (suites/volume/tolerance.hpp). All are worst cases per operation; they are propagated along each
-// ray to first order.
+// (suites/volume/tolerance.hpp). Each is a worst case for one operation. They are propagated along
+// each ray to first order.
 struct ErrorModel {
   double position_error_voxels = 0;  // of a sample's position, per axis
   double value_error = 0;            // of a normalised value, absolute, without filter_weight_error
-  // Relative error of every voxel, for a normalised value, which is not negative.
+  // Relative error of every voxel, for normalised values, which are not negative.
   double voxel_rounding = 0;
   double filter_weight_error = 0;  // of interpolation weights, times the spread of the 8 voxels
   double table_error = 0;          // absolute error of a looked-up colour or opacity
   double opacity_error = 0;        // relative error of the opacity of a step
   double compositing_error = 0;    // relative error of each multiply–add into colour and
                                    // transmittance, and of each shading operation
-  double ert = 0;                  // ε below which a device may stop
-  double adapt = 0;                // absolute change of any channel by merging samples
-  double output_error = 0;         // relative error of a finished channel that is stored with less
-                                   // precision than it was computed with
+  double ert = 0;                  // transmittance below which a device may stop
+  double adapt = 0;                // largest change of any channel by merging samples
+  double output_error = 0;         // relative error of a finished channel that is stored
+                                   // with less precision than it was computed with
 };
 
 struct Truth {
   int width = 0;
   int height = 0;
-  std::vector<double> rgba;   // as core::Image, premultiplied, top row first
+  std::vector<double> rgba;   // as in core::Image, premultiplied, top row first
   std::vector<double> bound;  // per pixel: the largest error of any channel that the model allows;
                               // for render_volume_converged: the change by the last halvings
-  // Of render_volume_converged: number of points of rays that were looked up.
+  // For render_volume_converged: the number of points on rays that were looked up.
   std::uint64_t samples = 0;
 
   [[nodiscard]] core::Image image() const;        // rounded to float
   [[nodiscard]] core::Image bound_image() const;  // the bound in all four channels, rounded up
 };
 
-// The cost is about samples × 8 voxels, distributed over `threads` threads (0: as many as the
+// The cost is about samples × 8 voxels, distributed over `threads` threads (0 means as many as the
 // machine has). The result does not depend on their number. Throws InputError for a scene without a
 // volume, with a step ≤ 0, or with data that does not match its size.
 [[nodiscard]] Truth render_volume(const scene::VolumeScene& scene, const ErrorModel& model = {},
                                   int threads = 0);
 
-// The same ray integral, with every step refined until halving all steps changes no channel by more
-// than `tolerance`: the limit of step → 0 for this grid and table. Used for orders of convergence.
+// Computes the same ray integral, but refines every step until halving all steps changes no channel
+// by more than `tolerance`. This is the limit of step → 0 for this grid and table. It is used to
+// measure orders of convergence.
 [[nodiscard]] Truth render_volume_converged(const scene::VolumeScene& scene, double tolerance,
                                             int threads = 0);
 

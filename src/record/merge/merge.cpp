@@ -21,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Each open store needs three files and a share of the memory. More stores than this are merged in
-// groups, and then the results of the groups.
+// Each open store needs three files and a share of the memory. Therefore more stores than this are
+// merged in groups, and then the results of the groups are merged.
 constexpr std::size_t most_at_once = 64;
 constexpr int source_cache_kib = 96 << 10;  // for all sources together
 constexpr int out_cache_kib = 96 << 10;
@@ -56,7 +56,7 @@ class Aside {
   std::vector<fs::path> files_;
 };
 
-// Errors of writing name the requested file, because intermediate files are removed.
+// Errors in writing name the file that the user requested, because intermediate files are removed.
 template <typename Action>
 decltype(auto) on_new_store(const fs::path& out, Action&& action) {
   try {
@@ -69,7 +69,7 @@ decltype(auto) on_new_store(const fs::path& out, Action&& action) {
   }
 }
 
-// A file to merge from, with the run that it has for each plan.
+// A file to merge from, with the id of its run for each plan.
 struct Input {
   fs::path file;
   std::vector<std::string> runs;
@@ -86,7 +86,8 @@ class Writing {
     for (const Input& each : inputs) {
       Source& source = sources_.emplace_back(
           Source{each.file, open_store_file(each.file, Store::Mode::read, busy_limit)});
-      // All queries see the same state of the file, even if another process writes to it.
+      // A transaction lets all queries see the same state of the file, even if another process
+      // writes to it.
       on_store(each.file, [&] {
         source.database.exec(fmt::format("PRAGMA cache_size = -{}", share));
         source.database.exec("BEGIN");
@@ -94,7 +95,7 @@ class Writing {
     }
   }
 
-  // Returns how many records of each run were taken and left out.
+  // Returns for each run how many records were copied and how many were not.
   std::vector<RecordCounts> write(const std::vector<Input>& inputs, const std::vector<Run>& runs,
                                   DataSeen& data, const RecordCopy::Tell& tell) {
     return on_new_store(out_file_, [&] {
@@ -119,7 +120,7 @@ class Writing {
   }
 
  private:
-  // A configuration that has a record is no longer in flight.
+  // Copies the configurations that are in flight, which means that they have no record.
   void copy_begun(const std::vector<std::string>& parts, const std::string& run) {
     MergedRows rows(
         sources_,
@@ -136,7 +137,7 @@ class Writing {
     }
   }
 
-  // Copies rows that are large; each is read only after it is known to be taken.
+  // Copies a table with large rows. A row is read only after it is known to be copied.
   void copy_named(const std::string& table, const std::vector<std::string>& key,
                   const std::vector<std::string>& content) {
     const int keys = static_cast<int>(key.size());
@@ -178,7 +179,7 @@ void require_no_store(const fs::path& out) {
                            "exists already: choose another name, or remove it if the stores that "
                            "are merged contain all of its records");
   }
-  // SQLite would treat it as the log of the new store.
+  // SQLite would treat a left-over log as the log of the new store.
   if (fs::exists(out.string() + "-wal", ignored) && !fs::is_empty(out.string() + "-wal", ignored)) {
     throw core::InputError(
         {.file = out.string() + "-wal"},
@@ -205,7 +206,7 @@ struct Stepwise {
   const fs::path& out;
   Aside& aside;
   DataSeen data;
-  // The records that were left out in any step, and the records of the last step.
+  // The records that any step left out, and the records that the last step copied.
   std::vector<RecordCounts> counts;
 
   fs::path merge(std::vector<Input> inputs) {
@@ -230,9 +231,10 @@ struct Stepwise {
   }
 };
 
-// Done last, because only the records tell how many configurations there are. The file has no log,
-// from which it would otherwise have to be restored. It then gets the mode in which others append
-// to it, and from then on survives a loss of power.
+// Adds the runs. This happens last, because the number of configurations is known only from the
+// records. The file has no log until then, because a failed merge is removed and not restored. At
+// the end it gets the journal mode that other programs need for appending, and survives a loss of
+// power.
 void add_runs(const fs::path& file, const fs::path& out, const std::vector<MergedRun>& runs) {
   on_new_store(out, [&] {
     SQLite::Database store = open_new_store_file(file);
@@ -254,7 +256,7 @@ void add_runs(const fs::path& file, const fs::path& out, const std::vector<Merge
 
 namespace {
 
-// The devices that the run set out to measure, and those about which it has records.
+// The devices that the run was to measure, and those that it has records of.
 std::set<std::string> devices_in(const Store& store, const Run& run) {
   const std::vector<std::string> begun = devices_of(run.begun);
   std::set<std::string> devices(begun.begin(), begun.end());
@@ -285,7 +287,7 @@ std::vector<Gap> gaps_of(const Store& store) {
   const auto is_empty = [](const Run& run) {
     return run.configurations == 0 && !run.begun.empty();
   };
-  // A shard of several plans may be empty for small plans, but not for all.
+  // A shard of several plans may be empty for small plans, but not for all of its plans.
   if (!runs.empty() && std::ranges::all_of(runs, is_empty)) {
     for (const Run& run : runs) gaps.push_back({run.plan, "", 0, 0});
   }

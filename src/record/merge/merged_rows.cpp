@@ -34,7 +34,7 @@ const MergedRows::Row* MergedRows::next() {
   return &*row_;
 }
 
-// In SQLite's order, which compares bytes.
+// Compares keys in SQLite's order, which is the order of bytes.
 int MergedRows::compare(std::size_t a, std::size_t b) const {
   for (int key = 0; key < keys_; ++key) {
     const int order = queries_[a].text(key).compare(queries_[b].text(key));

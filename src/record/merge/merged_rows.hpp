@@ -1,5 +1,5 @@
 #pragma once
-// The rows of one table in many stores, as one sorted sequence.
+// Presents the rows of one table in many stores as one sorted sequence.
 
 #include <cstddef>
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace triptych::record {
 
-// A store that is read.
+// A store to read from.
 struct Source {
   std::filesystem::path file;
   SQLite::Database database;
@@ -21,22 +21,22 @@ struct Source {
 
 class MergedRows {
  public:
-  // Whether `a` is taken before `b`, where both rows have the same key. The order is total except
-  // for identical rows.
+  // Whether row `a` is preferred to row `b`, which has the same key. The order is total except for
+  // identical rows.
   using Before = std::function<bool(const Query& a, const Query& b)>;
 
-  // `select` sorts by its first `keys` columns, which are all texts. If it has a parameter, each
-  // source gives it its own value. All arguments must live as long as this object.
+  // `select` must sort by its first `keys` columns, which are all texts. If it has a parameter,
+  // each source has its own value for it. All arguments must live as long as this object.
   MergedRows(const std::vector<Source>& sources, std::string_view select, int keys, Before before,
              const std::vector<std::string>& parameters = {});
 
-  // One row with the next key.
+  // The preferred row with the next key.
   struct Row {
-    std::size_t source;             // the source whose query it is
-    std::vector<std::size_t> rest;  // the other sources whose rows have the same key
+    std::size_t source;             // the source that the row comes from
+    std::vector<std::size_t> rest;  // other sources with a row with the same key
   };
-  // nullptr after the last key. The row is valid until the next call. Throws as reading a Store
-  // does.
+  // Returns nullptr after the last key. The row is valid until the next call. Throws the same
+  // errors as reading a Store.
   [[nodiscard]] const Row* next();
   [[nodiscard]] const Query& query(std::size_t source) const { return queries_[source]; }
 
@@ -49,7 +49,7 @@ class MergedRows {
   std::vector<Query> queries_;
   int keys_;
   Before before_;
-  std::vector<std::size_t> waiting_;  // a heap, the smallest key on top
+  std::vector<std::size_t> waiting_;  // a heap with the smallest key on top
   std::optional<Row> row_;
 };
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Separates the facts of several machines.
+// Separates the system facts of several machines in one text.
 constexpr std::string_view separator = " | ";
 
 void add_parts(std::string_view text, std::set<std::string>& parts) {
@@ -29,7 +29,7 @@ void add_parts(std::string_view text, std::set<std::string>& parts) {
   }
 }
 
-// Everything that either text contains, without duplicates.
+// Joins everything that either text contains, without duplicates.
 std::string all_of(const std::string& a, const std::string& b) {
   if (a == b) return a;
   std::set<std::string> parts;
@@ -38,7 +38,7 @@ std::string all_of(const std::string& a, const std::string& b) {
   return fmt::format("{}", fmt::join(parts, separator));
 }
 
-// The first of a kind, and where it was found.
+// The first object of its kind, and the file in which it was found.
 template <typename T>
 struct Found {
   T value;
@@ -76,7 +76,8 @@ void add(const Run& run, Run& sum) {
 
 using Devices = std::map<std::string, Found<Store::DeviceEntry>>;
 
-// A device is described by any one of its parts. Its clocks are those that the part calibrated.
+// Adds a device. Parts with the same device describe it equally, except for the calibration of its
+// clocks, so the entry with the smaller seal is kept.
 void add(Store::DeviceEntry entry, const fs::path& file, Devices& devices) {
   const std::string id = entry.device.id;
   const auto found = devices.find(id);
@@ -97,7 +98,7 @@ void add(Store::DeviceEntry entry, const fs::path& file, Devices& devices) {
   }
 }
 
-// The run of a plan while stores are being read.
+// The run of a plan that grows while stores are being read.
 struct Growing {
   Found<Run> first;
   Run sum;

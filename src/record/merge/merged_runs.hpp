@@ -13,13 +13,13 @@ namespace triptych::record {
 // The run of a plan, and the parts that it consists of.
 struct MergedRun {
   Run run;
-  std::vector<std::string> parts;           // the id of the run in each store, empty if it has none
-  std::vector<Store::DeviceEntry> devices;  // by id
+  std::vector<std::string> parts;           // id of the run in each store; empty if it has none
+  std::vector<Store::DeviceEntry> devices;  // sorted by id
   std::vector<std::string> planned;         // keys of the configurations of all parts, sorted
 };
 
 struct MergedRuns {
-  std::vector<MergedRun> runs;  // by plan
+  std::vector<MergedRun> runs;  // sorted by plan
   std::uint64_t older = 0;      // runs that are not the latest of their plan in a store
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// A prepared statement that hands its values on without copying them: a merge moves hundreds of
-// millions of them.
+// A prepared statement whose values are used without being copied, because a merge moves hundreds
+// of millions of them.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
@@ -23,7 +23,7 @@ class Query {
 
   [[nodiscard]] sqlite3_stmt* get() const { return statement_.get(); }
 
-  // Whether there is another row.
+  // Advances to the next row; returns false if there is none.
   bool step() {
     const int answer = sqlite3_step(get());
     if (answer != SQLITE_ROW && answer != SQLITE_DONE) require(answer);
@@ -39,17 +39,17 @@ class Query {
   void bind(int index, std::int64_t number) { require(sqlite3_bind_int64(get(), index, number)); }
   void bind(int index, double number) { require(sqlite3_bind_double(get(), index, number)); }
   void bind(int index, std::nullptr_t /*null*/) { require(sqlite3_bind_null(get(), index)); }
-  // The text must stay where it is until the next step.
+  // Binds a text without copying it. The text must stay in place until the next step.
   void bind(int index, std::string_view text) {
     require(sqlite3_bind_text(get(), index, text.data(), static_cast<int>(text.size()), nullptr));
   }
-  // Binds the value that the row of another statement has in this column. That statement must stay
-  // on its row until the next step of this one.
+  // Binds the value in a column of another statement's current row. That statement must stay on its
+  // row until the next step of this one.
   void bind(int index, const Query& row, int column) {
     require(sqlite3_bind_value(get(), index, sqlite3_column_value(row.get(), column)));
   }
 
-  // Values of the current row. A text is valid until the next step.
+  // These functions return values of the current row. A text is valid until the next step.
   [[nodiscard]] std::string_view text(int column) const {
     const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(get(), column));
     if (bytes == nullptr) return {};

@@ -14,7 +14,7 @@
 namespace triptych::record {
 namespace {
 
-// The columns that the merge reads; they come before the others.
+// The columns that the merge itself reads. They come before the others.
 constexpr std::array<std::string_view, 8> named{"configuration", "device",    "outcome", "injected",
                                                 "seal",          "data_hash", "suite",   "seq"};
 namespace column {
@@ -37,7 +37,8 @@ std::vector<std::string> other_columns(const SQLite::Database& database) {
   return columns;
 }
 
-// In the order of the writer: seq, run, and then all columns but seq as they are read.
+// The columns in the order in which they are written: seq, run, and then the others in the order in
+// which they are read.
 std::vector<std::string> columns_with(const std::vector<std::string>& others) {
   std::vector<std::string> columns{"seq", "run"};
   columns.insert(columns.end(), named.begin(), named.end() - 1);
@@ -55,9 +56,9 @@ bool has_fault(const Query& record) {
 }
 
 // A record without an injected fault is preferred to one with an injected fault, whether it was
-// measured or not. Next, a measured record is preferred, because a job is repeated in order to
-// measure it. Any rule for the remaining records is possible that does not depend on the order of
-// the stores.
+// measured or not. Among the others, a measured record is preferred, because a job is repeated in
+// order to measure it. The remaining rule is arbitrary, but must not depend on the order of the
+// stores.
 bool is_before(const Query& a, const Query& b) {
   if (has_fault(a) != has_fault(b)) return has_fault(b);
   const int rank_a = rank_of(a.text(column::outcome));
@@ -65,7 +66,8 @@ bool is_before(const Query& a, const Query& b) {
   return rank_a != rank_b ? rank_a < rank_b : a.text(column::seal) < b.text(column::seal);
 }
 
-// The factors, as the device resolved them, on which the content of data depends.
+// Adds the factors of a record, and returns the resolved ones on which the content of its data
+// depends.
 std::string add_factors(RowBatch& rows, Query& factors, std::int64_t record) {
   std::string data;
   while (factors.step()) {
@@ -120,7 +122,7 @@ RecordCopy::RecordCopy(const std::vector<Source>& sources, const SQLite::Databas
   prepare_parts();
 }
 
-// Every table that refers to a record, each in the order of its primary key.
+// Finds every table that refers to a record, and the order of its primary key.
 std::vector<RecordCopy::Part> RecordCopy::parts_of(const SQLite::Database& database) {
   std::vector<Part> parts;
   for (std::string& table :
@@ -153,7 +155,8 @@ void RecordCopy::prepare_parts() {
   }
 }
 
-// Reading takes as long as writing, so the next batch is read while one is written.
+// Reading takes as long as writing, so the next batch is read while the previous one is being
+// written.
 RecordCounts RecordCopy::copy(const std::vector<std::string>& runs, const std::string& run) {
   const std::string select =
       fmt::format("SELECT {}, {} FROM record WHERE run = ?1 ORDER BY configuration, device",

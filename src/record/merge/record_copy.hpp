@@ -1,5 +1,6 @@
 #pragma once
-// Copies the records of one plan from many stores into one, sorted by configuration and device.
+// Copies the records of one plan from many stores into one store, sorted by configuration and
+// device.
 
 #include <array>
 #include <cstdint>
@@ -15,8 +16,8 @@
 
 namespace triptych::record {
 
-// The content hash of each data set, and the store in which it was seen first. There is one object
-// per merge.
+// Remembers the content hash of each data set, and the store in which it was seen first. There is
+// one object per merge.
 class DataSeen {
  public:
   // Throws InputError if the name was seen with other content.
@@ -30,39 +31,39 @@ class DataSeen {
   std::map<std::string, Content> contents_;
 };
 
-// The number of records that were taken, and of those that were not, by reason.
+// The numbers of records that were copied, and of records that were not copied, by reason.
 struct RecordCounts {
   std::uint64_t configurations = 0;
   std::map<std::string, std::uint64_t> records;  // by device
-  // Not taken, because another record of the same configuration and device was taken:
-  std::uint64_t repeated = 0;       // the same record
-  std::uint64_t injected = 0;       // had an injected fault, and the other one has none
-  std::uint64_t not_chosen = 0;     // differs from the other one, and its outcome is not worse
-  std::uint64_t measured_anew = 0;  // failed or was skipped, and the other one did not
+  // These were not copied, because another record of the same configuration and device was:
+  std::uint64_t repeated = 0;       // identical to the other record
+  std::uint64_t injected = 0;       // had an injected fault, and the other record has none
+  std::uint64_t not_chosen = 0;     // different, with an outcome that is not worse
+  std::uint64_t measured_anew = 0;  // failed or was skipped, but the other record was measured
 };
 
 class RecordCopy {
  public:
-  using Tell = std::function<void(std::uint64_t records)>;  // how many so far
+  using Tell = std::function<void(std::uint64_t records)>;  // with the number so far
 
   // All arguments must live as long as this object. `out` holds no records yet.
   RecordCopy(const std::vector<Source>& sources, const SQLite::Database& out, DataSeen& data,
              const Tell& tell);
 
-  // `runs`: the run to read from each source, empty for none. `run`: the run that the records
-  // become part of. Throws InputError if data have other content under the same name, and as
-  // reading and writing a Store does.
+  // Copies records from the runs `runs`, one for each source (empty if the source has none), into
+  // the run `run`. Throws InputError if two data sets with the same name have different content,
+  // and the errors of reading and writing a Store.
   [[nodiscard]] RecordCounts copy(const std::vector<std::string>& runs, const std::string& run);
 
  private:
-  // A table of things that belong to a record. Its first column names the record; these are the
-  // others.
+  // A table whose rows belong to records. Its first column refers to the record; these are the
+  // other columns.
   struct Part {
     std::string table;
     std::vector<std::string> columns;
     std::string select;
   };
-  // Records side by side, each with all its parts.
+  // Several records with all their parts.
   struct Batch {
     std::size_t count = 0;
     RowBatch records;
@@ -81,9 +82,9 @@ class RecordCopy {
   const std::vector<Source>& sources_;
   DataSeen& data_;
   const Tell& tell_;
-  std::vector<std::string> others_;  // columns of a record that this code need not know by name
+  std::vector<std::string> others_;  // columns of a record whose names this code does not need
   std::vector<Part> parts_;
-  std::vector<std::vector<std::optional<Query>>> queries_;  // by source and part; empty: no rows
+  std::vector<std::vector<std::optional<Query>>> queries_;  // by source and part; empty if no rows
   RowWriter record_writer_;
   std::vector<RowWriter> part_writers_;
   std::int64_t seq_ = 0;  // number of the record that was added last

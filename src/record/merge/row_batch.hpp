@@ -14,7 +14,7 @@
 
 namespace triptych::record {
 
-// Rows of one table, stored value after value.
+// Holds rows of one table as a sequence of values.
 class RowBatch {
  public:
   void add(std::int64_t number) { cells_.emplace_back(number); }
@@ -53,8 +53,7 @@ class RowWriter {
 
  private:
   std::size_t columns_;
-  Query several_;  // inserts several rows at once, because executing a statement costs more than a
-                   // row
+  Query several_;  // inserts several rows per execution, which is faster
   Query one_;
 };
 
