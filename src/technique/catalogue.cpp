@@ -25,7 +25,7 @@ Vertices vertices_of(const core::Json& entry) {
 
 std::vector<Technique> parse(std::string_view text) {
   std::vector<Technique> result;
-  // A named object, because at() below refers into it.
+  // The object needs a name, because at() below returns references into it.
   const core::Json catalogue = core::Json::parse(text);
   for (const core::Json& entry : catalogue.at("techniques")) {
     result.push_back(

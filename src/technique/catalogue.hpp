@@ -1,5 +1,5 @@
 #pragma once
-// The list of techniques. It is defined in catalogue.json, which CMake reads, too.
+// The list of techniques. It is defined in catalogue.json, which CMake also reads.
 
 #include <cstdint>
 #include <string>
@@ -13,10 +13,10 @@ namespace triptych::technique {
 enum class Work : std::uint8_t { compute, draw };
 [[nodiscard]] std::string_view name_of(Work work);
 
-// How a particle technique finds the pixels of a sphere: by a sprite around it, by the tiles of the
-// image that it covers, or by rays.
+// How a particle technique finds the pixels of a sphere: by a sprite that covers the sphere, by the
+// tiles of the image that the sphere reaches, or by rays.
 enum class Method : std::uint8_t { sprites, tiles, rays };
-// The vertices with which a sphere is drawn.
+// The vertices that a technique draws for a sphere.
 enum class Vertices : std::uint8_t { none, one, corners };
 
 struct Technique {
@@ -28,7 +28,7 @@ struct Technique {
   bool asks_corners = false;      // draws the number of corners that the factor `corners` selects
   bool fetches_by_index = false;  // its shaders read all spheres from one storage buffer
   bool instanced = false;         // one instance for each sphere
-  bool parts = false;             // can draw a volume in parts that do not fit into memory at once
+  bool parts = false;             // can draw a volume in parts if it does not fit into memory
   bool picture = true;  // draws the scene; false for a bound on speed, whose image is meaningless
   std::vector<std::string> apis;  // the APIs on which the technique exists
   std::string summary;

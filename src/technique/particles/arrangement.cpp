@@ -14,7 +14,7 @@
 namespace triptych::technique {
 namespace {
 
-// Indices into the set, sorted by id; empty if the set is sorted already.
+// Indices into the set, sorted by id; empty if the set is already sorted.
 std::vector<std::uint32_t> by_id(const scene::ParticleSet& set) {
   std::vector<std::uint32_t> places;
   if (std::ranges::is_sorted(set.ids)) return places;
@@ -24,21 +24,21 @@ std::vector<std::uint32_t> by_id(const scene::ParticleSet& set) {
   return places;
 }
 
-// A cell with more particles than this becomes several cells, so that a crowded place can still be
+// A cell with more particles than this becomes several cells, so that a crowded region can still be
 // divided.
 constexpr std::uint32_t longest_run = 4 * particles_per_cell;
 
-// Particles of one part with successive ids.
+// Particles of one part that have successive ids.
 struct Run {
   glm::vec3 lo{std::numeric_limits<float>::infinity()};
   glm::vec3 hi{-std::numeric_limits<float>::infinity()};
   std::uint32_t count = 0;
-  std::uint32_t begin = 0;  // its index in the arrangement
+  std::uint32_t begin = 0;  // index of its first particle in the arrangement
 };
 
 // Divides the particles into runs. It visits all particles several times in the order of their ids,
-// and finds the run of a particle anew each time, because storing it would take as much memory as
-// the order.
+// and determines the run of a particle again each time, because storing the runs would take as much
+// memory as the order.
 class Runs {
  public:
   explicit Runs(const scene::ParticleScene& scene)
@@ -64,7 +64,7 @@ class Runs {
     return cells;
   }
 
-  // Indices into the set, run after run.
+  // Indices into the set, one run after the other.
   [[nodiscard]] std::vector<std::uint32_t> order() {
     std::vector<std::uint32_t> order(set_.count());
     for_each([&](std::uint32_t place, Run& run) { order[run.begin + run.count++] = place; });
@@ -72,8 +72,8 @@ class Runs {
   }
 
  private:
-  // Calls visit(index in the set, its run) in the order of ids. The count of a run is the number of
-  // its particles that were visited before; the visitor increments it.
+  // Calls visit(index in the set, its run) in the order of ids. Run::count is the number of
+  // particles of the run that were visited before; `visit` increments it.
   template <typename Visit>
   void for_each(const Visit& visit) {
     for (Run& run : runs_) run.count = 0;
@@ -86,7 +86,7 @@ class Runs {
     }
   }
 
-  // Makes as many runs for each part as it needs.
+  // Creates as many runs for each part as it needs.
   void make_runs() {
     first_run_.resize(division_.parts());
     for (std::uint32_t place = 0; place < set_.count(); ++place) {
@@ -101,7 +101,7 @@ class Runs {
     runs_.resize(runs);
   }
 
-  // Computes counts and boxes.
+  // Computes the counts and boxes of the runs.
   void measure() {
     for_each([&](std::uint32_t place, Run& run) {
       const auto& sphere = set_.spheres[place];
@@ -111,7 +111,8 @@ class Runs {
       run.hi = glm::max(run.hi, centre + r);
       ++run.count;
     });
-    // centre ± r is rounded to nearest, so the next float outwards is certainly outside.
+    // The sum centre ± r is rounded to the nearest float, so the next float outwards is certainly
+    // outside.
     for (Run& run : runs_) {
       for (int axis = 0; axis < 3; ++axis) {
         run.lo[axis] = std::nextafter(run.lo[axis], -std::numeric_limits<float>::infinity());
@@ -126,8 +127,8 @@ class Runs {
   }
 
   // Runs with large spheres stay in front. The others are sorted by the distance of their part.
-  // Runs of one part stay in order, so that of coincident spheres, which are in the same part, the
-  // one with the lowest id is drawn first.
+  // Runs of the same part stay in order. Coincident spheres are in the same part, so the one with
+  // the lowest id is drawn first.
   void sort_front_to_back() {
     std::vector<double> distances(runs_.size());
     for (std::size_t part = 0; part < first_run_.size(); ++part) {
@@ -158,8 +159,7 @@ class Runs {
   std::vector<std::uint32_t> front_to_back_;
 };
 
-// Fills `out` with value(k), for k from `first` on. It uses memcpy, because the bytes are not
-// aligned.
+// Fills `out` with value(k) for k from `first` on. It uses memcpy because `out` is not aligned.
 template <typename Value>
 void write(std::size_t first, std::span<std::byte> out, const Value& value) {
   using Element = decltype(value(std::size_t{}));

@@ -1,6 +1,6 @@
 #pragma once
-// Particles in the order in which every technique on every API draws them. The order is computed
-// when a scene is prepared and is not part of any timing.
+// The order in which every technique on every API draws the particles. It is computed when a scene
+// is prepared and is not part of any timing.
 
 #include <array>
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace triptych::technique {
 
-// A run of particles and the box around their spheres. It has the layout of parameters.glsl
-// (std430) and parameters.cl.
+// A run of particles, and the box around their spheres. It has the same layout as in
+// parameters.glsl (std430) and parameters.cl.
 struct Cell {
   std::array<float, 3> lo{};
   std::uint32_t begin = 0;
@@ -26,17 +26,17 @@ static_assert(sizeof(Cell) == 32);
 // The data of each particle on a device, one array for each property.
 enum class Property : std::uint8_t {
   sphere,  // four floats: centre, and radius with radius_scale applied
-  colour,  // as in the set: four bytes, four floats, or one float
+  colour,  // in the format of the set: four bytes, four floats, or one float
   id       // four bytes
 };
 
-// One drawing order for all techniques: cells front to back as seen from the eye, and ascending ids
-// in each cell. The cells are those of a regular grid, divided where that pays (division.hpp). A
-// depth test that keeps the first of equals, or a comparison of indices in this order, then
-// resolves every tie in the same way on every device, whatever is culled. Coincident spheres are in
-// one cell, and the one with the lowest id is shown. The order does not depend on the order of the
-// particles in the set. Spheres with a diameter larger than a cell's edge are separated into the
-// first cells, so that they do not enlarge the boxes of other cells.
+// One drawing order for all techniques: cells from front to back as seen from the eye, and
+// ascending ids in each cell. The cells are those of a regular grid, which is divided further where
+// that saves work (division.hpp). A depth test that keeps the first of equals, or a comparison of
+// indices in this order, then resolves every tie in the same way on every device, whatever is
+// culled. Coincident spheres are in one cell, and the one with the lowest id is visible. The order
+// does not depend on the order of the particles in the set. Spheres whose diameter exceeds the edge
+// of a cell are put into the first cells, so that they do not enlarge the boxes of other cells.
 //
 // Properties stay in the set and are gathered while they are copied to a device, because for ten
 // million particles a second copy would take too much memory.
@@ -44,7 +44,7 @@ struct Arrangement {
   std::shared_ptr<const scene::ParticleSet> particles;
   double radius_scale = 1;
   std::vector<std::uint32_t> order;  // indices into the set
-  std::vector<Cell> cells;           // runs of `order`
+  std::vector<Cell> cells;           // each cell is a range of `order`
 
   [[nodiscard]] std::size_t count() const noexcept { return order.size(); }
 
@@ -56,22 +56,24 @@ struct Arrangement {
   }
   [[nodiscard]] std::uint32_t id(std::size_t k) const { return particles->ids[order[k]]; }
 
-  // The bytes of the property for one particle.
+  // The number of bytes of the property for one particle.
   [[nodiscard]] std::size_t element_bytes(Property property) const;
   [[nodiscard]] std::size_t bytes(Property property) const {
     return element_bytes(property) * count();
   }
-  // Writes the part of the property's array that begins at byte `begin`. `begin` and the size of
+  // Copies the part of the property's array that begins at byte `begin`. `begin` and the size of
   // `out` are multiples of element_bytes; `out` need not be aligned.
   void copy(Property property, std::size_t begin, std::span<std::byte> out) const;
 };
 
 // The approximate number of particles in a cell if they are evenly distributed. It is large enough
-// that drawing a cell is worth its visibility test, and small enough that culling follows the view.
+// that culling a cell saves more than its visibility test costs, and small enough that culling
+// follows the view closely.
 inline constexpr std::size_t particles_per_cell = 512;
 
-// It needs memory for its result and about a hundredth of the set's. While it works, it needs the
-// size of the order again if the ids in the set are not ascending.
+// Sorts the particles. It needs memory for its result and about a hundredth of the memory of the
+// set. If the ids in the set are not ascending, it temporarily needs the memory of the order a
+// second time.
 [[nodiscard]] Arrangement arrange(const scene::ParticleScene& scene);
 
 }  // namespace triptych::technique

@@ -1,18 +1,24 @@
-// One invocation traces a beam of 4×2 pixels. It descends the hierarchy, nearer child first, and tests each sphere whose
-// box the beam crosses, unless the box lies behind the surfaces that all of the beam's pixels have found. A block has 8×8
-// beams. Eight consecutive invocations are a square of 8×8 pixels, because software devices run eight at once.
+// One invocation traces a beam of 4×2 pixels. It descends the hierarchy, nearer child first. It tests each sphere
+// whose box the beam crosses, unless the box is behind the surfaces that all pixels of the beam have already found.
+// A block has 8×8 beams. Eight consecutive invocations form a square of 8×8 pixels, because software devices run
+// eight invocations at once.
 //
-// The traversal needs no stack. `trail` has one bit for each level below the root; it is 1 if the sibling was visited or
-// missed. Together with the node's number it gives the way back (Laine, Restart trail for stackless BVH traversal, 2010).
+// The traversal needs no stack. `trail` has one bit for each level below the root; it is 1 if the sibling was
+// visited or missed. Together with the node's number it determines the way back (Laine, Restart trail for stackless
+// BVH traversal, 2010).
 //
-// TRI_STEP: x, only every x-th beam is traced; y, blocks per row; z, number of beams; w, flags: 1, continue traversals
-// that an earlier dispatch did not finish; 2, store where they end.
+// Components of TRI_STEP:
+//   x  only every x-th beam is traced
+//   y  number of blocks per row
+//   z  number of beams
+//   w  flags: 1 continues traversals that an earlier dispatch did not finish; 2 stores where they end
 //
-// Mesa's software devices run 8 invocations in lockstep and end all their loops after 65,535 passes together, without an
-// error. A dispatch therefore visits at most TRI_MOST_STEPS = s nodes. At most s/2 of them (and one for each level) are
-// leaves, because a traversal comes to no more leaves than inner nodes. A leaf takes 1 pass of the outer loop, 1 that ends
-// the inner loop, and 9 for up to 8 spheres. Inner nodes take at most 8·s/2 passes, if no two invocations are at one at the
-// same time. That is 9.5s and some hundreds.
+// Mesa's software devices run 8 invocations in lockstep. After 65,535 iterations of all loops together, they end
+// the loops without an error. A dispatch therefore visits at most TRI_MOST_STEPS = s nodes. At most s/2 of them
+// (and one for each level) are leaves, because a traversal does not visit more leaves than inner nodes. A leaf
+// takes 1 iteration of the outer loop, 1 to end the inner loop, and 9 for up to 8 spheres. Inner nodes take at most
+// 8·s/2 iterations, if no two invocations are at an inner node at the same time. The total is 9.5s plus a few
+// hundred.
 layout(local_size_x = 64) in;
 
 TRI_BINDING(13) uniform samplerBuffer box_texels;
@@ -24,7 +30,7 @@ TRI_BINDING(15) uniform usamplerBuffer tree_order_texels;
 #define TRI_BEAM_PIXELS 8
 #define TRI_MOST_STEPS 6800u
 
-// Planes through the eye. The beam is on the positive side of each.
+// Planes through the eye that bound the beam, which is on the positive side of each.
 vec3 left_side;
 vec3 right_side;
 vec3 upper_side;
@@ -43,8 +49,8 @@ uint intersections_tested = 0u;
 ivec2 beam_pixel(int k) { return first_pixel + ivec2(k % TRI_BEAM_X, k / TRI_BEAM_X); }
 bool in_picture(ivec2 pixel) { return pixel.x < u.viewport.x && pixel.y < u.viewport.y; }
 
-// The sides are 1/64 pixel outside of the outermost rays, which is the margin of sprites: a sphere's silhouette in
-// single precision is less than that outside of the true one.
+// The sides are 1/64 pixel outside of the outermost rays. Sprites have the same margin: in single precision, the
+// silhouette of a sphere exceeds the exact one by less than that.
 void open_beam(uint beam) {
   uint block = beam / 64u;
   uint n = beam % 64u;
@@ -74,10 +80,9 @@ float highest(vec3 n, vec3 lo, vec3 hi) {
 }
 
 // Whether the beam crosses the box and something in it may be visible. `nearest` is the smallest distance of the
-// box along the view axis.
-// Rounding: 2⁻¹⁸ of the distance from the eye to the farthest point of the box covers products and sums (8u), the
-// rounded axes (u) and, in `nearest`, the error of distances of 24u·(|C| + r). 2.4e-7 of the eye's own coordinates
-// covers the rounding of those.
+// box along the view axis. Tolerance for rounding: 2⁻¹⁸ of the distance from the eye to the farthest point of the
+// box covers products and sums (8u), the rounded axes (u) and, in `nearest`, the error of distances of 24u·(|C| +
+// r). The rounding of the eye's coordinates is covered by 2.4e-7 of them.
 bool may_show(vec3 world_lo, vec3 world_hi, out float nearest) {
   TRI_PRECISE vec3 around = 2.4e-7 * abs(u.eye.xyz);
   TRI_PRECISE vec3 lo = (world_lo - u.eye.xyz) - around;
@@ -125,8 +130,8 @@ void test_leaf(uint leaf) {
   }
 }
 
-// The node to visit after this one: the sibling of the nearest ancestor whose sibling is still to be visited; 0 if there
-// is none.
+// Moves to the next node to visit: the sibling of the nearest ancestor whose sibling has not been visited yet, or 0
+// if there is none.
 void go_on(inout uint node, inout uint trail) {
   int up = findLSB(~trail);
   node >>= up;
@@ -134,10 +139,10 @@ void go_on(inout uint node, inout uint trail) {
   node = node > 1u ? node ^ 1u : 0u;
 }
 
-// Continues from a node until the traversal ends, or for this many nodes. The node is 0 if it has ended.
-// The inner loop passes all nodes before the next leaf. Devices that run several invocations in lockstep execute a leaf as
-// often as any of them is at one; in this form they are at leaves together (Aila and Laine, Understanding the efficiency
-// of ray traversal on GPUs, 2009).
+// Traverses the hierarchy from a node until the end (node 0), or for TRI_MOST_STEPS nodes. The inner loop visits
+// all nodes before the next leaf. Devices that run several invocations in lockstep execute the code for leaves
+// whenever one of them is at a leaf; with this form, they are at leaves together (Aila and Laine, Understanding the
+// efficiency of ray traversal on GPUs, 2009).
 void trace(inout uint node, inout uint trail) {
   uint leaves = 1u << TRI_TREE_SHAPE.y;
   uint step = 0u;

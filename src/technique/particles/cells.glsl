@@ -1,4 +1,4 @@
-// Cells of the arrangement, and whether one can be visible at all.
+// Cells of the arrangement, and tests of whether a cell can be visible at all.
 struct Cell {
   vec3 lo;
   uint begin;
@@ -7,8 +7,8 @@ struct Cell {
 };
 layout(std430) TRI_BINDING(6) readonly buffer Cells { Cell cells[]; };
 
-// Whether the box lies completely on the negative side of the plane through the eye, by more than rounding: a
-// product has an error of a few 2⁻²⁴ of its size, and 2⁻¹⁸ covers all of them.
+// Whether the box is completely on the negative side of the plane through the eye, by more than rounding errors.
+// Each product has an error of a few 2⁻²⁴ of its size; 2⁻¹⁸ covers all of them.
 bool beyond(vec3 normal, vec3 lo, vec3 hi) {
   vec3 highest = max(normal * lo, normal * hi);
   vec3 size = max(abs(normal * lo), abs(normal * hi));
@@ -18,11 +18,11 @@ bool beyond(vec3 normal, vec3 lo, vec3 hi) {
 bool outside_view(Cell cell) {
   vec3 lo = cell.lo - u.eye.xyz;
   vec3 hi = cell.hi - u.eye.xyz;
-  // The rounding of the eye, and one float of every coordinate.
+  // Covers the rounding of the eye, and one unit in the last place of every coordinate.
   vec3 rounding = 2.4e-7 * max(abs(u.eye.xyz), max(abs(cell.lo), abs(cell.hi)));
   lo -= rounding;
   hi += rounding;
-  // One pixel beyond the outermost ones, so that the margin of a sprite is never cut.
+  // The edge is one pixel beyond the outermost pixels, so that the margin of a sprite is never cut off.
   vec2 edge = u.forward.w * u.plane.xy + u.plane.zw;
   return beyond(u.forward.xyz, lo, hi) ||
          beyond(u.right.xyz + edge.x * u.forward.xyz, lo, hi) ||

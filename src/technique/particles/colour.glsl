@@ -1,6 +1,7 @@
-// A particle's colour on its way to the pixel. Before resolve_colour, intensity is in the first component.
+// Converts a particle's colour to that of a pixel. Before resolve_colour, the first component contains the
+// intensity.
 
-// Linear between entry centres, constant outside them.
+// The transfer function is linear between entry centres and constant outside of them.
 vec4 transfer_colour(float intensity) {
   float position = tri_table_position(intensity);
   int lower = min(int(position), 254);

@@ -1,7 +1,7 @@
-// To be included after cull.glsl. One invocation for each cell: is any part of its box in front of the eye and
-// between the sides of the view? The result is a draw command for each cell, which is empty for a cell that is left
-// out, so that the order of drawing remains that of the arrangement. TRI_INSTANCED (0 or 1): the particles of a
-// cell are instances of four vertices, or vertices.
+// Include this after cull.glsl. One invocation for each cell tests whether any part of its box is in front of the
+// eye and between the sides of the view. It writes one draw command for each cell. A cell that is left out gets an
+// empty command, so that the order of drawing remains that of the arrangement. TRI_INSTANCED: 1 if the particles of
+// a cell are instances of four vertices, 0 if they are vertices.
 layout(local_size_x = 64) in;
 
 struct DrawCommand {

@@ -1,17 +1,18 @@
-// To be included after cells.glsl, and after occlusion.glsl if TRI_OCCLUSION is not 0. TRI_OCCLUSION is 1 for the
-// first draw of a frame, which draws what the last frame showed; 2 for the second draw, which draws what has come
-// into sight since then and records what this frame shows; 0 or not defined for neither.
+// Include this after cells.glsl, and after occlusion.glsl if TRI_OCCLUSION is not 0. If TRI_OCCLUSION is 1, this is
+// the first draw of a frame, which draws the cells that were visible in the last frame. If it is 2, this is the
+// second draw, which draws the cells that have become visible since then, and records the visible cells of this
+// frame. 0 or undefined means that there is no occlusion culling.
 #ifndef TRI_OCCLUSION
 #define TRI_OCCLUSION 0
 #endif
 
-// Whether the pass draws the cell. Also counts the cell.
+// Whether the pass draws the cell. This function also counts the cell.
 bool is_drawn(uint index, Cell cell) {
   bool drawn = !outside_view(cell);
   bool left_out = !drawn;
 #if TRI_OCCLUSION == 1
   drawn = drawn && visible_before[index] != 0u;
-  left_out = false;  // the second draw decides
+  left_out = false;  // the second draw decides whether it is left out
 #elif TRI_OCCLUSION == 2
   bool drawn_before = drawn && visible_before[index] != 0u;
   bool shown = drawn && !hidden(cell);

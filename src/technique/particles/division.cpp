@@ -10,8 +10,8 @@
 namespace triptych::technique {
 namespace {
 
-// The edge length for which about `wanted` cells fill the box. Axes that are too short to be
-// divided do not count.
+// The edge length with which about `wanted` cells fill the box. Axes that are too short to be
+// divided are ignored.
 double edge_for(const glm::dvec3& size, double wanted) {
   const double longest = std::max({size.x, size.y, size.z});
   if (!(longest > 0)) return 1;
@@ -25,8 +25,8 @@ double edge_for(const glm::dvec3& size, double wanted) {
   return high;
 }
 
-// Loops over the four numbers of a sphere, which compilers turn into one instruction each. Boxes do
-// not use the fourth.
+// Compilers turn a loop over the four numbers of a sphere into one instruction. Boxes do not use
+// the fourth number.
 using Four = std::array<float, 4>;
 
 struct Box {
@@ -46,7 +46,7 @@ struct Box {
     }
   }
   [[nodiscard]] float size(std::size_t axis) const { return hi[axis] - lo[axis]; }
-  // Half of its surface area.
+  // Half of the surface area.
   [[nodiscard]] double surface() const {
     const double x = static_cast<double>(size(0));
     const double y = static_cast<double>(size(1));
@@ -58,7 +58,7 @@ struct Box {
   static constexpr Four filled(float value) { return {value, value, value, value}; }
 };
 
-// Spheres and the box around them.
+// Several spheres and the box around them.
 struct Group {
   std::uint32_t count = 0;
   Box box;
@@ -75,12 +75,12 @@ struct Plane {
   float at = 0;
 };
 
-// Planes are tried at sixteenths of the distance from the first centre to the last one.
+// Planes are tried at multiples of 1/16 of the distance from the first centre to the last one.
 constexpr std::size_t slices = 16;
 using Slices = std::array<Group, slices>;
 
-// The slice before which a plane has the smallest cost, and that cost. Slice 0 means that none is
-// below `most`.
+// Returns the slice before which a plane has the smallest cost, and that cost. Slice 0 means that
+// no cost is below `most`.
 std::pair<std::size_t, double> cheapest(const Slices& parts, double most) {
   std::array<double, slices> below_cost{};
   Group below;
@@ -120,7 +120,7 @@ class PlaneSearch {
     }
   }
 
-  // The plane that saves most, if that is more than the price of a part.
+  // The plane that saves most, if it saves more than the price of a part.
   [[nodiscard]] std::optional<Plane> best(double price) const {
     Group all;
     for (const Group& group : by_axis_[0]) all.add(group);
@@ -177,7 +177,7 @@ Division::Division(const scene::ParticleScene& scene, std::size_t per_cell)
       price_(static_cast<double>(per_cell) / 2),
       nodes_(std::size_t{grid_.cells()} + 1) {
   const auto count = static_cast<std::uint32_t>(scene.particles->count());
-  // Indices sorted by cell of the grid. `ends` initially contains the beginnings of the cells.
+  // Sorts the indices by cell of the grid. Initially, `ends` contains the beginnings of the cells.
   std::vector<std::uint32_t> ends(nodes_.size());
   for (std::uint32_t place = 0; place < count; ++place) ++ends[undivided_part_of(place)];
   std::uint32_t begin = 0;

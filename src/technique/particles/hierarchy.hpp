@@ -10,10 +10,10 @@
 
 namespace triptych::technique {
 
-// The parameters of every kernel that builds or traverses the hierarchy. `step` differs from pass
-// to pass.
+// The parameters of all kernels that build or traverse the hierarchy. `step` differs between
+// passes.
 struct HierarchyParameters {
-  std::array<float, 4> origin{};         // the beginning of the curve's grid; w: cells per unit
+  std::array<float, 4> origin{};         // corner of the curve's grid; w: cells per unit
   std::array<std::uint32_t, 4> shape{};  // particles, levels, particles of a leaf, larger leaves
   std::array<std::uint32_t, 4> step{};
 };
@@ -22,7 +22,8 @@ static_assert(sizeof(HierarchyParameters) == std::size_t{3} * 16);
 class Hierarchy {
  public:
   explicit Hierarchy(const Arrangement& arrangement);
-  // For this many particles, whose centres are in a cube with this edge.
+  // The hierarchy for this many particles, whose centres are in a cube with this lower corner and
+  // edge.
   Hierarchy(std::uint32_t particles, const std::array<float, 3>& low, float edge);
 
   [[nodiscard]] const HierarchyParameters& parameters() const noexcept { return parameters_; }
@@ -36,30 +37,30 @@ class Hierarchy {
   // The number of levels below the root; 0 if the root is the only leaf.
   [[nodiscard]] std::uint32_t levels() const noexcept { return parameters_.shape[1]; }
   [[nodiscard]] std::uint32_t leaves() const noexcept { return std::uint32_t{1} << levels(); }
-  // The index at which the leaf's run of particles begins.
+  // The index at which the run of particles of a leaf begins.
   [[nodiscard]] std::uint32_t leaf_begin(std::uint32_t leaf) const noexcept;
-  // The number of runs of particles, each of which one invocation sorts. At most 1,024, so that the
-  // loop over their counts ends before Mesa ends it (technique/volume/long_rays.hpp).
+  // The number of runs of particles; one invocation sorts each run. At most 1,024, so that the loop
+  // over their counts ends before Mesa ends it (technique/volume/long_rays.hpp).
   [[nodiscard]] std::uint32_t runs() const noexcept;
 
   // The sizes of the buffers in words; at least 4 each, because no API allows an empty buffer.
   [[nodiscard]] std::size_t box_words() const noexcept;     // two corners of four words per node
   [[nodiscard]] std::size_t sphere_words() const noexcept;  // spheres in the tree's order
-  [[nodiscard]] std::size_t order_words() const noexcept;   // their particles
-  [[nodiscard]] std::size_t sorted_words() const noexcept;  // two lists of (place, particle)
+  [[nodiscard]] std::size_t order_words() const noexcept;   // particles of these spheres
+  [[nodiscard]] std::size_t sorted_words() const noexcept;  // two lists of (position, particle)
   [[nodiscard]] std::size_t scratch_words() const noexcept;  // counts of 256 digits, and their sums
 
  private:
   HierarchyParameters parameters_;
 };
 
-// One sort by eight bits of the place on the curve: the lowest of these bits, and the index at
-// which the list that is read begins.
+// One pass of the sort, by eight bits of the position on the curve: the lowest of these bits, and
+// the index at which the list to be read begins.
 struct SortPass {
   std::uint32_t shift = 0;
   std::uint32_t from = 0;
 };
-// Four passes; the result is in the first list.
+// Returns the four passes of the sort. The result is in the first list.
 [[nodiscard]] std::array<SortPass, 4> sort_passes(const Hierarchy& hierarchy);
 
 // The beams of the image, each of 4×2 pixels, in blocks of 8×8 beams (bvh.comp.glsl).

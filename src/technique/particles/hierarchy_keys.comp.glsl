@@ -1,4 +1,4 @@
-// One invocation for each particle.
+// One invocation for each particle computes the position of its centre on Hilbert's curve.
 layout(local_size_x = 64) in;
 
 void main() {

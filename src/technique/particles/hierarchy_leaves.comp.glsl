@@ -1,4 +1,5 @@
-// One invocation for each leaf. TRI_STEP.x is 1 if tree_order already exists and only the spheres have moved.
+// One invocation for each leaf copies its spheres and computes its box. TRI_STEP.x is 1 if tree_order already
+// exists and only the spheres have moved.
 layout(local_size_x = 64) in;
 
 void main() {

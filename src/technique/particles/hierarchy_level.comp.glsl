@@ -1,4 +1,5 @@
-// One invocation for each node of a level. TRI_STEP.x is the first of them, which is also their number.
+// One invocation for each node of a level computes its box. TRI_STEP.x is the first of these nodes, which is also
+// their number.
 layout(local_size_x = 64) in;
 
 void main() {

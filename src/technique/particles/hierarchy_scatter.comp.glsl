@@ -1,4 +1,4 @@
-// One invocation for each run moves its particles to their places in the other list. TRI_STEP is as for
+// One invocation for each run moves its particles to their positions in the other list. TRI_STEP is the same as for
 // hierarchy_count.
 layout(local_size_x = 64) in;
 

@@ -1,4 +1,4 @@
-// One invocation computes where the particles with each digit begin.
+// A single invocation computes where the particles with each digit begin.
 layout(local_size_x = 1) in;
 
 void main() {

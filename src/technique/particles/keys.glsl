@@ -1,5 +1,5 @@
-// The keys that a pixel stores. The nearest depth has the largest key, and 0 means none. The first particle has the
-// smallest key. Two injected faults reverse this: 2 for unresolved ties, 3 for reversed depth.
+// The keys that are stored for a pixel. The nearest depth has the largest key, and 0 means that nothing was found.
+// The first particle has the smallest key. Two injected faults reverse this: fault 2 for ties, fault 3 for depths.
 
 #define TRI_LARGEST_KEY 0xFFFFFFFFu
 #define TRI_NO_PARTICLE 0xFFFFFFFFu

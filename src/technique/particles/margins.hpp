@@ -10,9 +10,9 @@ namespace triptych::technique {
 [[nodiscard]] double point_margin(std::string_view renderer, double granularity);
 
 // The number of pixels by which a sprite must be larger on each side, in addition to its margin of
-// 1/64 (TRI_SPRITE_GROWTH), on a device that rounds vertices to a grid of 2⁻ᵇ pixel. A vertex moves
-// by less than one step along each axis, whether it is rounded or truncated, and an edge by less
-// than √2 steps. Two steps cover that, and for 7 bits or more the margin does.
+// 1/64 (TRI_SPRITE_GROWTH), on a device that rounds vertices to a grid of 2⁻ᵇ pixel. Whether a
+// vertex is rounded or truncated, it moves by less than one step along each axis, and an edge by
+// less than √2 steps. Two steps cover that. For 7 bits or more, the margin already does.
 [[nodiscard]] double sprite_growth(int sub_pixel_bits);
 
 }  // namespace triptych::technique

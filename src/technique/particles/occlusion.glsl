@@ -1,32 +1,33 @@
-// Include after cells.glsl. Decides which cells are hidden, by the farthest depth in each block of 16×16 pixels of
-// an image that shows some of them. Depth is reversed, so the farthest is the smallest.
+// Include this after cells.glsl. It decides which cells are hidden by comparing them with the farthest depth in
+// each block of 16×16 pixels of an image that shows some of the cells. Depth is reversed, so the farthest depth is
+// the smallest value.
 layout(std430) TRI_BINDING(8) readonly buffer VisibleBefore { uint visible_before[]; };  // in the last frame
 layout(std430) TRI_BINDING(9) writeonly buffer VisibleNow { uint visible_now[]; };
 layout(std430) TRI_BINDING(10) readonly buffer Farthest { uint farthest[]; };  // bits of depths, by block
 
-// The sphere around the box determines the blocks that it may reach, and the box determines how near it comes. A
-// hidden cell lies strictly behind everything that the blocks show, so that not even a tie in depth could be
+// The sphere around the box determines which blocks the cell may reach, and the box determines how close it comes.
+// A hidden cell is strictly behind everything that these blocks show, so that not even a tie in depth could be
 // decided differently.
 bool hidden(Cell cell) {
   vec3 middle = 0.5 * (cell.lo + cell.hi);
   vec3 half_size = 0.5 * (cell.hi - cell.lo) + 2.4e-7 * max(abs(cell.lo), abs(cell.hi));
   vec4 around = camera_space(vec4(middle, 1.00001 * length(half_size)));
-  // A device's depth has an error of a few 2⁻²⁴ of the distance of the farthest part; 2⁻¹⁶ is more than that.
+  // A device's depth has an error of a few 2⁻²⁴ of the distance of the farthest part, which 2⁻¹⁶ more than covers.
   float rounding = 1.5259e-5 * (abs(around.x) + abs(around.y) + abs(around.z) + around.w);
   float front = around.z - dot(abs(u.forward.xyz), half_size) - rounding;
   vec2 low;
   vec2 high;
   image_bounds(around, low, high);
   if (front <= u.eye.w || low.x > high.x || low.y > high.y) return false;
-  // Pixel (x, y) looks through ((x + ½)·plane.z − plane.x, plane.y − (y + ½)·plane.w). One pixel is added on each
-  // side.
+  // Pixel (x, y) looks through the point ((x + ½)·plane.z − plane.x, plane.y − (y + ½)·plane.w) of the image plane.
+  // One pixel is added on each side.
   vec2 first = vec2(low.x + u.plane.x, u.plane.y - high.y) / u.plane.zw - 1.5;
   vec2 last = vec2(high.x + u.plane.x, u.plane.y - low.y) / u.plane.zw + 0.5;
   ivec2 begin = ivec2(clamp(first, vec2(0.0), vec2(u.viewport.xy - 1))) / 16;
   ivec2 end = ivec2(clamp(last, vec2(0.0), vec2(u.viewport.xy - 1))) / 16;
   int columns = (u.viewport.x + 15) / 16;
   ivec2 span = end - begin + 1;
-  const int most = 1024;  // a cell that reaches so many blocks is drawn without a test
+  const int most = 1024;  // a cell that reaches more blocks is drawn without a test
   int count = span.x * span.y;
   uint nearest = floatBitsToUint(tri_depth(u.eye.w, front));
   bool behind = count <= most;

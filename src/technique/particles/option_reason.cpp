@@ -14,7 +14,7 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
   const bool in_tiles = tiles || rasterizer == SpriteRasterizer::in_tiles;
   switch (options.fault) {
     case ParticleFault::wrong_sense:
-      // tiles always rejects whole spheres by their front, whatever the option.
+      // tiles always rejects whole spheres by the depth of their front, whatever the option is.
       if (tiles || options.conservative_depth) return std::nullopt;
       return "the fault wrong_sense needs conservative depth: without it nothing is rejected early";
     case ParticleFault::culled_visible:

@@ -1,10 +1,11 @@
-// The box of a sphere for an acceleration structure, whose traversal is the driver's: rays and boxes in single precision,
-// and no promise of how its arithmetic rounds. After sphere_box.glsl. The box has to hold all that the sphere's own test
-// can hit, so it is wider by
-//   2⁻¹⁹·(|eye| + |c| + r)  for the rounding of the eye and of the ray's direction (each u of the distance a component),
-//                           the driver's differences and divisions (a few u more), and the 24u·(|c| + r) by which the
-//                           distance of a hit may err: that is along the view axis, so times the ray's length there
-//   1/64 pixel              as sprites are: what single precision hits beside the silhouette
+// The box of a sphere for an acceleration structure. Include this after sphere_box.glsl. The driver traverses the
+// structure. It uses rays and boxes in single precision and does not specify how its arithmetic rounds. The box
+// must contain everything that the sphere's own test can hit, so it is larger than the sphere by
+//   2⁻¹⁹·(|eye| + |c| + r)  for the rounding of the eye and of the ray's direction (in each component, u of the
+//                           distance), the driver's differences and divisions (a few u more), and the error of
+//                           24u·(|c| + r) in the distance of a hit. That error is along the view axis, so it is
+//                           multiplied by the ray's length per unit of depth.
+//   1/64 pixel              the margin of sprites, which covers hits of single precision outside of the silhouette
 void padded_box(vec4 sphere, out vec3 lo, out vec3 hi) {
   sphere_box(sphere, lo, hi);
   vec3 to = sphere.xyz - u.eye.xyz;

@@ -1,5 +1,5 @@
-// Has the layout of technique::ParticleParameters (particle_parameters.hpp), which explains each field. The
-// backend's prelude defines
+// The layout is the same as that of technique::ParticleParameters (particle_parameters.hpp), which explains each
+// field. The backend's prelude defines
 //   TRI_BINDING(n)                 the place of the block with that number
 //   TRI_LINK(n)                    the location of a variable between stages, if the language has them
 //   TRI_COLOUR                     0 rgba8, 1 rgba32, 2 intensity
@@ -23,7 +23,8 @@ layout(std140) TRI_BINDING(0) uniform Parameters {
 layout(std140) TRI_BINDING(1) uniform Transfer { vec4 transfer_entries[256]; };
 
 #if TRI_COUNT
-// 1024 rows of 8 counters, which the host adds up. A single row would cause contention and could overflow.
+// There are 1024 rows of 8 counters, which the host adds up. A single row would cause contention and could
+// overflow.
 layout(std430) TRI_BINDING(2) buffer Counters { uint counters[]; };
 #define TRI_COUNT_SPRITES 0
 #define TRI_COUNT_VERTICES 1

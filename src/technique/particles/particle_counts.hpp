@@ -1,5 +1,5 @@
 #pragma once
-// The results of a counting frame of GL or Vulkan, from the sums of the shared shaders.
+// The counters of a counting frame of GL or Vulkan, computed from the sums of the shared shaders.
 
 #include <cstdint>
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace triptych::technique {
 
-// The values TRI_COUNT_… of parameters.glsl.
+// The columns of the counters, with the values of TRI_COUNT_… in parameters.glsl.
 enum class ParticleCounter : std::uint8_t {
   sprites,
   vertices,
@@ -27,7 +27,7 @@ enum class ParticleCounter : std::uint8_t {
   intersections_tested = 2
 };
 
-// The buffer of the shaders has this many rows of 32-bit sums.
+// The shaders' buffer has this many rows of 32-bit sums.
 inline constexpr std::size_t particle_counter_rows = 1024;
 inline constexpr std::size_t particle_counter_columns = 8;
 inline constexpr std::size_t particle_counter_bytes =
@@ -38,27 +38,27 @@ inline constexpr std::size_t particle_counter_bytes =
 
 struct CountedFrame {
   Method method = Method::sprites;
-  // Without culling, all particles are submitted and the shaders do not count them.
+  // Without culling, all particles are submitted, and the shaders do not count them.
   Culling culling = Culling::none;
   std::uint64_t cells = 0;
   std::uint64_t particles = 0;
 };
-// Our own counters, the same words on every API. A technique tells those that mean something for
-// it; they come from Purpose::counters frames.
-//   cells, cells_culled   cells of the arrangement, and those left out
+// Computes Triptych's own counters, which have the same names on every API. A technique reports
+// those that are meaningful for it. They come from frames of Purpose::counters.
+//   cells, cells_culled   cells of the arrangement, and cells that were left out
 //   particles_submitted   particles of the cells that were drawn
-//   particles_culled      the rest
-//   sprites               particles whose sprite (or, for tiles, pixel rectangle) is not empty
-//   vertices              their corners (0 for tiles)
+//   particles_culled      all other particles
+//   sprites               particles whose sprite (for tiles: pixel rectangle) is not empty
+//   vertices              corners of these sprites (0 for tiles)
 //   fragments             pixel centres that the sprites cover, before any depth test
-//   fragments_discarded   of those, the ones whose ray misses the sphere or finds it behind
-//   fragments_kept        the others
-//   bin_entries           (tile, particle) pairs: tiles, and OpenCL's rasterizer
-//   nodes_visited         inner nodes of the hierarchy whose children were tested: rays alone, as
-//   boxes_tested          boxes of nodes and of single spheres, and
-//   intersections_tested  (pixel, sphere) pairs
-//   visible_ids           the different particles in the picture, which every one tells
-// `sums`: all rows of the buffer.
+//   fragments_discarded   fragments whose ray misses the sphere or finds it behind another one
+//   fragments_kept        all other fragments
+//   bin_entries           (tile, particle) pairs, for tiles and for OpenCL's rasterizer
+//   nodes_visited         for rays: inner nodes of the hierarchy whose children were tested
+//   boxes_tested          for rays: boxes of nodes and of single spheres
+//   intersections_tested  for rays: (pixel, sphere) pairs
+//   visible_ids           the number of different particles in the image, for all techniques
+// `sums` contains all rows of the buffer.
 [[nodiscard]] std::map<std::string, std::uint64_t> particle_counts(
     const CountedFrame& frame, std::span<const std::uint32_t> sums, const core::Image& picture);
 

@@ -6,14 +6,14 @@
 
 namespace triptych::technique {
 
-// The stage that computes something that both the vertex stage and the fragment stage could
-// compute.
+// The stage that computes a quantity, if both the vertex stage and the fragment stage could compute
+// it.
 enum class ComputedAt : std::uint8_t { vertex, pixel };
-// Which cells are left out: none, those outside the view, or also those that are hidden.
+// The cells that are left out: none, those outside the view, or also those that are hidden.
 enum class Culling : std::uint8_t { none, frustum, occlusion };
 // The work of a frame on a hierarchy or an acceleration structure before rays traverse it: none,
-// because it was built when the scene was prepared; fitting the boxes to spheres that moved; or
-// building all of it again.
+// because the structure was built when the scene was prepared; fitting the boxes to spheres that
+// have moved; or building the whole structure again.
 enum class Structure : std::uint8_t { built_once, refitted, rebuilt };
 [[nodiscard]] std::string_view name_of(Structure structure);  // static, refit, rebuild
 [[nodiscard]] Structure structure(std::string_view name);     // throws InputError
@@ -27,14 +27,14 @@ enum class Structure : std::uint8_t { built_once, refitted, rebuilt };
 enum class ParticleFault : std::uint8_t {
   none = 0,
   small_sprite = 1,     // the radius of every sprite is 1 % smaller than that of the silhouette
-  unresolved_ties = 2,  // if depths are equal, the last one drawn is kept
-  reversed_depth = 3,   // of two depths the farther one is kept
-  wrong_sense = 4,      // early rejection takes the sphere's back for its front; the shader
-                        // promises the opposite of what conservative depth does
-  culled_visible = 5,   // the view is assumed to be half as wide as it is
+  unresolved_ties = 2,  // if depths are equal, the particle that is drawn last is kept
+  reversed_depth = 3,   // the farther one of two depths is kept
+  wrong_sense = 4,      // early rejection uses the sphere's back instead of its front; the
+                        // shader declares the opposite of what conservative depth needs
+  culled_visible = 5,   // culling assumes a view that is half as wide as the real one
   lost_at_border = 6,   // a particle is not put into the last tile that it reaches
   missing_barrier = 7,  // a work group does not wait for data that its invocations share
-  small_box = 8         // the box around a sphere is made for half its radius
+  small_box = 8         // the box around a sphere is computed for half its radius
 };
 
 struct ParticleOptions {
@@ -45,8 +45,8 @@ struct ParticleOptions {
   Culling culling = Culling::frustum;
   Structure structure = Structure::built_once;
   ParticleFault fault = ParticleFault::none;
-  // Every extra_work_stride-th particle (in evenly distributed runs) is drawn twice. This is an
-  // injected slowdown by about 1/stride, with real work that changes no pixel; 0: none.
+  // Every extra_work_stride-th particle (in evenly distributed runs) is drawn twice. This injects a
+  // slowdown by about 1/stride, with real work that changes no pixel. 0 means no extra work.
   int extra_work_stride = 0;
 };
 

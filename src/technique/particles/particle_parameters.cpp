@@ -9,8 +9,8 @@ float nearest(double value) {
   return static_cast<float>(value);
 }
 
-// Never inlined, because GCC 12 vectorises neighbouring calls in a way that omits the rounding to
-// float and back, and then every rest is 0.
+// The function must not be inlined, because GCC 12 vectorises neighbouring calls in a way that
+// omits the rounding to float and back, which would make every rest 0.
 [[gnu::noinline]] float rest(double value) {
   return static_cast<float>(value - static_cast<double>(nearest(value)));
 }

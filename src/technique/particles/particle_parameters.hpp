@@ -11,8 +11,9 @@
 
 namespace triptych::technique {
 
-// Has the layout of particles/parameters.glsl (std140) and particle_parameters.cl. A double is
-// stored as two floats: the nearest float, and the rest (portable/sphere_math.h: tri_along_axis).
+// Has the same layout as particles/parameters.glsl (std140) and particle_parameters.cl. A double is
+// stored as two floats: the nearest float, and the rest (see tri_along_axis in
+// portable/sphere_math.h).
 struct ParticleParameters {
   std::array<float, 4> eye;       // xyz world; w: near, the scale of the depth buffer
   std::array<float, 4> eye_rest;  // w: sprite scale, 1 unless ParticleFault::small_sprite

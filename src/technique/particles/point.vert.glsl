@@ -1,7 +1,7 @@
-// Vertex stage of point sprites: the square around the part of the silhouette that lies in the viewport. Spheres
-// that need a larger square than the device can draw are left to a second draw, as screen-aligned quads
-// (point_large.vert.glsl). TRI_POINT_MARGIN: pixels to add for a device whose points are smaller than their square.
-// TRI_LARGEST_POINT: the device's largest point in pixels, without this margin.
+// The vertex stage of point sprites. A point is the square around the part of the silhouette that is in the
+// viewport. Spheres that need a larger square than the device can draw are drawn by a second draw, as
+// screen-aligned quads (point_large.vert.glsl). TRI_POINT_MARGIN: pixels to add for a device whose points are
+// smaller than requested. TRI_LARGEST_POINT: the device's largest point in pixels, without this margin.
 layout(location = 0) in vec4 sphere;
 layout(location = 1) in vec4 colour;
 layout(location = 2) in uint id;

@@ -1,4 +1,4 @@
-// One point in, one quad out. TRI_SCREEN_ALIGNED (0 or 1) selects the kind of quad.
+// Converts one point to one quad. TRI_SCREEN_ALIGNED (0 or 1) selects the kind of quad.
 layout(points) in;
 layout(triangle_strip, max_vertices = 4) out;
 

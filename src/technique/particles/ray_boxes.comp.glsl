@@ -1,4 +1,4 @@
-// One invocation for each particle writes its box as six floats, which is the format of Vulkan.
+// One invocation for each particle writes its box as six floats, in the format that Vulkan requires.
 layout(local_size_x = 64) in;
 layout(std430) TRI_BINDING(7) writeonly buffer SphereBoxes { float sphere_boxes[]; };
 

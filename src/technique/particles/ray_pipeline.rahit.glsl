@@ -1,5 +1,5 @@
-// Any hit and not only the closest one, because of several hits with equal distances the driver keeps whichever
-// came first.
+// An any-hit shader is necessary, because if several hits have equal distances, the driver reports only the first
+// one as the closest hit.
 hitAttributeEXT uvec2 found;
 layout(location = 0) rayPayloadInEXT uvec2 best;
 

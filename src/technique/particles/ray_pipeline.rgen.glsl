@@ -1,4 +1,4 @@
-// One ray for each pixel.
+// Traces one ray for each pixel.
 TRI_BINDING(20) uniform accelerationStructureEXT structure;
 layout(location = 0) rayPayloadEXT uvec2 best;
 

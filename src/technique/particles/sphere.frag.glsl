@@ -1,7 +1,7 @@
-// The pixel stage of every sprite technique: intersects the ray through this pixel with the sphere.
-// TRI_DEPTH_PROMISE, if it is defined, is what conservative depth may rely on. Depth is reversed and the surface
-// lies behind the sprite, so the layout qualifier is that for depths less than the sprite's; the opposite one is an
-// injected fault.
+// The pixel stage of all sprite techniques. It intersects the ray through this pixel with the sphere.
+// TRI_DEPTH_PROMISE, if defined, is the layout qualifier for conservative depth. Depth is reversed and the surface
+// is behind the sprite, so the correct qualifier is the one for depths less than the sprite's; the opposite one is
+// an injected fault.
 TRI_LINK(0) flat in vec4 sprite_sphere;  // in camera space
 TRI_LINK(1) flat in vec4 sprite_colour;
 TRI_LINK(2) flat in uint sprite_id;

@@ -1,6 +1,6 @@
-// Sprites of all techniques: the frame of a centre, and from it the corners in clip space. Depth is reversed with
-// an infinite far plane: clip z is `near` everywhere, so that z/w = near/distance, and nothing visible is nearer
-// than `near`. Rows are counted from the top as in Vulkan, so clip y points down.
+// The sprites of all techniques: the frame of a sphere's centre, and the corners in clip space that follow from it.
+// Depth is reversed with an infinite far plane: clip z is `near` everywhere, so that z/w = near/distance, and
+// nothing visible is closer than `near`. Rows are counted from the top as in Vulkan, so clip y points down.
 
 struct Corner {
   vec4 position;  // in clip space
@@ -18,10 +18,10 @@ Corner corner_on_image(vec2 low, vec2 high, vec2 side, float distance) {
                 vec3(place, 1.0));
 }
 
-// Covers no pixel, because every corner is at one place outside the view.
+// A corner for a sprite that covers no pixel, because all its corners are at the same point outside the view.
 Corner nowhere() { return Corner(vec4(2.0, 2.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0)); }
 
-// The part of the image plane that a sphere covers, with a margin of 1/64 pixel, inside the viewport; low > high if
+// The part of the image plane inside the viewport that a sphere covers, with a margin of 1/64 pixel. low > high if
 // there is none. The injected fault removes 1 %.
 void image_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   vec2 x = tri_sphere_interval(sphere.x, sphere.z, sphere.w);
@@ -38,14 +38,14 @@ void image_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   high = min(end, u.plane.xy);
 }
 
-// The size in pixels of the square point around these bounds.
+// The size in pixels of the square point that contains these bounds.
 float point_size(vec2 low, vec2 high) {
   vec2 pixels = (high - low) / u.plane.zw;
   return max(pixels.x, pixels.y);
 }
 
-// The place of the paper's screen-aligned quad: the rectangle around the silhouette if it exists, else the whole
-// viewport for a sphere that reaches the plane of the eye; low > high if there is none.
+// The rectangle of the paper's screen-aligned quad: the rectangle around the silhouette if it exists, or the whole
+// viewport if the sphere reaches the plane of the eye. low > high if there is none.
 void screen_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   image_bounds(sphere, low, high);
   if (tri_eye_plane(sphere.z, sphere.w) == 1) {
@@ -65,12 +65,13 @@ Corner front_corner(vec4 sphere, vec2 low, vec2 high, vec2 side) {
   return corner_on_image(low, high, side, max(front, u.eye.w));
 }
 
-// The frame of a ray-aligned sprite: perpendicular to the ray through the centre, just in front of the sphere.
+// The frame of a ray-aligned sprite: a plane perpendicular to the ray through the centre, just in front of the
+// sphere.
 struct Frame {
   vec3 centre;
   vec3 right;  // its length is the radius of the sprite
   vec3 up;
-  int everywhere;  // 1: the sprite is the whole viewport
+  int everywhere;  // 1 if the sprite is the whole viewport
 };
 
 Frame sprite_frame(vec4 sphere) {
@@ -81,20 +82,20 @@ Frame sprite_frame(vec4 sphere) {
   vec3 right = normalize(cross(v, reference));
   float plane = tri_sprite_plane(d, sphere.w);
   float radius = tri_sprite_radius(d, sphere.w, plane, max(u.plane.z, u.plane.w), u.eye_rest.w);
-  if (TRI_SPRITE_GROWTH > 0.0) {  // a pixel at this depth is at least this large anywhere on the plane
+  if (TRI_SPRITE_GROWTH > 0.0) {  // no pixel on the sprite's plane is larger than one at this depth
     radius += TRI_SPRITE_GROWTH * max(u.plane.z, u.plane.w) * max(sphere.z, 0.0);
   }
   return Frame(v * plane, radius * right, radius * cross(right, v), tri_surrounds(d2, sphere.w));
 }
 
-// Corner (±1, ±1) of the square.
+// The corner (±1, ±1) of the square.
 Corner quad_corner(Frame frame, vec2 side) {
   if (frame.everywhere == 1) return corner_on_image(-u.plane.xy, u.plane.xy, side, u.eye.w);
   return corner_at(frame.centre + side.x * frame.right + side.y * frame.up);
 }
 
 // The k-th of n ≥ 4 corners of the polygon around the circle. If the sprite is the whole viewport, these are its
-// four corners, with the last one repeated.
+// four corners, and further ones repeat the last of them.
 Corner polygon_corner(Frame frame, int k, int n) {
   if (frame.everywhere == 1) {
     vec2 side = vec2(k == 0 || k >= 3 ? -1.0 : 1.0, k < 2 ? -1.0 : 1.0);
@@ -106,7 +107,7 @@ Corner polygon_corner(Frame frame, int k, int n) {
                                            tri_sine_turns(turns) * frame.up));
 }
 
-// The middle of the polygon.
+// The centre of the polygon.
 Corner polygon_centre(Frame frame) {
   if (frame.everywhere == 1) {
     return corner_on_image(-u.plane.xy, u.plane.xy, vec2(0.0), u.eye.w);

@@ -1,4 +1,4 @@
-// Particles as storage buffers, for the techniques without a vertex buffer, and their cells. Define
+// Particles and their cells as storage buffers, for the techniques without a vertex buffer. Define
 // TRI_COLOUR_WORD(n) to fetch the words of colours in another way.
 #ifndef TRI_COLOUR_WORD
 layout(std430) TRI_BINDING(3) readonly buffer Spheres { vec4 spheres[]; };

@@ -16,10 +16,11 @@ namespace {
 // Upper limits for the resources that spheres need.
 struct Need {
   double pixels = 0;   // number of pixels that are drawn
-  double entries = 0;  // entries of large spheres, one for each tile
+  double entries = 0;  // number of (tile, large sphere) pairs
   std::uint64_t large = 0;
-  bool small = false;  // whether one may be small
-  // The largest number of any invocation, over pixels of small spheres and tiles of large spheres.
+  bool small = false;  // whether some sphere may be small
+  // The largest number of loop iterations of an invocation, over pixels of small spheres and tiles
+  // of large spheres.
   double passes = 0;
 
   void add(const Need& more) {
@@ -48,7 +49,8 @@ class NeedBound {
     for (std::size_t k = 0; k < cell.count; ++k) {
       const Need need = of(arrangement.sphere(cell.begin + k));
       all.add(need);
-      // Its entries count twice, because tiles_fill takes two spheres of a round.
+      // The entries of a sphere count twice, because an invocation of tiles_fill processes two
+      // spheres.
       all.passes = std::max(all.passes, 2 * need.entries);
       passes[k % passes.size()] += 1 + need.entries + (need.small ? small_edge * small_edge : 0);
     }
@@ -67,7 +69,7 @@ class NeedBound {
     double columns = columns_;
     double rows = rows_;
     double pixels = double{tile_edge} * tile_edge * columns * rows;
-    bool small = true;  // because only a small part of it may be visible
+    bool small = true;  // because possibly only a small part of it is visible
     if (z > 1.001 * r) {
       const double width = extent(glm::dot(to, right_), z, r, half_x_);
       const double height = extent(glm::dot(to, camera_.up), z, r, half_y_);
@@ -81,10 +83,10 @@ class NeedBound {
     return {.pixels = pixels, .entries = columns * rows, .large = 1, .small = small};
   }
 
-  // The number of pixels on one axis between the sphere's two tangents,
-  // (a·z ± r·√(a² + z² − r²))/(z² − r²) on the image plane, as far as they lie within ±half. Three
-  // pixels are added for the margin and rounding, so that a sphere that turns out to be small has
-  // less than `slack` too many. Not positive if the sphere is not visible.
+  // The number of pixels on one axis between the two tangents of the sphere, (a·z ± r·√(a² + z² −
+  // r²))/(z² − r²) on the image plane, clipped to ±half. Three pixels are added for the margin and
+  // rounding, so that a small sphere gets less than `slack` too many. Not positive if the sphere is
+  // not visible.
   [[nodiscard]] double extent(double a, double z, double r, double half) const {
     const double k2 = (z - r) * (z + r);
     const double reach = r * std::sqrt(a * a + k2);
@@ -111,7 +113,7 @@ TileRounds tile_rounds(const scene::ParticleScene& scene, const Arrangement& arr
   const NeedBound bound(scene);
   TileRounds out;
   TileRound round;
-  Need need;           // of this round
+  Need need;           // of the current round
   double covered = 0;  // number of pixels of all previous rounds
   const auto finish = [&] {
     if (round.cells == 0) return;

@@ -15,19 +15,19 @@ namespace triptych::technique {
 inline constexpr int tile_edge = 16;  // TRI_TILE
 inline constexpr int small_edge = 6;  // TRI_SMALL_EDGE
 
-// Cells that are binned together before the tiles are resolved.
+// A range of cells whose spheres are binned together before the tiles are resolved.
 struct TileRound {
   std::uint32_t first = 0;
   std::uint32_t cells = 0;
-  std::uint64_t entries = 0;  // largest number of entries; 0: it has no large spheres
+  std::uint64_t entries = 0;  // largest number of entries; 0 without large spheres
 };
 
 struct TileRounds {
-  std::vector<TileRound> rounds;  // all cells, front to back
+  std::vector<TileRound> rounds;  // contain all cells, front to back
   std::uint64_t entries = 0;      // largest number of (tile, large sphere) pairs in a round
-  bool small = false;             // there may be small spheres
-  bool at_once = false;      // a single round with so few that the last pass draws the large ones
-  std::uint64_t passes = 0;  // largest number of loop passes of an invocation of tiles_bin or _fill
+  bool small = false;             // whether there may be small spheres
+  bool at_once = false;      // a single round, with so few entries that the last pass draws them
+  std::uint64_t passes = 0;  // most loop iterations of an invocation of tiles_bin or tiles_fill
 
   // Whether passes before the last one draw large spheres.
   [[nodiscard]] bool resolved() const noexcept { return entries > 0 && !at_once; }
@@ -37,27 +37,28 @@ struct TileRounds {
   }
 };
 
-// The number of work groups of 64 that process a list of at most this many particles together, each
-// until the end of the list.
+// The number of work groups of 64 invocations that process a list of at most this many particles
+// together. Each invocation works until the end of the list.
 [[nodiscard]] constexpr std::uint32_t list_groups(std::uint64_t particles) noexcept {
   constexpr std::uint64_t most = 256;
   const std::uint64_t groups = (particles + 63) / 64;
   return static_cast<std::uint32_t>(groups < most ? groups : most);
 }
 
-// The largest number of large spheres in a round, unless a single cell has more. A tile's loop over
-// its entries then ends before Mesa ends it (docs/accuracy.md).
+// The largest number of large spheres in a round, unless a single cell has more. With this limit,
+// the loop over a tile's entries ends before Mesa ends it (docs/accuracy.md).
 inline constexpr std::uint64_t most_large_spheres = 32000;
 
-// A round draws about as many pixels as the image has, or half as many as all previous rounds
-// together: early rounds hide spheres of later ones, and each round costs a pass over all tiles. A
-// round has at most `most_cells` cells and, unless a single cell has more, `most_entries` entries.
+// Divides the cells into rounds. A round draws about as many pixels as the image has, or half as
+// many as all previous rounds together, because early rounds hide spheres of later ones, and each
+// round costs a pass over all tiles. A round has at most `most_cells` cells and, unless a single
+// cell has more, `most_entries` entries.
 [[nodiscard]] TileRounds tile_rounds(const scene::ParticleScene& scene,
                                      const Arrangement& arrangement, std::uint32_t most_cells,
                                      std::uint64_t most_entries);
 
-// The reason why such a scene cannot be drawn: Mesa ends loops without an error (long_rays.hpp),
-// and an invocation loops over the tiles of up to 32 spheres.
+// The reason why such a scene cannot be drawn, because an invocation loops over the tiles of up to
+// 32 spheres, and Mesa ends long loops without an error (long_rays.hpp).
 [[nodiscard]] std::optional<std::string> passes_reason(const TileRounds& rounds);
 
 }  // namespace triptych::technique

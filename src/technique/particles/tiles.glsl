@@ -1,23 +1,23 @@
-// Shared by the compute passes of `tiles`. A frame processes the cells front to back in rounds. In each round
+// Shared by the compute passes of `tiles`. A frame processes the cells from front to back in rounds. In each round
 //   tiles_cells    decides which cells of the round are drawn,
-//   tiles_bin      finds the pixels of every particle in them: small particles are drawn at once, one
-//                  invocation per sphere, by an atomic maximum on each pixel's depth; large ones are
-//                  counted for each tile that they reach,
-//   tiles_place    lists the tiles that this round draws into, and assigns their entries a place,
+//   tiles_bin      finds the pixels of every particle in these cells. It draws small particles at once, with one
+//                  invocation per sphere, by an atomic maximum on each pixel's depth. It counts large particles for
+//                  each tile that they reach,
+//   tiles_place    lists the tiles that this round draws into, and assigns positions to their entries,
 //   tiles_fill     writes the entries,
-//   tiles_resolve  draws the entries of the listed tiles, with a few invocations for each,
-//   tiles_settle   stores the farthest depth of each tile, by which later rounds skip what is hidden;
-// and at the end
-//   tiles_index    finds the lowest particle at each pixel's depth among the small ones,
+//   tiles_resolve  draws the entries of the listed tiles, with a few invocations for each tile,
+//   tiles_settle   stores the farthest depth of each tile, which later rounds use to skip hidden spheres.
+// At the end of the frame
+//   tiles_index    finds the particle with the lowest index at each pixel's depth among the small ones,
 //   tiles_show     colours every pixel once, as a fragment shader on blocks of tiles that are not empty.
-// If there are few spheres, nothing is resolved or settled, and tiles_show loops over the entries itself. An empty
-// tile costs nothing. No pass waits within a work group. Pixels are written as vectors, through images and the
-// rasterizer, because devices without vector loads of their own access storage buffers word by word. Everything
-// that a pixel stores is a maximum of depth keys and a minimum of particle keys, so that the image does not depend
-// on the order of anything.
+// If there are few spheres, tiles_resolve and tiles_settle are not run, and tiles_show loops over the entries
+// itself. An empty tile costs nothing. No pass waits within a work group. Pixels are written as vectors, through
+// images and the rasterizer, because devices without vector loads of their own access storage buffers word by word.
+// The values that are stored for a pixel are a maximum of depth keys and a minimum of particle keys, so the image
+// does not depend on the order of processing.
 //
-// The backend defines TRI_ROUND, a uvec2 with the first cell and the number of cells, and TRI_CULLING
-// (technique::Culling). Both may vary at run time.
+// The backend defines TRI_ROUND, a uvec2 with the index of the first cell and the number of cells, and TRI_CULLING
+// (technique::Culling). Both may be run-time values.
 
 #define TRI_MOST_GROUPS 65535u  // along one axis of a dispatch
 
@@ -32,7 +32,7 @@ struct Tile {
 };
 
 layout(std430) TRI_BINDING(7) writeonly buffer CameraSpheres { vec4 camera_spheres[]; };  // by particle
-// Particles: small ones of all rounds from the front, large ones of this round from the back.
+// Indices of particles: small ones of all rounds from the front, large ones of this round from the back.
 layout(std430) TRI_BINDING(8) buffer Kept { uint kept[]; };
 layout(std430) TRI_BINDING(9) buffer Tiles {
   uint small_kept;
@@ -48,14 +48,15 @@ layout(std430) TRI_BINDING(11) buffer Pixels { uint pixels[]; };
 uint large_place(uint n) { return uint(kept.length()) - 1u - n; }
 uint depth_seen(ivec2 pixel) { return texelFetch(pixel_texels, pixel_index(pixel)).x; }
 
-// The pixels x, y, width, height whose centres the sphere's silhouette may cover; width 0 if there are none.
-// Precise, like front_key, because tiles_fill has room only for the entries that tiles_bin counted.
+// The rectangle of pixels (x, y, width, height) whose centres the sphere's silhouette may cover; the width is 0 if
+// there are none. It is `precise`, like front_key, because tiles_fill has room only for the entries that tiles_bin
+// counted.
 ivec4 pixel_rectangle(vec4 sphere) {
   vec2 low;
   vec2 high;
   image_bounds(sphere, low, high);
   vec2 size = vec2(u.viewport.xy);
-  // Pixel (x, y) looks through ((x + ½)·plane.z − plane.x, plane.y − (y + ½)·plane.w).
+  // Pixel (x, y) looks through the point ((x + ½)·plane.z − plane.x, plane.y − (y + ½)·plane.w) of the image plane.
   TRI_PRECISE vec2 first = vec2(low.x + u.plane.x, u.plane.y - high.y) / u.plane.zw - 0.5;
   TRI_PRECISE vec2 last = vec2(high.x + u.plane.x, u.plane.y - low.y) / u.plane.zw - 0.5;
   ivec2 begin = ivec2(clamp(ceil(first), vec2(0.0), size));
@@ -69,7 +70,7 @@ ivec4 pixel_rectangle(vec4 sphere) {
 }
 
 // A depth key that no point of the sphere's surface exceeds. A device's depth has an error of a few 2⁻²⁴ of the
-// distance of the farthest part (tri_sphere_distance); 2⁻¹⁶ is more than that.
+// distance of the farthest part (tri_sphere_distance), which 2⁻¹⁶ more than covers.
 uint front_key(vec4 sphere) {
   if (TRI_FAULT == 3) return TRI_LARGEST_KEY;  // nothing is skipped
   TRI_PRECISE float rounding = 1.5259e-5 * (abs(sphere.x) + abs(sphere.y) + abs(sphere.z) + sphere.w);
@@ -77,7 +78,7 @@ uint front_key(vec4 sphere) {
   return front > 0.0 ? depth_key(tri_depth(u.eye.w, front)) : TRI_LARGEST_KEY;
 }
 
-// The up to 2×2 tiles that a small rectangle touches; some of them may occur more than once.
+// The up to 2×2 tiles that a small rectangle overlaps; the same tile may occur more than once.
 ivec4 tiles_around(ivec4 rectangle) {
   ivec2 a = rectangle.xy / TRI_TILE;
   ivec2 b = (rectangle.xy + rectangle.zw - 1) / TRI_TILE;

@@ -1,17 +1,18 @@
-// One work group per cell, one invocation per particle: small spheres are drawn, large ones are counted.
+// One work group per cell, one invocation per particle. Draws small spheres and counts the entries of large ones.
 layout(local_size_x = 64) in;
 TRI_BINDING(17) uniform samplerBuffer sphere_texels;
 layout(std430) TRI_BINDING(12) readonly buffer CellEnds { uint cell_ends[]; };
 
-// Raises the depth of the pixels that the sphere covers. Returns whether any of them shows it now, or might. There
-// is one loop over all pixels of the rectangle, because nested loops would wait for the longest row each time.
+// Raises the depth of the pixels that the sphere covers. Returns whether any of them shows the sphere now, or
+// might. It uses a single loop over all pixels of the rectangle, because with nested loops all lanes would wait for
+// the longest row each time.
 bool draw_small(vec4 sphere, ivec4 rectangle, int count) {
   bool seen = false;
   ivec2 pixel = rectangle.xy;
   int right = rectangle.x + rectangle.z;
   for (int i = 0; i < count; ++i) {
     uint key = sphere_key(sphere, pixel_ray(pixel));
-    if (key > 0u && key >= depth_seen(pixel)) {  // or its value a moment ago
+    if (key > 0u && key >= depth_seen(pixel)) {  // a slightly older depth may be read
       atomicMax(pixels[pixel_index(pixel)], key);
       seen = true;
     }
@@ -21,7 +22,7 @@ bool draw_small(vec4 sphere, ivec4 rectangle, int count) {
   return seen;
 }
 
-// Counts an entry for each tile that may show something behind the sphere. Returns whether there is one.
+// Counts an entry for each tile in which the sphere may be visible. Returns whether there is such a tile.
 bool count_large(uint front, ivec4 rectangle, int count) {
   ivec2 first = rectangle.xy / TRI_TILE;
   int columns = (rectangle.x + rectangle.z - 1) / TRI_TILE - first.x + 1;
@@ -42,7 +43,7 @@ bool count_large(uint front, ivec4 rectangle, int count) {
   return entered;
 }
 
-// Only once, because threads would contend for the cache line that others read from.
+// Writes only if the flag is not set yet, because threads would contend for a cache line that others read from.
 void use_tiles(ivec4 rectangle) {
   ivec4 around = tiles_around(rectangle);
   for (int k = 0; k < 4; ++k) {
@@ -59,8 +60,8 @@ void bin(uint particle) {
   bool small = covers && is_small(rectangle);
   int pixel_count = small && front >= farthest_around(rectangle) ? rectangle.z * rectangle.w : 0;
   ivec2 tile_span = (rectangle.xy + rectangle.zw - 1) / TRI_TILE - rectangle.xy / TRI_TILE + 1;
-  // This does not depend on whether the sphere is visible, which depends on what else was drawn a moment ago. The
-  // work therefore repeats.
+  // This does not depend on whether the sphere is visible, because that depends on what other invocations have
+  // drawn so far. Therefore the amount of work is repeatable.
   if (pixel_count > 0) use_tiles(rectangle);
   int tile_count = covers && !small ? tile_span.x * tile_span.y : 0;
   bool seen = draw_small(sphere, rectangle, pixel_count);

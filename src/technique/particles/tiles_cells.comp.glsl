@@ -1,9 +1,10 @@
-// One invocation per cell of the round. It writes where the cell's particles end, or where they begin for a cell
-// that is not drawn because it lies outside the view (TRI_CULLING ≥ 1) or behind what has been drawn (2).
+// One invocation per cell of the round. It writes where the cell's particles end. For a cell that is not drawn
+// because it is outside the view (TRI_CULLING ≥ 1) or behind what has been drawn (TRI_CULLING 2), it writes where
+// they begin.
 layout(local_size_x = 64) in;
 layout(std430) TRI_BINDING(12) writeonly buffer CellEnds { uint cell_ends[]; };
 
-// The sphere around the box determines the tiles that it may reach, and the box determines how near it comes.
+// The sphere around the box determines which tiles the cell may reach, and the box determines how close it comes.
 bool behind_everything(Cell cell) {
   vec3 middle = 0.5 * (cell.lo + cell.hi);
   vec3 half_size = 0.5 * (cell.hi - cell.lo) + 2.4e-7 * max(abs(cell.lo), abs(cell.hi));
@@ -14,7 +15,7 @@ bool behind_everything(Cell cell) {
   ivec2 first = rectangle.xy / TRI_TILE;
   ivec2 last = (rectangle.xy + rectangle.zw - 1) / TRI_TILE;
   ivec2 span = last - first + 1;
-  const int most = 256;  // a cell that reaches so many tiles is drawn without a test
+  const int most = 256;  // a cell that reaches more tiles is drawn without a test
   int count = rectangle.z > 0 ? span.x * span.y : 0;
   uint farthest = TRI_LARGEST_KEY;
   for (int i = 0; i < count && count <= most && farthest > nearest; ++i) {

@@ -1,4 +1,5 @@
-// When all depths are known, this pass finds the first of the small spheres at each pixel's depth.
+// After all depths are known, this pass finds the particle with the lowest index among the small spheres at each
+// pixel's depth.
 layout(local_size_x = 64) in;
 
 void main() {

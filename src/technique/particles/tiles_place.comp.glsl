@@ -1,5 +1,5 @@
-// One invocation per tile: decides whether it is drawn into in this round, and assigns its entries a place. Their
-// order among tiles is arbitrary.
+// One invocation per tile decides whether this round draws into the tile, and assigns positions to its entries. The
+// order of the tiles is arbitrary.
 layout(local_size_x = 64) in;
 
 void list_tile(uint index) {

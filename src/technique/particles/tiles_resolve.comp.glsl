@@ -1,5 +1,5 @@
-// 32 invocations for each listed tile, eight for each quarter of it, one for a column of eight pixels. They find
-// the nearest of the quarter's entries, then the farthest depth that the pixels show.
+// 32 invocations for each listed tile: eight for each quarter of the tile, each for a column of eight pixels. They
+// find the nearest of the quarter's entries for each pixel, and then the farthest depth that the pixels show.
 layout(local_size_x = 32) in;
 
 struct Column {  // pairs of pixels, as in large_pixels
@@ -25,9 +25,9 @@ uvec4 with_sphere(uvec4 pair, vec4 sphere, uint particle, float right, float upp
                wins_below ? below : pair.z, wins_below ? particle : pair.w);
 }
 
-// The next entry that reaches this quarter, or 0 if there is none. It is a separate loop, because if lanes run in
-// step only a loop can skip anything. Its condition is at the end, because with a condition at the beginning the
-// lanes would go through it once more, idle.
+// Returns the next entry that reaches this quarter, or 0 if there is none. This is a loop of its own, because if
+// lanes run in lockstep only a loop can skip anything. Its condition is at the end, because with a condition at the
+// beginning the lanes would execute one more idle iteration.
 uint next_entry(inout uint at, uint end, uint quarter) {
   uint found = 0u;
   do {
@@ -50,7 +50,7 @@ void draw_entries(uint at, uint end, uint quarter, ivec2 pixel, inout Column col
   do {
     uint particle = particle_of(entry);
     vec4 sphere = texelFetch(camera_texels, int(particle));
-    if (entry == 0u) sphere = vec4(0.0, 0.0, -1.0, 0.0);  // none: not visible
+    if (entry == 0u) sphere = vec4(0.0, 0.0, -1.0, 0.0);  // without an entry, use a sphere that is not visible
     particle = particle_key(particle);
     column.a = with_sphere(column.a, sphere, particle, right, upper.x, lower.x);
     column.b = with_sphere(column.b, sphere, particle, right, upper.y, lower.y);
@@ -60,7 +60,7 @@ void draw_entries(uint at, uint end, uint quarter, ivec2 pixel, inout Column col
   } while (entry != 0u);
 }
 
-// What a pixel shows, or a larger key if it is outside of the image.
+// The depth key that a pixel shows, or a larger key if the pixel is outside of the image.
 uint shown_key(ivec2 pixel, uint large) {
   bool inside = pixel.x < u.viewport.x && pixel.y < u.viewport.y;
   uint small = (TRI_SPHERES & TRI_SMALL) != 0 ? depth_seen(pixel) : 0u;

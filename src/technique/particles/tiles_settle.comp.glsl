@@ -1,4 +1,4 @@
-// One invocation per tile, after it was drawn into: prepares it for the next round.
+// One invocation per tile, after the round has drawn into it, prepares it for the next round.
 layout(local_size_x = 64) in;
 
 void main() {

@@ -1,4 +1,4 @@
-// The nearest particle that was drawn into this pixel, small or large, and its colour.
+// Finds the nearest particle that was drawn into this pixel, small or large, and its colour.
 TRI_BINDING(19) uniform usamplerBuffer id_texels;
 layout(location = 0) out vec4 out_colour;
 layout(location = 1) out uint out_id;
@@ -28,8 +28,8 @@ Shown found(ivec2 pixel) {
   return Shown(keys, texelFetch(camera_texels, int(particle)));
 }
 
-// Adds the tile's few entries if no pass has drawn them. It tests all of them; one that does not reach this quarter
-// covers nothing here. The loop's condition is at its end, as in next_entry().
+// Adds the tile's few entries if no earlier pass has drawn them. It tests all of them, because an entry that does
+// not reach this quarter covers no pixel here. The loop's condition is at its end, as in next_entry().
 Shown with_entries(Shown shown, ivec2 pixel) {
   vec2 s = pixel_ray(pixel);
   uvec4 state = tile_state(tile_index(pixel / TRI_TILE));

@@ -1,4 +1,4 @@
-// The texel buffers that traced_show.frag.glsl reads. To be included before storage.glsl.
+// The texel buffers that traced_show.frag.glsl reads. Include this before storage.glsl.
 TRI_BINDING(16) uniform usamplerBuffer pixel_texels;  // two planes, as in traced.glsl
 TRI_BINDING(17) uniform samplerBuffer sphere_texels;
 TRI_BINDING(18) uniform usamplerBuffer colour_texels;  // 1 or 4 words per particle

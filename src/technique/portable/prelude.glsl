@@ -1,4 +1,5 @@
-// Makes volume_math.h valid GLSL. The prelude for OpenCL C is in backends/opencl/, that for C++ is prelude.hpp.
+// Makes volume_math.h valid GLSL. The prelude for OpenCL C is in backends/opencl/, and the one for C++ is
+// prelude.hpp.
 #ifndef TRI_PRECISION
 #define TRI_PRECISION 32
 #endif
@@ -29,7 +30,7 @@
 #define TRI_TO_FLOAT(x) float(x)
 #define TRI_TO_REAL(x) real(x)
 #define TRI_MAKE_REAL2(x, y) real2(x, y)
-// Compilers fold this to the nearest double.
+// Compilers evaluate this constant to the nearest double.
 #define TRI_RATIO(a, b) (real(a) / real(b))
-// NoContraction: a·b+c is rounded twice, as on every other backend.
+// `precise` becomes NoContraction: a·b+c is rounded twice, as on every other backend.
 #define TRI_PRECISE precise

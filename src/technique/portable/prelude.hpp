@@ -1,5 +1,5 @@
 #pragma once
-// The definitions that volume_math.h needs to compile as C++: for use on the host, and for testing
+// The definitions that volume_math.h needs to compile as C++, for use on the host and for testing
 // it with the same vectors as in the shading languages.
 
 #include <bit>
@@ -33,7 +33,7 @@ using real2 = glm::vec2;
 #undef TRI_PRECISION
 }  // namespace triptych::technique::portable
 
-// volume_math.h in double precision.
+// Includes volume_math.h in double precision.
 namespace triptych::technique::portable::fp64 {
 using real = double;
 using real2 = glm::dvec2;

@@ -1,12 +1,13 @@
-// Sphere maths in the common subset of C++, GLSL and OpenCL C, like volume_math.h. Everything is in camera space: x
-// to the right, y up, z the distance along the view axis. (sx, sy) is the point on the image plane z = 1 that a ray
-// goes through, so that its direction is (sx, sy, 1).
+// Sphere maths in the common subset of C++, GLSL and OpenCL C, like volume_math.h. All coordinates are in camera
+// space: x to the right, y up, z the distance along the view axis. (sx, sy) is the point on the image plane z = 1
+// that a ray passes through, so its direction is (sx, sy, 1).
 
 // ---- From world to camera space -------------------------------------------------------------------
-// A centre's camera coordinate is axis·(P − eye). In plain floats it has the rounding error of the *largest*
+// The camera coordinate of a centre is axis·(P − eye). In plain floats, it has the rounding error of the *largest*
 // product, which for a narrow field of view is more than a pixel. Here products and sums carry their rounding
-// errors along (Dekker 1971; Ogita, Rump, Oishi 2005: Dot2), so that the result is as if computed in twice the
-// precision and then rounded. Axis and eye consist of two floats each: the nearest float, and the rest.
+// errors along (Dekker 1971; Ogita, Rump, Oishi 2005: Dot2), so the result is the same as if it had been computed
+// in twice the precision and then rounded. Axis and eye consist of two floats each: the nearest float, and the
+// rest.
 
 TRI_FN float tri_sum_error(float a, float b, float sum) {
   TRI_PRECISE float part = sum - a;
@@ -32,7 +33,7 @@ TRI_FN float tri_product_error(float a, float b, float product) {
   return error;
 }
 
-// (axis + axis_rest)·(P − eye − eye_rest), all by component.
+// (axis + axis_rest)·(P − eye − eye_rest), with all vectors given by component.
 TRI_FN float tri_along_axis(float px, float py, float pz, float ex, float ey, float ez, float ex_rest,
                             float ey_rest, float ez_rest, float ax, float ay, float az, float ax_rest,
                             float ay_rest, float az_rest) {
@@ -59,7 +60,7 @@ TRI_FN float tri_along_axis(float px, float py, float pz, float ex, float ey, fl
 // ---- Ray and sphere -------------------------------------------------------------------------------
 // (c, r) is intersected with the ray through (sx, sy). With q = |d|² and m = c × d, the ray passes the centre at
 // the distance |m|/√q. The cross product keeps the precision that b² − |c|² + r² loses, because every term of m is
-// as small as the distance from the image's centre that it stands for.
+// as small as the corresponding distance from the image's centre.
 
 TRI_FN float tri_ray_square(float sx, float sy) {
   TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
@@ -76,8 +77,9 @@ TRI_FN float tri_sphere_discriminant(float cx, float cy, float cz, float r, floa
   return discriminant;
 }
 
-// The distance along the view axis of the first surface point in front of the eye, for a discriminant ≥ 0: the
-// entry, or the exit if the entry is behind the eye. Not positive if the whole sphere is behind.
+// The distance along the view axis of the first surface point in front of the eye, for a discriminant ≥ 0. That is
+// where the ray enters the sphere or, if this is behind the eye, where it leaves it. Not positive if the whole
+// sphere is behind the eye.
 TRI_FN float tri_sphere_distance(float cx, float cy, float cz, float sx, float sy, float discriminant) {
   TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
   TRI_PRECISE float b = cx * sx + cy * sy + cz;
@@ -102,13 +104,13 @@ TRI_FN float tri_depth(float near, float distance) {
 }
 
 // ---- Where a sphere lies on the image plane -------------------------------------------------------
-// Exact bounds along one axis (Mara and McGuire 2013). The sphere's silhouette lies between the two tangents in the
+// Exact bounds along one axis (Mara and McGuire 2013). The sphere's silhouette is between the two tangents in the
 // plane of that axis and the view axis, at the angles φ ± β with φ = atan2(a, z) and sin β = r/√(a² + z²). The part
-// within (−90°, 90°) is in front of the eye. Returns (low, high), ±3e38 for no bound, and low > high if nothing is
-// in front. Precise, because one kernel counts what another one writes.
+// within (−90°, 90°) is in front of the eye. Returns (low, high), with ±3e38 for no bound, and low > high if
+// nothing is in front. The arithmetic is `precise`, because one kernel counts the entries that another one writes.
 TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
   const float huge = 3.0e38f;
-  float side = a < 0.0f ? 0.0f - a : a;  // by symmetry the axis points to the sphere's side
+  float side = a < 0.0f ? 0.0f - a : a;  // symmetry: the axis points to the sphere's side
   TRI_PRECISE float k2 = side * side + z * z - r * r;
   TRI_PRECISE float low = 0.0f - huge;
   TRI_PRECISE float high = huge;
@@ -120,25 +122,26 @@ TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
     high = high_z > 0.0f ? (side * k + z * r) / high_z : huge;
     if (low_z <= 0.0f) high = 0.0f - huge;
   }
-  // By component, because a choice between vectors keeps loops from being vectorised.
+  // The components are chosen separately, because a choice between vectors keeps loops from being vectorised.
   float first = a < 0.0f ? 0.0f - high : low;
   float second = a < 0.0f ? 0.0f - low : high;
   return TRI_MAKE_FLOAT2(first, second);
 }
 
-// Whether a sphere reaches the plane through the eye that is parallel to the image, or comes so close that its
-// projection has no bounds. The paper's screen-aligned quad, a rectangle around projected tangent points, does not
-// exist for it. It is then the whole viewport, which makes that technique expensive for close spheres. -1:
-// completely behind that plane; 1: reaches it; 0: in front of it.
+// Whether a sphere reaches the plane through the eye that is parallel to the image, or comes so close to it that
+// its projection has no bounds. For such a sphere, the paper's screen-aligned quad (a rectangle around projected
+// tangent points) does not exist. The quad is then the whole viewport, which makes that technique expensive for
+// close spheres. Returns −1 if the sphere is completely behind that plane, 1 if it reaches it, and 0 if it is in
+// front of it.
 TRI_FN int tri_eye_plane(float z, float r) { return z + r <= 0.0f ? 0 - 1 : (z - r > 0.001f * r ? 0 : 1); }
 
 // ---- Sprites --------------------------------------------------------------------------------------
-// A ray-aligned sprite is perpendicular to v = c/|c| at tri_sprite_plane, just in front of the sphere, so that
-// every point of the sphere's front lies behind it, as conservative depth requires. There the silhouette is a
-// circle with the radius tri_silhouette_on_plane ≤ r.
+// A ray-aligned sprite is perpendicular to v = c/|c|, at the distance tri_sprite_plane, just in front of the
+// sphere. Therefore every point of the sphere's front is behind the sprite, as conservative depth requires. In that
+// plane the silhouette is a circle with the radius tri_silhouette_on_plane ≤ r.
 
-// Whether the eye is inside or so close that the silhouette covers (almost) half of all directions. The sprite is
-// then the whole viewport. d2 = |c|².
+// Whether the eye is inside the sphere, or so close to it that the silhouette covers (almost) half of all
+// directions. The sprite is then the whole viewport. d2 = |c|².
 TRI_FN int tri_surrounds(float d2, float r) { return d2 > r * r * 1.001f ? 0 : 1; }
 
 TRI_FN float tri_sprite_plane(float d, float r) { return (d - r) * 0.9990234375f; }
@@ -148,20 +151,20 @@ TRI_FN float tri_silhouette_on_plane(float d, float r, float plane) {
   return plane * r / TRI_SQRT((d - r) * (d + r));
 }
 
-// The half size of a sprite with a margin of 1/64 pixel, which is more than vertices move when they are snapped to
-// the rasterizer's grid (1/256 pixel). `pixel` is a pixel's size on the image plane. An injected fault is a
-// `scale` < 1, which makes the sprite smaller than the silhouette.
+// Half the size of a sprite with a margin of 1/64 pixel. Vertices move by less than that when they are snapped to
+// the rasterizer's grid (1/256 pixel). `pixel` is the size of a pixel on the image plane. A `scale` < 1 is an
+// injected fault, which makes the sprite smaller than the silhouette.
 TRI_FN float tri_sprite_radius(float d, float r, float plane, float pixel, float scale) {
   return scale < 1.0f ? scale * tri_silhouette_on_plane(d, r, plane) : r + 0.015625f * pixel * d;
 }
 
-// The radius in pixels of a sphere's silhouette, which determines the number of corners: r divided by a pixel's
-// size at its distance.
+// The radius in pixels of a sphere's silhouette: r divided by the size of a pixel at the sphere's distance. It
+// determines the number of corners.
 TRI_FN float tri_projected_radius(float d, float r, float pixel) { return r / (d * pixel); }
 
 // The number of corners, 4…16, with the lowest cost. An N-gon around a disc of radius R covers ≈ πR²·(π/N)²/3
-// pixels too many (tan x ≈ x + x³/3), and a corner costs as much as about 64 fragments. The sum is smallest at
-// N³ = 2π³R²/(3·64) ≈ 0.323·R².
+// additional pixels (tan x ≈ x + x³/3), and a corner costs about as much as 64 fragments. The sum is smallest at N³
+// = 2π³R²/(3·64) ≈ 0.323·R².
 TRI_FN int tri_adaptive_corners(float projected_radius) {
   float cube = 0.323f * projected_radius * projected_radius;
   int corners = 4;
@@ -173,11 +176,11 @@ TRI_FN int tri_adaptive_corners(float projected_radius) {
 }
 
 // The cosine of an angle in turns, |turns| ≤ 1, by its series in the nearest quarter, with an error below 1e-6. The
-// languages guarantee less (2⁻¹¹) or nothing.
+// languages guarantee only 2⁻¹¹ or no accuracy at all.
 TRI_FN float tri_cosine_turns(float turns) {
   float a = turns < 0.0f ? 0.0f - turns : turns;  // the cosine is even
-  float b = a > 0.5f ? 1.0f - a : a;              // symmetric about half a turn: now 0…½
-  float c = b > 0.25f ? 0.5f - b : b;             // and antisymmetric about a quarter: now 0…¼
+  float b = a > 0.5f ? 1.0f - a : a;              // symmetric about half a turn, so b is in 0…½
+  float c = b > 0.25f ? 0.5f - b : b;             // antisymmetric about a quarter, so c is in 0…¼
   float x = c * 6.28318530718f;
   float y = x * x;
   float value = 1.0f - y * (0.5f - y * (0.0416666667f - y * (0.00138888889f - y * (0.0000248015873f -

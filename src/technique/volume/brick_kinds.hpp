@@ -12,12 +12,12 @@
 
 namespace triptych::technique {
 
-// The action of a ray in a brick. The kernels use the same numbers.
+// How a ray treats a brick. The kernels use the same numbers.
 enum class BrickKind : std::int32_t {
-  invisible = 0,  // skips the brick
-  sampled = 1,    // takes the samples of the lattice
-  merged = 2,  // takes one sample in the middle of its way, with the opacity of the whole way (V1)
-  // From here on there is one number for each value that fills homogeneous bricks. Successive
+  invisible = 0,  // the ray skips the brick
+  sampled = 1,    // the ray takes the samples of the lattice
+  merged = 2,     // one sample in the middle of the chord, with the opacity of the whole chord (V1)
+  // This and all larger numbers are homogeneous bricks, with one number for each value. Successive
   // bricks of a ray with the same number are merged into one sample.
   homogeneous = 3
 };
@@ -26,24 +26,24 @@ enum class BrickKind : std::int32_t {
 // no channel of any pixel by more than `adapt`, for all merged bricks of a ray together.
 //
 // Derivation. Let a ray cross merged bricks with the opacities A' over the lengths l, with the
-// transmittances T' in front of them. In a brick a ≤ b are the extremes of extinction per voxel,
+// transmittances T' in front of them. In a brick, a ≤ b are the extremes of extinction per voxel,
 // and w is the range of its colours. R is the range of all possible colours. By the identity in
-// reference/composite.hpp one crossing changes the image by at most
+// reference/composite.hpp, one crossing changes the image by at most
 //   T'·(R·|ΔA| + w·A'),   |ΔA| ≤ e^(−al) − e^(−bl) ≤ (b − a)·l·e^(−al).
-// Two facts bound the sum along the ray: Σ T'·A' ≤ 1, and Σ l ≤ L, the longest way through the
-// volume. So half of the budget, K = adapt/2, is assigned to opacity, and the other half,
-// Y = adapt/2L, to each voxel of the way. Because l·a·e^(−al) ≤ 1 − e^(−al) ≤ A' and A' ≤ b·l, a
-// brick that satisfies
+// Two facts bound the sum along the ray: Σ T'·A' ≤ 1, and Σ l ≤ L, the longest chord of the volume.
+// So half of the budget, K = adapt/2, is assigned to opacity, and the other half, Y = adapt/2L, to
+// each voxel length. Because l·a·e^(−al) ≤ 1 − e^(−al) ≤ A' and A' ≤ b·l, a brick that satisfies
 //   R·(b − a) + (w − k)·b ≤ (K − k)·a + Y,   k = min(w, K),
-// costs at most K·T'·A' + Y·l, and the sum of these is adapt. A homogeneous brick costs nothing for
-// any l, and neither do several successive bricks with the same value.
+// costs at most K·T'·A' + Y·l, and the sum of these costs is at most `adapt`. A homogeneous brick
+// costs nothing for any l, and neither do several successive bricks with the same value.
 //
-// Both images are from the same device. The values that it finds in a brick lie within the brick's
-// range, widened by the rounding of its interpolation (16·2⁻²⁴ of the largest value; none between
-// equal voxels). `ranges` are those of brick_layout(scene, Skip::bricks, adapt).
+// The merged and the unmerged image are from the same device. The values that it finds in a brick
+// are within the brick's range, widened by the rounding of its interpolation (16·2⁻²⁴ of the
+// largest value; none between equal voxels). `ranges` are those of brick_layout(scene,
+// Skip::bricks, adapt).
 //
-// The extremes of the transfer function over any range of values take O(1), with a sparse table
-// (Bender & Farach-Colton 2000) that is made once for each function.
+// Finding the extremes of the transfer function over a range of values takes O(1), with a sparse
+// table (Bender & Farach-Colton 2000) that is computed once for each function.
 [[nodiscard]] std::vector<std::int32_t> brick_kinds(const BrickRanges& ranges,
                                                     const scene::VolumeScene& scene, double adapt);
 

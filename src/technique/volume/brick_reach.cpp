@@ -12,13 +12,13 @@ class ReachGrid {
   ReachGrid(const std::array<int, 3>& counts, std::span<const std::uint32_t> visible)
       : counts_(counts), visible_(visible), reach_(visible.size(), std::ranges::max(counts)) {}
 
-  // Shortens the reach by those of the 13 neighbours of (x, y, z) that come before it (side −1) or
-  // after it (side +1) in memory order.
+  // Shortens the reach of the brick (x, y, z) according to 13 of its neighbours: those before it in
+  // memory order (side −1) or those after it (side +1).
   void relax(int x, int y, int z, int side) {
     const std::size_t here = index(x, y, z);
     for (int neighbour = 1; neighbour <= 13; ++neighbour) {
-      // In a block of 27 bricks, numbered x fastest, 13 is the brick itself, and 14 to 26 come
-      // after it.
+      // In a block of 27 bricks, numbered with x fastest, brick 13 is the brick itself, and bricks
+      // 14 to 26 come after it.
       const int n = neighbour + 13;
       const int i = x + side * (n % 3 - 1);
       const int j = y + side * (n / 3 % 3 - 1);
@@ -52,8 +52,8 @@ class ReachGrid {
 
 }  // namespace
 
-// The two passes of a chamfer distance transform (Rosenfeld & Pfaltz 1966), which is exact for this
-// distance.
+// These are the two passes of a chamfer distance transform (Rosenfeld & Pfaltz 1966), which is
+// exact for this kind of distance.
 std::vector<std::int32_t> brick_reach(const std::array<int, 3>& counts,
                                       std::span<const std::uint32_t> visible) {
   ReachGrid grid(counts, visible);

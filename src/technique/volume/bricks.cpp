@@ -24,14 +24,15 @@ struct Range {
   float minimum = std::numeric_limits<float>::infinity();
   float maximum = -std::numeric_limits<float>::infinity();
 
-  // A NaN widens nothing.
+  // Widens the range. A NaN has no effect.
   void widen(const Range& by) {
     minimum = std::min(minimum, by.minimum);
     maximum = std::max(maximum, by.maximum);
   }
 };
 
-// Merges the ranges of `lines` neighbours, `stride` apart, into those of the bricks along an axis.
+// Merges the ranges of `lines` neighbours that are `stride` apart into those of the bricks along an
+// axis.
 void gather(std::span<const Range> from, std::size_t stride, int lines, int bricks,
             const BrickLayout& layout, std::span<Range> to) {
   for (int b = 0; b < bricks; ++b) {
@@ -66,14 +67,14 @@ std::vector<Range> slice_ranges(const scene::VoxelGrid& grid, const BrickLayout&
   return result;
 }
 
-// Calls visit(range) for every brick, x fastest, until it returns false. It works axis by axis, so
-// that the cost of a wide border is proportional to its width and not to its cube.
+// Calls visit(range) for every brick (x fastest) until it returns false. It works axis by axis, so
+// that the cost of a wide border is proportional to its width and not to the cube of its width.
 template <typename Visit>
 void visit_bricks(const scene::VoxelGrid& grid, const BrickLayout& layout, Visit visit) {
   const std::array<int, 3> bricks = brick_counts(grid.size, layout);
   const int nz = grid.size[2];
   std::deque<std::vector<Range>> open;  // layers of bricks that are not complete yet
-  int first = 0;                        // index of the first one
+  int first = 0;                        // index of the first open layer
   for (int k = 0; k < nz; ++k) {
     const std::vector<Range> slice = slice_ranges(grid, layout, bricks, k);
     const auto next = [&] { return first + static_cast<int>(open.size()); };
@@ -90,7 +91,8 @@ void visit_bricks(const scene::VoxelGrid& grid, const BrickLayout& layout, Visit
   }
 }
 
-// Whether a transfer function gives any opacity to a range of values: O(1) each, with a prefix sum.
+// Whether a transfer function gives any opacity to a range of values. Each query takes O(1), with a
+// prefix sum.
 class OpaqueRanges {
  public:
   explicit OpaqueRanges(const scene::TransferFunction& function) {
@@ -109,7 +111,7 @@ class OpaqueRanges {
  private:
   static constexpr int entries = 256;
 
-  // The entry `beyond` places after the one whose centre lies below the value.
+  // The entry that is `beyond` entries after the last one whose centre is below the value.
   [[nodiscard]] static std::size_t entry(float value, int beyond) {
     const int below = static_cast<int>(std::floor(static_cast<double>(value) * entries - 0.5));
     return static_cast<std::size_t>(std::clamp(below + beyond, 0, entries - 1));

@@ -1,6 +1,6 @@
 #pragma once
-// An injected slowdown by real work: a part of the image is drawn again in the same launch, because
-// a separate launch would cost more than its share of the work.
+// Injects a slowdown by real work: a part of the image is drawn again in the same launch, because a
+// separate launch would cost more than its share of the work.
 
 #include <vector>
 
@@ -10,14 +10,14 @@ namespace triptych::technique {
 inline constexpr int extra_tile_width = 16;
 inline constexpr int extra_tile_height = 8;
 
-// The first column of a grid that draws something again: `again` of tri_drawn_column
-// (portable/volume_math.h).
+// The first column of a grid that draws something again. It is the argument `again` of
+// tri_drawn_column (portable/volume_math.h).
 [[nodiscard]] constexpr int again_from(int width) {
   return (width + extra_tile_width - 1) / extra_tile_width * extra_tile_width;
 }
 
 // The number of columns of a grid that draws an image of `width` columns and repeats 1/stride of
-// it; for stride 0 the image's own.
+// it. For stride 0 it is `width`.
 [[nodiscard]] constexpr int drawn_columns(int width, int stride) {
   if (stride == 0) return width;
   const int tiles = again_from(width) / extra_tile_width;

@@ -16,7 +16,7 @@ int cells_of(const scene::VolumeScene& scene) {
   return scene.grid->size[2] + 1;
 }
 
-// The number of cells in a part beyond those of its samples.
+// The number of cells in a part in addition to those of its samples.
 int overlap(const scene::VolumeScene& scene) {
   constexpr double widened_and_rounded = 2;
   double cells = widened_and_rounded + (scene.shading.enabled ? 1 : 0);
@@ -36,8 +36,8 @@ std::vector<Part> slabs(const scene::VolumeScene& scene, int thickness) {
   return parts;
 }
 
-// Orders the parts: first the one that contains the eye or is nearest to it, then those on either
-// side, nearest first.
+// Orders the parts: first the one that contains the eye or is nearest to it, then the others on
+// either side, in the order of their distance.
 std::vector<Part> front_to_back(std::vector<Part> parts, const scene::VolumeScene& scene) {
   const double eye = scene.camera.eye.z / scene.grid->spacing[2] + 0.5;
   const auto before = std::ranges::find_if(
@@ -65,8 +65,8 @@ std::optional<std::string> why_whole_only(std::string_view technique,
 
 bool is_read(const Part& part, const scene::VolumeScene& scene, const RaycastOptions& options,
              std::span<const std::int32_t> map) {
-  // With steps from brick to brick, a ray may take a last sample behind its exit for a visible
-  // brick; leaps do not.
+  // Without leaps, a ray that steps from brick to brick may take a last sample beyond its exit if
+  // the brick is visible.
   if (options.skip != Skip::distance) return true;
   const BrickLayout layout = brick_layout(scene, options.skip, options.adapt);
   const auto counts = brick_counts(scene.grid->size, layout);

@@ -14,15 +14,15 @@ namespace {
 constexpr std::size_t entries = 256;
 constexpr double most_extinction = 8192;  // per voxel length, for an entry of opacity 1
 
-// Moments of the optical depth x of a stretch, measured from its beginning, in natural units per
-// cell: ∫dx, and for each channel ∫c dx, ∫c·x dx, ∫c·x² dx.
+// Moments of the optical depth x along a path, measured from its beginning, in natural units per
+// cell: ∫dx, and for each channel ∫c dx, ∫c·x dx and ∫c·x² dx.
 struct Moments {
   double depth = 0;
   std::array<double, 3> c0{};
   std::array<double, 3> c1{};
   std::array<double, 3> c2{};
 
-  // Appends the next stretch behind this one.
+  // Appends the moments of the path that follows this one.
   void append(const Moments& next) {
     for (std::size_t i = 0; i < 3; ++i) {
       c2[i] += next.c2[i] + depth * (2 * next.c1[i] + depth * next.c0[i]);
@@ -40,10 +40,10 @@ double extinction(double alpha) {
 }
 
 // Integrates one cell from entry a to entry b. Extinction −ln(1 − alpha) is smooth over the cell
-// unless alpha reaches 1. Therefore the cell is cut into pieces that halve towards such an end, and
-// each piece is integrated by Gauss's rule with five points. The depth in front of a point is that
-// of the previous pieces, plus the integral of the parabola through the extinction at both ends and
-// the middle of its own piece.
+// unless alpha reaches 1. Therefore the cell is cut into pieces whose lengths halve towards such an
+// end, and each piece is integrated by Gauss's rule with five points. The depth in front of a point
+// is the sum of the depths of the previous pieces and the integral of a parabola, which passes
+// through the extinction at both ends and in the middle of the point's own piece.
 class CellIntegral {
  public:
   CellIntegral(const Entry& a, const Entry& b) : a_(a), b_(b) {}
@@ -113,7 +113,7 @@ class CellIntegral {
   Moments sum_;
 };
 
-// Writes the texels of a path with these moments. `colour` is used if the path has no depth.
+// Writes the texels of a path with these moments. If the path has no depth, `colour` is used.
 void write(const Moments& m, const Entry& colour, std::array<float, 4>* texels) {
   texels[0] = {static_cast<float>(m.depth * std::numbers::log2e), colour[0], colour[1], colour[2]};
   texels[1] = texels[2] = {0, 0, 0, 0};
@@ -133,7 +133,7 @@ void write(const Moments& m, const Entry& colour, std::array<float, 4>* texels) 
 std::vector<std::array<float, 4>> preintegrated_pairs(const scene::TransferFunction& function) {
   const auto& table = function.entries;
   std::vector<Moments> up(entries - 1);    // cell k from entry k to entry k + 1
-  std::vector<Moments> down(entries - 1);  // and in reverse
+  std::vector<Moments> down(entries - 1);  // cell k from entry k + 1 to entry k
   for (std::size_t k = 0; k + 1 < entries; ++k) {
     up[k] = CellIntegral(table[k], table[k + 1]).moments();
     down[k] = CellIntegral(table[k + 1], table[k]).moments();

@@ -9,22 +9,22 @@
 
 namespace triptych::technique {
 
-// A path that runs linearly through whole cells of the transfer function, from one of its 256
-// entries to another, for each pair of entries. The pair (from, to) is at
+// The table contains, for each pair of the 256 entries of the transfer function, the path that runs
+// linearly through whole cells from the first entry to the second. The pair (from, to) is at
 // texels_per_pair·(256·from + to):
 //   [0] = (depth, a0), [1] = (a1, 0), [2] = (a2, 0).
 // depth is −Σ log2(1 − alpha), averaged per cell. Multiplied by the length of a cell in voxels, it
 // is the optical depth in powers of two. a0, a1 and a2 are the first Legendre coefficients of the
-// colour over the share of the depth passed; without any depth they are the colour of the entry
-// `from`. An entry of opacity 1 counts as 8192 per voxel, which leaves nothing behind 1/64 voxel of
-// it. The table is computed in double precision, so only the rounding to float is lost. It depends
-// on the transfer function, not on the step.
+// colour as a function of the share of the depth that has been passed; without any depth, they
+// represent the colour of the entry `from`. An entry of opacity 1 counts as 8192 per voxel, which
+// hides everything behind 1/64 voxel of it. The table is computed in double precision, so only the
+// rounding to float is lost. It depends on the transfer function but not on the step.
 inline constexpr std::size_t texels_per_pair = 3;
 [[nodiscard]] std::vector<std::array<float, 4>> preintegrated_pairs(
     const scene::TransferFunction& function);
 
 // TRI_PREINTEGRATED of the raycasters: 0 for another quadrature; 1 if all whole cells of any step
-// may be taken at once; 2 if they may be too deep for that (TRI_DEEPEST_CHUNK).
+// can be processed at once; 2 if they may be too deep for that (TRI_DEEPEST_CHUNK).
 [[nodiscard]] int preintegration_form(const scene::VolumeScene& scene);
 
 }  // namespace triptych::technique

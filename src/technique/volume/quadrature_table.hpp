@@ -1,6 +1,6 @@
 #pragma once
-// The table that a raycaster looks up in addition to the transfer function, depending on the
-// scene's quadrature, in rows of four floats.
+// The table that a raycaster looks up in addition to the transfer function. It depends on the
+// scene's quadrature and has rows of four floats.
 
 #include <array>
 #include <cstdint>
@@ -12,11 +12,12 @@ namespace triptych::technique {
 
 using QuadratureTable = std::vector<std::array<float, 4>>;
 
-// The table for quadrature cells: row i, 0 ≤ i ≤ 256, contains the smallest kink ≥ i, the largest
-// kink < i (scene/kinks.hpp), and the first entry ≥ i with any opacity; ±3·10³⁸ if there is none.
+// The table for quadrature cells. Row i, 0 ≤ i ≤ 256, contains the smallest kink ≥ i, the largest
+// kink < i (scene/kinks.hpp), and the first entry ≥ i with any opacity, or ±3·10³⁸ if there is
+// none.
 [[nodiscard]] QuadratureTable kink_table(const scene::TransferFunction& function);
 
-// preintegrated_pairs, kink_table, or one row that is not read.
+// Returns preintegrated_pairs, kink_table, or one row that is not read.
 [[nodiscard]] QuadratureTable quadrature_table(const scene::VolumeScene& scene);
 [[nodiscard]] std::uint64_t quadrature_table_bytes(scene::Quadrature quadrature);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The buffers that a raycaster needs in addition to the volume, for backends to compare with
-// limits.
+// The sizes of the buffers that a raycaster needs in addition to the volume. Backends compare them
+// with the limits of devices.
 
 #include <cstdint>
 #include <optional>
@@ -14,24 +14,24 @@ namespace triptych::technique {
 
 // The size of each buffer in bytes.
 struct RaycastBuffers {
-  std::uint64_t picture = 0;   // including the output of injected work (extra_work.hpp)
-  std::uint64_t counters = 0;  // for the frame that counts
+  std::uint64_t picture = 0;   // includes the output of injected work (extra_work.hpp)
+  std::uint64_t counters = 0;  // of the counting frame
   std::uint64_t bricks = 0;    // one word for each brick; exists even if nothing is skipped
   std::uint64_t table = 0;     // table of the quadrature (quadrature_table.hpp)
   std::uint64_t pauses = 0;    // state of rays, if the volume is drawn in parts (parts.hpp)
 
   [[nodiscard]] std::uint64_t all() const { return picture + counters + bricks + table + pauses; }
 };
-// All buffers except pauses.
+// The sizes of all buffers except `pauses`.
 [[nodiscard]] RaycastBuffers raycast_buffers(const scene::VolumeScene& scene,
                                              const RaycastOptions& options);
 
-// The bytes for the state of rays between two passes.
+// The number of bytes for the state of rays between two passes.
 [[nodiscard]] std::uint64_t pauses_bytes(const scene::VolumeScene& scene,
                                          const RaycastOptions& options);
 
-// The reason naming the first buffer of more than `most` bytes, a limit that the API calls `limit`;
-// empty if all fit.
+// The reason why a device cannot draw, which names the first buffer of more than `most` bytes;
+// `limit` is the API's name of that limit. Empty if all buffers fit.
 [[nodiscard]] std::optional<std::string> buffer_reason(const RaycastBuffers& buffers,
                                                        std::uint64_t most, std::string_view limit);
 

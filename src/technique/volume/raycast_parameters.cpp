@@ -29,8 +29,8 @@ std::array<Real, 4> pack(const glm::dvec3& v, double w) {
   return pack<Real>(v.x, v.y, v.z, w);
 }
 
-// A texel of a UNORM texture is k/maximum rounded to float. In single precision the division is
-// part of the scale. In double precision the shader recovers k, which loses nothing.
+// A texel of a UNORM texture is k/maximum, rounded to float. In single precision the division is
+// part of the scale. In double precision the shader recovers k, which is exact.
 template <class Real>
 std::array<Real, 4> value_map(const scene::VoxelGrid& grid, double stored_maximum, double plane) {
   if constexpr (sizeof(Real) == sizeof(double)) {
@@ -49,8 +49,8 @@ BasicRaycastParameters<Real> parameters_of(const scene::VolumeScene& scene,
   const BrickLayout layout = brick_layout(scene, options.skip);
   const auto bricks = brick_counts(grid.size, layout);
   const double plane = ray_plane(scene);
-  // A step longer than a cell does not cut any, so all such steps have the same image to the last
-  // bit.
+  // A step that is longer than a cell cuts no cell, so the images of all such steps are identical
+  // to the last bit.
   const bool cells = scene.quadrature == scene::Quadrature::cells;
   const double step_voxels = cells ? std::min(scene.step_voxels, 1.0) : scene.step_voxels;
   const scene::Shading& light = scene.shading;
@@ -78,8 +78,8 @@ std::vector<std::byte> bytes_of(const BasicRaycastParameters<Real>& parameters) 
   return {bytes.begin(), bytes.end()};
 }
 
-// The reason why quadrature cells cannot draw the scene. A pass of the raycaster's loop takes one
-// piece of a cell; long_rays.hpp explains why passes are limited.
+// The reason why quadrature cells cannot draw the scene. An iteration of the raycaster's loop
+// processes one piece of a cell; long_rays.hpp explains why the number of iterations is limited.
 std::optional<std::string> cells_reason(const scene::VolumeScene& scene,
                                         const RaycastOptions& options) {
   if (options.sampler == Sampler::hardware) {
@@ -92,8 +92,8 @@ std::optional<std::string> cells_reason(const scene::VolumeScene& scene,
       cell_passes(scene, 0));
 }
 
-// Samples are counted in 32-bit integers. Extremely flat voxels would need more samples, without
-// any benefit.
+// Samples are counted in 32-bit integers. Only extremely flat voxels would need more samples,
+// without any benefit.
 std::optional<std::string> count_reason(const scene::VolumeScene& scene) {
   const double samples = most_samples(scene);
   if (samples < 1 << 30) return std::nullopt;

@@ -13,16 +13,15 @@
 
 namespace triptych::technique {
 
-// How voxels are interpolated: by the device's sampler; by the kernel from eight voxels; or by the
-// kernel from a cell that contains all eight (packed_cells.hpp).
+// How voxels are interpolated: by the device's sampler; by the kernel, from eight voxels that it
+// loads one by one; or by the kernel, from a cell that contains all eight (packed_cells.hpp).
 enum class Sampler : std::uint8_t { hardware, manual, packed };
 // How empty space is skipped: not at all; by a walk from brick to brick; or by leaps over whole
-// cubes of bricks of one kind, as far as the nearest brick of the other kind allows
-// (brick_reach.hpp).
+// cubes of bricks of one kind, up to the nearest brick of the other kind (brick_reach.hpp).
 enum class Skip : std::uint8_t { none, bricks, distance };
-// The precision of everything between the parameters and the image: rays, positions, interpolation,
-// colours, opacities, compositing. Voxels, the entries of the transfer function and the image are
-// floats in both cases.
+// The precision of all values between the parameters and the image: rays, positions, interpolation,
+// colours, opacities and compositing. Voxels, the entries of the transfer function and the image
+// are floats in both cases.
 enum class Precision : std::uint8_t { fp32, fp64 };
 [[nodiscard]] std::string_view name_of(Sampler sampler);
 [[nodiscard]] std::string_view name_of(Skip skip);
@@ -38,7 +37,7 @@ enum class Fault : std::uint8_t {
   half_voxel_shift = 1,     // the volume is read half a voxel too far along x
   flipped_axis = 2,         // y is mirrored
   extra_sample = 3,         // one additional whole sample at the end of each ray
-  uncorrected_opacity = 4,  // opacity is applied per sample, not per voxel length
+  uncorrected_opacity = 4,  // opacity is applied per sample instead of per voxel length
   coarse_filter = 5         // interpolation weights are rounded to 8 bits
 };
 
@@ -46,15 +45,15 @@ enum class Fault : std::uint8_t {
 struct RaycastOptions {
   Sampler sampler = Sampler::manual;
   Skip skip = Skip::distance;
-  double ert = 1.0 / 512;  // rays end below this transmittance; 0: never
+  double ert = 1.0 / 512;  // rays end below this transmittance; never if 0
   double adapt = 0;        // allowed error of merging samples within bricks (brick_kinds.hpp)
   Precision precision = Precision::fp32;
-  // Bytes of device memory for voxels. A larger volume is drawn in parts (parts.hpp). 0: as many as
-  // the device's limits allow.
+  // The bytes of device memory for voxels. A larger volume is drawn in parts (parts.hpp). 0 means
+  // the limits of the device.
   std::uint64_t budget = 0;
   Fault fault = Fault::none;
-  // 1/extra_work_stride of the image is drawn a second time (volume/extra_work.hpp): an injected
-  // slowdown of that share by real work. 0: none.
+  // 1/extra_work_stride of the image is drawn a second time (volume/extra_work.hpp). This injects a
+  // slowdown of that share by real work. 0 means no extra work.
   int extra_work_stride = 0;
 };
 
@@ -64,9 +63,9 @@ struct RaycastOptions {
                                                         const scene::VolumeScene& scene,
                                                         const RaycastOptions& options);
 
-// Has the same layout as parameters.glsl (std140) and parameters.cl, with numbers in groups of four
-// only. Real is float, or double for Precision::fp64. Lengths along a ray are in steps, positions
-// in voxels (voxel centres at i+½).
+// Has the same layout as parameters.glsl (std140) and parameters.cl, with numbers only in groups of
+// four. Real is float, or double for Precision::fp64. Lengths along a ray are in steps, and
+// positions are in voxels (voxel centres at i+½).
 template <class Real>
 struct BasicRaycastParameters {
   using Four = std::array<Real, 4>;
@@ -75,15 +74,15 @@ struct BasicRaycastParameters {
   Four ray_right;        // xyz: right · aspect · tan(fov/2); w: ERT ε
   Four ray_up;           // xyz: up · tan(fov/2); w: gradient floor
   Four inverse_spacing;  // xyz: 1/spacing; w: smallest spacing
-  // x, y: normalised = stored·x + y. z: ray_plane. w: with doubles, the factor that turns a texel
-  // into the stored integer, or 0 if it already is one; otherwise 0.
+  // The normalised value is stored·x + y. z is ray_plane. w is needed only with doubles: the factor
+  // that converts a texel to the stored integer, or 0 if the texel already is that integer.
   Four value_map;
   Four shading;                             // ambient, diffuse, specular; w: parts of a cell
   Four background;                          // premultiplied RGBA
   std::array<std::int32_t, 4> volume_size;  // in voxels; w: log2 of the specular exponent
-  // Bricks per axis; w: brick edge in voxels, 0: no skipping.
+  // Bricks per axis. w is the edge of a brick in voxels; 0 means no skipping.
   std::array<std::int32_t, 4> brick_grid;
-  // Width, height, and stride and again of tri_drawn_column.
+  // Width and height, and the arguments `stride` and `again` of tri_drawn_column.
   std::array<std::int32_t, 4> viewport;
 };
 using RaycastParameters = BasicRaycastParameters<float>;
@@ -92,18 +91,18 @@ static_assert(offsetof(RaycastParameters, volume_size) == std::size_t{8} * 16);
 static_assert(sizeof(BasicRaycastParameters<double>) == std::size_t{8} * 32 + std::size_t{3} * 16);
 static_assert(offsetof(BasicRaycastParameters<double>, volume_size) == std::size_t{8} * 32);
 
-// The distance from the eye along the view axis, in world units, of the plane on which rays begin:
-// that of the box's nearest corner, if it is far away. Float coordinates of a distant eye would
-// have errors of voxels, while those of a point on the plane are as exact as the box's own. 0: rays
-// begin at the eye.
+// The distance from the eye along the view axis, in world units, of the plane on which rays begin.
+// If the eye is far away, the plane passes through the box's nearest corner: float coordinates of a
+// distant eye would have errors of voxels, while a point on the plane is as accurate as the box
+// itself. 0 means that rays begin at the eye.
 [[nodiscard]] double ray_plane(const scene::VolumeScene& scene);
-// The distance from which on rays begin on that plane, in diagonals of the box. For a closer eye
+// The distance from which on rays begin on that plane, in diagonals of the box. For a closer eye,
 // the error is less than 1e-4 of the box's size.
 inline constexpr double far_in_diagonals = 16;
 
-// The bytes of the parameters in the options' precision. The stored integer of a u8 or u16 grid
-// reaches a shader unchanged (buffer) or divided by its maximum (UNORM texture); `stored_maximum`
-// is accordingly 1, or 255 or 65535.
+// The bytes of the parameters in the precision of the options. The stored integer of a u8 or u16
+// grid reaches a shader unchanged (buffer) or divided by its maximum (UNORM texture). Accordingly,
+// `stored_maximum` is 1, or 255 or 65535.
 [[nodiscard]] std::vector<std::byte> raycast_parameters(const scene::VolumeScene& scene,
                                                         const RaycastOptions& options,
                                                         double stored_maximum);
@@ -112,7 +111,8 @@ inline constexpr double far_in_diagonals = 16;
 inline constexpr std::array<std::string_view, 7> raycast_counters{
     "rays_hit",       "samples",         "samples_nonzero", "bricks_visited",
     "bricks_skipped", "rays_terminated", "samples_saved"};
-// The number of unsigned 32-bit integers per pixel in the counters' buffer; the eighth is padding.
+// The number of unsigned 32-bit integers per pixel in the buffer of the counters. The eighth is
+// padding.
 inline constexpr std::size_t raycast_counter_stride = 8;
 
 }  // namespace triptych::technique

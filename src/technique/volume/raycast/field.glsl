@@ -1,5 +1,5 @@
-// Shared by all raycasters: rays, values of the field, the transfer function, shading, counters and gathered light.
-// Positions are in voxels, lengths along the ray in steps.
+// Shared by all raycasters: rays, values of the field, the transfer function, shading, counters and accumulated
+// light. Positions are in voxels, and lengths along the ray are in steps.
 
 const int fault_half_voxel_shift = 1;
 const int fault_flipped_axis = 2;
@@ -7,7 +7,7 @@ const int fault_extra_sample = 3;
 const int fault_uncorrected_opacity = 4;
 const int fault_coarse_filter = 5;
 
-// Counted only if TRI_COUNT is 1; the timed build drops it.
+// These are counted only if TRI_COUNT is 1; the compiler removes them from the timed build.
 uint count_samples = 0u;
 uint count_nonzero = 0u;
 uint count_bricks_visited = 0u;
@@ -30,12 +30,12 @@ void store_counts(ivec2 pixel, bool hit, uint saved) {
 #endif
 
 // The parameters that every sample needs, loaded once per ray. Compilers that do not move loads out of loops would
-// load a uniform inside the loop for every sample.
+// otherwise load a uniform inside the loop for every sample.
 struct Grid {
   real3 inverse_size;
   ivec3 last;           // largest index per axis
   real2 value_map;
-  real stored_maximum;  // only in double precision, for voxels that are integers; else 0
+  real stored_maximum;  // only in double precision, for voxels that are integers; otherwise 0
 };
 
 Grid load_grid() {
@@ -53,8 +53,8 @@ Grid load_grid() {
 
 #else
 
-// The stored value. A texel of u8 or u16 is its integer divided by the largest one, rounded to float; in double
-// precision it is the integer itself.
+// The stored value of a voxel. A texel of u8 or u16 is its integer divided by the largest integer, rounded to
+// float. In double precision this function returns the integer itself.
 real voxel(Grid grid, ivec3 at) {
 #if TRI_PARTS
   at.z = clamp(at.z - max(u.part.z - 1, 0), 0, u.part.w);
@@ -66,7 +66,7 @@ real voxel(Grid grid, ivec3 at) {
   return texel;
 }
 
-// Trilinear interpolation by hand: texels floor(q) and floor(q)+1 with q = p − ½, clamped to the edge.
+// Trilinear interpolation in the shader: texels floor(q) and floor(q)+1 with q = p − ½, clamped to the edge.
 real fetch_manual(Grid grid, real3 p) {
   real3 q = p - 0.5;
   real3 base = floor(q);
@@ -105,7 +105,7 @@ real field(Grid grid, real3 p) {
   return stored * grid.value_map.x + grid.value_map.y;
 }
 
-// The differences of normalised values from one voxel before p to one voxel after it.
+// Central differences: the normalised values one voxel after p minus those one voxel before p, for each axis.
 real3 rises(Grid grid, real3 p) {
   return real3(field(grid, p + real3(1, 0, 0)) - field(grid, p - real3(1, 0, 0)),
                field(grid, p + real3(0, 1, 0)) - field(grid, p - real3(0, 1, 0)),
@@ -122,17 +122,17 @@ real4 transfer(real x) {
   return a + (position - real(k)) * (b - a);
 }
 
-// Headlight shading (scene::Shading); d is the world direction of the ray.
+// Headlight shading (scene::Shading). d is the direction of the ray in world space.
 real3 shade(Grid grid, real3 colour, real3 p, real3 d) {
   real3 g = rises(grid, p) * (0.5 * u.inverse_spacing.w * u.inverse_spacing.xyz);
   real cosine = abs(dot(g, d)) / max(sqrt(dot(g, g)), u.ray_up.w);
   real highlight = cosine;
 #if TRI_LONG_RAYS
-  // A loop of constant length, which compilers unroll, so that it does not count as passes (raycast()).
+  // Compilers unroll a loop of constant length, so that its iterations do not count towards the limit (raycast()).
   for (int i = 0; i < 31; ++i) highlight *= i < u.volume_size.w ? highlight : 1.0;
 #else
-  // The 0 is disguised as a value of the sample, as in skips(). Otherwise lavapipe (Mesa 22.3) would recompile the
-  // shader in every submission because of this loop.
+  // The 0 is written as an expression that depends on the sample, as in skips(). Otherwise lavapipe (Mesa 22.3)
+  // would recompile the shader in every submission because of this loop.
   int squarings = u.volume_size.w + min(0, int(cosine));
   for (int i = 0; i < squarings; ++i) highlight *= highlight;
 #endif
@@ -152,7 +152,7 @@ Ray make_ray(ivec2 pixel) {
   d = d / sqrt(dot(d, d));
   real3 v = d * u.inverse_spacing.xyz;
   real3 size = real3(u.volume_size.xyz);
-  // The ray begins on a plane between eye and box if the eye is far away, else at the eye.
+  // If the eye is far away, the ray begins on a plane between eye and box, otherwise at the eye.
   real3 origin = u.eye.xyz +
                  (u.value_map.z * (ndc.x * u.ray_right.xyz - ndc.y * u.ray_up.xyz)) * u.inverse_spacing.xyz;
   real2 x = tri_slab(origin.x, v.x, size.x);

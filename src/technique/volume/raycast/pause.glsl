@@ -1,11 +1,11 @@
-// The state of a ray between two passes over parts of the volume, of which the device stores one at a time
+// The state of a ray between two passes over parts of the volume. The device stores one part at a time
 // (technique::Part).
 
 struct Pause {
   real4 light;   // premultiplied colour, transmittance
-  ivec4 where;   // the walk's brick, or the cell; w: 1 if the run is to be merged
-  ivec4 run;     // the next sample, the end of its run, 1 if the ray has ended in the dark
-  vec4 times;    // for cells: where the ray continues, up to where all bricks are visible, and where it ends
+  ivec4 where;   // the brick or the cell where the ray continues; w: 1 if the run is to be merged
+  ivec4 run;     // the next sample, the end of its run, and 1 if early termination has ended the ray
+  vec4 times;    // for cells: where the ray continues, where the run of visible bricks ends, where it ends
   uvec4 counts;  // samples, samples_nonzero, bricks_visited, bricks_skipped
 };
 layout(std430) TRI_BINDING(7) buffer Pauses { Pause pauses[]; };

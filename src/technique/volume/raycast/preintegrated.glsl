@@ -1,16 +1,18 @@
-// Quadrature preintegrated: one step along which the value is linear from front to back
+// Quadrature preintegrated: the value is linear along each step, from front to back
 // (portable/volume_preintegration.h, technique::preintegrated_pairs).
 //
-// Cut is the state of a step that is processed in parts, because its whole cells are too deep for one look-up.
+// Cut is the state of a step that is processed in several parts, because its whole cells are too deep for one
+// look-up.
 struct Cut {
-  float per_cell;  // voxels per cell; 0: the step has not begun
-  float left;      // share of the light at its front
+  float per_cell;  // voxels per cell; 0 if the step has not begun
+  float left;      // share of the light at the step's front that is left
 };
 
 #if TRI_PRECISION == 32
 
-// Composites a piece of the step behind `gathered`, which is premultiplied colour and opacity. `depth` is its
-// optical depth in powers of two; a0 … a2 are its colour over the share of that depth passed.
+// Composites a piece of the step behind `gathered`, which contains premultiplied colour and opacity. `depth` is the
+// piece's optical depth in powers of two. a0 … a2 are the coefficients of its colour as a function of the share of
+// that depth.
 void add_piece(inout vec4 gathered, float depth, vec3 a0, vec3 a1, vec3 a2) {
   float opacity = tri_1m_exp2(-depth);
   float z = 0.3465735903 * depth;
@@ -23,8 +25,8 @@ void add_piece(inout vec4 gathered, float depth, vec3 a0, vec3 a1, vec3 a2) {
   }
 }
 
-// Adds the piece from position a to b among the entries, within the cell that begins with entry `cell`. Beyond the
-// first and the last entry the function is constant.
+// Adds the piece from position a to b among the entries, within the cell that begins with entry `cell`. The
+// function is constant beyond the first and the last entry.
 void add_part_of_cell(inout vec4 gathered, int cell, float a, float b, float length) {
   vec4 lower = transfer_entry(max(cell, 0));
   vec4 rise = transfer_entry(min(cell + 1, 255)) - lower;
@@ -54,14 +56,15 @@ bool are_too_deep(int first, int last, float per_cell) {
   return abs(last - first) > 1 && depth_of_cells(first, last, per_cell) > TRI_DEEPEST_CHUNK;
 }
 
-// The entry up to which cells that are too deep are processed at once: as many as would not be too deep if all were
-// equal, and half of them until they are not, but at least one cell.
+// The entry up to which cells that are too deep together are processed at once. The search starts with the number
+// of cells that would not be too deep if all were equal, and halves it until they are not too deep. It returns at
+// least one cell.
 int end_of_chunk(int first, int last, float per_cell) {
   int direction = last > first ? 1 : -1;
   float share = TRI_DEEPEST_CHUNK / depth_of_cells(first, last, per_cell);
   int taken = max(1, int(share * float(abs(last - first))));
 #if TRI_LONG_RAYS
-  for (int i = 0; i < 8; ++i) {  // of constant length, so it does not count as passes
+  for (int i = 0; i < 8; ++i) {  // constant length, so it is unrolled and does not count towards the limit
     if (are_too_deep(first, first + direction * taken, per_cell)) taken /= 2;
   }
 #else
@@ -70,22 +73,22 @@ int end_of_chunk(int first, int last, float per_cell) {
   return first + direction * taken;
 }
 
-// Premultiplied colour and opacity of a step of `length` voxels from value `front` to `back`. With
-// TRI_PREINTEGRATED 2 it is the next part of the step: if `cut` has not begun afterwards, the step is complete,
-// else it continues from the new `front`. Each part is a pass of the loop over steps and not of a loop in this
-// function, because passes are limited (raycast()).
+// The premultiplied colour and opacity of a step of `length` voxels from value `front` to `back`. With
+// TRI_PREINTEGRATED 2 it processes the next part of the step: if `cut` has not begun afterwards, the step is
+// complete, otherwise it continues from the new `front`. Each part is an iteration of the loop over steps and not
+// of a loop in this function, because the number of iterations is limited (raycast()).
 vec4 preintegrated(inout float front, float back, float length, inout Cut cut) {
-  // NaN counts as the lowest value, as for the midpoint rule.
+  // NaN is treated as the lowest value, as in the midpoint rule.
   float from = front * 256.0 - 0.5;
   float to = back * 256.0 - 0.5;
   from = from > -0.75 ? min(from, 255.75) : -0.75;
   to = to > -0.75 ? min(to, 255.75) : -0.75;
-  bool begun = TRI_PREINTEGRATED == 2 && cut.per_cell > 0.0;  // then the step continues from an entry
+  bool begun = TRI_PREINTEGRATED == 2 && cut.per_cell > 0.0;  // whether the step continues from an entry
   int first_cell = int(floor(from));
   int last_cell = int(floor(to));
   bool one_cell = first_cell == last_cell;
   bool rising = last_cell > first_cell;
-  int first = rising && !begun ? first_cell + 1 : first_cell;  // number of entries that are passed
+  int first = rising && !begun ? first_cell + 1 : first_cell;  // the first entry that the step passes
   int last = rising ? last_cell : last_cell + 1;
   float per_cell = begun ? cut.per_cell : length / max(abs(to - from), 1.0e-30);
   vec4 gathered = vec4(0.0);

@@ -1,10 +1,11 @@
-// Front-to-back raycasting of one pixel: the body shared by Vulkan and GL, by compute and fragment shaders.
-// Positions are in voxels, lengths along the ray in steps: sample i is at p0 + (i+½)·g.
+// Front-to-back raycasting of one pixel. Vulkan and GL share this code, for compute and fragment shaders. Positions
+// are in voxels, and lengths along the ray are in steps: sample i is at p0 + (i+½)·g.
 
 #include "volume/raycast/field.glsl"
 #include "volume/raycast/walk.glsl"
 
-// Adds one sample at p with colour and opacity c. If `whole` is set it covers a whole step, else a `share` of one.
+// Adds one sample at p with the colour and opacity c. It covers a whole step if `whole` is set, otherwise a share
+// of one.
 void add_classified(inout Light light, Grid grid, Ray ray, real4 c, real3 p, bool whole, real steps) {
   if (TRI_COUNT == 1) count_samples++;
   if (TRI_SPEED_OF_LIGHT == 1) {
@@ -36,25 +37,25 @@ void add_sample(inout Light light, Grid grid, Ray ray, real3 p, bool whole, real
 #endif
 }
 
-// The progress of a ray.
+// The state of a ray.
 struct March {
   Light light;
   real front;         // value where the next step begins or continues; only with TRI_PREINTEGRATED
-  int i;              // the next sample
-  int stop;           // the end of the run of visible samples
-  int count;          // the end of the ray; 0, like `stop`, when the ray has ended
-  bool last_visible;  // whether the ray's last sample lies in the run
+  int i;              // index of the next sample
+  int stop;           // end of the run of visible samples
+  int count;          // end of the ray; 0, like `stop`, after the ray has ended
+  bool last_visible;  // whether the ray's last sample is in the run
 };
 
 #if TRI_PRECISION == 32
-// Takes the next step, or the next part of it, along which the field is linear.
+// Takes the next step, or the next part of it. The field is linear along the step.
 void advance_segment(inout March m, inout Cut cut, Grid grid, Ray ray, real step_voxels) {
   real end = min(real(m.i + 1), ray.steps);
   real back = field(grid, ray.p0 + end * ray.g);
-  // An injected fault can make this differ from the difference of begin and end.
+  // Because of an injected fault, this can differ from the distance between begin and end.
   real length = step_voxels * tri_step_share(ray.steps, m.i);
   bool fresh = TRI_PREINTEGRATED != 2 || cut.per_cell == 0.0;
-  if (TRI_PREINTEGRATED == 2 && m.light.transmittance == 0.0) cut.left = 0.0;  // no passes for what is invisible
+  if (TRI_PREINTEGRATED == 2 && m.light.transmittance == 0.0) cut.left = 0.0;  // no iterations for invisible parts
 #if TRI_TRACE
   traced_front = m.front;
 #endif
@@ -71,7 +72,7 @@ void advance_segment(inout March m, inout Cut cut, Grid grid, Ray ray, real step
     m.light.transmittance -= m.light.transmittance * segment.a;
   }
 #if TRI_TRACE
-  traced_value = m.front;  // where this step, or this part of it, ends
+  traced_value = m.front;  // value at the end of this step, or of this part of it
   traced_opacity = segment.a;
   real4 straight = vec4(segment.a > 0.0 ? segment.rgb / segment.a : vec3(0.0), segment.a);
   trace(2u, ray.p0 + (0.5 * (real(m.i) + end)) * ray.g, straight, length, m.light);
@@ -103,7 +104,7 @@ void advance(inout March m, inout Cut cut, Grid grid, Ray ray, real step_voxels,
 }
 
 #if TRI_PACKED
-// Takes the next two samples, or the last one. The loads of both are issued before either is waited for.
+// Takes the next two samples, or the last one. Both loads are issued before the first result is used.
 void advance_two(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
   real3 p = ray.p0 + (real(m.i) + 0.5) * ray.g;
   real3 q = ray.p0 + (real(m.i + 1) + 0.5) * ray.g;
@@ -128,8 +129,8 @@ void advance_two(inout March m, Grid grid, Ray ray, real step_voxels, real enoug
 }
 #endif
 
-// Takes the samples of the run as one in the middle of their way (technique::brick_kinds), but not before the first
-// of them, which may be the ray's last and partial sample.
+// Takes all samples of the run as one sample in the middle of their chord (technique::brick_kinds), but not before
+// the first of them, which may be the ray's last and partial sample.
 void advance_merged(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
   real begin = real(m.i);
   real end = min(real(m.stop), ray.steps);
@@ -145,14 +146,15 @@ void advance_merged(inout March m, Grid grid, Ray ray, real step_voxels, real en
 
 #else
 
-// Premultiplied RGBA of the pixel. Three properties of compilers for processors shape these loops.
+// The premultiplied RGBA of the pixel. Three properties of compilers for processors determine the form of these
+// loops.
 //
-// First, they run a block of rays through both sides of a condition, so the opacity of the partial last step must
-// not be next to that of a whole one: the last sample is taken after the loops. Second, llvmpipe of Mesa 22.3
-// continues to compute the values of a ray that has left a loop while its neighbours have not, with loads that
-// return 0. A loop may therefore be left only at its head, where every variable is still as the last pass left it.
-// Third, it allows an invocation 65,535 passes through all its loops together, however they are nested. If rays may
-// be longer (technique::has_long_rays), a pass takes sixteen samples.
+// First, these compilers run a block of rays through both sides of a condition. The opacity of the partial last
+// step must therefore not be next to that of a whole step, so the last sample is taken after the loops. Second,
+// llvmpipe of Mesa 22.3 continues to compute the values of a ray that has left a loop while its neighbours have
+// not, with loads that return 0. A loop may therefore be left only at its head, where every variable still has the
+// value of the last iteration. Third, it allows an invocation 65,535 iterations of all its loops together, however
+// they are nested. If rays may be longer (technique::has_long_rays), an iteration takes sixteen samples.
 vec4 raycast(ivec2 pixel) {
 #if TRI_TRACE
   begin_trace(pixel);
@@ -162,7 +164,7 @@ vec4 raycast(ivec2 pixel) {
   March m = March(Light(real3(0.0), 1.0), 0.0, 0, 0, tri_sample_count(ray.steps), false);
   if (TRI_FAULT == fault_extra_sample && m.count > 0) { m.count += 1; ray.steps = real(m.count); }
   Cut cut = Cut(0.0, 1.0);
-  int last = m.count - 1;  // the sample that may be partial: it is taken after the loops
+  int last = m.count - 1;  // the sample that may be partial; it is taken after the loops
   real step_voxels = TRI_FAULT == fault_uncorrected_opacity ? 1.0 : u.ray_centre.w;
   real enough = u.ray_right.w;
   bool skipping = skips(ray);
@@ -180,7 +182,8 @@ vec4 raycast(ivec2 pixel) {
     }
     if (TRI_ADAPT == 1 && merged && m.i < m.stop) advance_merged(m, grid, ray, step_voxels, enough);
     m.last_visible = m.stop == m.count && m.i < m.stop;
-    // A partial step along a straight line is the same work as a whole one, so it needs no special treatment.
+    // A partial step along which the value is linear is the same work as a whole one, so it needs no special
+    // treatment.
     if (TRI_PREINTEGRATED == 0) m.stop = min(m.stop, last);
     if (TRI_PREINTEGRATED != 0) m.front = field(grid, ray.p0 + real(m.i) * ray.g);
     while (m.i < m.stop) {

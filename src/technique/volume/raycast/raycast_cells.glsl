@@ -1,23 +1,24 @@
 // Quadrature cells (scene::Quadrature): the ray goes from cell to cell. A cell is the space between eight voxel
-// centres, in which the field along the ray is a cubic. Times of crossings are computed from a cell's index and not
-// accumulated, so the contribution of a cell does not depend on how the ray got there, and skipping changes no bit.
-// Single precision only. The loops follow the rules about compilers in raycast.glsl.
+// centres, in which the field along the ray is a cubic polynomial. The time of a crossing is computed from a cell's
+// index and not accumulated, so the contribution of a cell does not depend on the previous cells, and skipping
+// changes no bit. This code exists only in single precision. The loops follow the rules about compilers in
+// raycast.glsl.
 #include "volume/raycast/field.glsl"
 
-// The data of a ray that the walk needs. Cell i lies between voxels i and i+1. Cells −1 and the last voxel's own
-// are the half voxels at the faces of the volume, where values are clamped.
+// The data of a ray that the walk needs. Cell i is between the voxels i and i+1. The first cell (−1) and the last
+// one are the half voxels at the faces of the volume, where values are clamped.
 struct Way {
-  vec3 p0;         // where the ray enters, relative to the first voxel's centre
+  vec3 p0;         // where the ray enters the volume, relative to the first voxel's centre
   vec3 g;          // one step, in voxels
   vec3 inverse_g;
-  ivec3 forward;   // 1 if the ray runs towards higher indices, else 0
+  ivec3 forward;   // 1 if the ray runs towards higher indices, otherwise 0
 };
 
 Way make_way(Ray ray) {
   Way way;
   way.p0 = ray.p0 - 0.5;
   way.g = ray.g;
-  // A ray that runs along a face takes 10²⁰ steps to the next one, which means never, without a division by zero.
+  // A ray that is parallel to a face needs 10²⁰ steps to the next one. This avoids a division by zero.
   way.inverse_g = 1.0 / mix(ray.g, vec3(1.0e-20), lessThan(abs(ray.g), vec3(1.0e-20)));
   way.forward = ivec3(greaterThan(way.inverse_g, vec3(0.0)));
   return way;
@@ -28,8 +29,8 @@ vec3 entries(Way way, ivec3 cell) { return crossings(way, cell + 1 - way.forward
 vec3 exits(Way way, ivec3 cell) { return crossings(way, cell + way.forward); }
 float least(vec3 v) { return min(v.x, min(v.y, v.z)); }
 
-// The cell behind the nearest of the planes, which are crossed at `at`. The indices on the other axes are those of
-// the cells that contain the ray there, by the same times that a walk would compare.
+// The cell after the nearest one of the planes, which are crossed at the times `at`. On the other axes, the index
+// is that of the cell that contains the ray there, computed from the same times that a walk would compare.
 ivec3 cell_behind(Way way, ivec3 planes, vec3 at) {
   float t = least(at);
   ivec3 direction = 2 * way.forward - 1;
@@ -40,11 +41,11 @@ ivec3 cell_behind(Way way, ivec3 planes, vec3 at) {
   return crossed * (planes - 1 + way.forward) + (1 - crossed) * cell;
 }
 
-// c.x + c.y·s + c.z·s² + c.w·s³
+// The polynomial c.x + c.y·s + c.z·s² + c.w·s³.
 float cubic(vec4 c, float s) { return c.x + s * (c.y + s * (c.z + s * c.w)); }
 
-// The position among the transfer function's entries along the ray's way through a cell, 0 ≤ s ≤ 1, from the local
-// coordinates a to a + b: x, y and z of the eight voxels are interpolated one after the other.
+// The cubic that gives the position among the transfer function's entries along the ray in a cell, for 0 ≤ s ≤ 1.
+// The local coordinates of the ray are from a to a + b. The eight voxels are interpolated along x, then y, then z.
 vec4 cubic_of_cell(Grid grid, ivec3 cell, vec3 a, vec3 b) {
   if (TRI_FAULT == fault_half_voxel_shift) a.x += 0.5;
   if (TRI_FAULT == fault_coarse_filter) a = floor(a * 256.0 + 0.5) / 256.0;
@@ -62,8 +63,8 @@ vec4 cubic_of_cell(Grid grid, ivec3 cell, vec3 a, vec3 b) {
   vec4 v1 = vec4(voxel(grid, ivec3(hi.x, lo.y, lo.z)), voxel(grid, ivec3(hi.x, hi.y, lo.z)),
                  voxel(grid, ivec3(hi.x, lo.y, hi.z)), voxel(grid, hi));
 #endif
-  vec4 x0 = v0 + a.x * (v1 - v0);  // along x: constant terms for the four edges, …
-  vec4 x1 = b.x * (v1 - v0);       // … and those in s
+  vec4 x0 = v0 + a.x * (v1 - v0);  // along x: constant terms for the four edges
+  vec4 x1 = b.x * (v1 - v0);       // along x: terms that are linear in s
   vec2 rise0 = x0.yw - x0.xz;
   vec2 rise1 = x1.yw - x1.xz;
   vec2 y0 = x0.xz + a.y * rise0;
@@ -81,8 +82,8 @@ vec4 cubic_of_cell(Grid grid, ivec3 cell, vec3 a, vec3 b) {
 // A row of technique::kink_table: the smallest kink ≥ i, the largest kink < i, and the first visible entry ≥ i.
 vec4 kink_row(float i) { return quadrature_entry(int(clamp(i, 0.0, 256.0))); }
 
-// Whether any value on the way has opacity: decided between the smallest and the largest of the cubic's Bernstein
-// coefficients.
+// Whether any value in the cell has opacity. It tests the range from the smallest to the largest Bernstein
+// coefficient of the cubic.
 bool shows(vec4 c) {
   vec4 b = vec4(c.x, c.x + c.y / 3.0, c.x + (2.0 * c.y + c.z) / 3.0, c.x + c.y + c.z + c.w);
   float lowest = clamp(min(min(b.x, b.y), min(b.z, b.w)), 0.0, 255.0);
@@ -90,20 +91,21 @@ bool shows(vec4 c) {
   return kink_row(floor(lowest)).z <= ceil(highest);
 }
 
-// The extrema of the cubic in ascending order; beyond 1 if there are none.
+// The extrema of the cubic in ascending order; greater than 1 if there are none.
 vec2 extrema(vec4 c) {
   float discriminant = c.z * c.z - 3.0 * c.w * c.y;
   if (!(discriminant > 0.0)) return vec2(2.0);
-  // Computes both roots from the sum that does not cancel.
+  // Compute both roots from the sum that does not cancel.
   float q = 0.0 - (c.z + (c.z < 0.0 ? -1.0 : 1.0) * sqrt(discriminant));
   float e = c.w == 0.0 ? 2.0 : q / (3.0 * c.w);
   float f = q == 0.0 ? 2.0 : c.y / q;
   return vec2(min(e, f), max(e, f));
 }
 
-// The place where the cubic is `value`, between `from` and `to`, where it is monotone with the values at_from and
-// at_to at the ends. It starts on the parabola with those values and the cubic's slope at `from`, which is also
-// right beside an extremum, and continues with Newton's method, or bisection if that leaves the bracket.
+// The position where the cubic has the value `value`, between `from` and `to`. The cubic is monotone there and has
+// the values at_from and at_to at the ends. The search starts on the parabola with these values and the cubic's
+// slope at `from`, which is also correct next to an extremum. It continues with Newton's method, or with bisection
+// if that leaves the bracket.
 float where_it_is(vec4 c, float value, float from, float to, float at_from, float at_to) {
   bool rising = at_to > at_from;
   float r = (value - at_from) / (at_to - at_from);
@@ -119,10 +121,11 @@ float where_it_is(vec4 c, float value, float from, float to, float at_from, floa
   return s;
 }
 
-// −log2(1 − alpha); an opacity of 1 counts as 8192.
+// The extinction −log2(1 − alpha). An opacity of 1 counts as 8192.
 float extinction(float alpha) { return alpha < 1.0 ? 0.0 - tri_log2_1m(alpha) : 8192.0; }
 
-// Adds a piece of `length` voxels with the colours of its two points (reference/cell_rule.hpp has the formulas).
+// Adds a piece of `length` voxels with the colours at its two points (reference/cell_rule.hpp explains the
+// formulas).
 void add_piece(inout Light light, vec4 a, vec4 b, float length) {
   float first = extinction(a.a);
   float second = extinction(b.a);
@@ -139,12 +142,13 @@ void add_piece(inout Light light, vec4 a, vec4 b, float length) {
   }
 }
 
-// Adds the part of the way through a cell between s and `next`. The cell lies between `begin` and `end`, in steps.
+// Adds the piece between s and `next` of the ray in a cell. The cell is between the times `begin` and `end`, in
+// steps.
 void add_part(inout Light light, Grid grid, Ray ray, vec4 c, float s, float next, float begin, float end,
               float step_voxels) {
   float middle = 0.5 * (s + next);
   float apart = 0.2886751346 * (next - s);
-  // transfer() takes values whose position is 256·x − ½.
+  // The argument of transfer() is a value whose position is 256·x − ½.
   vec4 a = transfer((cubic(c, middle - apart) + 0.5) / 256.0);
   vec4 b = transfer((cubic(c, middle + apart) + 0.5) / 256.0);
   if (TRI_COUNT == 1) count_samples += 2u;
@@ -160,26 +164,26 @@ void add_part(inout Light light, Grid grid, Ray ray, vec4 c, float s, float next
   }
 }
 
-// Adds a cell between the times `begin` and `end`.
+// Adds the cell between the times `begin` and `end`.
 void add_cell(inout Light light, Grid grid, Ray ray, Way way, ivec3 cell, float begin, float end,
               float step_voxels) {
   vec4 c = cubic_of_cell(grid, cell, way.p0 + begin * way.g - vec3(cell), (end - begin) * way.g);
   vec2 turn = extrema(c);
   float part = 1.0;
   float from = c.x;
-  float start = 0.0;  // of the piece
-  // How far the loop has got; beyond the end if nothing is visible.
+  float start = 0.0;  // start of the piece
+  // The position that the loop has reached. It starts at the end if nothing is visible.
   float s = end > begin && shows(c) ? 0.0 : 1.0;
   while (s < 1.0) {
-    // Up to the end of the part, an extremum (between which the value is monotone), or a kink.
+    // Stop at the end of the part, at an extremum (between extrema the value is monotone), or at a kink.
     float stop = min(part / u.shading.w, 1.0);
     bool whole = !(turn.x > s && turn.x < stop) && !(turn.y > s && turn.y < stop);
     if (turn.y > s && turn.y < stop) stop = turn.y;
     if (turn.x > s && turn.x < stop) stop = turn.x;
     float to = cubic(c, stop);
     float kink = to > from ? kink_row(floor(from) + 1.0).x : kink_row(ceil(from)).y;
-    // A fragment that llvmpipe (Mesa 22.3) draws only for its neighbours reads 0 for a kink. It must make progress,
-    // because the neighbours wait for it.
+    // llvmpipe (Mesa 22.3) also runs helper invocations outside of the triangle, and these read 0 for a kink. They
+    // must make progress, because the other invocations of the block wait for them.
     bool cut = to > from ? kink > from && kink < to : kink < from && kink > to;
     float next = cut ? where_it_is(c, kink, s, stop, from, to) : stop;
     if (cut || whole) {
@@ -192,8 +196,8 @@ void add_cell(inout Light light, Grid grid, Ray ray, Way way, ivec3 cell, float 
   }
 }
 
-// What the brick map contains for a cell: whether its brick is visible, and the planes at a corner through which
-// the ray must leave, up to which that holds. Those at the volume's own faces include the half cells there.
+// The content of the brick map for a cell: whether its brick is visible, and the planes through which the ray
+// leaves the region for which that is true. Planes at the volume's own faces include the half cells there.
 struct Around {
   bool visible;
   ivec3 planes;
@@ -216,7 +220,7 @@ Around look_around(Way way, Grid grid, ivec3 cell) {
 
 #include "volume/raycast/pause.glsl"
 
-// Restores the state of the ray. The cell is where it continues.
+// Restores the state of the ray. `cell` is the cell where it continues.
 void resume(inout Light light, inout ivec3 cell, inout vec3 times, int place) {
   Pause pause = pauses[place];
   light = Light(pause.light.xyz, pause.light.w);
@@ -232,7 +236,8 @@ void pause_here(Light light, ivec3 cell, vec3 times, int place) {
 
 #endif
 
-// Premultiplied RGBA of the pixel; for a volume in parts the light so far, and `place` is that of its pause.
+// The premultiplied RGBA of the pixel. For a volume in parts, it is the light so far, and `place` is the index of
+// the pixel's Pause.
 #if TRI_PARTS
 vec4 raycast_part(ivec2 pixel, int place) {
 #else
@@ -245,7 +250,7 @@ vec4 raycast(ivec2 pixel) {
   float step_voxels = TRI_FAULT == fault_uncorrected_opacity ? 1.0 : u.ray_centre.w;
   float enough = u.ray_right.w;
   Light light = Light(vec3(0.0), 1.0);
-  // Disguised as a value of the ray, as in walk.glsl.
+  // The 0 is written as an expression that depends on the ray, as in walk.glsl.
   bool skipping = u.brick_grid.w > min(0, int(ray.steps));
   ivec3 cell = clamp(ivec3(floor(way.p0)), ivec3(-1), grid.last);
   float begin = 0.0;

@@ -1,14 +1,14 @@
-// Like raycast(), by parts of a volume (technique::Part): processes what lies in the part that the device stores,
-// sample by sample with the same expressions, so that the bits are the same.
+// Like raycast(), but for parts of a volume (technique::Part). It processes the samples in the part that the device
+// stores, one by one, with the same expressions, so that the result has the same bits.
 #include "volume/raycast/pause.glsl"
 
-// Whether the voxels around the ray, `along` steps from its beginning, belong to the part.
+// Whether the voxels around the ray at the position `along`, in steps from its beginning, belong to the part.
 bool is_here(Grid grid, Ray ray, real along) {
   real z = ray.p0.z + along * ray.g.z;
   return cell_is_here(int(clamp(z + 0.5, 0.0, real(grid.last.z + 1))));
 }
 
-// The position of what is taken next.
+// The position of the next sample or step.
 real next_along(March m, Ray ray, bool merged) {
   real begin = real(m.i);
   if (TRI_PREINTEGRATED != 0) return begin;
@@ -35,7 +35,7 @@ void pause_here(March m, Walk walk, bool merged, bool walks, bool dark, int plac
                         ivec4(m.i, m.stop, dark ? 1 : 0, 0), vec4(0.0), counts_so_far());
 }
 
-// Takes the next sample or step of the run, or all of a run that is to be merged.
+// Takes the next sample or step of the run, or the whole run if it is to be merged.
 void take_next(inout March m, inout Cut cut, inout bool fresh, bool merged, int last, Grid grid, Ray ray,
                real step_voxels, real enough) {
   if (TRI_ADAPT == 1 && merged) {
@@ -52,7 +52,7 @@ void take_next(inout March m, inout Cut cut, inout bool fresh, bool merged, int 
   }
 }
 
-// Premultiplied RGBA of the pixel so far. `place` is that of its pause.
+// The premultiplied RGBA of the pixel so far. `place` is the index of the pixel's Pause.
 vec4 raycast_part(ivec2 pixel, int place) {
 #if TRI_TRACE
   begin_trace(pixel);
@@ -72,7 +72,7 @@ vec4 raycast_part(ivec2 pixel, int place) {
   if (walks) walk = start_walk(ray);
   if (skipping && TRI_LEAPS == 1) leaps = make_leaps(ray);
   if (u.pass.x > 0) resume(m, walk, merged, walks, place);
-  bool fresh = true;  // the value in front has not been read yet
+  bool fresh = true;  // the value at the front of the step has not been read yet
   bool here = true;
   while (m.i < m.count && here) {
     if (m.i >= m.stop) {

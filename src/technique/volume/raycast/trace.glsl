@@ -1,17 +1,17 @@
-// The history of one pixel, in the build that is made for it (technique/volume/ray_trace.hpp).
+// Records the history of one pixel, in the build for this purpose (technique/volume/ray_trace.hpp).
 
 uint trace_place = 0xFFFFFFFFu;
 real traced_value = 0.0;
 real traced_front = 0.0;
 real traced_opacity = 0.0;
 
-// A fragment that is drawn only for its neighbours may lie outside of the image.
+// Devices also run helper invocations outside of the triangle, which may be outside of the image.
 void begin_trace(ivec2 pixel) {
   ivec2 inside = min(pixel, u.viewport.xy - 1);
   trace_place = counters[8 * (inside.y * u.viewport.x + inside.x) + 7];
 }
 
-// `kind` is technique::TracedKind. The values and the opacity are those that were set before.
+// Records a sample. `kind` is technique::TracedKind. The values and the opacity must have been set before.
 void trace(uint kind, real3 place, real4 colour, real steps, Light light) {
   real opacity = traced_opacity;
   traced_opacity = 0.0;

@@ -5,10 +5,10 @@ struct Walk {
   ivec3 brick;
   ivec3 direction;  // −1 or +1 per axis
   real3 first;      // in steps
-  real3 spacing;    // in steps; 0 if the ray never crosses
+  real3 spacing;    // in steps; 0 if the ray never crosses a face of this axis
   real3 at;         // where the ray crosses the brick's far face of each axis, in steps
-  real leave;       // where it leaves the brick: the smallest of them
-  bool visible;     // also true outside the grid, where rounding can lead: that rest of a ray is sampled
+  real leave;       // where it leaves the brick: the smallest component of `at`
+  bool visible;     // also true outside the grid: if rounding leads there, the rest of the ray is sampled
   int kind;         // technique::BrickKind of a visible brick, with TRI_ADAPT
   bool outside;
   ivec3 size;       // bricks per axis
@@ -18,7 +18,7 @@ void enter(inout Walk walk) {
   ivec3 size = walk.size;
   walk.at = walk.first + real3(walk.brick) * walk.spacing;
   walk.leave = min(walk.at.x, min(walk.at.y, walk.at.z));
-  // As unsigned numbers, negative indices are beyond the end, too.
+  // As unsigned numbers, negative indices also exceed the size.
   walk.outside = any(greaterThanEqual(uvec3(walk.brick), uvec3(size)));
   int index = walk.brick.x + size.x * (walk.brick.y + size.y * walk.brick.z);
   int kind = walk.outside ? 1 : brick_at(walk.outside ? 0 : index);
@@ -49,14 +49,15 @@ void next_brick(inout Walk walk) {
   enter(walk);
 }
 
-// The first sample at or after `limit` that lies beyond the brick. A sample within rounding of the face may be
+// The first sample that is beyond the brick, but at most `limit`. A sample within rounding of the face may be
 // assigned to either side, because the brick's border of one voxel covers half a voxel of error.
 int samples_before(Walk walk, int limit) {
   return walk.outside || !(walk.leave < real(limit)) ? limit : clamp(int(ceil(walk.leave - 0.5)), 0, limit);
 }
 
-// Narrows [begin, end) to the next run of visible bricks of one kind at or after begin; empty at the end of the
-// ray. `merged` is set if the run is to be taken as one sample. A brick of kind 2 is a run of its own.
+// Narrows [begin, end) to the next run of visible bricks of one kind at or after `begin`. The result is empty at
+// the end of the ray. `merged` is set if the run is to be taken as one sample. A brick of kind 2 is a run of its
+// own.
 ivec2 next_run(inout Walk walk, int begin, int end, out bool merged) {
   while (begin < end && !walk.visible) {
     begin = max(begin, samples_before(walk, end));
@@ -74,10 +75,10 @@ ivec2 next_run(inout Walk walk, int begin, int end, out bool merged) {
   return ivec2(begin, stop);
 }
 
-// Leaps over whole cubes of bricks of one kind (technique::Skip::distance). Each starts from its sample's own
-// position, so nothing drifts.
+// Leaps over whole cubes of bricks of one kind (technique::Skip::distance). Each leap starts from the position of
+// its own sample, so errors do not accumulate.
 struct Leaps {
-  real3 p0;    // where the ray enters, relative to where the bricks begin: the first voxel's centre
+  real3 p0;    // where the ray enters, relative to the first voxel's centre, where bricks begin
   real3 inverse_g;
   real edge;   // of a brick, in voxels
   real inverse_edge;
@@ -87,7 +88,7 @@ struct Leaps {
 Leaps make_leaps(Ray ray) {
   Leaps leaps;
   leaps.p0 = ray.p0 - 0.5;
-  // A ray that runs along a face takes 10²⁰ steps to the next one, which means never, without a division by zero.
+  // A ray that is parallel to a face needs 10²⁰ steps to the next one. This avoids a division by zero.
   leaps.inverse_g = 1.0 / mix(ray.g, real3(1.0e-20), lessThan(abs(ray.g), real3(1.0e-20)));
   leaps.edge = real(u.brick_grid.w);
   leaps.inverse_edge = 1.0 / leaps.edge;
@@ -95,9 +96,9 @@ Leaps make_leaps(Ray ray) {
   return leaps;
 }
 
-// brick_reach of the brick that contains sample i, and the first sample after it that lies beyond the cube of
-// bricks of the same kind, and at most `end`. A sample within rounding of a face may be assigned to either side, as
-// by a walk.
+// The brick_reach of the brick that contains sample i, and the first sample after it that is beyond the cube of
+// bricks of the same kind, but at most `end`. A sample within rounding of a face may be assigned to either side, as
+// in a walk.
 struct Leap {
   bool visible;
   int next;
@@ -108,19 +109,19 @@ Leap leap(Leaps leaps, Ray ray, int i, int end) {
   ivec3 brick = clamp(ivec3(p * leaps.inverse_edge), ivec3(0), leaps.size - 1);
   int signed_reach = brick_at(brick.x + leaps.size.x * (brick.y + leaps.size.y * brick.z));
   int reach = abs(signed_reach);
-  // Axis by axis, because integer mix() requires GLSL 4.50.
+  // This is computed axis by axis, because mix() of integers requires GLSL 4.50.
   int back = 1 - reach;
   ivec3 face = brick + ivec3(leaps.inverse_g.x < 0.0 ? back : reach, leaps.inverse_g.y < 0.0 ? back : reach,
                              leaps.inverse_g.z < 0.0 ? back : reach);
   real3 at = (real3(face) * leaps.edge - leaps.p0) * leaps.inverse_g;
   real leave = min(at.x, min(at.y, at.z));
-  // No brick has reach 0, but a fragment that llvmpipe (Mesa 22.3) draws only for its neighbours reads 0. It would
-  // go from sample to sample, and all neighbours would wait for it.
+  // No brick has the reach 0, but llvmpipe (Mesa 22.3) also runs helper invocations outside of the triangle, and
+  // these read 0. They would go from sample to sample, and all other invocations of the block would wait for them.
   int next = reach > 0 && leave < real(end) ? int(ceil(leave - 0.5)) : end;
   return Leap(signed_reach > 0, clamp(next, i + 1, end));
 }
 
-// The same as next_run, by leaps.
+// The same as next_run, but with leaps.
 ivec2 next_run_by_leaps(Leaps leaps, Ray ray, int begin, int end) {
   Leap ahead = Leap(false, begin);
   while (begin < end && !ahead.visible) {
@@ -144,9 +145,10 @@ ivec2 next_run_by_leaps(Leaps leaps, Ray ray, int begin, int end) {
   return ivec2(begin, stop);
 }
 
-// Whether there is anything to skip. Leaps see at once that a volume is full. The 0 is disguised as a value of the
-// ray, because for a condition on parameters alone lavapipe (Mesa 22.3) compiles a separate shader with their
-// values inlined, anew in every submission, which takes up to 1.5 ms.
+// Whether there is anything to skip. With leaps, the reach of a single brick reveals whether the whole volume is
+// visible. The 0 is written as an expression that depends on the ray: for a condition on parameters alone, lavapipe
+// (Mesa 22.3) would compile a separate shader with the parameters' values inlined in every submission, which takes
+// up to 1.5 ms.
 bool skips(Ray ray) {
   int longest = max(u.brick_grid.x, max(u.brick_grid.y, u.brick_grid.z));
   int nothing = min(0, int(ray.steps));
