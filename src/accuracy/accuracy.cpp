@@ -22,7 +22,7 @@ constexpr double largest_arithmetic_share = 0.1;
 constexpr std::size_t least_points = 3;
 constexpr double tail = 0.025;  // the share of the distribution on either side of a 95 % interval
 
-// The factors that differ among the cases, except `step`.
+// The factors that have different levels among the cases, except `step`.
 std::set<std::string> telling_factors(std::span<const AccuracyCase> cases) {
   std::set<std::string> names;
   for (const AccuracyCase& each : cases) {
@@ -56,7 +56,8 @@ std::optional<Order> order_of(std::span<const AccuracyCase> cases,
   return fit_order(points);
 }
 
-// Whether `a` is at least as good on both axes and better on one. Both have a cost.
+// Whether `a` is at least as good as `b` in cost and error, and better in one of them. Both must
+// have a cost.
 bool beats(const AccuracyCase& a, const AccuracyCase& b, const CostOf& cost_of) {
   const double cost_a = *cost_of(a);
   const double cost_b = *cost_of(b);
@@ -77,7 +78,7 @@ std::optional<std::string> only_difference(const Factors& a, const Factors& b) {
   return only;
 }
 
-// The indices sorted by error; among equal errors the fastest comes first.
+// Returns the indices sorted by error. If errors are equal, the fastest case comes first.
 std::vector<std::size_t> by_accuracy(std::span<const AccuracyCase> cases) {
   std::vector<std::size_t> order(cases.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -88,7 +89,8 @@ std::vector<std::size_t> by_accuracy(std::span<const AccuracyCase> cases) {
   return order;
 }
 
-// The cost at which the line through two points reaches the error. Both logarithms must exist.
+// The cost at which the line through two points, on logarithmic axes, reaches the error. Both
+// logarithms must exist.
 std::optional<double> cost_between(const AccuracyCase& a, const AccuracyCase& b,
                                    const CostOf& cost_of, double error) {
   const auto of_a = cost_of(a);

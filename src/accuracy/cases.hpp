@@ -1,6 +1,6 @@
 #pragma once
-// The cases of a run for which accuracy is reported: each image against its limit and its reference
-// image.
+// The cases of a run for which accuracy is reported. Each image is compared with its limit and its
+// reference image.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -15,11 +15,11 @@
 
 namespace triptych::accuracy {
 
-// The limit of the images of a scene.
+// The limit of the images of a scene for step → 0.
 struct LimitPicture {
-  std::string key;  // this key is the same for all records that share the limit
+  std::string key;  // the same key for all records that share the limit
   core::Image image;
-  core::Image uncertainty;  // per pixel, the largest distance of the image from the exact limit
+  core::Image uncertainty;  // per pixel, the largest distance from the exact limit
   std::optional<core::Image> closed_form;
 };
 
@@ -30,8 +30,9 @@ struct PictureError {
   double lattice = 0;
   double arithmetic = 0;
 };
-// `truth` is the reference image on the same sample positions as the device's image. nullopt if the
-// three images differ in size, or if the device's image has values that are not finite.
+// Compares an image with its limit. `truth` is the reference image at the sample positions of the
+// device's image. nullopt if the three images differ in size, or if the device's image has values
+// that are not finite.
 [[nodiscard]] std::optional<PictureError> picture_error(const core::Image& picture,
                                                         const core::Image& truth,
                                                         const core::Image& limit);
@@ -43,12 +44,12 @@ struct AccuracyScene {
   std::string scene;  // "camera=…,data=…": the levels that all its records have in common
   std::string data;
   double uncertainty = 0;  // root mean square of the limit's uncertainty
-  // Root mean square difference between the limit and the closed form: the part that grid and table
-  // cannot represent.
+  // Root mean square difference between the limit and the closed form, which grid and table cannot
+  // represent exactly.
   std::optional<double> representation;
-  // Root mean square error of the limit when it is stored with 8 bits per channel.
+  // Root mean square error that storing the limit with 8 bits per channel causes.
   double eight_bits = 0;
-  double nothing = 0;  // the same for an image in which nothing was drawn
+  double nothing = 0;  // root mean square error of an image in which nothing was drawn
   std::vector<AccuracyCase> cases;
   std::vector<AccuracyFamily> families;
   std::vector<std::size_t> front;
@@ -56,12 +57,12 @@ struct AccuracyScene {
   std::optional<FrontArea> area;  // if anything was timed
 };
 
-// A record with its errors, and its time by this clock.
+// Combines a record with its errors and with its time on this clock.
 [[nodiscard]] AccuracyCase accuracy_case(const record::Record& record, const PictureError& error,
                                          std::string_view clock);
 
-// A scene without cases. The other functions update the levels that it has in common with one more
-// record, and compute the results once all cases are there.
+// Returns a scene without cases. The functions below reduce its levels to those that it has in
+// common with another record, and compute the results after all cases have been added.
 [[nodiscard]] AccuracyScene accuracy_scene(const record::Record& record, const LimitPicture& limit);
 void narrow(AccuracyScene& scene, const record::Record& record);
 void evaluate(AccuracyScene& scene);

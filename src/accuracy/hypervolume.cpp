@@ -9,7 +9,7 @@ double hypervolume(std::span<const AccuracyCase> cases, std::span<const std::siz
                    double reference_error) {
   double area = 0;
   double reached = reference_error;
-  for (const std::size_t i : front) {  // the front, sorted by rising time and falling error
+  for (const std::size_t i : front) {  // sorted by increasing time and decreasing error
     const double error = std::max(cases[i].rmse, least_told_error);
     const double time = *cases[i].time_ns;
     if (!(error < reached) || !(time > 0) || !(time < reference_time_ns)) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// Compares two images in numbers. Callers write files and messages.
+// Compares two images and returns numbers. Callers write files and messages.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace triptych::accuracy {
 
-// The error of a pixel is the largest absolute difference of its four channels, in full scale
-// (1 = white). Its bound is that of the same pixel and channel. Pixels with a value that is not
-// finite, in either image, are counted separately and excluded from everything else.
+// The error of a pixel is the largest absolute difference of its four channels, where 1 is full
+// scale. Its bound is that of the same pixel and channel. Pixels with a value that is not finite,
+// in either image, are counted separately and excluded from everything else.
 struct ImageComparison {
   struct Place {
     int x = -1;  // -1 if no pixel could be compared
@@ -20,7 +20,7 @@ struct ImageComparison {
     double ratio = 0;  // error/bound; infinite if the bound is 0 and the error is not
   };
 
-  // A pixel that shows the wrong particle, or the right one at a wrong depth.
+  // A pixel that shows a wrong particle, or the correct particle at a wrong depth.
   struct Surface {
     int x = -1;  // -1 if there is none
     int y = -1;
@@ -31,7 +31,7 @@ struct ImageComparison {
     double bound = 0;  // bound of the depth
   };
 
-  bool size_mismatch = false;  // if true, nothing below is filled in
+  bool size_mismatch = false;  // if true, the members below are not set
   std::size_t pixels = 0;
   std::size_t non_finite = 0;
   std::size_t over_bound = 0;
@@ -50,25 +50,26 @@ struct ImageComparison {
   }
 };
 
-// `slack` is added to every colour bound. All three images must have the same size, and either all
-// or none must be images of particles; otherwise size_mismatch is set. If the reference image has
-// ids, the id must be right in every pixel whose id in `bound` is 0, and the depth within the depth
-// bound. Two pixels without a surface have equal depths.
+// Compares an image with its reference image. `slack` is added to every colour bound. All three
+// images must have the same size, and either all or none of them must be images of particles;
+// otherwise size_mismatch is set. If the reference image has ids, every pixel whose id in `bound`
+// is 0 must have the same id, and a depth within the depth bound. Two pixels without a surface have
+// equal depths.
 [[nodiscard]] ImageComparison compare(const core::Image& image, const core::Image& truth,
                                       const core::Image& bound, double slack = 0);
 
-// The same with one bound for every pixel.
+// The same comparison with one bound for all pixels.
 [[nodiscard]] ImageComparison compare(const core::Image& image, const core::Image& truth,
                                       double bound);
 
-// The root mean square difference over all channels; NaN for different sizes or values that are not
-// finite. If `bound` has ids, only pixels whose id must be right are compared, because at the edge
-// of a sphere two correct images may differ by a whole colour.
+// The root mean square difference over all channels. NaN if the sizes differ or if values are not
+// finite. If `bound` has ids, only pixels with a certain id are compared, because at the edge of a
+// sphere two correct images may differ by a whole colour.
 [[nodiscard]] double root_mean_square(const core::Image& a, const core::Image& b,
                                       const core::Image& bound = {});
 
-// The image |a − b|·gain per colour channel, opaque, for viewing. A pixel where either image is not
-// finite is NaN and shown as magenta. Throws InputError for different sizes.
+// The opaque image |a − b|·gain per colour channel, for viewing. A pixel where either image is not
+// finite is NaN, which is displayed as magenta. Throws InputError if the sizes differ.
 [[nodiscard]] core::Image difference_image(const core::Image& a, const core::Image& b, double gain);
 
 }  // namespace triptych::accuracy

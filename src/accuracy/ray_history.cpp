@@ -6,8 +6,8 @@
 namespace triptych::accuracy {
 namespace {
 
-// Recorded numbers are floats. In single precision they are exact. In double precision they were
-// rounded, with a relative error of half of this.
+// Recorded numbers are floats, so they are exact in single precision. In double precision they were
+// rounded, with a relative error of half of this constant.
 constexpr double recorded = 0x1.0p-23;
 
 // Samples behind this transmittance are not compared, because the reference ends its rays there.
@@ -18,14 +18,15 @@ bool is_within(double number, const Allowed& allowed) {
   return number >= allowed.lo - slack && number <= allowed.hi + slack;
 }
 
-// The light in front of a sample, as the device recorded it.
+// The accumulated light in front of a sample, as the device recorded it.
 struct Light {
   double transmittance = 1;
   std::array<double, 3> gathered{};
 };
 
-// The rounding error of one multiplication and one addition for each channel, whose operands were
-// recorded: four roundings of the largest operand.
+// Whether the light after a sample follows from the recorded light before it. The tolerance for
+// each channel is that of one multiplication and one addition: four roundings of the largest
+// operand.
 bool is_composited(const Light& before, const TakenSample& taken) {
   const double weight = before.transmittance * taken.opacity;
   const double slack = 4 * recorded * before.transmittance;
@@ -57,8 +58,8 @@ std::optional<Operation> first_difference(const ExpectedSample& expected, const 
   return std::nullopt;
 }
 
-// The number of the sample, from its place along the ray. Midpoints and the middles of whole steps
-// are at i + ½; the middle of a partial step is before that.
+// The index of the sample, computed from its position along the ray. Midpoints of whole steps are
+// at i + ½; the middle of a partial step is before that.
 std::int64_t index_of(const ExpectedRay& ray, const TakenSample& taken) {
   double along = 0;
   double square = 0;
@@ -104,7 +105,8 @@ class Comparison {
   }
 
   RayHistory finish() {
-    // A ray may have ended because it is dark, or with a merged sample that covers the rest.
+    // The ray may have ended because of early termination, or with a merged sample that covers the
+    // rest.
     const bool ended = light_.transmittance < std::max(ray_.ends_below, invisible);
     pass_by(end(), ended || after_merged_);
     return std::move(history_);
@@ -113,8 +115,8 @@ class Comparison {
  private:
   [[nodiscard]] std::int64_t end() const { return static_cast<std::int64_t>(ray_.samples.size()); }
 
-  // The samples before `index` that the device did not take. It may leave out those without
-  // opacity, and those that it merged into another one.
+  // Adds rows for the samples before `index` that the device did not take. It may leave out samples
+  // without opacity, and samples that it merged into another one.
   void pass_by(std::int64_t index, bool excused) {
     for (; next_ < index; ++next_) {
       const ExpectedSample& expected = ray_.samples[static_cast<std::size_t>(next_)];

@@ -1,7 +1,7 @@
 #pragma once
-// Compares a device's results along one ray of a volume with the expected results of the reference,
-// sample by sample, and within a sample in the order of the computation. The first difference is
-// therefore the first operation whose result is outside of its bound.
+// Compares a device's results along one ray of a volume with the expected results of the reference
+// renderer, sample by sample, and within a sample in the order of the computation. The first
+// difference is therefore in the first operation whose result is outside of its bound.
 
 #include <array>
 #include <cstddef>
@@ -12,23 +12,23 @@
 
 namespace triptych::accuracy {
 
-// A number of the reference, and the interval in which the number of a device must lie.
+// A number of the reference renderer, and the interval that must contain the number of a device.
 struct Allowed {
   double value = 0;
   double lo = 0;
   double hi = 0;
 };
 
-// A sample that the reference takes: a point for the midpoint rule, or a whole step.
+// A sample that the reference renderer takes: a point for the midpoint rule, or a whole step.
 struct ExpectedSample {
   std::int64_t index = 0;
   std::array<Allowed, 3> place{};   // in voxels
   std::optional<Allowed> front;     // normalised value at the beginning of a step
   Allowed value;                    // at the sample, or at the end of the step
-  std::array<Allowed, 3> colour{};  // straight, after shading
+  std::array<Allowed, 3> colour{};  // not premultiplied, after shading
   std::optional<Allowed> alpha;     // opacity per voxel length; not for a step
   Allowed length;                   // in voxel lengths
-  Allowed opacity;                  // of that length
+  Allowed opacity;                  // opacity of that length
 };
 
 struct ExpectedRay {
@@ -36,11 +36,11 @@ struct ExpectedRay {
   std::array<double, 3> stride{};       // length of one step, in voxels
   std::vector<ExpectedSample> samples;  // samples of every index from 0 on; empty if the ray misses
   double ends_below = 0;                // a device may end the ray below this transmittance
-  // Samples may be merged: a merged one has no counterpart and is not compared.
+  // Whether samples may be merged. A merged sample has no counterpart and is not compared.
   bool merges = false;
 };
 
-// A sample of the device.
+// A sample that the device took.
 struct TakenSample {
   std::array<double, 3> place{};
   double front = 0;
@@ -49,38 +49,39 @@ struct TakenSample {
   double alpha = 0;
   double length = 0;
   double opacity = 0;
-  double transmittance = 0;          // after it
-  std::array<double, 3> gathered{};  // premultiplied colour after it
+  double transmittance = 0;          // transmittance after the sample
+  std::array<double, 3> gathered{};  // premultiplied colour after the sample
 };
 
-// The operations of one sample, in their order.
+// The operations of one sample, in the order in which they are computed.
 enum class Operation : std::uint8_t {
-  take,        // the sample is taken: once, in its order, and not beyond the end of the ray
-  place,       // where it is
+  take,        // the sample is taken once, in its order, and not beyond the ray's end
+  place,       // the position of the sample
   front,       // the value at the beginning of the step
   value,       // the interpolated value
   alpha,       // the opacity that the transfer function returns
-  colour,      // the colour that it returns, and shading
+  colour,      // the colour that the transfer function returns, after shading
   length,      // the length of the step that the sample covers
   opacity,     // the opacity of that length
-  compositing  // the light after it, from the light before it as the device recorded that
+  compositing  // the light after the sample, from the recorded light before it
 };
 [[nodiscard]] std::string_view name_of(Operation operation);
 
 struct SampleRow {
-  std::optional<ExpectedSample> expected;  // none beyond the end of the ray
-  std::optional<TakenSample> taken;        // none if the device skipped it, or ended the ray
+  std::optional<ExpectedSample> expected;  // nullopt beyond the end of the ray
+  std::optional<TakenSample> taken;        // nullopt if the device skipped it, or ended the ray
   std::int64_t index = 0;
   bool compared = true;              // false for merged samples
-  std::optional<Operation> differs;  // the first one whose result is outside of its bound
+  std::optional<Operation> differs;  // the first operation whose result is outside of its bound
 };
 
 struct RayHistory {
-  std::vector<SampleRow> rows;       // by index
+  std::vector<SampleRow> rows;       // sorted by index
   std::optional<std::size_t> first;  // the first row that differs
 };
 
-// Parts of one step that the device took one after the other must have been joined before.
+// Compares a ray. If the device took parts of one step separately, they must have been joined
+// before.
 [[nodiscard]] RayHistory compare(const ExpectedRay& expected,
                                  const std::vector<TakenSample>& taken);
 

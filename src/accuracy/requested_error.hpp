@@ -13,8 +13,8 @@ namespace triptych::accuracy {
 
 enum class Metric : std::uint8_t {
   rms,      // root mean square over all pixels and channels
-  covered,  // the same over the pixels in which the limit shows something
-  p99_9,    // 99.9th percentile over the pixels, each by its largest channel
+  covered,  // root mean square over the pixels in which the limit shows something
+  p99_9,    // 99.9th percentile over the pixels of their largest channel error
   max       // the largest difference
 };
 inline constexpr std::array all_metrics{Metric::rms, Metric::covered, Metric::p99_9, Metric::max};
@@ -27,10 +27,10 @@ struct RequestedError {
 };
 // Parses "E" or "E:METRIC". Throws InputError if E is not a positive number or METRIC is unknown.
 [[nodiscard]] RequestedError parse_requested_error(std::string_view text);
-// The text of the request, always with its metric.
+// The text of the request, which always includes the metric.
 [[nodiscard]] std::string text_of(const RequestedError& request);
 
-// The errors of an image against its limit.
+// The errors of an image, measured against its limit.
 struct PictureErrors {
   std::array<double, all_metrics.size()> by_metric{};
   std::size_t covered = 0;  // number of pixels in which the limit shows something
@@ -39,8 +39,9 @@ struct PictureErrors {
     return by_metric[static_cast<std::size_t>(metric)];
   }
 };
-// The images have a background of 0. The error over covered pixels includes what an image shows
-// outside of them, too. All errors are NaN for different sizes or values that are not finite.
+// Computes the errors. The images must have a background of 0. The error over covered pixels
+// includes everything that an image shows outside of them, too. All errors are NaN if the sizes
+// differ or if values are not finite.
 [[nodiscard]] PictureErrors errors_against(const core::Image& limit, const core::Image& picture);
 // The errors of an image in which nothing is drawn.
 [[nodiscard]] PictureErrors errors_of_nothing(const core::Image& limit);

@@ -1,6 +1,7 @@
 #pragma once
-// Compares one pixel of a device's particle image with the expectation of the reference: for each
-// sphere alone, and for the smallest set of spheres with which the pixel is wrong.
+// Compares one pixel of a device's particle image with the expected result of the reference
+// renderer: for each sphere alone, and for the smallest set of spheres with which the pixel is
+// wrong.
 
 #include <array>
 #include <cstddef>
@@ -15,12 +16,12 @@ namespace triptych::accuracy {
 // The result of a device in a pixel. The id is core::Image::no_particle if no particle is visible.
 struct ShownSurface {
   std::uint32_t id = 0;
-  double depth = 0;  // along the view axis
+  double depth = 0;  // distance along the view axis
   std::array<double, 4> colour{};
 };
 
-// The result of the reference, and the allowed difference of a device. If the pixel is not certain,
-// another id and depth are allowed, and the bound of the colour covers them.
+// The result of the reference renderer, and the allowed difference of a device. If the pixel is not
+// certain, a device may show another id and depth, and the bound of the colour covers these.
 struct ExpectedSurface {
   std::uint32_t id = 0;
   double depth = 0;
@@ -34,14 +35,14 @@ enum class SurfaceDifference : std::uint8_t {
   none,
   missing,     // the device shows no particle
   unexpected,  // the device shows a particle where there is none
-  particle,    // another one
-  depth,       // the right particle at another depth
-  colour       // the right one at the right depth in another colour
+  particle,    // the device shows another particle
+  depth,       // the device shows the correct particle at another depth
+  colour       // the device shows the correct particle and depth in another colour
 };
 [[nodiscard]] std::string_view name_of(SurfaceDifference difference);
 [[nodiscard]] SurfaceDifference compare(const ExpectedSurface& expected, const ShownSurface& shown);
 
-// One sphere that the pixel's ray may meet, drawn alone.
+// The result for one sphere that the pixel's ray may meet, drawn alone.
 struct SpriteRow {
   std::uint32_t id = 0;
   ExpectedSurface expected;
@@ -51,23 +52,24 @@ struct SpriteRow {
 
 struct SpriteHistory {
   std::vector<SpriteRow> rows;       // from front to back
-  std::size_t left_out = 0;          // spheres behind them, which were not drawn
+  std::size_t left_out = 0;          // number of spheres behind these, which were not drawn
   std::optional<std::size_t> first;  // the first row that differs
-  // If the pixel is wrong and no row is: the ids of the smallest set found with which it is wrong.
-  // No part of it can be left out, unless `stopped_early`.
+  // If the pixel is wrong but no row is wrong, these are the ids of the smallest set that was found
+  // with which the pixel is wrong. No part of the set can be left out, unless `stopped_early`.
   std::vector<std::uint32_t> fewest;
   SurfaceDifference fewest_differs = SurfaceDifference::none;
   bool stopped_early = false;
 };
 
-// A set of particles, by their indices.
+// A set of particles, given by their indices.
 using Particles = std::vector<std::uint32_t>;
 struct Fewest {
   Particles particles;
   bool stopped_early = false;
 };
-// Leaves out parts of `particles`, for which `wrong` holds, as long as it still holds; calls it at
-// most `most_calls` times. The algorithm is ddmin (Zeller and Hildebrandt 2002).
+// Reduces `particles`, for which `wrong` returns true, by leaving out parts as long as it still
+// returns true. Calls `wrong` at most `most_calls` times. The algorithm is ddmin (Zeller and
+// Hildebrandt 2002).
 [[nodiscard]] Fewest fewest_of(Particles particles,
                                const std::function<bool(const Particles&)>& wrong, int most_calls);
 

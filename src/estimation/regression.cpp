@@ -44,7 +44,7 @@ std::vector<double> residuals_of(Points x, Points y, const Line& line) {
   return result;
 }
 
-// Weighted sums over x: Σw, the centre, and Σw(x − centre)².
+// Weighted sums over x: Σw, the weighted mean of x, and Σw(x − mean)².
 struct Design {
   double weight = 0;
   double centre = 0;
@@ -81,14 +81,14 @@ double rho(double u) {
   return 1 - rest * rest * rest;
 }
 
-// The mean of ρ that defines the scale: it is 1/2 at the scale itself.
+// The mean of ρ, which defines the scale: it is 1/2 if `scale` is the scale of the residuals.
 double mean_rho(Points residuals, double scale) {
   double sum = 0;
   for (const double residual : residuals) sum += rho(residual / (Bisquare::c_breakdown * scale));
   return sum / static_cast<double>(residuals.size() - parameters);
 }
 
-// The scale below which points are regarded as lying on the line except for rounding.
+// Below this scale, the points are regarded as lying on the line except for rounding.
 double least_scale(Points y) {
   double largest = 0;
   for (const double value : y) largest = std::max(largest, std::abs(value));
@@ -145,8 +145,8 @@ Candidate refined(Points x, Points y, Line line, double least) {
   return best;
 }
 
-// Replaces the best line by one through two points if its scale is smaller. One sum decides that,
-// without computing the scale.
+// Keeps the best line, and replaces it by a line through two points if that has a smaller scale. A
+// single sum decides this without computing the scale.
 class SmallestScale {
  public:
   SmallestScale(Points x, Points y) : x_(x), y_(y), least_(least_scale(y)) {}
@@ -284,7 +284,7 @@ double robust_variance(Points residuals, double scale, std::size_t fitted) {
     const double rest = 1 - u * u;
     const double psi = residual / scale * rest * rest;
     squares += psi * psi;
-    slopes += rest * (1 - 5 * u * u);  // this is ψ′
+    slopes += rest * (1 - 5 * u * u);  // ψ′
   }
   const auto n = static_cast<double>(residuals.size());
   const double mean_slope = slopes / n;

@@ -21,7 +21,7 @@ struct LeastSquares {
   Line line;
   double slope_error = 0;  // standard error
 };
-// Regression of y on x. Every number is NaN if x is constant, and the error also for fewer than
+// Regression of y on x. All numbers are NaN if x is constant; the error is also NaN for fewer than
 // three pairs.
 [[nodiscard]] LeastSquares least_squares(std::span<const double> x, std::span<const double> y);
 
@@ -32,22 +32,25 @@ struct LeastSquares {
 // median of y − slope·x. It tolerates 29 % outliers.
 [[nodiscard]] Line theil_sen(std::span<const double> x, std::span<const double> y);
 
-// Tukey's bisquare: ρ(u) = 1 − (1 − u²)³, 1 beyond |u| = 1, for u = residual/(c·scale).
+// Tukey's bisquare function: ρ(u) = 1 − (1 − u²)³ for |u| ≤ 1, otherwise 1, with u =
+// residual/(c·scale).
 struct Bisquare {
-  // E ρ = 1/2 for normal residuals at this c, so half of the points may be outliers.
+  // With this c, the mean of ρ is 1/2 for normal residuals, so up to half of the points may be
+  // outliers.
   static constexpr double c_breakdown = 1.54764;
-  // 95 % of the efficiency of least squares for normal residuals.
+  // With this c, the estimate has 95 % of the efficiency of least squares for normal residuals.
   static constexpr double c_efficient = 4.685061;
 };
 
-// Yohai 1987: an S-estimate finds the line with the smallest robust scale, whatever half of the
-// points are. An M-estimate with that scale starts from there and regains the efficiency.
+// Yohai's MM-estimate (1987). An S-estimate finds the line with the smallest robust scale, whatever
+// half of the points are. An M-estimate with that scale starts from this line and regains the
+// efficiency.
 struct RobustLine {
   Line line;
   // ŝ, an estimate of the standard deviation of normal residuals. The sum of ρ is divided by n − 2,
   // as in least squares.
   double scale = 0;
-  double intercept_error = 0;  // standard errors, see robust_variance
+  double intercept_error = 0;  // standard error, see robust_variance
   double slope_error = 0;
   double slope_intercept_covariance = 0;
   std::vector<double> residuals;
@@ -57,15 +60,17 @@ struct RobustLine {
   std::vector<double> leverages;
 };
 
-// If more than half of the points lie exactly on one line, the scale and the errors are 0.
+// Fits a robust line. If more than half of the points are exactly on one line, the scale and the
+// errors are 0.
 [[nodiscard]] RobustLine robust_line(std::span<const double> x, std::span<const double> y);
 
-// The weight of a residual in an M-estimate at c_efficient: (1 − u²)², and 0 beyond.
+// The weight of a residual in an M-estimate at c_efficient: (1 − u²)² for |u| ≤ 1, otherwise 0.
 [[nodiscard]] double bisquare_weight(double residual, double scale);
 
 // κ = [Σψ²/(n − p)] / [Σψ′/n]² in units of scale². The asymptotic variance of an M-estimate is
-// κ·scale²·(XᵀWX/mean w)⁻¹ (Koller & Stahel 2011). The design contains the weights, so that a
-// distant outlier adds no certainty. κ is 1/0.95 for normal residuals and many points.
+// κ·scale²·(XᵀWX/mean w)⁻¹ (Koller & Stahel 2011). The design matrix contains the weights, so that
+// a distant outlier does not make the estimate look more certain. κ is 1/0.95 for normal residuals
+// and many points.
 [[nodiscard]] double robust_variance(std::span<const double> residuals, double scale,
                                      std::size_t parameters);
 

@@ -7,7 +7,7 @@
 
 namespace triptych::estimation {
 
-// These functions need at least one finite value (sample_variance: two) and return NaN otherwise.
+// These functions return NaN without a finite value (sample_variance: with fewer than two).
 [[nodiscard]] double mean(std::span<const double> values);
 [[nodiscard]] double median(std::span<const double> values);
 // The median of the absolute deviations from the median. Multiplied by 1.4826 it estimates a normal
@@ -20,25 +20,26 @@ inline constexpr double normal_mad = 1.482602218505602;  // 1/Φ⁻¹(3/4)
 // The t with P(T > t) = share, for share in (0, 1).
 [[nodiscard]] double student_t_upper_quantile(double share, double degrees);
 
-// Benjamini & Hochberg 1995: the hypotheses that are rejected if the expected share of false ones
-// among them must be at most q.
+// The procedure of Benjamini & Hochberg 1995: returns which hypotheses are rejected if the expected
+// share of false rejections among them must be at most q.
 [[nodiscard]] std::vector<bool> benjamini_hochberg(std::span<const double> p_values, double q);
 
 // For each p-value, the smallest q at which the same procedure rejects it.
 [[nodiscard]] std::vector<double> benjamini_hochberg_adjusted(std::span<const double> p_values);
 
-// Variances of many groups are improved by combining them: a scaled inverse chi-square prior with
-// d₀ degrees of freedom around s₀², fitted to the groups' variances by the moments of ln s² (Smyth
-// 2004, "Linear models and empirical Bayes methods", section 6.2).
+// Estimates of the variances of many groups are improved by combining them. The prior is a scaled
+// inverse chi-square distribution with d₀ degrees of freedom around s₀². It is fitted to the
+// groups' variances by the moments of ln s² (Smyth 2004, "Linear models and empirical Bayes
+// methods", section 6.2).
 struct VariancePrior {
   double degrees = 0;   // d₀; infinite if the variances differ no more than by chance
-  double variance = 0;  // this is s₀²
+  double variance = 0;  // s₀²
 };
-// `variances` > 0 with their `degrees` > 0. With a single group d₀ is 0, because there is nothing
-// to combine.
+// Fits the prior to `variances` > 0 with their `degrees` > 0. With a single group, d₀ is 0, because
+// there is nothing to combine.
 [[nodiscard]] VariancePrior fit_variance_prior(std::span<const double> variances,
                                                std::span<const double> degrees);
-// s̃² = (d₀s₀² + d·s²)/(d₀ + d)
+// The moderated variance s̃² = (d₀s₀² + d·s²)/(d₀ + d).
 [[nodiscard]] double moderated_variance(const VariancePrior& prior, double variance,
                                         double degrees);
 // The x > 0 with ψ'(x) = y, for y > 0.

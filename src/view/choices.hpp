@@ -1,5 +1,5 @@
 #pragma once
-// The configuration that the window shows, and what its controls offer.
+// The configuration that the window shows, and the values that its controls offer.
 
 #include <map>
 #include <string>
@@ -27,14 +27,14 @@ class Choices {
     return standard_.at(factor);
   }
 
-  // Sets a factor to the value in its one spelling. Returns why the value is refused, in which case
-  // nothing changes; empty if it is accepted.
+  // Sets a factor to a value, which is brought into its canonical spelling. Returns the reason if
+  // the value is rejected, and then nothing changes; empty if it is accepted.
   [[nodiscard]] std::string set(const std::string& factor, std::string_view value);
-  // Brings back the configuration with which the window was opened.
+  // Restores the configuration with which the window was opened.
   void reset() { now_ = first_; }
 
-  // Values to choose from, in addition to any text that is typed: the levels of a factor, or the
-  // values that the suite's plans have and the data that it generates.
+  // The values to choose from, in addition to any text that the user types: the levels of a factor,
+  // or the values in the suite's plans together with the data that it generates.
   [[nodiscard]] const std::vector<std::string>& offers(const std::string& factor) const {
     return offers_.at(factor);
   }

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::chrono::seconds opening_limit{60};
 
-// A still frame is measured like one whose times are only shown. A moving one needs one frame to
-// warm up and one time.
+// A frame with a still camera is measured like one whose times are only reported. A moving camera
+// needs one frame to warm up and one time.
 measure::Protocol protocol_of(const Wanted& wanted) {
   measure::Protocol protocol = measure::brief_protocol;
   protocol.measure_every = true;

@@ -1,6 +1,6 @@
 #pragma once
-// A device that draws whatever the window asks for, in a worker process of its own. The window
-// stays alive when a driver crashes or hangs: the worker is replaced for the next frame.
+// A device that draws whatever the window requests, in a worker process of its own. If a driver
+// crashes or hangs, the window survives, and the worker is replaced for the next frame.
 
 #include <atomic>
 #include <chrono>
@@ -24,27 +24,27 @@
 
 namespace triptych::view {
 
-// A frame that the window wants.
+// A frame that the window requests.
 struct Wanted {
-  std::uint64_t number = 0;  // a later frame has a larger number
+  std::uint64_t number = 0;  // later frames have larger numbers
   measure::Configuration configuration;
   std::string key;  // measure::configuration_key
   // While the mouse moves, only the image and one time are measured.
   bool moving = false;
 };
 
-// The answer to it.
+// The answer to a request.
 struct Drawn {
   Wanted wanted;
   record::Record record;
   core::Image image;         // empty unless the frame was measured
-  core::RgbPicture picture;  // the image as it is shown
+  core::RgbPicture picture;  // the image in the form in which it is displayed
 
   [[nodiscard]] bool has_image() const { return image.width > 0; }
 };
 
 struct LiveOptions {
-  std::string program;  // see ViewRequest
+  std::string program;  // path of the program, see ViewRequest
   std::string suite;
   std::vector<measure::InjectedFault> faults;
   std::chrono::seconds limit{};
@@ -55,24 +55,24 @@ class LiveDevice {
   struct State {
     std::shared_ptr<const Drawn> drawn;  // the last frame; nullptr before the first
     bool drawing = false;
-    std::optional<measure::Loading> loading;  // of a large data set
+    std::optional<measure::Loading> loading;  // set while a large data set is loading
   };
 
   // `changed` is called on another thread whenever the state has changed. The guard must outlive
   // this object. Throws IoError if there is no folder for the driver's cache.
   LiveDevice(const measure::ViewSide& side, LiveOptions options,
              measure::InterruptGuard& interrupts, std::function<void()> changed);
-  // Waits until retire() is done.
+  // Waits until the thread has finished retire().
   ~LiveDevice();
   LiveDevice(const LiveDevice&) = delete;
   LiveDevice& operator=(const LiveDevice&) = delete;
 
-  // Asks for a frame. It replaces one that was asked for and is not yet being drawn.
+  // Requests a frame. This replaces an earlier request that is not being drawn yet.
   void draw(Wanted wanted);
   [[nodiscard]] State state() const;
 
-  // Lets the worker exit normally. One that is drawing is killed if the guard has been interrupted,
-  // and otherwise finishes its frame. Does not wait for it.
+  // Lets the worker exit normally. If it is drawing, it finishes its frame, or it is killed if the
+  // guard has been interrupted. Does not wait for it.
   void retire();
   [[nodiscard]] bool is_gone() const { return gone_; }
 
@@ -99,7 +99,7 @@ class LiveDevice {
   bool stop_ = false;
   std::atomic<bool> gone_ = false;  // the worker has exited
   State state_;
-  std::thread thread_;  // the last member, because it uses all others
+  std::thread thread_;  // the last member, because its code uses all others
 };
 
 }  // namespace triptych::view

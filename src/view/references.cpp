@@ -22,7 +22,7 @@ struct Asked {
   std::map<std::string, double> precision;
 };
 
-// Two records with this text have the same reference image and bound.
+// Two records with equal keys have the same reference image and bound.
 std::string key_of(const record::Record& record) {
   return core::Json{record.factors, record.precision}.dump(-1, ' ', true,
                                                            core::Json::error_handler_t::replace);
@@ -40,7 +40,7 @@ struct References::Shared {
   std::map<std::string, std::shared_ptr<const Reference>> ready;  // by key_of
   bool stop = false;
 
-  // Used by the thread only: images by SuiteWithTruth::truth_key, the newest last.
+  // Only the thread uses this: images by SuiteWithTruth::truth_key, with the newest last.
   std::deque<std::pair<std::string, std::shared_ptr<const Reference>>> rendered = {};
 
   [[nodiscard]] std::shared_ptr<const Reference> reference(const Asked& wanted) {
@@ -101,7 +101,7 @@ std::shared_ptr<const Reference> References::find(const record::Record& record) 
 
 void References::serve(const std::shared_ptr<Shared>& shared) {
   constexpr int lower_priority = 10;
-  ::setpriority(PRIO_PROCESS, 0, lower_priority);  // on Linux, of this thread and those it starts
+  ::setpriority(PRIO_PROCESS, 0, lower_priority);  // on Linux: for this thread and its children
   for (;;) {
     std::unique_lock lock(shared->mutex);
     shared->wake.wait(lock, [&] { return shared->stop || !shared->asked.empty(); });
@@ -115,7 +115,7 @@ void References::serve(const std::shared_ptr<Shared>& shared) {
       reference = std::make_shared<const Reference>(Reference{.pair = {}, .error = error.what()});
     }
     lock.lock();
-    // If the window shows something else by now, nobody waits for it.
+    // If the window shows another configuration by now, nobody waits for this image.
     const auto done = std::ranges::find(shared->asked, wanted.key, &Asked::key);
     if (done == shared->asked.end()) continue;
     shared->asked.erase(done);

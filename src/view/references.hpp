@@ -15,23 +15,23 @@ namespace triptych::view {
 
 struct Reference {
   accuracy::TruthPair pair;
-  std::string error;  // why there is no pair; usually empty
+  std::string error;  // the reason if there is no pair, otherwise empty
 };
 
 class References {
  public:
-  // `suite` is used on the other thread only. `changed` is called there when an image is ready.
+  // Only the other thread uses `suite`. It calls `changed` when an image is ready.
   References(std::unique_ptr<measure::SuiteWithTruth> suite, std::function<void()> changed);
-  // Does not wait for an image that is being rendered, which cannot be cancelled. So the process
-  // must then end by std::_Exit.
+  // Does not wait for an image that is being rendered, which cannot be cancelled. Therefore the
+  // process must then end by std::_Exit.
   ~References();
   References(const References&) = delete;
   References& operator=(const References&) = delete;
 
-  // The reference image of the records that are shown now. Images that are missing are rendered one
-  // after the other; those for records that are no longer shown are not.
+  // Requests the reference images of the records that are visible now. Missing images are rendered
+  // one after the other. Images of records that are no longer visible are not rendered.
   void show(const std::vector<const record::Record*>& records);
-  // nullptr until it is rendered.
+  // Returns nullptr until the image is rendered.
   [[nodiscard]] std::shared_ptr<const Reference> find(const record::Record& record) const;
 
  private:

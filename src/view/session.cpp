@@ -15,7 +15,7 @@
 namespace triptych::view {
 namespace {
 
-// The camera rests when the mouse has not turned it for this time.
+// The camera counts as resting if the mouse has not turned it for this time.
 constexpr std::chrono::milliseconds rest{250};
 
 LiveOptions live_options(const measure::ViewRequest& request) {
@@ -25,7 +25,8 @@ LiveOptions live_options(const measure::ViewRequest& request) {
           .limit = std::chrono::seconds(request.limit_s)};
 }
 
-// "own" stands for a camera that only the worker knows.
+// The free view for a camera, or for the default camera `standard` if only the worker knows the
+// camera, as is the case for "own".
 scene::FreeView view_of(const std::string& camera, const std::string& standard) {
   try {
     return scene::free_view_near(camera);
@@ -60,8 +61,8 @@ Session::~Session() {
   for (Column& each : columns_) retire(each);
   const bool drawing =
       std::ranges::any_of(retired_, [](const auto& each) { return each->state().drawing; });
-  // All threads that wait for an answer see the signal (measure::InterruptGuard), which nothing
-  // else handles by now.
+  // All threads that wait for an answer react to the signal (measure::InterruptGuard). Nothing else
+  // handles it at this point.
   if (drawing) ::kill(::getpid(), SIGTERM);
 }
 
@@ -158,7 +159,7 @@ std::optional<Session::Clock::time_point> Session::next_update() const {
   return rests_at_;
 }
 
-// Empty if it can be compared.
+// Returns the reason why a column cannot be compared; empty if it can.
 std::string Session::why_not_compared(std::size_t index) const {
   const Column& column = columns_[index];
   if (!column.shown || !column.shown->has_image()) return "no image";

@@ -1,6 +1,6 @@
 #pragma once
-// The content of the window: columns with their devices, on one configuration and one camera. It
-// includes no window library.
+// The content of the window: columns for the devices, which share one configuration and one camera.
+// This part does not depend on a window library.
 
 #include <chrono>
 #include <cstdint>
@@ -23,9 +23,9 @@ struct Column {
   measure::ViewSide side;
   std::unique_ptr<LiveDevice> live;
   LiveDevice::State state = {};
-  std::shared_ptr<const Drawn> shown = {};          // the frame that is shown
-  std::shared_ptr<const Reference> reference = {};  // of that frame, if it is rendered
-  std::shared_ptr<const ShownError> error = {};     // nullptr: `why_no_error` says why
+  std::shared_ptr<const Drawn> shown = {};          // the frame that is displayed
+  std::shared_ptr<const Reference> reference = {};  // its reference image, if it is rendered
+  std::shared_ptr<const ShownError> error = {};     // `why_no_error` is the reason for nullptr
   std::string why_no_error = {};
 
   // The inputs from which `error` was computed.
@@ -39,8 +39,8 @@ struct Column {
   Inputs inputs = {};
 };
 
-// The two suites of the same kind that a session needs: one checks what is typed, the other renders
-// reference images on another thread.
+// A session needs two suites of the same kind: one checks the values that the user types, and the
+// other renders reference images on another thread.
 struct Suites {
   std::unique_ptr<measure::SuiteWithTruth> checks;
   std::unique_ptr<measure::SuiteWithTruth> renders;
@@ -50,11 +50,11 @@ class Session {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // `changed` is called on other threads when update() has something to do. Both references must
-  // outlive this object.
+  // `changed` is called on other threads when update() has work to do. Both references must outlive
+  // this object.
   Session(const measure::ViewRequest& request, Suites suites, measure::InterruptGuard& interrupts,
           std::function<void()> changed);
-  // Lets the workers exit. Those that are drawing are killed.
+  // Lets the workers exit. Workers that are drawing are killed.
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -66,25 +66,27 @@ class Session {
 
   void add_column(const measure::ViewSide& side);
   void remove_column(std::size_t column);
-  // Another device, or the same one with a new worker.
+  // Shows another device in the column, or restarts the worker of the same device.
   void set_side(std::size_t column, const measure::ViewSide& side);
-  // Every device of this machine, and every side that the command line named.
+  // All devices of this machine, and all sides that the command line named.
   [[nodiscard]] std::vector<measure::ViewSide> sides() const;
 
-  // The column with which the others are compared; nullopt: with the reference image.
+  // The column with which the others are compared; nullopt if this is the reference image.
   [[nodiscard]] std::optional<std::size_t> against() const noexcept { return against_; }
   void compare_with(std::optional<std::size_t> column) { against_ = column; }
 
-  // The mouse turns the camera by a share of the image's height, and the wheel approaches.
+  // turn() rotates the camera by a drag of the mouse, given in shares of the image's height.
+  // approach() moves it closer by notches of the wheel.
   void turn(double right, double down, Clock::time_point now);
   void approach(double notches, Clock::time_point now);
 
-  // Asks the devices for frames if the configuration has changed, and collects the frames and
-  // reference images that are finished. Returns whether anything that is shown has changed.
+  // Requests frames from the devices if the configuration has changed, and collects the frames and
+  // reference images that are finished. Returns whether anything visible has changed.
   bool update(Clock::time_point now);
-  // When update() has to be called even if nothing else happens: the camera will have come to rest.
+  // The time at which update() must be called even if nothing else happens, because the camera will
+  // then have come to rest.
   [[nodiscard]] std::optional<Clock::time_point> next_update() const;
-  // Whether all columns show what the controls say, each with its error if it has an image.
+  // Whether all columns show the configuration of the controls, and each image has its error.
   [[nodiscard]] bool settled() const;
 
   // The command for a column's frame, or for one pixel of it.
@@ -108,9 +110,9 @@ class Session {
   Choices choices_;
   References references_;
   std::vector<Column> columns_;
-  std::vector<std::unique_ptr<LiveDevice>> retired_;  // of columns that are no longer shown
+  std::vector<std::unique_ptr<LiveDevice>> retired_;  // of columns that are no longer visible
   std::optional<std::size_t> against_;
-  Wanted asked_;  // of all columns
+  Wanted asked_;  // the latest request, for all columns
   std::optional<Clock::time_point> rests_at_;
 };
 

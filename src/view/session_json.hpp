@@ -9,7 +9,8 @@
 
 namespace triptych::view {
 
-// `images`: for each column, where its image is in the window: x, y, width and height in pixels.
+// `images` contains for each column the position of its image in the window: x, y, width and height
+// in pixels.
 [[nodiscard]] nlohmann::json session_json(const Session& session,
                                           const std::vector<std::array<int, 4>>& images);
 

@@ -14,7 +14,8 @@
 namespace triptych::view {
 namespace {
 
-// Rounded up. The distance of two equal infinities, such as two depths without a surface, is zero.
+// The sum is rounded up. Two equal infinities, such as two depths without a surface, have the
+// distance 0.
 float sum_of_bounds(float a, float b, float truth_a, float truth_b) {
   const double apart = truth_a == truth_b
                            ? 0

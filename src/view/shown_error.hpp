@@ -1,6 +1,6 @@
 #pragma once
-// The difference of a frame from the reference image or from another device, as the window shows
-// it.
+// The difference of a frame from the reference image or from another device, in the form in which
+// the window shows it.
 
 #include <string>
 #include <vector>
@@ -12,28 +12,28 @@
 namespace triptych::view {
 
 struct ShownError {
-  core::RgbPicture picture;  // shares of the bound, in the colours of the page; may be empty
+  core::RgbPicture picture;  // errors as shares of the bound, in colour; may be empty
   struct Ring {
     int x;
     int y;
   };
   std::vector<Ring> rings = {};  // around pixels beyond the bound
   int ring_radius = 0;           // in pixels
-  bool right = false;            // no pixel is beyond the bound
+  bool right = false;            // true if no pixel is beyond the bound
   double share = 0;              // largest error as a share of its pixel's bound
   std::size_t beyond = 0;        // pixels beyond the bound
   std::string headline = {};     // a short line
-  std::string sentence = {};     // everything that there is to say
+  std::string sentence = {};     // the complete result in words
 };
 
-// `bound` is that of `expected`. `other` is the name of the device from which `expected` comes;
-// empty: it is the reference image.
+// `bound` is the bound of `expected`. `other` is the name of the device that drew `expected`; it is
+// empty if `expected` is the reference image.
 [[nodiscard]] ShownError shown_error(const core::Image& image, const core::Image& expected,
                                      const core::Image& bound, const std::string& other);
 
-// The largest difference that two right images may have. Each differs from its reference image by
-// its bound at most, so the images differ by at most the sum of both bounds and of the difference
-// of the two reference images. A particle must be the same in both where it is certain in both.
+// The largest difference that two correct images may have. Each differs from its reference image by
+// at most its bound, so the images differ by at most the sum of both bounds and of the difference
+// of the two reference images. If a particle is certain in both, it must be the same in both.
 // Throws InputError if the sizes differ.
 [[nodiscard]] core::Image bound_between(const accuracy::TruthPair& a, const accuracy::TruthPair& b);
 

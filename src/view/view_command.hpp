@@ -9,8 +9,8 @@
 
 namespace triptych::view {
 
-// `triptych render …` for a configuration by its key. With `pixel`, the command explains that pixel
-// instead of comparing the image with the reference.
+// Makes the command `triptych render …` for a configuration, given by its key. With `pixel`, the
+// command explains that pixel instead of comparing the image with the reference image.
 [[nodiscard]] std::string render_command(const measure::ViewRequest& request,
                                          const measure::ViewSide& side, const std::string& key,
                                          std::optional<std::pair<int, int>> pixel = std::nullopt);

@@ -1,5 +1,5 @@
 #pragma once
-// The controls at the left: one for each factor of the suite, made from the list of factors.
+// The controls on the left: one for each factor of the suite.
 
 #include <map>
 #include <string>
@@ -25,7 +25,7 @@ class Controls {
   float labels_ = 0;                          // width of the names
   std::map<std::string, std::string> typed_;  // what is being typed, by factor
   std::string refused_factor_;
-  std::string refusal_;  // why the last change was refused
+  std::string refusal_;  // the reason why the last change was rejected
 };
 
 }  // namespace triptych::view

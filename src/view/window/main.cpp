@@ -1,5 +1,5 @@
 // triptych-view: the window of `triptych view`, which starts this program with a request as its
-// only argument. It loads no driver except that of its own window: the devices are served by worker
+// only argument. This process loads only the driver of its own window; the devices run in worker
 // processes of `triptych`.
 
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// The window's content, and what the user has just copied.
+// The content of the window, and the text that the user has just copied.
 class Screen {
  public:
   Screen(Window& window, Session& session)
@@ -98,7 +98,7 @@ class Screen {
   std::string copied_;
 };
 
-// Draws while there is something new to show, and sleeps otherwise.
+// Draws when there is something new to show, and sleeps otherwise.
 class Loop {
  public:
   Loop(Window& window, Session& session, Screen& screen, measure::InterruptGuard& interrupts)
@@ -114,7 +114,7 @@ class Loop {
       window_.begin_frame();
       screen_.draw();
       --frames_due_;
-      // The last of the frames that are due shows everything in its final place.
+      // By the last of the frames that are due, everything has its final position.
       const auto picture = window_.end_frame(capture && frames_due_ == 0);
       if (!picture) continue;
       return core::write_file(core::encode_png(*picture), session_.request().screenshot);
@@ -126,8 +126,8 @@ class Loop {
   static constexpr int frames_after_input = 3;
 
   void sleep() {
-    constexpr auto blink = 400ms;    // of the cursor in a text
-    constexpr auto signals = 500ms;  // they arrive at a descriptor, for which GLFW cannot wait
+    constexpr auto blink = 400ms;    // blinking of the text cursor
+    constexpr auto signals = 500ms;  // GLFW cannot wait for the descriptor that signals arrive at
     if (frames_due_ > 0) return window_.wait(0ms);
     const auto before = Session::Clock::now();
     auto limit = ImGui::GetIO().WantTextInput ? blink : signals;
@@ -160,7 +160,7 @@ core::ExitCode show(const measure::ViewRequest& request, measure::InterruptGuard
     Loop(*window, session, screen, interrupts).run();
     if (request.json) std::fputs((core::json_text(screen.json(), 2) + "\n").c_str(), stdout);
   }
-  window.reset();  // disappears while drivers end
+  window.reset();  // closes the window while drivers are shutting down
   return core::ExitCode::pass;
 }
 
@@ -184,7 +184,7 @@ int main(int argc, char** argv) {
     std::fputs(("triptych: " + triptych::core::printable(error.what()) + "\n").c_str(), stderr);
   }
   if (std::fflush(stdout) != 0) code = triptych::core::ExitCode::usage;
-  // A reference image that is being rendered cannot be cancelled, and its thread must not meet
-  // destroyed objects.
+  // A reference image that is being rendered cannot be cancelled, and its thread must not use
+  // objects that have been destroyed.
   std::_Exit(static_cast<int>(code));
 }

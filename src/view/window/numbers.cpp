@@ -12,7 +12,7 @@
 namespace triptych::view {
 namespace {
 
-// "1,234,567".
+// Formats a number such as "1,234,567".
 std::string grouped(std::uint64_t value) {
   std::string digits = std::to_string(value);
   for (std::size_t from_end = 3; from_end < digits.size(); from_end += 4) {
@@ -51,7 +51,7 @@ void time_row(const record::Record& record) {
                   record.clock(), milliseconds(summary->minimum), milliseconds(summary->maximum)));
 }
 
-// The same counter of the first column, if that shows the same frame and is another column.
+// The same counter of the first column, if that is another column and shows the same frame.
 const std::uint64_t* counted_first(const Session& session, std::size_t index,
                                    const std::string& name) {
   const Column& first = session.columns().front();

@@ -1,5 +1,5 @@
 #pragma once
-// Times and counters of a column as a table.
+// Shows the times and counters of a column as a table.
 
 #include <cstddef>
 
@@ -7,8 +7,8 @@
 
 namespace triptych::view {
 
-// Draws them into the rest of the current ImGui window. Counters that differ from those of the
-// first column by more than devices may differ are marked.
+// Draws the table into the rest of the current ImGui window. It marks counters that differ from
+// those of the first column by more than devices may differ.
 void draw_numbers(const Session& session, std::size_t index);
 
 }  // namespace triptych::view

@@ -15,8 +15,8 @@
 namespace triptych::view {
 namespace {
 
-// The largest size in the area with the picture's proportions. Pixels are enlarged by whole numbers
-// only, so that each stays a square.
+// The largest rectangle in the area with the aspect ratio of the image. Pixels are enlarged only by
+// whole numbers, so that each of them remains a square.
 Panels::Place fitted(ImVec2 corner, ImVec2 area, int width, int height) {
   const auto w = static_cast<float>(std::max(1, width));
   const auto h = static_cast<float>(std::max(1, height));
@@ -33,7 +33,7 @@ void frame(const Panels::Place& place) {
                                       {place.to.x + 1, place.to.y + 1}, colours::frame);
 }
 
-// Text in the middle of a rectangle.
+// Draws text in the middle of a rectangle.
 void say(const Panels::Place& place, const ImVec4& colour, const std::string& text) {
   const float margin = ImGui::GetFontSize();
   const float width = place.to.x - place.from.x - 2 * margin;
@@ -51,7 +51,7 @@ std::string name_of(const measure::ViewSide& side) {
   return name;
 }
 
-// Which pixel of the image lies under the mouse.
+// The pixel of the image under the mouse.
 std::optional<std::pair<int, int>> pixel_under_mouse(const Panels::Place& place,
                                                      const core::Image& image) {
   const ImVec2 mouse = ImGui::GetMousePos();

@@ -1,5 +1,6 @@
 #pragma once
-// The columns: for each device its image, its error, its times and its counters.
+// The columns of the window. Each shows the image, the error, the times and the counters of a
+// device.
 
 #include <imgui.h>
 
@@ -15,17 +16,17 @@ namespace triptych::view {
 
 class Panels {
  public:
-  // `copy` is called with a command for the clipboard.
+  // `copy` is called with a command that is to be put on the clipboard.
   explicit Panels(std::function<void(const std::string&)> copy) : copy_(std::move(copy)) {}
 
-  // Draws all columns into the current ImGui window. With `reference`, the reference image is shown
-  // in the place of each image.
+  // Draws all columns into the current ImGui window. With `reference`, the reference image replaces
+  // each image.
   void draw(Session& session, bool reference);
 
   // Draws the meaning of the colours in the lower pictures.
   void draw_legend(float width);
 
-  // Where a column's image was drawn, in pixels of the window.
+  // The rectangle in which a column's image was drawn, in pixels of the window.
   struct Place {
     ImVec2 from;
     ImVec2 to;
@@ -33,7 +34,7 @@ class Panels {
   [[nodiscard]] const std::vector<Place>& images() const noexcept { return images_; }
 
  private:
-  // The pictures of a column that are on the graphics card, and what they were made from.
+  // The textures of a column, and the data from which they were made.
   struct Uploaded {
     const void* frame = nullptr;
     const void* reference = nullptr;

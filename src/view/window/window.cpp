@@ -17,7 +17,7 @@
 namespace triptych::view {
 namespace {
 
-// GLFW reports reasons only to a callback.
+// GLFW reports reasons for errors only to a callback.
 std::string& last_reason() {
   static std::string reason;
   return reason;
@@ -35,16 +35,16 @@ void keep_reason(int /*code*/, const char* text) {
       what, reason.empty() ? "" : ": ", reason));
 }
 
-// Threads may still call wake() when the window is gone.
+// Threads may still call wake() after the window has been closed.
 std::atomic<bool> is_open = false;
 
-// The font of most Debian desktops; ImGui's own, which has only one size, is used without it.
+// The font of most Debian desktops. Without it, ImGui's own font is used, which has only one size.
 constexpr const char* font_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
 void set_style(float scale) {
   constexpr float font_size = 14;
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // nothing is stored
+  io.IniFilename = nullptr;  // settings are not stored
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   static const ImWchar ranges[] = {0x20, 0xff, 0x2010, 0x2026, 0x2190, 0x2193, 0x2260, 0x2264, 0};
   if (!std::filesystem::exists(font_file) ||
@@ -134,7 +134,7 @@ std::optional<core::RgbPicture> Window::end_frame(bool capture) const {
     picture->rgb.resize(row * static_cast<std::size_t>(height));
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, picture->rgb.data());
-    // OpenGL's first row is the lowest.
+    // OpenGL's first row is the bottom row.
     for (std::size_t top = 0, low = static_cast<std::size_t>(height) - 1; top < low; ++top, --low) {
       std::swap_ranges(picture->rgb.data() + top * row, picture->rgb.data() + (top + 1) * row,
                        picture->rgb.data() + low * row);

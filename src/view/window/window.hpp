@@ -1,5 +1,5 @@
 #pragma once
-// The window itself: GLFW and Dear ImGui with OpenGL, and pictures on the graphics card.
+// The window itself, made with GLFW and Dear ImGui on OpenGL, and textures for it.
 
 #include <imgui.h>
 
@@ -22,22 +22,23 @@ class Window {
   Window& operator=(const Window&) = delete;
 
   [[nodiscard]] bool is_closed() const;
-  // Sleeps until there is input, wake() is called or this time is over.
+  // Sleeps until there is input, wake() is called, or the time limit has passed.
   void wait(std::chrono::milliseconds limit) const;
   void begin_frame() const;
-  // Finishes the frame and shows it. With `capture`, returns what it looks like.
+  // Finishes the frame and displays it. With `capture`, returns the displayed picture.
   std::optional<core::RgbPicture> end_frame(bool capture) const;
   [[nodiscard]] bool is_reference_key_pressed() const;
   [[nodiscard]] ImVec2 size() const;
   void copy_to_clipboard(const std::string& text) const;
-  // Makes wait() return. May be called on any thread.
+  // Makes wait() return. Any thread may call this.
   static void wake();
 
  private:
   GLFWwindow* window_ = nullptr;
 };
 
-// A picture that the window can draw. It needs a window, and must be destroyed before it.
+// A picture that the window can draw. It needs an open window, and must be destroyed before the
+// window.
 class Texture {
  public:
   Texture() = default;
@@ -51,7 +52,8 @@ class Texture {
   [[nodiscard]] bool is_empty() const noexcept { return width_ == 0; }
   [[nodiscard]] int width() const noexcept { return width_; }
   [[nodiscard]] int height() const noexcept { return height_; }
-  // Draws the picture into a rectangle of the current ImGui window. Enlarged pixels stay sharp.
+  // Draws the picture into a rectangle of the current ImGui window. Enlarged pixels keep sharp
+  // edges.
   void draw(ImVec2 from, ImVec2 to) const;
 
  private:
