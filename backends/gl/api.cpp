@@ -37,7 +37,7 @@ std::string code_name(GLenum code) {
 Api::Api(GLADloadfunc load) : GladGLContext{} {
   const int version = gladLoadGLContext(this, load);
   if (version < GLAD_MAKE_VERSION(3, 3)) {
-    throw core::NotSupported(fmt::format("OpenGL {}.{} found, 3.3 needed",
+    throw core::NotSupported(fmt::format("OpenGL 3.3 is needed, but the context has {}.{}",
                                          GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version)));
   }
 }

@@ -33,7 +33,8 @@ std::optional<std::string> too_few_blocks(const Api& gl, GLenum type, std::int64
   for (const StageBlocks& each : stage_blocks) {
     if (each.type != type) continue;
     const std::int64_t most = gl.limit(each.limit);
-    if (most < needed) return fmt::format("{} storage blocks, {} is {}", needed, each.name, most);
+    if (most < needed)
+      return fmt::format("needs {} storage blocks, but {} is {}", needed, each.name, most);
   }
   return std::nullopt;
 }

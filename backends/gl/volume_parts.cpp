@@ -34,7 +34,7 @@ technique::Room room_of(const Api& gl, const measure::VolumeWork& work) {
   int depth = std::min(grid.size[2], edge);
   while (depth > 0 && !holds(gl, {grid.size[0], grid.size[1], depth}, grid.format)) {
     depth /= 2;
-    limit = "what GL_PROXY_TEXTURE_3D takes";
+    limit = "the limit from GL_PROXY_TEXTURE_3D";
   }
   return {technique::layers_of(work.scene, work.options).bytes * static_cast<std::uint64_t>(depth),
           limit};

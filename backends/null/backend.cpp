@@ -33,9 +33,9 @@ class NullBackend final : public measure::Backend {
         script_ ? devices_of(*script_) : std::vector<record::Device>{};
     const auto found = std::ranges::find(devices, device_id, &record::Device::id);
     if (found == devices.end()) {
-      throw core::NotSupported(fmt::format(
-          "the null backend has no device '{}'{}", device_id,
-          script_ ? "" : "; its devices are there only when TRIPTYCH_NULL_SCRIPT is set"));
+      throw core::NotSupported(
+          fmt::format("the null backend has no device '{}'{}", device_id,
+                      script_ ? "" : "; it has devices only if TRIPTYCH_NULL_SCRIPT is set"));
     }
     log_call(*script_, fmt::format("open {}", device_id));
     play_failure(*script_, Place::open, found->id);

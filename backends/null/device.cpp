@@ -164,8 +164,8 @@ class NullDevice final : public measure::Device {
     const int side = std::visit(
         [](const auto& each) { return std::max(each.scene.width, each.scene.height); }, work.scene);
     if (side > largest_image) {
-      return fmt::format("the image is {} pixels wide or high, at most {} here", side,
-                         largest_image);
+      return fmt::format("the image is {} pixels wide or high, but at most {} are supported here",
+                         side, largest_image);
     }
     return std::nullopt;
   }

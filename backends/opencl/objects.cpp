@@ -154,7 +154,7 @@ void check_executed(const cl::Event& event, const std::string& call, const std::
   }
   if (status == CL_COMPLETE) return;
   if (status < 0) {
-    const std::string ended = "the command was enqueued, then ended abnormally";
+    const std::string ended = "the command was enqueued, but ended abnormally";
     throw_api_error(cl::Error(status, call.c_str()), place,
                     detail.empty() ? ended : fmt::format("{}: {}", detail, ended));
   }

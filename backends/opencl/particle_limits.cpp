@@ -32,7 +32,7 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
   // The longest side: pixel rectangles have 16 bits for a coordinate.
   constexpr int most_pixels = 32768;
   if (work.scene.width > most_pixels || work.scene.height > most_pixels) {
-    return fmt::format("the image has {}x{} pixels, and this rasterizer supports at most {}x{}",
+    return fmt::format("the image has {}x{} pixels, but this rasterizer supports at most {}x{}",
                        work.scene.width, work.scene.height, most_pixels, most_pixels);
   }
   const auto items =
@@ -52,7 +52,7 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
   const std::uint64_t largest = std::max(16 * std::max(count, pixels), table);
   if (largest > most) {
     return fmt::format(
-        "{} particles and {} pixels take {} bytes in one buffer, but CL_DEVICE_MAX_MEM_ALLOC_SIZE "
+        "{} particles and {} pixels need {} bytes in one buffer, but CL_DEVICE_MAX_MEM_ALLOC_SIZE "
         "is {}",
         count, pixels, largest, most);
   }

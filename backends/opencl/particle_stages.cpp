@@ -96,7 +96,7 @@ Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride)
   const auto most = session_.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
   if (bytes > most) {
     throw core::NotSupported(
-        fmt::format("{} bin entries take {} bytes, but CL_DEVICE_MAX_MEM_ALLOC_SIZE is {}", entries,
+        fmt::format("{} bin entries need {} bytes, but CL_DEVICE_MAX_MEM_ALLOC_SIZE is {}", entries,
                     bytes, most));
   }
   pass.entries = make_buffer(entries);

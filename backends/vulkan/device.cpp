@@ -137,8 +137,8 @@ std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
 measure::Compiled Device::compile(const measure::Work& work) {
   if (!gpu_.reports_code) {
     throw core::NotSupported(
-        "this driver has no VK_KHR_pipeline_executable_properties: it reports nothing of the code "
-        "that it generates");
+        "this driver lacks VK_KHR_pipeline_executable_properties, so it reports nothing about the "
+        "code that it generates");
   }
   gpu_.pipelines->start_capture();
   try {

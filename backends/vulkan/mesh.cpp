@@ -46,7 +46,7 @@ void check_mesh_limits(const Gpu& gpu, std::size_t cells) {
   if (has.mesh_vertices < mesh_vertices || has.mesh_primitives < mesh_primitives ||
       has.mesh_invocations < mesh_invocations) {
     throw core::NotSupported(
-        fmt::format("a mesh group makes {} vertices and {} primitives with {} invocations; the "
+        fmt::format("a mesh group makes {} vertices and {} primitives with {} invocations, but the "
                     "device supports {}, {} and {}",
                     mesh_vertices, mesh_primitives, mesh_invocations, has.mesh_vertices,
                     has.mesh_primitives, has.mesh_invocations));

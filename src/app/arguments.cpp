@@ -44,7 +44,7 @@ core::InputError nothing_selected(const PlanChoice& choice) {
 
 void add_baselines_option(CLI::App& command, std::string& folder, const std::string& help) {
   command.add_option("--baselines", folder, help)->check([](const std::string& name) {
-    return name.empty() ? "a folder needs a name" : std::string();
+    return name.empty() ? "the name of the folder is empty" : std::string();
   });
 }
 

@@ -76,7 +76,7 @@ measure::Plan plan_of(const measure::Suite& suite, const CodeArguments& argument
   measure::Plan plan =
       measure::default_plan(suite, PlanChoice{.set = arguments.frame.set}.overrides());
   if (!plan.varied.empty()) {
-    throw core::InputError("one configuration is compiled: give each factor one value");
+    throw core::InputError("code compiles a single configuration: give each factor one value");
   }
   plan.checks = {record::Check::code};
   return plan;

@@ -135,7 +135,7 @@ core::ExitCode diff(const DiffArguments& arguments) {
   measure::Truths truths(registry.find_suite(), b);
   const comparison::StoreDiff found = comparison::diff_stores(a, b, arguments.devices, truths);
   if (found.devices.empty() && found.only_one.empty()) {
-    throw core::NotSupported(fmt::format("{} and {} have no run{}", arguments.a, arguments.b,
+    throw core::NotSupported(fmt::format("neither {} nor {} has a run{}", arguments.a, arguments.b,
                                          arguments.devices.empty() ? "" : " of such a device"));
   }
   if (arguments.json) {
@@ -187,7 +187,7 @@ void add_compare_commands(Commands& commands) {
       .add_option("--budget", comparing.budget_s,
                   "Seconds after which no further times are measured (default: no limit)")
       ->check(CLI::Range(1, 1000000));
-  add_limit_option(command, comparing.limit_s, "one answer");
+  add_limit_option(command, comparing.limit_s, "a worker that does not answer");
   command.add_option("--store", comparing.store,
                      "SQLite file that keeps both runs (default: nothing is kept)");
   command.add_option("--seed", comparing.seed, "Seed of the random order of the measurements")

@@ -54,7 +54,8 @@ class Errors {
         add("limit", limit->image, image, errors);
       }
     } catch (const core::Error& error) {
-      say("triptych: {}: no errors: {}\n", record::short_name(record), error.what());
+      say("triptych: {}: its errors cannot be computed: {}\n", record::short_name(record),
+          error.what());
     }
     return errors;
   }

@@ -49,7 +49,7 @@ void add_features_command(Commands& commands) {
   add_example(command, "triptych features --device 'vulkan:*'");
 
   auto [probing, device] =
-      commands.add("probe-features", "Probe features in a process of its own", answer);
+      commands.add("probe-features", "Probe features in a separate process", answer);
   probing.add_option("DEVICE", device)->required();
   probing.group("");
 }

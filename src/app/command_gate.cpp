@@ -104,7 +104,7 @@ std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry&
   if (plans.empty() && arguments.choice.selects()) throw nothing_selected(arguments.choice);
   if (plans.empty()) {
     throw core::InputError(
-        "--check and --without leave out every check of the plans: choose other checks");
+        "--check and --without exclude every check of the plans: choose other checks");
   }
   return plans;
 }
@@ -291,8 +291,8 @@ core::ExitCode accept(const AcceptArguments& arguments) {
   }
   baselines.keep();
   if (!baselines.copied_from().empty()) {
-    put("{} is new: everything else in it is a copy of {}\n", baselines.name().string(),
-        baselines.copied_from().string());
+    put("{} was created: all values that were not accepted now are copies of {}\n",
+        baselines.name().string(), baselines.copied_from().string());
   }
   return core::ExitCode::pass;
 }

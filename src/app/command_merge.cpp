@@ -72,7 +72,7 @@ std::vector<std::string> gaps_in(const record::Store& store,
         gap.missing.empty() ? "" : "; missing: ", gap.missing.empty() ? "" : gap.missing.front()));
     if (gap.missing.size() > 1) told.back() += ", …";
   }
-  if (told.empty() && store.runs().empty()) told.emplace_back("holds no run");
+  if (told.empty() && store.runs().empty()) told.emplace_back("contains no run");
   return told;
 }
 

@@ -44,10 +44,11 @@ constexpr std::size_t most_columns = 4;
 std::string window_program() {
   const fs::path program = fs::path(measure::own_program()).parent_path() / "triptych-view";
   if (::access(program.c_str(), X_OK) == 0) return program.string();
-  throw core::InputError(fmt::format(
-      "view: the window's program {} is not installed. With the packages libglfw3-dev and "
-      "libimgui-dev (ci/setup --view), CMake builds it; the Debian package triptych-view has it",
-      program.string()));
+  throw core::InputError(
+      fmt::format("view: the window's program {} is not installed. CMake builds it if the packages "
+                  "libglfw3-dev and libimgui-dev are installed (ci/setup --view); the Debian "
+                  "package triptych-view contains it",
+                  program.string()));
 }
 
 // "GLOB" or "DEVICE,NAME=VALUE,…".
@@ -83,8 +84,9 @@ std::vector<measure::ViewSide> sides_of(const ViewArguments& arguments,
   std::vector<measure::ViewSide> sides;
   for (const std::string& each : arguments.devices) add_sides(listing, each, sides);
   if (sides.size() > most_columns) {
-    throw core::InputError(fmt::format("--device matches {} devices; the window shows {} at most",
-                                       sides.size(), most_columns));
+    throw core::InputError(
+        fmt::format("--device matches {} devices, but the window shows at most {}", sides.size(),
+                    most_columns));
   }
   return sides;
 }

@@ -27,7 +27,7 @@ std::string absent_data(std::span<const judge::GateResult* const> results) {
   }
   if (files.empty()) return {};
   return fmt::format(
-      "data: {} of the plans' files missing ({}{}): {} results skipped; see docs/data.md, or use "
+      "data: missing files: {} ({}{}), so {} results were skipped; see docs/data.md, or use "
       "--without-data if that is intended",
       files.size(), *files.begin(), files.size() > 1 ? ", …" : "", missing.size());
 }

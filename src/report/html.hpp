@@ -33,7 +33,7 @@ auto as_markup(const Arg& arg) {
   } else if constexpr (std::convertible_to<const Arg&, std::string_view>) {
     return escape(arg);
   } else {
-    static_assert(std::is_arithmetic_v<Arg>, "join markup by +=, and text before it is an argument");
+    static_assert(std::is_arithmetic_v<Arg>, "join markup with +=, and pass text as an argument");
     return arg;
   }
 }

@@ -158,7 +158,7 @@ void ParticleSuite::load(const Configuration& configuration) {
 const StressScene& ParticleSuite::own(std::string_view factor) const {
   if (loaded_.own) return *loaded_.own;
   throw core::InputError(
-      fmt::format("{}: the level own is only for data stress:CASE, and {} is other data", factor,
+      fmt::format("{}: the level own is only for data stress:CASE, but the data are {}", factor,
                   loaded_.particles->name));
 }
 

@@ -141,8 +141,8 @@ class Verdict(PageTest):
     def test_what_drew_nothing_has_a_tile_that_says_so(self):
         page = self.opened("fail")
         tiles = page.value("[...document.querySelectorAll('.tile')].map(each => [each.textContent, each.ariaLabel])")
-        self.assertIn(["crashed", "gl:llvmpipe-egl: crashed, no picture"], tiles)
-        self.assertIn(["hung", "opencl:pocl: hung, no picture"], tiles)
+        self.assertIn(["crashed", "gl:llvmpipe-egl: crashed, no image"], tiles)
+        self.assertIn(["hung", "opencl:pocl: hung, no image"], tiles)
 
     def test_passes_are_folded_away(self):
         page = self.opened("fail")

@@ -66,7 +66,7 @@ TEST_F(Arguments, BaselinesWithoutAName) {
   for (const std::string command : {"accept p --reason new", "gate p", "report"}) {
     const Result result = program.run(command + " --store s.sqlite --baselines ''");
     EXPECT_EQ(result.code, 3) << result.output;
-    EXPECT_THAT(result.output, HasSubstr("a folder needs a name"));
+    EXPECT_THAT(result.output, HasSubstr("the name of the folder is empty"));
   }
   EXPECT_FALSE(std::filesystem::exists(program.folder() / "p"));
 }

@@ -65,8 +65,9 @@ TEST_F(Compare, TooMuchNoiseCannotBeToldAndSaysWhatWouldSettleIt) {
   const Result result = compare(b_as(1, much), "", much);
   expect_verdict(result, 2, "undecided");
   EXPECT_NE(result.output.find("384 blocks"), std::string::npos) << result.output;
-  EXPECT_NE(result.output.find("to decide it: triptych compare volume/quick --a null:scripted"),
-            std::string::npos)
+  EXPECT_NE(
+      result.output.find("to reach a verdict: triptych compare volume/quick --a null:scripted"),
+      std::string::npos)
       << result.output;
 }
 

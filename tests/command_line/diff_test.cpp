@@ -90,7 +90,8 @@ TEST_F(Diff, DevicesThatAreNotAskedForAreLeftOut) {
   measure("new.sqlite");
   const Result result = diff("--device 'gl:*'");
   EXPECT_EQ(result.code, 2) << result.output;
-  EXPECT_EQ(result.output, "triptych: old.sqlite and new.sqlite have no run of such a device\n");
+  EXPECT_EQ(result.output,
+            "triptych: neither old.sqlite nor new.sqlite has a run of such a device\n");
 }
 
 TEST_F(Diff, AStoreThatIsNotThereIsNamed) {

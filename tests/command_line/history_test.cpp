@@ -117,7 +117,7 @@ TEST_F(History, GoesByTimeWhateverTheOrder) {
   const Result told = program.run("history a.sqlite b.sqlite");
   ASSERT_EQ(told.code, 0) << told.output;
   EXPECT_LT(told.output.find("b.sqlite"), told.output.find("a.sqlite")) << told.output;
-  EXPECT_THAT(told.output, Not(HasSubstr("first worse")));
+  EXPECT_THAT(told.output, Not(HasSubstr("first store that is worse")));
 }
 
 TEST_F(History, NamesWhatWasInjected) {
@@ -135,7 +135,7 @@ TEST_F(History, WritesAPage) {
   ASSERT_EQ(program.run("history 1.sqlite 2.sqlite --out history.html").code, 0);
   const std::string page = program.read("history.html");
   EXPECT_THAT(page, HasSubstr("<svg"));
-  EXPECT_THAT(page, HasSubstr("First worse"));
+  EXPECT_THAT(page, HasSubstr("First store that is worse"));
   EXPECT_THAT(page, Not(HasSubstr("<script")));
   const Result json = program.run("history 1.sqlite 2.sqlite --json --out history.html");
   EXPECT_TRUE(core::Json::accept(json.output)) << json.output;

@@ -104,8 +104,10 @@ TEST_F(Installed, AcceptsIntoTheWorkingDirectoryAndNowhereElse) {
   const Result accepted = run("cd repository && " + device + "triptych run" + scene +
                               " && triptych accept --store s.sqlite --drop --reason new");
   EXPECT_EQ(accepted.code, 0) << accepted.output;
-  EXPECT_THAT(accepted.output, HasSubstr("baselines is new: everything else in it is a copy of " +
-                                         installed.string()));
+  EXPECT_THAT(
+      accepted.output,
+      HasSubstr("baselines was created: all values that were not accepted now are copies of " +
+                installed.string()));
   EXPECT_TRUE(tree(installed) == before);
   auto own = tree(folder.path() / "repository/baselines");
   EXPECT_EQ(own.at("volume/cost/manifest.json"), before.at("volume/cost/manifest.json"));

@@ -117,8 +117,8 @@ INSTANTIATE_TEST_SUITE_P(Faults, PasteInjected,
                                          Injected{"hang", "hung: no answer within 2 s", 3,
                                                   "no answer within 2 s", "--limit 2"},
                                          Injected{"device_lost", "lost: ", 3, "device_lost"},
-                                         Injected{"lost_counter", " is missing, stored ", 1,
-                                                  " is missing, stored ", "gate volume/quick"}),
+                                         Injected{"lost_counter", " is missing; ", 1,
+                                                  " is missing; ", "gate volume/quick"}),
                          [](const auto& each) { return std::string(each.param.fault); });
 
 // These tests use a real device, because the scripted one computes nothing.

@@ -85,7 +85,7 @@ TEST_F(Validate, RepeatingListsEachCaseWithItsVerdicts) {
       R"({"failures": [{"kind": "crash", "at": "frame", "only": "*", "once": "crashed"}]})";
   const Result result = program.run(std::string(part) + "--repeat 3", script);
   EXPECT_EQ(result.code, 1);
-  EXPECT_THAT(result.output, HasSubstr("3 repetitions of "));
+  EXPECT_THAT(result.output, HasSubstr(" cases in 3 repetitions: "));
   std::istringstream lines(program.read("validation/repeats.jsonl"));
   std::size_t cases = 0;
   for (std::string line; std::getline(lines, line); ++cases) {

@@ -23,8 +23,8 @@ struct DeviceFaultCase {
 
 const std::vector<DeviceFaultCase>& device_faults() {
   static const std::vector<DeviceFaultCase> all{
-      {"zero_clock", "the device's clock reads 0"},
-      {"untouched_clock", "never writes the time stamps"},
+      {"zero_clock", "the device's clock always reads 0"},
+      {"untouched_clock", "never writes the requested time stamps"},
       {"zero_statistics", "all pipeline statistics are 0"},
       {"crashing_statistics", "the driver crashes when pipeline statistics are read"},
       {"unready_statistics", "pipeline statistics do not become available"},

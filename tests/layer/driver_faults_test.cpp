@@ -109,8 +109,8 @@ TEST_F(DriverFaults, AreToldFromOurOwn) {
   ASSERT_EQ(accepted.code, 0) << accepted.output;
   EXPECT_EQ(layered.draw("", particles, devices + " --inject small_sprite").code, 0);
   const std::string ours = unwrapped(layered.judge(particles).output);
-  EXPECT_THAT(ours, HasSubstr("the driver is not at fault: opencl:pocl is"));
-  EXPECT_THAT(ours, HasSubstr("the driver is not at fault: vulkan:lavapipe is"));
+  EXPECT_THAT(ours, HasSubstr("the driver is not at fault, because opencl:pocl is"));
+  EXPECT_THAT(ours, HasSubstr("the driver is not at fault, because vulkan:lavapipe is"));
   EXPECT_THAT(ours, testing::Not(HasSubstr("the driver is at fault")));
 }
 

@@ -63,13 +63,13 @@ Columns<RecordSource> what_it_was() {
       {{"device", "text", "", "the device's id, see devices"}, of(&Record::device)},
       {{"outcome", "text", "", "measured, skipped, failed, crashed, hung or lost"},
        [](const RecordSource& s) { return std::string(name_of(s.record.outcome)); }},
-      {{"cause", "text", "", "why it was not measured, see docs/store.md"},
+      {{"cause", "text", "", "the reason why it was not measured, see docs/store.md"},
        [](const RecordSource& s) { return std::string(name_of(s.record.reason.cause)); }},
       {{"reason", "text", "", "the cause as a sentence"},
        [](const RecordSource& s) {
          return s.record.reason == record::Reason{} ? "" : words::text_of(s.record.reason);
        }},
-      {{"same_as", "text", "", "the equivalent configuration whose frames these are"},
+      {{"same_as", "text", "", "the equivalent configuration whose frames this record reuses"},
        of(&Record::same_as)},
       {{"injected", "text", "", "the injected fault"}, of(&Record::injected)},
       {{"image", "text", "", "hash of the image in the store"}, of(&Record::image)},
@@ -97,9 +97,10 @@ Columns<RecordSource> what_it_took() {
        [](const RecordSource& s) { return median(s.record.time_ns()); }},
       {{"median_wall_ns", "number", "ns", "median time of a frame on the wall clock"},
        [](const RecordSource& s) { return median(s.record.wall_ns); }},
-      {{"median_device_ns", "number", "ns", "median time of a frame on the device's clock"},
+      {{"median_device_ns", "number", "ns", "the median time of a frame on the device's clock"},
        [](const RecordSource& s) { return median(s.record.device_ns); }},
-      {{"device_clock_trusted", "integer", "", "1: calibrated against the wall clock, 0: not"},
+      {{"device_clock_trusted", "integer", "",
+        "1 if the device's clock passed its calibration against the wall clock, otherwise 0"},
        [](const RecordSource& s) {
          return when_timed(s, std::uint64_t{s.record.device_clock_trusted});
        }},
@@ -114,7 +115,8 @@ Columns<RecordSource> what_it_took() {
        [](const RecordSource& s) { return positive(s.record.loop_frames); }},
       {{"prepare_ns", "number", "ns", "time of preparing data and pipelines and of the upload"},
        [](const RecordSource& s) { return positive(s.record.prepare_ns); }},
-      {{"overhead_ns", "number", "ns", "time of the configuration outside device work and warm-up"},
+      {{"overhead_ns", "number", "ns",
+        "time of the configuration that is neither device work nor warm-up"},
        [](const RecordSource& s) { return positive(s.record.overhead_ns); }},
       {{"peak_memory_bytes", "integer", "bytes", "peak memory of the worker process so far"},
        [](const RecordSource& s) { return positive(s.record.peak_memory_bytes); }},
@@ -189,7 +191,8 @@ Columns<DeviceSource> device_columns() {
        [](const DeviceSource& s) { return as_json(s.device.environment); }},
       {{"limits", "text", "", "JSON: limits in the API's own names"},
        [](const DeviceSource& s) { return as_json(s.device.limits); }},
-      {{"statistics_calibration", "text", "", "JSON: how far each pipeline statistic is exact"},
+      {{"statistics_calibration", "text", "",
+        "JSON: how exactly the driver counts each pipeline statistic"},
        [](const DeviceSource& s) { return as_json(s.device.statistics_calibration); }},
   };
 }
@@ -208,7 +211,8 @@ Columns<ClockSource> clock_columns() {
        [](const ClockSource& s) { return text(s.clock.work); }},
       {{"offered", "integer", "", "1: the device reports a time"},
        [](const ClockSource& s) { return std::uint64_t{s.clock.offered}; }},
-      {{"trusted", "integer", "", "1: it follows the wall clock"},
+      {{"trusted", "integer", "",
+        "1 if it passed its calibration against the wall clock, otherwise 0"},
        [](const ClockSource& s) { return std::uint64_t{s.clock.trusted}; }},
       {{"ratio", "number", "", "device time divided by wall time, median"},
        ratio(&ClockTrust::ratio)},
@@ -229,7 +233,8 @@ Columns<RecordSource> record_columns(const RecordNames& names) {
          {"", "integer", "bytes", "memory on the device for this configuration: "},
          &Record::memory);
   append(columns, names.energy, "energy_uj_",
-         {"", "integer", "microjoules", "energy of a frame by the meter "}, &Record::energy);
+         {"", "integer", "microjoules", "energy of a frame, measured by the meter "},
+         &Record::energy);
   return columns;
 }
 

@@ -137,8 +137,8 @@ Columns<ErrorSource> error_columns() {
   return {
       {{"record", "integer", "", numbers}, [](const ErrorSource& s) { return s.record; }},
       {{"against", "text", "",
-        "reference: the image in double precision on the same samples; limit: the image with ever "
-        "finer sampling"},
+        "reference: the image in double precision with the same samples; limit: the image to which "
+        "the scene tends as its sampling is refined"},
        [](const ErrorSource& s) { return s.error.against; }},
       {{"metric", "text", "",
         "rms: over all pixels and channels; covered: over the pixels that show something; p99.9: "
@@ -275,9 +275,10 @@ std::vector<RunInStore> runs_of(const std::vector<const Store*>& stores, const s
     }
   }
   if (runs.empty()) {
-    throw core::NotSupported(fmt::format(
-        "no run{} to export; plans in the stores: {}", plan.empty() ? std::string() : " of " + plan,
-        plans.empty() ? "none" : fmt::to_string(fmt::join(plans, ", "))));
+    throw core::NotSupported(
+        fmt::format("there is no run{} to export; plans in the stores: {}",
+                    plan.empty() ? std::string() : " of " + plan,
+                    plans.empty() ? "none" : fmt::to_string(fmt::join(plans, ", "))));
   }
   return runs;
 }
@@ -305,9 +306,10 @@ ExportedRows export_tables(const std::vector<const Store*>& stores, const Export
     tables.add(*store, run);
   }
   ExportedRows rows;
-  Json dictionary{{"schema", 1},
-                  {"made_by", request.made_by},
-                  {"missing", "an empty field is a value that is not known, never zero"}};
+  Json dictionary{
+      {"schema", 1},
+      {"made_by", request.made_by},
+      {"missing", "an empty field means that the value is unknown; it never means zero"}};
   tables.end(dictionary, rows);
   core::write_file(core::json_text(dictionary, 1) + '\n', dictionary_file);
   return rows;

@@ -27,9 +27,9 @@ CostAxis axis_of(Cost cost) {
     case Cost::instructions:
       return {"instructions, millions", "million"};
     case Cost::fetched:
-      return {"fetched past a cache, MiB", "MiB"};
+      return {"fetched past the cache, MiB", "MiB"};
     case Cost::memory:
-      return {"held on the device, MiB", "MiB"};
+      return {"memory on the device, MiB", "MiB"};
     case Cost::energy:
       return {"energy of a frame, J", "J"};
   }
@@ -81,7 +81,7 @@ class Diagram {
       : scene_(scene),
         cost_(cost),
         figure_(title + " on " + scene.device,
-                {.title = "RMSE against the limit", .logarithmic = true},
+                {.title = "RMSE against the limit image", .logarithmic = true},
                 {.title = axis_of(cost).title, .logarithmic = true}, 230, 150) {}
 
   [[nodiscard]] Html svg() {

@@ -44,10 +44,12 @@ class Scatter {
     for (const auto& point : scatter_.points) {
       largest = std::max(largest, std::abs(point.deviation));
     }
-    Figure figure(
-        "Deviations from the line", {.title = scatter_.across, .logarithmic = true},
-        {.title = "from the line", .percent = true, .low = -1.1 * largest, .high = 1.1 * largest},
-        side, side);
+    Figure figure("Deviations from the line", {.title = scatter_.across, .logarithmic = true},
+                  {.title = "deviation from the line",
+                   .percent = true,
+                   .low = -1.1 * largest,
+                   .high = 1.1 * largest},
+                  side, side);
     add_rule(figure, 0, {.colour = "soft"});
     if (scatter_.shows_from) {
       add_rule(figure, *scatter_.shows_from, {.colour = "soft", .dashed = true});
@@ -97,7 +99,7 @@ class Scatter {
       figure.legend(techniques_[i], {.colour = colour_of(i)});
     }
     if (std::ranges::any_of(scatter_.points, [](const auto& each) { return !each.flag.empty(); })) {
-      figure.legend("off the line", {.colour = "ink", .mark = Mark::cross});
+      figure.legend("not on the line", {.colour = "ink", .mark = Mark::cross});
     }
   }
 

@@ -35,7 +35,7 @@ constexpr double least_span = 0.01;
 
 // An axis around the values, which extends at least `least_span` in both directions.
 Axis axis_of(const Json& points) {
-  Axis axis{.title = "of the first store’s"};
+  Axis axis{.title = "relative to the first store"};
   std::vector<double> values;
   for (const Json& point : points) {
     for (const char* key : {"cost", "time"}) {
@@ -60,7 +60,7 @@ Html figure_of(const Json& device) {
   const Json& points = device.at("points");
   std::vector<std::string> names;
   for (const Json& point : points) names.push_back(name_of_store(point));
-  Figure figure("Cost and time over the stores, the first being 1",
+  Figure figure("Cost and time of each store relative to the first store",
                 {.title = "store", .names = std::move(names)}, axis_of(points), 320, 180);
   struct Series {
     const char* key;
@@ -100,14 +100,13 @@ Html table_of(const Json& device) {
 std::string history_page(const Json& history) {
   Html page = page_begin("History");
   page += markup(
-      "<main><h1>History</h1>\n<p>Cost: instructions of a frame, of generated code and driver. "
-      "Both by "
-      "the "
-      "geometric mean over what neighbours share. Times are shown, not judged.</p>\n");
+      "<main><h1>History</h1>\n<p>Cost is the number of instructions of a frame, in generated code "
+      "and in the driver. Cost and time are geometric means over the configurations that "
+      "neighbouring stores share. Times are shown, not judged.</p>\n");
   for (const Json& device : history) {
     page += markup("<h2>{}</h2>\n", device.at("device").get<std::string>());
     if (device.contains("first_worse")) {
-      page += markup("<p><b class=\"regression\">First worse</b>: {}</p>\n",
+      page += markup("<p><b class=\"regression\">First store that is worse</b>: {}</p>\n",
                      device.at("first_worse").get<std::string>());
     }
     page += figure_of(device) + table_of(device);

@@ -92,8 +92,9 @@ void append_standing(TableRow& row, const AccuracyScene& scene) {
 }
 
 Html summary_table(const std::vector<AccuracyScene>& scenes) {
-  Rows rows{{"scene", "device", "order in the step", "least error", "to 1/255", "to 1/1024",
-             "to 1e-4", "hypervolume", "times as long as the best", "on the front", "dominated"}};
+  Rows rows{{"scene", "device", "order in the step", "smallest error", "cost of RMSE 1/255",
+             "cost of RMSE 1/1024", "cost of RMSE 1e-4", "hypervolume",
+             "slowdown relative to the best", "on the front", "dominated"}};
   for (const AccuracyScene& scene : scenes) {
     const std::size_t best = accuracy::most_accurate(scene.cases);
     TableRow row{accuracy_title(scenes, scene), scene.device,
@@ -143,12 +144,13 @@ class Parts {
     for (const AccuracyScene& other : scenes_) {
       if (other.device != scene_.device || other.limit == scene_.limit) continue;
       const auto each = accuracy::switched_picture(scene_.cases, other.cases, "viewport");
-      if (each) add(*each, other.cases[each->to], ", another picture");
+      if (each) add(*each, other.cases[each->to], ", another image");
     }
-    add("output with 8 bits a channel", "", scene_.eight_bits);
+    add("output with 8 bits per channel", "", scene_.eight_bits);
     if (scene_.representation)
-      add("error caused by the voxel size and the table", "", *scene_.representation);
-    add("the limit’s own uncertainty, at most", "", scene_.uncertainty);
+      add("error caused by the voxel size and the transfer function's table", "",
+          *scene_.representation);
+    add("uncertainty of the limit image itself, at most", "", scene_.uncertainty);
   }
 
  private:
@@ -171,13 +173,13 @@ class Parts {
 };
 
 Html parts_table(const std::vector<AccuracyScene>& scenes) {
-  Rows rows{{"scene", "device", "what is changed", "RMSE before", "RMSE", "largest", "time"}};
+  Rows rows{{"scene", "device", "change", "RMSE before", "RMSE", "largest", "time"}};
   for (const AccuracyScene& scene : scenes) Parts(scenes, scene, rows).append();
   return table(rows);
 }
 
 Html dominated_table(const std::vector<AccuracyScene>& scenes) {
-  Rows rows{{"device", "configuration", "RMSE", "time", "beaten by", "RMSE", "time"}};
+  Rows rows{{"device", "configuration", "RMSE", "time", "dominated by", "RMSE", "time"}};
   for (const AccuracyScene& scene : scenes) {
     for (const accuracy::Dominated& each : scene.dominated) {
       const accuracy::AccuracyCase& worse = scene.cases[each.index];
@@ -196,17 +198,17 @@ struct Beside {
   std::string_view text;
 };
 constexpr Beside beside_time[]{
-    {Cost::samples, "", "Against the number of samples, which repeats exactly."},
+    {Cost::samples, "", "Error against the number of samples, which is the same in every run."},
     {Cost::instructions, "",
-     "Against the instructions of a frame, in device code and in the driver."},
+     "Error against the instructions of a frame, in device code and in the driver."},
     {Cost::fetched, "Bytes fetched against error",
-     "Against the bytes that the device code fetched past a simulated cache of 32 KiB."},
+     "Error against the bytes that the device code fetched past a simulated cache of 32 KiB."},
     {Cost::memory, "Memory against error",
-     "Against the bytes that a configuration occupies on the device: data, tables, bricks and "
-     "images. Packed cells take four or eight times the memory of the voxels."},
+     "Error against the bytes that a configuration occupies on the device: data, tables, bricks "
+     "and images. Packed cells need four or eight times the memory of the voxels."},
     {Cost::energy, "Energy against error",
-     "Against the energy of a frame by the machine’s meters, which includes idle power and other "
-     "programs."}};
+     "Error against the energy of a frame according to the machine’s meters, which includes idle "
+     "power and other programs."}};
 
 Html charts_beside(const std::vector<AccuracyScene>& scenes) {
   Html text;
@@ -227,19 +229,20 @@ Html accuracy_section(const PlanData& plan) {
   Html text =
       markup(
           "<h3>Run time against error</h3><p>The error is the root mean square over all channels, "
-          "in "
-          "linear float, against the limit image, to which the scene tends as its sampling is "
-          "refined. A line joins configurations that differ only in their step. The thick line is "
-          "the front, which no configuration beats on both axes. Dashed lines: 1/255, 1/1024 and "
-          "1e-4. The cost of an error is interpolated between two neighbours on a line. The "
-          "hypervolume is the area between the front and the point of one second and the error of "
-          "an empty image, in natural logarithms. The number next to it states by what factor the "
-          "device with the largest area could be slower before its area is no longer larger. It is "
-          "based on the times of one run and does not affect the verdict.</p>") +
+          "in linear float, against the limit image, which is the image that the scene tends to as "
+          "its sampling is refined. A line joins configurations that differ only in their step. "
+          "The thick line is the front, which consists of the configurations that no other one "
+          "beats in both error and time. The dashed lines are the errors 1/255, 1/1024 and 1e-4; "
+          "the cost of reaching such an error is interpolated between two neighbours on a line. "
+          "The hypervolume is the area, in natural logarithms, between the front and the point "
+          "with a time of one second and the error of an empty image. The slowdown next to it is "
+          "the factor by which the device with the largest area could become slower before its "
+          "area is no longer larger. It is based on the times of one run and does not affect the "
+          "verdict.</p>") +
       summary_table(scenes);
   text += accuracy_chart(scenes, Cost::time) + charts_beside(scenes);
-  text += folded("Orders of all families", order_table(scenes)) +
-          folded("Parts of the error: each factor changed alone", parts_table(scenes));
+  text += folded("Orders of convergence of all families", order_table(scenes)) +
+          folded("Parts of the error, where each factor is changed alone", parts_table(scenes));
   const bool timed =
       std::ranges::any_of(scenes, [](const AccuracyScene& scene) { return !scene.front.empty(); });
   if (timed) text += folded("Dominated configurations", dominated_table(scenes));

@@ -74,16 +74,17 @@ Html cost_bars(const PlanData& plan) {
     return each.finding->verdict != judge::Verdict::pass;
   });
   if (changed.empty()) {
-    return markup("<p>{} frames take as many instructions as stored.</p>\n", all.size());
+    return markup("<p>All {} frames take the stored number of instructions.</p>\n", all.size());
   }
   std::ranges::stable_sort(changed, std::greater{},
                            [](const Change& each) { return std::abs(each.share); });
   constexpr std::size_t shown = 12;
   const Html told = markup(
-      "<p>{} of {} frames take other instructions than stored{}.</p>\n", changed.size(), all.size(),
-      changed.size() > shown ? fmt::format("; these {} differ most", shown) : "");
+      "<p>{} of {} frames take another number of instructions than stored{}.</p>\n", changed.size(),
+      all.size(),
+      changed.size() > shown ? fmt::format("; the table shows the {} largest changes", shown) : "");
   changed.resize(std::min(shown, changed.size()));
-  Rows rows{{"device", "technique", "scene", "device code", "driver", "in all", ""}};
+  Rows rows{{"device", "technique", "scene", "device code", "driver", "total", ""}};
   for (const Change& each : changed) {
     rows.push_back({each.finding->device, each.record->technique,
                     breakable(scene_title(plan, *each.record)),
@@ -189,7 +190,7 @@ Html time_bars(const PlanData& plan) {
 
 Html changes_section(const PlanData& plan) {
   const Html all = changed_values(plan) + cost_bars(plan) + time_bars(plan);
-  return all.empty() ? all : markup("<h3>Compared with what is stored</h3>\n") + all;
+  return all.empty() ? all : markup("<h3>Differences from the stored values</h3>\n") + all;
 }
 
 }  // namespace triptych::report

@@ -43,10 +43,10 @@ Html cell_of(const record::Code& code) {
   add("instructions", "instructions");
   add("instructions per iteration", "per iteration");
   add("occupancy", "waves");
-  add("inverse throughput", "cycles a wave");
+  add("inverse throughput", "cycles per wave");
   add("registers", "registers");
   add("spilled VGPRs", "spilled VGPRs");
-  return cell.empty() ? markup("reported, with none of these") : cell;
+  return cell.empty() ? markup("none of these statistics is reported") : cell;
 }
 
 Html statistics_table(const PlanData& plan) {
@@ -138,9 +138,9 @@ Html disassembly_of(const record::Store& store, const judge::Finding& finding,
   }
   if (!html.empty()) return html;
   return markup(
-      "<p>The store holds no earlier disassembly of it. To see both, compare with a build of the "
-      "base: <code>triptych gate --base PROGRAM</code>, or run the plan with it into this store "
-      "first.</p>");
+      "<p>The store contains no earlier disassembly of it. To see both, compare with a build of "
+      "the base: <code>triptych gate --base PROGRAM</code>, or first run the plan with that build "
+      "into this store.</p>");
 }
 
 Html changed_code(const record::Store& store, const PlanData& plan) {
@@ -153,7 +153,7 @@ Html changed_code(const record::Store& store, const PlanData& plan) {
     html += folded(markup("{}, {}", finding.device, breakable(finding.configuration)),
                    disassembly_of(store, finding, *record, earlier));
   }
-  return html.empty() ? html : markup("<h3>Disassembly of what got worse</h3>") + html;
+  return html.empty() ? html : markup("<h3>Disassembly of code that got worse</h3>") + html;
 }
 
 }  // namespace

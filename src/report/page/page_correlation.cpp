@@ -29,8 +29,8 @@ Html fit_text(const CorrelationPair& pair) {
   const judge::CorrelationLine& line = pair.line;
   if (!std::isfinite(line.slope)) return markup("<p>{}.</p>\n", words::refusal(line));
   return markup(
-      "<p>{} configurations; ln y = {:.3f} + {:.3f} ln x, scatter {:.2g} %; Pearson’s r {:.4f}, of "
-      "the logarithms {:.4f}. {}</p>\n",
+      "<p>{} configurations; ln y = {:.3f} + {:.3f} ln x, scatter {:.2g} %; Pearson’s r is {:.4f}, "
+      "and {:.4f} for the logarithms. {}</p>\n",
       line.configurations, line.intercept, line.slope, 100 * std::expm1(line.scale), line.pearson,
       line.rho,
       line.admitted() ? Html()
@@ -64,7 +64,7 @@ ScatterFigure scatter_of(const CorrelationPair& pair) {
 
 Html pair_part(const CorrelationPair& pair) {
   return markup("<h4>{} against {}, by {}{}</h4>", pair.device_b, pair.device_a, pair.signal,
-                pair.new_device ? ", never accepted" : "") +
+                pair.new_device ? " (this device was never accepted)" : "") +
          scatter_chart(scatter_of(pair)) + fit_text(pair);
 }
 
@@ -80,12 +80,11 @@ Html correlation_section(const PlanData& plan) {
   }
   if (judged.empty() && shown.empty()) return {};
   Html text = markup(
-                  "<h3>Devices against each other</h3><p>Each point is a configuration: what it "
-                  "takes on one "
-                  "device across, on the other upwards. Beside it what is left of each beyond the "
-                  "line.</p>") +
+                  "<h3>Costs of devices compared</h3><p>Each point is a configuration. The "
+                  "horizontal axis is its cost on one device, and the vertical axis is its cost on "
+                  "the other. The second figure shows how far each point is from the line.</p>") +
               judged;
-  return text + folded("The other pairs", shown);
+  return text + folded("Other pairs of devices", shown);
 }
 
 }  // namespace triptych::report

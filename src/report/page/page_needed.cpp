@@ -53,17 +53,21 @@ Html needed_section(const PlanData& plan) {
     devices[{scene, record.technique, level->second, *work}].insert(record.device);
   }
   if (devices.empty()) return {};
-  Rows rows{{"scene", "technique", factor, "taken", "needed", "needed of taken", "device"}};
+  Rows rows{{"scene", "technique", factor, "taken", "needed", "needed / taken", "device"}};
   for (const auto& [key, names] : devices) {
     const auto& [scene, technique, level, work] = key;
     const double share = static_cast<double>(work.needed) / static_cast<double>(work.taken);
     rows.push_back({scene, technique, level, grouped(work.taken), grouped(work.needed),
                     fmt::format("{:.3f}", share), fmt::format("{}", fmt::join(names, ", "))});
   }
-  return folded("Skipping: samples that were taken, and samples that the image needed",
-                markup("<p>{}.</p>", volume ? "Samples, and those that are not transparent"
-                                            : "Spheres drawn, and those that a pixel shows") +
-                    table(rows));
+  return folded(
+      "Skipping: work that was done, and work that the image needed",
+      markup("<p>{}.</p>",
+             volume
+                 ? "“Taken” counts all samples, and “needed” counts those that are not transparent"
+                 : "“Taken” counts the spheres that were drawn, and “needed” counts those that a "
+                   "pixel shows") +
+          table(rows));
 }
 
 }  // namespace triptych::report

@@ -136,11 +136,12 @@ Html titled(const PictureScene& scene, const SameBits& group, const Html& figure
 
 Html verdict_text(const accuracy::ImageComparison& result, const ShareOfBound& shares) {
   const bool right = result.within_bound();
-  std::string text = fmt::format("within the bound, {:.0f} % of it used", 100 * result.worst.ratio);
+  std::string text = fmt::format("within the bound; the largest error is {:.0f} % of it",
+                                 100 * result.worst.ratio);
   if (!right)
     text = fmt::format("{} pixels beyond the bound", result.over_bound + result.non_finite);
   if (const std::size_t other = result.wrong_ids + result.wrong_depths; other > 0) {
-    text += fmt::format(", {} of another particle or at another depth", other);
+    text += fmt::format(", {} of them with another particle or another depth", other);
   }
   const std::string worst = right ? "" : fmt::format(", worst pixel ({}, {})", shares.x, shares.y);
   return markup("<b class=\"{}\">{}</b>{}<br>largest error {:.2e}, RMSE {:.2e}",
@@ -150,8 +151,7 @@ Html verdict_text(const accuracy::ImageComparison& result, const ShareOfBound& s
 // Shown instead of an image: the way in which the program ended.
 Html tile(const record::Record& record) {
   const std::string_view what = record::name_of(record.outcome);
-  return figure(markup("<div class=\"tile\" role=\"img\" aria-label=\"{}: {}, no picture\">{}"
-                       "</div>",
+  return figure(markup("<div class=\"tile\" role=\"img\" aria-label=\"{}: {}, no image\">{}</div>",
                        record.device, what, what),
                 record.device);
 }

@@ -113,9 +113,10 @@ Pictures pictures_section(const PictureSources& sources, std::span<const PlanDat
   std::ranges::stable_sort(scenes, std::greater{}, &Scene::rank);
   Html text = markup(
       "<h2 id=\"pictures\">Images</h2><p class=\"system\">The reference image is drawn in double "
-      "precision on the same samples. The difference is the error as a share of the bound derived "
-      "for that pixel: 0 <span class=\"ramp\"></span> the bound itself, <span "
-      "class=\"beyond\"></span> beyond it; rings mark the worst pixels beyond it.</p>");
+      "precision with the same samples. The difference shows the error of each pixel as a share of "
+      "the bound that is derived for it: 0 <span class=\"ramp\"></span> the bound, <span "
+      "class=\"beyond\"></span> beyond the bound. Rings mark the worst pixels beyond the "
+      "bound.</p>");
   const std::size_t shown = std::min(open_scenes, scenes.size());
   const bool any_wrong = scenes.front().wrong();
   Html rest;

@@ -27,7 +27,7 @@ Html calibration_text(const record::Device& device) {
       text += markup("<div>{}: {}</div>", statistic, words::text_of(verdict));
     }
   }
-  if (device.statistics_calibration.empty()) return markup("none told");
+  if (device.statistics_calibration.empty()) return markup("not calibrated");
   return markup("<div>{} counted exactly</div>", exact) + text;
 }
 
@@ -90,7 +90,7 @@ Html devices_section(const PlanData& plan) {
                     device.api_version});
     witnesses.push_back({device.id, clock_text(clocks), calibration_text(device), environment});
   }
-  return folded("Devices: drivers, trust in their clocks and statistics, machines",
+  return folded("Devices: drivers, calibration of their clocks and statistics, environment",
                 table(rows) + table(witnesses));
 }
 
@@ -98,7 +98,7 @@ Html times_section(const PlanData& plan) {
   const auto records = measured(plan);
   if (records.empty()) return {};
   Rows rows{{"scene", "technique", "device", "clock", "minimum", "25 %", "median", "75 %", "90 %",
-             "maximum", "in a loop", "prepared in"}};
+             "maximum", "back to back", "preparation"}};
   for (const record::Record* record : records) {
     const auto& samples = record->time_ns();
     const record::Summary summary = *record::summarise(samples);
@@ -110,11 +110,11 @@ Html times_section(const PlanData& plan) {
          record->loop_frames > 0 ? duration(record->loop_wall_ns / record->loop_frames) : "",
          duration(record->prepare_ns)});
   }
-  return folded(
-      plan.verdict->times_decided ? "Times: judged" : "Times: shown, not judged",
-      markup("<p>Every timed frame is a stroke, its quartiles a box. “In a loop” is the wall clock "
-             "of frames drawn back to back.</p>") +
-          time_chart(plan) + folded("The numbers", table(rows, "times")) + taken_over(plan));
+  return folded(plan.verdict->times_decided ? "Times: judged" : "Times: shown, not judged",
+                markup("<p>Each stroke is a timed frame, and the box spans the quartiles. “Back to "
+                       "back” is the wall-clock time of a frame in a loop without waiting.</p>") +
+                    time_chart(plan) + folded("Table of times", table(rows, "times")) +
+                    taken_over(plan));
 }
 
 Html speed_of_light_section(const PlanData& plan) {
@@ -125,7 +125,8 @@ Html speed_of_light_section(const PlanData& plan) {
       bounds[{record->device, scene_title(plan, *record)}] = record;
     }
   }
-  Rows rows{{"scene", "device", "technique", "clock", "time", "speed of light", "times as long"}};
+  Rows rows{
+      {"scene", "device", "technique", "clock", "time", "speed of light", "time / speed of light"}};
   for (const record::Record* record : measured(plan)) {
     const auto found = bounds.find({record->device, scene_title(plan, *record)});
     if (is_bound(*record) || found == bounds.end()) continue;
@@ -137,11 +138,12 @@ Html speed_of_light_section(const PlanData& plan) {
                     fmt::format("{:.2f}", time / bound)});
   }
   if (rows.size() == 1) return {};
-  return folded("Speed of light: times relative to memory fetches alone",
-                markup("<p>The same fetches and transfer-function look-ups alone, with "
-                       "the same skipping but without early termination: a technique can be faster "
-                       "than that if rays end early, and hardly faster if they do not.</p>") +
-                    table(rows));
+  return folded(
+      "Speed of light: times relative to memory fetches alone",
+      markup("<p>The speed of light is the time of the same fetches and transfer-function look-ups "
+             "without any other work, with the same skipping but without early ray termination. A "
+             "technique can be faster than that if rays end early, but hardly otherwise.</p>") +
+          table(rows));
 }
 
 Html counts_section(const PlanData& plan) {
@@ -166,17 +168,19 @@ Html counts_section(const PlanData& plan) {
     text += folded(title, table(rows, "counts"));
   };
   section(
-      "Cost: instructions of one frame by the code that they belong to; misses: lines of 64 bytes "
-      "that device code loads into a cache of 32 KiB",
+      "Cost: instructions of one frame by the code that they belong to; misses are lines of 64 "
+      "bytes that device code loads into a simulated cache of 32 KiB",
       [](const record::Record& r) -> const record::Counts& { return r.cost; });
   section("Memory allocated on the device, bytes",
           [](const record::Record& r) -> const record::Counts& { return r.memory; });
-  section("Energy of a frame in microjoules by meter, including other work of the machine",
+  section("Energy of a frame in microjoules by meter, including the other work of the machine",
           [](const record::Record& r) -> const record::Counts& { return r.energy; });
   section("Triptych’s own counters, from a build that is never timed",
           [](const record::Record& r) -> const record::Counts& { return r.counters; });
-  section("Pipeline statistics as the drivers report them; an empty cell: not reported",
-          [](const record::Record& r) -> const record::Counts& { return r.statistics; });
+  section(
+      "Pipeline statistics as the drivers report them; an empty cell means that the driver does "
+      "not report the statistic",
+      [](const record::Record& r) -> const record::Counts& { return r.statistics; });
   return text;
 }
 

@@ -65,7 +65,7 @@ std::string lead(const Overview& all) {
   if (all.open.size() == 1) return "One cause:";
   if (!all.open.empty()) return fmt::format("{} causes, the worst first:", all.open.size());
   return all.code == core::ExitCode::pass ? "Everything that was requested is right."
-                                          : "Nothing was decided.";
+                                          : "No check reached a verdict.";
 }
 
 std::string cause_id(std::size_t number) {
@@ -166,7 +166,7 @@ Html card(const Overview& all, std::span<const PlanData> plans) {
       "{}<p>Triptych · {} {}{}{}</p>{}</header>\n",
       css_class(all.code), heading(all), static_cast<int>(all.code), lead(all), contents(all),
       circumstances_of(all), all.devices, all.devices == 1 ? "device" : "devices",
-      all.part ? " · a part of the plans" : "", names, tested(plans));
+      all.part ? " · only part of the plans" : "", names, tested(plans));
 }
 
 // Each row has a link to the first cause of its kind.
@@ -314,7 +314,7 @@ Html words_section(const Overview& all) {
       Meaning{"front", "the settings that no other setting beats in both error and time",
               "docs/accuracy.md"},
       Meaning{"stored", "what was accepted with `triptych accept`", "docs/baselines.md"},
-      Meaning{"device key", "everything that times and the bits of images depend on",
+      Meaning{"device key", "everything that the times and the bits of images depend on",
               "docs/glossary.md"},
   };
   Rows rows{{"word", "meaning", "documentation"}};
@@ -330,7 +330,7 @@ Html words_section(const Overview& all) {
     rows.push_back(
         {fmt::format("check {}", name), fmt::format("the row {} above", row.kind), page});
   }
-  return folded("What the words mean", table(rows));
+  return folded("Meaning of the terms", table(rows));
 }
 
 JudgedPictures judged_pictures(const Overview& all, std::span<const PlanData> plans) {

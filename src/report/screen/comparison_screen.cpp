@@ -48,7 +48,7 @@ std::string work_of(const Compared& compared) {
   const auto percent = [](double ln) { return fmt::format("{:+.2f} %", 100 * std::expm1(ln)); };
   std::string text = fmt::format("{} {}", percent(work->log_ratio), work->unit);
   if (compared.has_time()) {
-    text += fmt::format(", {} time for each", percent(compared.shift.estimate - work->log_ratio));
+    text += fmt::format(", {} time per unit", percent(compared.shift.estimate - work->log_ratio));
   }
   return text;
 }
@@ -67,7 +67,7 @@ std::string line_of(const Compared& compared, const ComparisonCommand& command) 
   constexpr const char* indented = "\n              ";
   if (!compared.reason.empty()) line += indented + words::text_of(compared.reason);
   if (compared.has_time() && compared.verdict == comparison::PairVerdict::undecided) {
-    line += "; to decide it: " + command_for(compared, command);
+    line += "; to reach a verdict: " + command_for(compared, command);
   }
   if (const std::string work = work_of(compared); !work.empty()) line += indented + work;
   return line + "\n";
@@ -91,7 +91,8 @@ std::string clocks_of(const ComparisonResult& result) {
   causes.erase(comparison::WallClockCause::none);
   std::string text;
   for (const auto& [cause, count] : causes) {
-    text += fmt::format("wall clock in {} configurations: {}\n", count, words::text_of(cause));
+    text += fmt::format("in {} configurations, the wall clock was used: {}\n", count,
+                        words::text_of(cause));
   }
   return text;
 }
@@ -162,7 +163,7 @@ std::string screen_of(const std::vector<comparison::DeviceHistory>& history) {
       text += words::lines_of(point.changes);
     }
     if (const HistoryPoint* worse = device.first_worse()) {
-      text += fmt::format("  first worse: {}\n", worse->store);
+      text += fmt::format("  first store that is worse: {}\n", worse->store);
     }
   }
   return text;

@@ -71,7 +71,7 @@ std::string bounds_text(std::vector<WideBound> bounds) {
   if (bounds.empty()) return "no image has a bound above 1/255\n";
   std::ranges::sort(bounds, std::greater{}, &WideBound::bound);
   std::string text =
-      "images with a bound above 1/255: the bound, and the mean number of samples of a ray\n";
+      "images with a bound above 1/255: the bound, and the mean number of samples per ray\n";
   for (const WideBound& each : bounds) {
     text += fmt::format("  {:<12.4g}{:>10.0f}  {} {}\n", each.bound, each.samples_per_ray,
                         each.device, each.configuration);

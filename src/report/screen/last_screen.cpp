@@ -92,7 +92,7 @@ class Screen {
   void head(const Overview& all, double seconds) {
     const std::string left =
         fmt::format("Triptych   {} {} · {}{}", all.devices, all.devices == 1 ? "device" : "devices",
-                    time_text(seconds), all.part ? " · a part of the plans" : "");
+                    time_text(seconds), all.part ? " · only part of the plans" : "");
     const std::string right =
         fmt::format("{} ({})", words::word_of(all.code), static_cast<int>(all.code));
     const std::size_t used = width_of(left) + width_of(right);
@@ -130,7 +130,7 @@ class Screen {
       for (const std::string& line : lines) add(line);
     }
     if (shown < all.circumstances.size()) {
-      add(fmt::format("  ! {} more of these are in the page", all.circumstances.size() - shown));
+      add(fmt::format("  ! {} more of these are on the page", all.circumstances.size() - shown));
     }
     if (shown > 0) add("");
   }
@@ -163,7 +163,7 @@ class Screen {
       const std::size_t more = all.open.size() - shown;
       add(fmt::format(
           "  {} more {}: {}", more, more == 1 ? "cause" : "causes",
-          files.empty() ? "--out FOLDER writes them" : "in the page and the files below"));
+          files.empty() ? "--out FOLDER writes them" : "on the page and in the files below"));
     }
   }
 
@@ -177,7 +177,7 @@ class Screen {
     const std::string command = command_of(first, *cause.result);
     // A command is never cut, because it would then be another command.
     if (width_of(command) > longest_command) {
-      lines.emplace_back("    (its command is in the page: it is too long for a terminal)");
+      lines.emplace_back("    (its command is on the page, because it is too long for a terminal)");
     } else if (!command.empty()) {
       if (cause.group.configurations > 1 && !first.configuration.empty()) {
         append_wrapped(lines,

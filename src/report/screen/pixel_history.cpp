@@ -27,7 +27,7 @@ std::string interval(const Allowed& allowed) {
 // The device's number and the interval that the reference allows, for numbers that have an
 // interval.
 std::string outside(std::string_view what, double number, const Allowed& allowed) {
-  return fmt::format("{} is {:.7g}; allowed are {}", what, number, interval(allowed));
+  return fmt::format("{} is {:.7g}, but the reference allows {}", what, number, interval(allowed));
 }
 
 std::string about_vector(std::string_view what, const std::array<double, 3>& numbers,
@@ -118,7 +118,7 @@ std::string quiet_line(std::int64_t first, std::int64_t last, std::size_t taken,
       first == last ? std::to_string(first) : fmt::format("{}–{}", first, last);
   return fmt::format("{:>7} {}", which,
                      taken == count ? "without opacity"
-                     : taken == 0   ? "not taken, and none of them matters"
+                     : taken == 0   ? "not taken, and none of them affects the image"
                                     : fmt::format("without opacity, {} of {} taken", taken, count));
 }
 
@@ -172,8 +172,8 @@ std::vector<std::string> colours_of(const PixelInImage& pixel) {
   if (pixel.recorded) {
     lines.push_back(colour_line("recorded", *pixel.recorded,
                                 *pixel.recorded == pixel.image
-                                    ? "the build that records what it does draws the same"
-                                    : "the build that records what it does draws another colour"));
+                                    ? "the build that records the samples draws the same colour"
+                                    : "the build that records the samples draws another colour"));
   }
   lines.push_back(colour_line("reference", pixel.reference, ""));
   return lines;
@@ -222,7 +222,7 @@ void add_sprite(const accuracy::SpriteHistory& history, std::size_t at, PixelTex
       surface("reference", expected.id, expected.depth, expected.colour,
               expected.certain ? fmt::format("depth within {:.3g}, colour within {:.3g}",
                                              expected.depth_bound, expected.colour_bound)
-                               : "the sphere's edge: a device may show it or not")));
+                               : "at the sphere's edge: a device may show it or not")));
   if (first) text.marked = text.table.size();
   text.table.push_back(
       fmt::format("{:>8} {}", first ? "======>" : "",
@@ -242,10 +242,10 @@ std::string about_fewest(const accuracy::SpriteHistory& history) {
   }
   if (count > most_named) ids += ", …";
   return fmt::format(
-      "every sphere alone is right; the pixel is wrong ({}) with {} particles "
-      "together{}: {}",
+      "each sphere alone is right; the pixel is wrong ({}) with {} particles together{}: {}",
       accuracy::name_of(history.fewest_differs), count,
-      history.stopped_early ? ", and perhaps with fewer" : ", and right without any part of them",
+      history.stopped_early ? ", and perhaps with fewer"
+                            : ", and right if any part of them is left out",
       ids);
 }
 

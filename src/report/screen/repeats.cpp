@@ -29,7 +29,7 @@ std::string repeats_text(std::span<const judge::RepeatedCase> cases, std::size_t
   }
   return text +
          fmt::format(
-             "{} repetitions of {} cases: {} fail in only some of them, {} have different images\n",
+             "{} cases in {} repetitions: {} fail in only some of them, {} have different images\n",
              repetitions, cases.size(), flaking, changing);
 }
 

@@ -51,8 +51,8 @@ std::string found(const Cause& cause) {
   }
   if (group.changed_with_it > 0) {
     text += group.configurations == 1
-                ? "; its counters changed too"
-                : fmt::format("; the counters of {} changed too", group.changed_with_it);
+                ? "; its counters changed, too"
+                : fmt::format("; the counters of {} changed, too", group.changed_with_it);
   }
   return text;
 }
@@ -63,13 +63,13 @@ std::string blame(const FindingGroup& group) {
     case Blame::Of::unknown:
       break;
     case Blame::Of::driver:
-      return fmt::format("the driver is at fault: {} right by the same API",
+      return fmt::format("the driver is at fault, because {} right with the same API",
                          with_verb(blame.devices, "is", "are"));
     case Blame::Of::driver_since_accepted:
-      return fmt::format("the driver is at fault: {} right by the same API when accepted",
+      return fmt::format("the driver is at fault, because {} right with the same API when accepted",
                          with_verb(blame.devices, "was", "were"));
     case Blame::Of::not_the_driver:
-      return fmt::format("the driver is not at fault: {} wrong too",
+      return fmt::format("the driver is not at fault, because {} wrong, too",
                          with_verb(blame.devices, "is", "are"));
   }
   return {};

@@ -31,7 +31,7 @@ inline constexpr std::array check_words{
     CheckWords{record::Check::correlation, "Devices", "off the line", "along the line",
                "shown, not judged", false},
     CheckWords{record::Check::accuracy, "Accuracy", "changed", "as stored", "not checked", false},
-    CheckWords{record::Check::stress, "Stress", "below their score", "at their score",
+    CheckWords{record::Check::stress, "Stress", "below their stored score", "at their stored score",
                "not checked", false},
 };
 

@@ -67,7 +67,7 @@ std::string text_of(const judge::CodeComparison& comparison) {
     parts.push_back(fmt::format("no longer compiled: {}", fmt::join(comparison.gone, ", ")));
   }
   if (!comparison.added.empty()) {
-    parts.push_back(fmt::format("compiled in addition: {}", fmt::join(comparison.added, ", ")));
+    parts.push_back(fmt::format("newly compiled: {}", fmt::join(comparison.added, ", ")));
   }
   return fmt::format("{}", fmt::join(parts, "; "));
 }

@@ -77,7 +77,7 @@ std::string limit_changed(const Difference& difference) {
   const auto now = difference.facts.find("b");
   if (before == difference.facts.end()) return fmt::format("new, {}", now->second);
   if (now == difference.facts.end())
-    return fmt::format("no longer reported, was {}", before->second);
+    return fmt::format("no longer reported; it was {}", before->second);
   return fmt::format("{} → {}", before->second, now->second);
 }
 
@@ -93,11 +93,11 @@ std::string sentence_of(const Difference& difference) {
     case DifferenceCause::other_bits:
       return other_bits(difference);
     case DifferenceCause::other_bits_of_one_code:
-      return "the same device code gave another image on the same device: " +
+      return "the same device code drew another image on the same device: " +
              other_bits(difference);
     case DifferenceCause::two_counters:
-      return fmt::format("not comparable: {} counted a, and {} counted b", difference.facts.at("a"),
-                         difference.facts.at("b"));
+      return fmt::format("not comparable: a was counted by {}, and b by {}",
+                         difference.facts.at("a"), difference.facts.at("b"));
     case DifferenceCause::values_changed:
       return all_changes(difference);
     case DifferenceCause::code_changed:
@@ -110,15 +110,15 @@ std::string sentence_of(const Difference& difference) {
     case DifferenceCause::same_driver:
       return values(difference) + ", although the driver is the same";
     case DifferenceCause::api_specific:
-      return values(difference) + "; each API does this in its own way";
+      return values(difference) + "; the APIs do this in different ways";
     case DifferenceCause::beyond_rounding:
       return values(difference) + ", more than rounding explains";
     case DifferenceCause::within_rounding:
       return values(difference) + ", which rounding explains";
     case DifferenceCause::drivers_must_agree:
-      return values(difference) + ", although the APIs define this number";
+      return values(difference) + ", although the APIs define this value exactly";
     case DifferenceCause::drivers_may_differ:
-      return values(difference) + "; the APIs leave this number to the driver";
+      return values(difference) + "; the APIs leave this value to the driver";
     case DifferenceCause::counted_differently:
       return fmt::format("{}; {}", values(difference), by_side(difference.worths, ": "));
     case DifferenceCause::calibration_changed:
@@ -248,17 +248,18 @@ std::string text_of(const TimeReason& reason) {
     case TimeCause::only_one_side:
       return fmt::format("only {} has it", side);
     case TimeCause::wrong_image:
-      return fmt::format("the image of {} is wrong, so its time means nothing", side);
+      return fmt::format("the image of {} is wrong, so its time is meaningless", side);
     case TimeCause::no_fresh_process_runs:
       return fmt::format("{} at first, but it could not be measured in fresh process runs",
                          suspected);
     case TimeCause::not_confirmed:
-      return fmt::format("{} by {} in one process run, which {:.0f} fresh ones did not confirm",
-                         suspected, percent(number("ratio")), number("process_runs"));
+      return fmt::format(
+          "{} by {} in one process run, but {:.0f} fresh process runs did not confirm it",
+          suspected, percent(number("ratio")), number("process_runs"));
     case TimeCause::undecided:
       return fmt::format("undecided after {:.0f} blocks{}", number("blocks"), interval());
     case TimeCause::budget_ended:
-      return fmt::format("the time budget ended after {:.0f} blocks{}", number("blocks"),
+      return fmt::format("the time budget was used up after {:.0f} blocks{}", number("blocks"),
                          interval());
   }
   return {};
@@ -291,7 +292,7 @@ std::string stage_of(const comparison::ComparisonProgress& progress) {
     case comparison::ComparisonStage::deterministic:
       return "deterministic measurements";
     case comparison::ComparisonStage::first_look:
-      return "first look at the time";
+      return "first estimate of the time";
     case comparison::ComparisonStage::more_blocks:
       return "more blocks";
     case comparison::ComparisonStage::fresh_process_runs:
@@ -355,8 +356,9 @@ std::string sentence(const comparison::SideBySide& table) {
       ratios.push_back(row.cells.at(device).value / row.cells.at(most->first).value);
     }
     if (ratios.empty()) continue;
-    text += fmt::format("; {} takes {:.2f} to {:.2f} times as much in the techniques of both",
-                        device, std::ranges::min(ratios), std::ranges::max(ratios));
+    text +=
+        fmt::format("; {} takes {:.2f} to {:.2f} times as much in the techniques that both have",
+                    device, std::ranges::min(ratios), std::ranges::max(ratios));
   }
   return text;
 }
@@ -364,9 +366,9 @@ std::string sentence(const comparison::SideBySide& table) {
 std::string fails_differently(const judge::Observation& first,
                               const std::optional<judge::Observation>& again) {
   return fmt::format(
-      "the frame fails differently when it is drawn again, so it cannot be made smaller. First: "
-      "{}. Then: {}",
-      text_of(first), again ? text_of(*again) : "it is right");
+      "the frame cannot be made smaller, because it fails differently when it is drawn again. "
+      "First: {}. Then: {}",
+      text_of(first), again ? text_of(*again) : "it did not fail");
 }
 
 }  // namespace triptych::report::words

@@ -132,7 +132,7 @@ std::string advice(const Finding& finding) {
     case Advice::restore_data:
       return fmt::format("restore the file and run again, or accept it with {}", command);
     case Advice::restore_or_run_again:
-      return "restore the file, or run again";
+      return "restore the file, or run the plan again";
     case Advice::restore_baselines:
       return fmt::format("restore the baselines from version control, or start over with {}",
                          command);
@@ -141,11 +141,11 @@ std::string advice(const Finding& finding) {
     case Advice::judge_more:
       return fmt::format("judge more checks, or accept the new values with {}", command);
     case Advice::more_time:
-      return "give it more time with --limit";
+      return "increase its time limit with --limit";
     case Advice::times:
       return "times affect the verdict only with --times";
     case Advice::repair_driver:
-      return "repair the driver, or state that this machine lacks the device with " + command;
+      return "repair the driver, or declare the device missing on this machine with " + command;
     case Advice::remove_entry:
       return "remove its entry from the file of expectations";
     case Advice::remove_waiver:

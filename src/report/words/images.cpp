@@ -57,9 +57,9 @@ std::string not_finite(const Observation& what) {
 
 std::string other_surface(const Observation& what) {
   return fmt::format(
-      "{:.0f} of {:.0f} pixels show another particle than {}, and {:.0f} more show the right one "
-      "at another depth; the first is pixel ({:.0f}, {:.0f}): {} at depth {:.6g}, expected {} at "
-      "{:.6g} ± {:.3g}",
+      "{:.0f} of {:.0f} pixels show another particle than {}, and {:.0f} more show the right "
+      "particle at another depth; the first is pixel ({:.0f}, {:.0f}): {} at depth {:.6g}, "
+      "expected {} at {:.6g} ± {:.3g}",
       what.number("pixels_of_another_particle"), what.number("pixels"), text_of(what.against),
       what.number("pixels_at_another_depth"), what.number("x"), what.number("y"),
       particle(what, "particle"), what.number("depth"), particle(what, "expected_particle"),
@@ -67,7 +67,7 @@ std::string other_surface(const Observation& what) {
 }
 
 std::string size_differs(const Observation& what) {
-  return fmt::format("the image has {:.0f}x{:.0f} pixels, {} has {:.0f}x{:.0f}",
+  return fmt::format("the image has {:.0f}x{:.0f} pixels, but {} has {:.0f}x{:.0f}",
                      what.number("width"), what.number("height"), text_of(what.against),
                      what.number("expected_width"), what.number("expected_height"));
 }
@@ -85,17 +85,17 @@ std::string devices_compared(const Observation& what) {
                                  what.number("allowed"));
   if (agree) return text;
   return text + fmt::format(
-                    "; both are within their error bounds, but {} is farther from the "
-                    "reference image (RMSE {:.3g}, {} has {:.3g})",
+                    "; both are within their error bounds, but {} is farther from the reference "
+                    "image (RMSE {:.3g}; {} has {:.3g})",
                     what.fact("device"), what.number("rmse"), what.fact("other"),
                     what.number("rmse_of_other"));
 }
 
 std::string score(const Observation& what) {
-  std::string text =
-      fmt::format("it scores {:.0f} of {:.0f} points", what.number("score"), what.number("best"));
+  std::string text = fmt::format("its score is {:.0f} of {:.0f} points", what.number("score"),
+                                 what.number("best"));
   if (what.numbers.contains("accepted")) {
-    text += fmt::format(", {:.0f} were accepted", what.number("accepted"));
+    text += fmt::format(", but {:.0f} were accepted", what.number("accepted"));
   } else {
     text += ", and no score is stored";
   }
@@ -145,7 +145,7 @@ std::string count_too_large(const Observation& what) {
     allowed += fmt::format(" × {:.0f} {}", what.number("unit"), what.fact("of"));
     if (!what.fact("levels").empty()) allowed += " with " + what.fact("levels");
   }
-  return fmt::format("{} is {:.0f}, at most {} is allowed", what.fact("counter"),
+  return fmt::format("{} is {:.0f}, but at most {} is allowed", what.fact("counter"),
                      what.number("count"), allowed);
 }
 

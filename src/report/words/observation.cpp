@@ -27,7 +27,8 @@ std::string first_of(const std::vector<std::string>& names) {
 
 std::string nothing_measured(const Observation& what) {
   return fmt::format(
-      "nothing was measured: run {} has {} of {}, none of them measured on the requested devices",
+      "nothing was measured: run {} has {} of {}, but none of them was measured on the requested "
+      "devices",
       what.fact("run"), counted(what.number("records"), "record", "records"), what.fact("plan"));
 }
 
@@ -75,25 +76,25 @@ std::string no_stored_device(const Observation& what) {
 std::string_view fault_text(record::DeviceFaultKind kind) {
   switch (kind) {
     case record::DeviceFaultKind::clock_reads_zero:
-      return "the device's clock reads 0";
+      return "the device's clock always reads 0";
     case record::DeviceFaultKind::clock_rate_wrong:
-      return "the ticks of the device's clock are not as long as the driver reports";
+      return "the ticks of the device's clock do not have the length that the driver reports";
     case record::DeviceFaultKind::clock_not_written:
-      return "the driver never writes the time stamps that it is asked for";
+      return "the driver never writes the requested time stamps";
     case record::DeviceFaultKind::statistics_all_zero:
-      return "all pipeline statistics are 0 for frames that draw something";
+      return "all pipeline statistics are 0, even for frames that draw something";
     case record::DeviceFaultKind::statistics_crash:
-      return "the driver crashes when pipeline statistics are read; the rest was measured without "
-             "them";
+      return "the driver crashes when pipeline statistics are read, so everything else was "
+             "measured without them";
     case record::DeviceFaultKind::statistics_not_ready:
-      return "pipeline statistics do not become available, although the program waits for them; "
-             "the rest was measured without them";
+      return "pipeline statistics do not become available, although the program waits for them, so "
+             "everything else was measured without them";
     case record::DeviceFaultKind::teardown_crash:
       return "the driver crashes while the device is closed or the process ends";
     case record::DeviceFaultKind::teardown_hang:
       return "the driver hangs while the device is closed or the process ends";
     case record::DeviceFaultKind::memory_grows:
-      return "the memory of the process grows from configuration to configuration";
+      return "the memory of the process grows with each configuration";
   }
   return {};
 }
@@ -180,12 +181,12 @@ std::string sentence_of(const Observation& what) {
     case Cause::nothing_decided:
       return "no check reached a verdict for this device: there were only advisories and skips";
     case Cause::unused_waiver:
-      return fmt::format("the waiver of {} on {} expired on {} and excuses nothing ({})",
+      return fmt::format("the waiver of {} on {} expired on {} and no longer excuses anything ({})",
                          what.fact("test"), what.fact("device"), what.fact("expiry"), what.detail);
     case Cause::waiver_of_no_test:
       return fmt::format(
           "the waiver of {} matches no test: test ids have the form SUITE.PLAN.CHECK.DEVICE, and "
-          "`configuration` limits a waiver to some images",
+          "`configuration` limits a waiver to some configurations",
           what.fact("test"));
     case Cause::within_bound:
       return within_bound(what);
@@ -222,14 +223,14 @@ std::string sentence_of(const Observation& what) {
     case Cause::frame_allocations:
       return changed_in(what, "the allocations of a frame");
     case Cause::preparing:
-      return changed_in(what, "the driver's instructions for preparing");
+      return changed_in(what, "the driver's instructions for preparation");
     case Cause::injected_memory:
-      return "not compared, because an injected slowdown allocates memory itself";
+      return "not compared, because the injected slowdown allocates memory itself";
     case Cause::other_executables:
       return fmt::format("consists of other executables than when it was accepted: {}",
                          fmt::join(what.names, ", "));
     case Cause::other_disassembly:
-      return fmt::format("the disassembly of {} changed, the statistics did not",
+      return fmt::format("the disassembly of {} changed, but the statistics did not",
                          examples(what.names));
     case Cause::other_compiler:
       return other_compiler(what);
@@ -246,11 +247,10 @@ std::string sentence_of(const Observation& what) {
       return with_detail("not timed itself, because another configuration draws the same frames",
                          text_of(what.reason));
     case Cause::wrong_image:
-      return what.because.empty() ? "the time means nothing, because the image is wrong"
-                                  : fmt::format(
-                                        "the time means nothing, because the image is "
-                                        "wrong: {}",
-                                        text_of(what.because.front()));
+      return what.because.empty()
+                 ? "the time is meaningless, because the image is wrong"
+                 : fmt::format("the time is meaningless, because the image is wrong: {}",
+                               text_of(what.because.front()));
     case Cause::residuals_as_stored:
       return fmt::format("the cost ratios of {} to {} are as stored",
                          counted(what.number("configurations"), "configuration", "configurations"),
@@ -331,7 +331,7 @@ std::string_view text_of(Against against) {
     case Against::other_devices:
       return "other devices";
     case Against::expectation:
-      return "what is expected";
+      return "the expected result";
   }
   return {};
 }

@@ -118,7 +118,7 @@ std::string text_of(const StatisticWorth& worth) {
     case Worth::exact:
       return "exact";
     case Worth::counts:
-      return fmt::format("it is the counter {}", worth.counter);
+      return fmt::format("the driver reports the counter {} instead", worth.counter);
     case Worth::proportional:
       return fmt::format("always {:.4g} times the true number", worth.low);
     case Worth::inflated:
@@ -126,7 +126,7 @@ std::string text_of(const StatisticWorth& worth) {
     case Worth::differs:
       return "not the true number" + in();
     case Worth::unsteady:
-      return "another number when the same frame is drawn again" + in();
+      return "a different number when the same frame is drawn again" + in();
     case Worth::absent:
       return "never reported";
     case Worth::unknown:

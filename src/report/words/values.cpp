@@ -44,8 +44,8 @@ std::string joined(const std::vector<std::string>& names) {
 
 std::string fit(const Observation& what) {
   return fmt::format(
-      "{:.0f} configurations, ln cost = {:.3f} + {:.3f} ln cost there, scatter {:.2g} %, r = "
-      "{:.3f}",
+      "{:.0f} configurations, ln cost = {:.3f} + {:.3f} ln(cost of the other device), scatter "
+      "{:.2g} %, r = {:.3f}",
       what.number("configurations"), what.number("intercept"), what.number("slope"),
       100 * std::expm1(what.number("scale")), what.number("pearson"));
 }
@@ -54,7 +54,8 @@ std::string fit(const Observation& what) {
 
 std::string text_of(const Change& change) {
   const std::string name = label(change);
-  if (!change.now) return fmt::format("{} is missing, stored {:.0f}", name, *change.before);
+  if (!change.now)
+    return fmt::format("{} is missing; the stored value is {:.0f}", name, *change.before);
   if (!change.accepted.empty()) {
     std::string accepted;
     for (const auto& [device, value] : change.accepted) {
@@ -105,7 +106,7 @@ std::string other_compiler(const Observation& what) {
 
 std::string other_driver_statistics(const Observation& what) {
   std::string text = fmt::format(
-      "no statistics are stored for this driver version ({}), {}; ", what.fact("driver_version"),
+      "no statistics are stored for this driver version ({}), in {}; ", what.fact("driver_version"),
       counted(what.number("configurations"), "configuration", "configurations"));
   if (what.number("stored") == 0) {
     text += "nor for any other driver";
@@ -173,9 +174,8 @@ std::string order(const Observation& what) {
   const std::string accepted = fmt::format("accepted {:.2f} ± {:.2f}", what.number("stored_order"),
                                            what.number("stored_half_width"));
   if (what.cause == judge::Cause::no_order) {
-    return "no order of convergence in the step can be fitted, because too few errors are caused "
-           "by "
-           "the step; " +
+    return "no order of convergence in the step can be fitted, because the step causes too few of "
+           "the errors; " +
            accepted;
   }
   return fmt::format("order of convergence {:.2f} ± {:.2f} in the step, {}", what.number("order"),
@@ -224,7 +224,7 @@ std::string no_line(const Observation& what) {
                                  LineRefusal::slope_out_of_range, LineRefusal::large_scatter}) {
     if (judge::name_of(each) == what.fact("refusal")) line.refusal = each;
   }
-  return fmt::format("its cost cannot be correlated with that of {}: {}", what.fact("other"),
+  return fmt::format("its cost cannot be correlated with the cost of {}: {}", what.fact("other"),
                      refusal(line));
 }
 
@@ -233,17 +233,17 @@ std::string refusal(const judge::CorrelationLine& line) {
     case LineRefusal::none:
       break;
     case LineRefusal::too_few_configurations:
-      return fmt::format("they have {} configurations in common, {} are needed",
+      return fmt::format("they have {} configurations in common, but {} are needed",
                          line.configurations, LineModel::least_configurations);
     case LineRefusal::low_correlation:
-      return fmt::format("the correlation of the logarithms is {:.3f}, at least {} is needed",
+      return fmt::format("the correlation of the logarithms is {:.3f}, but at least {} is needed",
                          line.rho, LineModel::least_rho);
     case LineRefusal::slope_out_of_range:
       return fmt::format("the slope is {:.3f}, outside {} to {}", line.slope,
                          LineModel::least_slope, LineModel::largest_slope);
     case LineRefusal::large_scatter:
-      return fmt::format("the residuals scatter by {:.3f} in ln, at most {} is allowed", line.scale,
-                         LineModel::largest_scale);
+      return fmt::format("the residuals have a scatter of {:.3f} in ln, but at most {} is allowed",
+                         line.scale, LineModel::largest_scale);
   }
   return {};
 }

@@ -86,15 +86,15 @@ TEST(ComparisonScreen, HasNoTimePerWorkWithoutAMeasuredTime) {
   result.configurations = {wrong};
   const ComparisonCommand command{.plan = "volume/quick", .sides = "", .varied = {}};
   EXPECT_THAT(screen_of(result, command),
-              AllOf(HasSubstr("+16.70 % samples\n"), Not(HasSubstr("time for each"))));
+              AllOf(HasSubstr("+16.70 % samples\n"), Not(HasSubstr("time per unit"))));
   const auto work_in = [&] { return to_json(result, command)["configurations"][0]["work"]; };
   EXPECT_FALSE(work_in().contains("ln_time_per_work"));
   result.configurations[0].blocks = 12;
   result.configurations[0].shift.estimate = std::log(1.2);
-  EXPECT_THAT(screen_of(result, command), HasSubstr("+16.70 % samples, +2.83 % time for each\n"));
+  EXPECT_THAT(screen_of(result, command), HasSubstr("+16.70 % samples, +2.83 % time per unit\n"));
   EXPECT_NEAR(work_in().at("ln_time_per_work"), std::log(1.2 / 1.167), 1e-12);
   result.configurations[0].ended = record::Outcome::crashed;
-  EXPECT_THAT(screen_of(result, command), Not(HasSubstr("time for each")));
+  EXPECT_THAT(screen_of(result, command), Not(HasSubstr("time per unit")));
   EXPECT_FALSE(work_in().contains("ln_time_per_work"));
 }
 

@@ -104,7 +104,7 @@ TEST(LastScreen, SaysWhenOnlyAPartWasJudged) {
   EXPECT_THAT(last_screen(std::vector{result}, 3, {}), Not(HasSubstr("a part")));
   result.part = true;
   EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
-              HasSubstr("Triptych   1 device · 3 s · a part of the plans"));
+              HasSubstr("Triptych   1 device · 3 s · only part of the plans"));
 }
 
 TEST(LastScreen, WithoutAVerdictStillSaysWhatIsRight) {

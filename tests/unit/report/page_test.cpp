@@ -50,7 +50,7 @@ TEST(Page, OfAFailureTellsCausesCommandsAndWrongPicturesFirst) {
   EXPECT_THAT(findings, HasSubstr("<pre><span>triptych render volume</span> <span>--device "
                                   "vulkan:lavapipe</span> <span>--set data=ball"));
   const std::string open = before(page.substr(page.find("id=\"pictures\"")), "<details>");
-  EXPECT_THAT(open, HasSubstr("aria-label=\"vulkan:lavapipe: crashed, no picture\">crashed</div>"));
+  EXPECT_THAT(open, HasSubstr("aria-label=\"vulkan:lavapipe: crashed, no image\">crashed</div>"));
   EXPECT_THAT(open, Not(HasSubstr("within the error bound")));
 }
 
@@ -65,9 +65,11 @@ TEST(Page, EveryLinkLeadsSomewhere) {
 }
 
 TEST(Page, ShowsCostAndTimesBesideWhatIsStored) {
-  EXPECT_THAT(page_of(false), HasSubstr("<p>16 frames take as many instructions as stored.</p>"));
+  EXPECT_THAT(page_of(false),
+              HasSubstr("<p>All 16 frames take the stored number of instructions.</p>"));
   const std::string page = page_of(true);
-  EXPECT_THAT(page, HasSubstr("<p>4 of 15 frames take other instructions than stored.</p>"));
+  EXPECT_THAT(page,
+              HasSubstr("<p>4 of 15 frames take another number of instructions than stored.</p>"));
   EXPECT_THAT(page, HasSubstr("<td class=\"number\">968\u2009288 → 987\u2009654</td>"));
   EXPECT_THAT(page, HasSubstr("<span class=\"bar more\" style=\"width:100.0%\">"));
   EXPECT_THAT(page, HasSubstr("<td class=\"number\">-10.00 %</td><td><span class=\"bar less\""));
