@@ -37,7 +37,7 @@ TEST_F(Arguments, AnImageOfTooManyPixelsIsRefused) {
     const Result result = program.run(
         std::string("render volume --device null:scripted --out o --set viewport=") + size);
     EXPECT_EQ(result.code, 3) << size << result.output;
-    EXPECT_THAT(result.output, HasSubstr("1 to 16384 pixels a side")) << size;
+    EXPECT_THAT(result.output, HasSubstr("1 to 16384 pixels per side")) << size;
   }
 }
 
@@ -58,7 +58,7 @@ TEST_F(Arguments, EveryGlobMatchesADevice) {
 TEST_F(Arguments, APlanWithoutAName) {
   const Result result = program.run("run ''");
   EXPECT_EQ(result.code, 3);
-  EXPECT_THAT(result.output, HasSubstr("a plan must be named"));
+  EXPECT_THAT(result.output, HasSubstr("no plan is named"));
 }
 
 TEST_F(Arguments, BaselinesWithoutAName) {

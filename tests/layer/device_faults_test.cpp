@@ -88,7 +88,8 @@ TEST_F(DeviceFaults, ADeviceThatIsLostSaysAfterHowManySubmissions) {
 
 TEST_F(DeviceFaults, AChangedRoundingModeIsTheDriversFault) {
   const test::Result drawn = layered.draw("rounding", "volume");
-  EXPECT_THAT(unwrapped(drawn.output), HasSubstr("changed the arithmetic of the host"));
+  EXPECT_THAT(unwrapped(drawn.output),
+              HasSubstr("changed the floating-point mode of this process"));
   EXPECT_THAT(unwrapped(drawn.output), HasSubstr("rounds upward"));
 }
 

@@ -130,7 +130,7 @@ void refuse_incomplete(const record::Store& store, const Accepted& accepted,
     std::ranges::set_difference(planned, there, std::back_inserter(missing));
     if (missing.empty()) continue;
     throw core::InputError(fmt::format(
-        "run {} was cut short: of {} configurations on {} it has no record of {} ({}{}); finish it "
+        "run {} is incomplete: of {} configurations on {}, {} have no record ({}{}); finish it "
         "with triptych run {} --resume{}, or accept the measured ones with --only GLOB or --drop",
         accepted.run.id, planned.size(), device, missing.size(), missing.front(),
         missing.size() > 1 ? "; …" : "", plan_in_a_command(request), request.store_option));

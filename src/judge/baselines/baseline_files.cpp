@@ -139,8 +139,9 @@ std::string first_change(const fs::path& folder, const Manifest& manifest) {
   for (const auto& [name, hash] : manifest.files) {
     const fs::path file = folder / name;
     if (is_outside(name)) return name + " is outside the folder";
-    if (!fs::is_regular_file(file)) return name + " is gone";
-    if (core::content_hash(core::read_file(file)) != hash) return name + " was changed";
+    if (!fs::is_regular_file(file)) return name + " is missing";
+    if (core::content_hash(core::read_file(file)) != hash)
+      return name + " was changed after it was accepted";
   }
   std::set<std::string> others;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -149,7 +150,7 @@ std::string first_change(const fs::path& folder, const Manifest& manifest) {
       others.insert(name);
     }
   }
-  return others.empty() ? std::string() : *others.begin() + " is not one of its files";
+  return others.empty() ? std::string() : *others.begin() + " does not belong to the baselines";
 }
 
 double log_spread(std::vector<double> times_ns) {

@@ -110,7 +110,7 @@ const std::string& Baselines::problem() const {
   if (!fs::is_directory(folder_)) {
     // There are no baselines, so nothing can be wrong with them.
   } else if (!fs::exists(folder_ / Layout::manifest)) {
-    problem = std::string(Layout::manifest) + " is gone";
+    problem = std::string(Layout::manifest) + " is missing";
   } else {
     try {
       problem = first_change(folder_, manifest());

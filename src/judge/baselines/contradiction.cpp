@@ -51,7 +51,7 @@ Counted counted_in(const fs::path& folder) {
 }
 
 std::string lacks(const std::string& what) {
-  return fmt::format("{} does not name {}", Layout::manifest, what);
+  return fmt::format("{} does not list {}", Layout::manifest, what);
 }
 
 // Finds a driver that has a file or belongs to a machine, but that the manifest does not list.
@@ -69,7 +69,7 @@ std::string unknown_driver(const fs::path& folder, const Manifest& manifest) {
   }
   for (const std::set<std::string>& machine : manifest.machines) {
     for (const std::string& driver : machine) {
-      if (!drivers.contains(driver)) return lacks("a driver of a machine, " + driver);
+      if (!drivers.contains(driver)) return lacks("the driver of a machine: " + driver);
     }
   }
   if (const auto lacking = core::JsonFile::read(folder / Layout::lacking)) {
@@ -125,7 +125,7 @@ std::string contradiction_in(const fs::path& folder, const Manifest& manifest) {
   look(unknown_device(manifest, devices_of(folder / Layout::memory), Layout::memory));
   look(lost_check(folder, manifest));
   if (counted.configurations != manifest.configurations) {
-    look(fmt::format("{} states {} configurations, and {} has {}", Layout::manifest,
+    look(fmt::format("{} states {} configurations, but {} contains {}", Layout::manifest,
                      manifest.configurations, Layout::counters, counted.configurations));
   }
   look(other_statements(folder));

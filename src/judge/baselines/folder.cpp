@@ -80,7 +80,8 @@ WriterLock::WriterLock(const fs::path& root) : fd_(-1) {
   // If a folder cannot be locked, no other process can have locked it either.
   if (fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(fd_);
-    throw core::IoError(fmt::format("{}: another accept is writing there", root.string()));
+    throw core::IoError(
+        fmt::format("{}: another `triptych accept` is writing to this folder", root.string()));
   }
 }
 

@@ -41,7 +41,7 @@ bool matches_all(std::string_view glob, const std::array<const char*, N>& sample
 void refuse_other_keys(const core::JsonNode& entry, std::initializer_list<std::string_view> known) {
   for (const auto& [key, value] : entry.members()) {
     if (std::ranges::find(known, key) != known.end()) continue;
-    value.fail(fmt::format("no such key; there are: {}", fmt::join(known, ", ")));
+    value.fail(fmt::format("unknown key; expected one of: {}", fmt::join(known, ", ")));
   }
 }
 
@@ -56,7 +56,7 @@ std::string reason_of(const core::JsonNode& entry) {
 std::string expiry_of(const core::JsonNode& entry) {
   std::string expiry = entry.at("expiry").text();
   if (!is_iso_date(expiry)) {
-    entry.at("expiry").fail("expected a day of the calendar as YYYY-MM-DD");
+    entry.at("expiry").fail("expected a calendar date, YYYY-MM-DD");
   }
   return expiry;
 }

@@ -15,8 +15,10 @@ namespace {
 // Redirects standard error to a file in memory while this object exists.
 class Redirected {
  public:
-  Redirected() : file_(::memfd_create("standard error", MFD_CLOEXEC)), before_(::dup(STDERR_FILENO)) {
-    if (!file_ || !before_) throw core::IoError("cannot keep what is written to standard error");
+  Redirected()
+      : file_(::memfd_create("standard error", MFD_CLOEXEC)), before_(::dup(STDERR_FILENO)) {
+    if (!file_ || !before_)
+      throw core::IoError("cannot redirect standard error to a file in memory");
     std::fflush(stderr);
     ::dup2(file_.get(), STDERR_FILENO);
   }

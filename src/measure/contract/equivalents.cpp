@@ -26,9 +26,9 @@ std::string reason_for(const PlainWork& known, const PlainWork& wanted, double t
   tell(wanted, known);
   tell(known, wanted);
   if (known.ends_below != wanted.ends_below) {
-    reasons.push_back(fmt::format("ert: no ray gets darker than {:.3g}", transmittance));
+    reasons.push_back(fmt::format("ert: no ray's transmittance falls below {:.3g}", transmittance));
   }
-  return reasons.empty() ? "the same levels on this device"
+  return reasons.empty() ? "the levels are the same on this device"
                          : fmt::format("{}", fmt::join(reasons, "; "));
 }
 

@@ -55,7 +55,7 @@ Factor technique_factor(std::string_view suite, std::string standard, std::strin
 std::array<int, 2> parse_viewport(std::string_view value) {
   const auto fail = [&]() {
     return core::InputError(
-        fmt::format("viewport '{}': expected N or WxH with 1 to 16384 pixels a side", value));
+        fmt::format("viewport '{}': expected N or WxH with 1 to 16384 pixels per side", value));
   };
   const auto side = [&](std::string_view digits) {
     int n = 0;

@@ -20,7 +20,8 @@ struct PixelPlace {
 
 // The reason why TracesPixel::trace() refuses a work.
 inline constexpr const char* not_traced =
-    "the history of a pixel is recorded for quadrature midpoint and preintegrated, not for cells";
+    "the history of a pixel is recorded only for the quadratures midpoint and preintegrated, not "
+    "for cells";
 
 // A prepared work that can draw a frame with a build of its device code that records the samples of
 // one pixel. This build also counts, and has the same control flow as the counting build.

@@ -47,13 +47,14 @@ std::string tool_file() {
 std::variant<Emulator, std::string> look() {
   constexpr std::string_view cannot = "instructions cannot be counted";
 #ifndef __x86_64__
-  return fmt::format("{}: that takes an x86-64 processor", cannot);
+  return fmt::format("{}: this requires an x86-64 processor", cannot);
 #endif
   const auto version = output_of({"valgrind", "--version"});
-  if (!version) return fmt::format("{}: valgrind cannot be started; install valgrind", cannot);
+  if (!version)
+    return fmt::format("{}: Valgrind cannot be started; install the package valgrind", cannot);
   const std::string tool = tool_file();
   if (tool.empty()) {
-    return fmt::format("{}: Valgrind's tool triptych_counter is missing; build it", cannot);
+    return fmt::format("{}: Valgrind's tool is missing; build the target triptych_counter", cannot);
   }
   Emulator found{.name = fmt::format("valgrind {} {}", short_version(*version), processor_name()),
                  // Valgrind uses the name of the tool to find what it preloads. With "none" it
@@ -69,7 +70,7 @@ std::variant<Emulator, std::string> look() {
   std::vector<std::string> trial = found.command;
   trial.emplace_back("/bin/true");
   if (!output_of(trial, found.environment))
-    return fmt::format("{}: {} does not start", cannot, tool);
+    return fmt::format("{}: {} cannot run /bin/true", cannot, tool);
   return found;
 }
 

@@ -63,7 +63,8 @@ std::vector<PlacedOverride> placed(const Overrides& overrides, const Suite& suit
     const PlacedText placed_name{.text = name, .place = place};
     const Factor& factor = factor_of(suite, placed_name);
     if (std::ranges::find(all, &factor, &PlacedOverride::factor) != all.end()) {
-      throw core::InputError(place, "given twice; put all values into one list: a,b");
+      throw core::InputError(place,
+                             "the factor is set twice; put all its values into one list: a,b");
     }
     if (texts.empty()) throw core::InputError(place, "expected factor=value or factor=a,b");
     std::vector<PlacedText> values;
@@ -142,7 +143,7 @@ struct PlanSource {
 
 PlanSource read_plan_file(const std::filesystem::path& file) {
   if (file.empty()) {
-    throw core::InputError("a plan must be named: a YAML file or SUITE/PLAN");
+    throw core::InputError("no plan is named; expected a YAML file or SUITE/PLAN");
   }
   try {
     return {.name = plan_name(file.string()),
@@ -182,8 +183,9 @@ PlanSource find_plan(std::string_view name_or_file, const FindSuite& find_suite)
 
 const Suite& suite_of(const PlanSource& source, const PlanText& text, const FindSuite& find_suite) {
   if (!source.suite.empty() && text.suite.text != source.suite) {
-    throw core::InputError(text.suite.place, fmt::format("a plan of suite '{}' states 'suite: {}'",
-                                                         source.suite, text.suite.text));
+    throw core::InputError(text.suite.place,
+                           fmt::format("the plan belongs to suite '{}', but contains 'suite: {}'",
+                                       source.suite, text.suite.text));
   }
   try {
     return find_suite(text.suite.text);
@@ -281,7 +283,8 @@ void require_few(const Combinations& combinations, const std::vector<core::FileP
     }
     throw core::InputError(places[i],
                            fmt::format("more than {} combinations, and this factor has the most "
-                                       "values; measure shards (--shard i/n), or split the plan",
+                                       "values; shorten its list, measure shards (--shard i/n), "
+                                       "or split the plan",
                                        most));
   }
 }

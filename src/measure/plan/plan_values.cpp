@@ -141,7 +141,7 @@ std::string suggestion(std::string_view wrong, const std::vector<std::string>& k
   if (nearest != known.end() && distance(*nearest) <= std::max<std::size_t>(2, wrong.size() / 3)) {
     return fmt::format("; did you mean '{}'?", *nearest);
   }
-  return fmt::format("; there are: {}", fmt::join(known, ", "));
+  return fmt::format("; expected one of: {}", fmt::join(known, ", "));
 }
 
 std::string standard_of(const Factor& factor) {

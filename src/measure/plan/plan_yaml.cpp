@@ -58,7 +58,7 @@ void refuse_second_document(const std::string& yaml, const std::string& file) {
   throw core::InputError(
       place_of(file, mark),
       said
-          ? "a second YAML document; a plan is a single document"
+          ? "a second YAML document begins here, but a plan must be a single document"
           : "not valid YAML: the plan has ended here, and this text cannot begin another document");
 }
 
@@ -94,7 +94,8 @@ std::vector<PlacedText> values_of(const YAML::Node& node, const std::string& fil
                                   const std::string& owner) {
   if (!node.IsSequence()) return {scalar(node, file, owner)};
   if (node.size() == 0) {
-    refuse(file, node, fmt::format("'{}' is an empty list; leave it out for its default", owner));
+    refuse(file, node,
+           fmt::format("'{}' is an empty list; leave it out to use the default", owner));
   }
   std::vector<PlacedText> values;
   for (const YAML::Node& each : node) values.push_back(scalar(each, file, owner));
@@ -184,7 +185,7 @@ PlanText parse_plan(std::string_view yaml, const std::string& file) {
   }
   if (plan.suite.text.empty()) {
     throw core::InputError({.file = file, .line = 1},
-                           "'suite:' is missing, which names the suite of the factors");
+                           "'suite:' is missing; it names the suite that defines the factors");
   }
   return plan;
 }

@@ -55,14 +55,15 @@ std::string verdict_of(const record::ClockTrust& trust, double wall_ns, std::siz
       percent(trust.ratio_low), percent(trust.ratio_high), frames, wall_ns * 1e-6);
   if (trust.trusted) return "trusted: " + seen;
   if (trust.ratio_high <= 0) {
-    return fmt::format("not trusted: reads 0 for {} frames of {:.3g} ms", frames, wall_ns * 1e-6);
+    return fmt::format("not trusted: the device clock reads 0 for {} frames of {:.3g} ms", frames,
+                       wall_ns * 1e-6);
   }
   const std::string limits =
-      fmt::format("{} to {} would be trusted", percent(ClockLimits::least_ratio),
+      fmt::format("a trusted clock shows {} to {}", percent(ClockLimits::least_ratio),
                   percent(ClockLimits::most_ratio));
   const bool is_short = wall_ns < ClockLimits::least_frame_ns / 4 && trust.ratio < 1;
   return fmt::format("not trusted: {}; {}{}", seen, limits,
-                     is_short ? ", but frames this short prove little" : "");
+                     is_short ? ", but such short frames are not conclusive" : "");
 }
 
 // Makes a frame longer by finer steps along the rays, or by more pixels for the same particles,

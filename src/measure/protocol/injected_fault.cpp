@@ -128,7 +128,8 @@ void check_fault(std::string_view fault) {
   if (named(volume_faults, fault) || named(particle_faults, fault) || is_mishap(fault)) return;
   if (fault == lost_counter) return;
   if (fault.starts_with(slowdown) && stride_of(fault.substr(slowdown.size()))) return;
-  throw core::InputError(fmt::format("unknown fault '{}'; there are: {}", fault, fault_names()));
+  throw core::InputError(
+      fmt::format("unknown fault '{}'; expected one of: {}", fault, fault_names()));
 }
 
 void inject(std::string_view fault, Work& work) {
@@ -143,8 +144,8 @@ void inject(std::string_view fault, Work& work) {
     } else if (fault.starts_with(slowdown)) {
       options.extra_work_stride = *stride_of(fault.substr(slowdown.size()));
     } else {
-      throw core::NotSupported(
-          fmt::format("technique {} has no fault '{}' to inject", work.technique, fault));
+      throw core::NotSupported(fmt::format("technique {} does not support the injected fault '{}'",
+                                           work.technique, fault));
     }
   };
   if (auto* volume = std::get_if<VolumeWork>(&work.scene)) {

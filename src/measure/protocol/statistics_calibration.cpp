@@ -224,7 +224,8 @@ record::StatisticWorth differences(const std::vector<CalibrationReading>& readin
   std::vector<std::string> wrong;
   for (const CalibrationReading& each : readings) {
     if (each.first == each.expected) continue;
-    wrong.push_back(fmt::format("{} for {} ({})", text_of(each.first), each.expected, each.scene));
+    wrong.push_back(
+        fmt::format("{} instead of {} ({})", text_of(each.first), each.expected, each.scene));
   }
   return {.worth = record::Worth::differs, .detail = fmt::format("{}", fmt::join(wrong, ", "))};
 }
@@ -307,7 +308,7 @@ Calibration calibrate_statistics(Device& device, technique::Work kind,
   if (faults != nullptr && all_zero(readings)) {
     faults->push_back({.kind = record::DeviceFaultKind::statistics_all_zero,
                        .subject = std::string(technique::name_of(kind)),
-                       .detail = fmt::format("every one of {} statistics", readings.size())});
+                       .detail = fmt::format("{} statistics were read", readings.size())});
   }
   for (const auto& [name, each] : readings) calibration[name] = calibration_verdict(each);
   // If one scene failed, the other scenes prove nothing about its statistics.

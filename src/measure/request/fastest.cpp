@@ -147,9 +147,9 @@ std::string describe(const FastestAnswer& answer, const std::set<std::string>& c
     text += fmt::format("{} {}", chosen_levels(*best.record, chosen), praise(best, answer.ruler));
     for (std::size_t i = 1; i < answer.contestants.size(); ++i) {
       const Contestant& each = answer.contestants[i];
-      text += fmt::format("{}{} {:.2f} times{}", i == 1 ? "; " : ", ",
+      text += fmt::format("{}{} takes {:.2f} times that{}", i == 1 ? "; " : ", ",
                           chosen_levels(*each.record, chosen), each.amount / best.amount,
-                          each.amount <= best.usually ? " (as fast)" : "");
+                          each.amount <= best.usually ? " (equally fast)" : "");
     }
   }
   for (std::size_t i = 0; i < answer.not_drawn.size(); ++i) {

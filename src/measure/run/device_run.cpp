@@ -174,8 +174,9 @@ void DeviceRun::watch_memory(std::uint64_t peak_bytes) {
   if (median <= most_growth) return;
   known_->faults.push_back(
       {.kind = record::DeviceFaultKind::memory_grows,
-       .detail = fmt::format("by {} MiB for the median of {} configurations, to {} MiB",
-                             median >> 20U, growth.size(), peak_bytes >> 20U)});
+       .detail =
+           fmt::format("the median growth is {} MiB over {} configurations, and the peak is {} MiB",
+                       median >> 20U, growth.size(), peak_bytes >> 20U)});
   context_.store.add_device(context_.run, *known_, clocks_);
 }
 

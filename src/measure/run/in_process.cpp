@@ -16,8 +16,8 @@ namespace {
 
 void require_inside(const core::Image& image, PixelPlace place) {
   if (place.x >= image.width || place.y >= image.height) {
-    throw core::InputError(fmt::format("--pixel {},{} is outside of the image of {}x{}", place.x,
-                                       place.y, image.width, image.height));
+    throw core::InputError(fmt::format("--pixel {},{} is outside the image, which has {}x{} pixels",
+                                       place.x, place.y, image.width, image.height));
   }
 }
 

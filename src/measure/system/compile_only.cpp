@@ -178,7 +178,8 @@ std::vector<std::string> compile_only_environment(std::string_view device_id,
     const std::string icd = find_icd(driver.icd, overrides);
     if (icd.empty()) {
       throw core::NotSupported(
-          fmt::format("there is no {}*.json: install the package mesa-vulkan-drivers{}",
+          fmt::format("no Vulkan driver file {}*.json was found: install the package "
+                      "mesa-vulkan-drivers{}",
                       driver.icd, driver.name == "nvk" ? " of Debian 13 or later" : ""));
     }
     environment.push_back("VK_DRIVER_FILES=" + icd);

@@ -22,7 +22,8 @@ constexpr std::array<EnvironmentDefault, 2> defaults{{
     {"POCL_CACHE_DIR", "{cache}",
      "opencl:", "PoCL processes that share a kernel cache at the same time crash"},
     {"POCL_PTHREAD_MIN_WGS", "1", "opencl:",
-     "PoCL leaves launches of few work-groups on one thread otherwise: half the speed at 256x256"},
+     "otherwise PoCL runs launches of few work-groups on one thread, at half the speed for "
+     "256x256"},
 }};
 
 std::string variable(const char* name) {
@@ -113,7 +114,8 @@ CacheFolder::CacheFolder(std::string_view device_id) {
         lock_ = try_lock(folder);
         if (lock_) return;
       }
-      reasons += fmt::format("; {}: {} workers hold one each", root.string(), most_at_once);
+      reasons += fmt::format("; {}: {} workers already use a folder there each", root.string(),
+                             most_at_once);
     } catch (const core::IoError& error) {
       reasons += fmt::format("; {}", error.what());
     }

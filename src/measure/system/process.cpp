@@ -107,7 +107,7 @@ class Attributes {
 
  private:
   static void check(int error) {
-    if (error != 0) fail("cannot prepare a worker's start", error);
+    if (error != 0) fail("cannot prepare the start of a worker", error);
   }
   posix_spawnattr_t attributes_{};
 };
@@ -172,7 +172,7 @@ Process::Process(const std::vector<std::string>& command,
   log_ = std::move(log.read);
   pid_fd_ = open_pid_fd(pid_);
   try {
-    if (!pid_fd_) fail("cannot watch a worker", errno);
+    if (!pid_fd_) fail("cannot open a pidfd for a worker", errno);
     set_non_blocking(answer_);
     set_non_blocking(log_);
   } catch (...) {

@@ -67,7 +67,8 @@ accuracy::TruthPair Truths::kept(const std::string& scene, const std::string& ve
                                  const std::function<accuracy::TruthPair()>& render) {
   const auto stored = store_.truth(scene, version);
   if (stored && !stored->own_seal.empty() && own_seal(*stored) == stored->own_seal) {
-    const std::string name = fmt::format("{}: truth of {}", store_.file().string(), scene);
+    const std::string name =
+        fmt::format("{}: reference image of {}", store_.file().string(), scene);
     return {.truth = core::decode_exr(stored->image, name),
             .bound = core::decode_exr(stored->bound, name)};
   }

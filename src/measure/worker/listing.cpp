@@ -112,7 +112,7 @@ void list_compiler(const std::string& id, Listing& listing) {
 [[noreturn]] void refuse_devices(const Listing& listing, std::string_view glob) {
   if (listing.devices.empty()) {
     throw core::NotSupported(fmt::format(
-        "no device matches {}: no driver answers that could have one; ci/setup installs "
+        "no device matches {}: no installed driver provides such a device; ci/setup installs "
         "software drivers, and `triptych devices` prints what each loader found",
         glob));
   }
@@ -126,7 +126,7 @@ void list_compiler(const std::string& id, Listing& listing) {
       known += fmt::format(" (its last output: {})", each.ended->last_words);
     }
   }
-  throw core::NotSupported(fmt::format("no device matches {}; there are:{}", glob, known));
+  throw core::NotSupported(fmt::format("no device matches {}; available devices:{}", glob, known));
 }
 
 }  // namespace
@@ -209,7 +209,7 @@ std::string choose_device(const Listing& listing, std::string_view option,
   const std::vector<std::string> devices = choose_devices(listing, {glob});
   if (devices.size() == 1) return devices.front();
   throw core::InputError(
-      fmt::format("{} {} matches {} devices; name one", option, glob, devices.size()));
+      fmt::format("{} {} matches {} devices; name only one of them", option, glob, devices.size()));
 }
 
 Greeting greet(const record::Device& device, const std::string& suite) {

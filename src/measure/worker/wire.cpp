@@ -42,7 +42,7 @@ Json parse(std::span<const std::byte> text) {
     const auto* first = reinterpret_cast<const char*>(text.data());
     return Json::parse(first, first + text.size());
   } catch (const Json::exception& error) {
-    throw core::InputError(fmt::format("a worker's message is broken: {}", error.what()));
+    throw core::InputError(fmt::format("a worker's message is not valid JSON: {}", error.what()));
   }
 }
 
@@ -95,7 +95,7 @@ auto reading(std::string_view type, Read read) {
   try {
     return read();
   } catch (const Json::exception& error) {
-    throw core::InputError(fmt::format("in its '{}': {}", type, error.what()));
+    throw core::InputError(fmt::format("in the message '{}': {}", type, error.what()));
   }
 }
 

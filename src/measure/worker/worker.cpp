@@ -220,9 +220,9 @@ class Worker {
     std::string changed = restore_arithmetic();
     if (changed.empty()) changed = std::exchange(changed_arithmetic_, {});
     if (changed.empty()) return;
-    on_failure(
-        record::Reason{.cause = record::Cause::error,
-                       .detail = "the driver changed the arithmetic of the host: " + changed});
+    on_failure(record::Reason{
+        .cause = record::Cause::error,
+        .detail = "the driver changed the floating-point mode of this process: " + changed});
   }
 
   // Removes everything that would look as if the configuration had been measured.
@@ -327,7 +327,8 @@ class Worker {
   // Runs under the emulator, so it needs no clock.
   void count(const Job& job, const Work& work, Configuration configuration, Answer& answer) {
     if (!counter_) counter_ = InstructionCounter::of_this_process();
-    if (!counter_) throw core::NotSupported("this worker's instructions are not counted");
+    if (!counter_)
+      throw core::NotSupported("this worker does not run under the instruction counter");
     record::Counts prepare_cost;
     const Stopwatch measuring;
     const auto prepared = counter_->counting(prepare_cost, [&] { return device_->prepare(work); });

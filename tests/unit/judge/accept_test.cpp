@@ -315,7 +315,8 @@ TEST_F(AcceptTest, WhatIsNotAsItWasAcceptedIsNotBuiltUpon) {
     (void)accept_run("b");
     FAIL() << "no error";
   } catch (const core::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("was changed: restore it from version control"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("was changed after it was accepted: restore it from version control"));
   }
   EXPECT_EQ(text_of(file), "<<<<<<< ours\n");
   EXPECT_EQ(read(baseline("counters.json"))[plain_]["samples"]["opencl:pocl"], 1000000);

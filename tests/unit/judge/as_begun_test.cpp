@@ -216,13 +216,13 @@ TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
   };
   EXPECT_EQ(changed([](core::Json&) {}), "");
   EXPECT_THAT(changed([](core::Json& json) { json["devices"].erase("opencl:pocl"); }),
-              HasSubstr("does not name"));
+              HasSubstr("does not list"));
   EXPECT_THAT(changed([](core::Json& json) { json["devices"]["gl:llvmpipe-egl"] = {"gl-other"}; }),
-              HasSubstr("does not name"));
+              HasSubstr("does not list"));
   EXPECT_THAT(changed([](core::Json& json) { json["files"]["../x"] = "0"; }),
               HasSubstr("is outside the folder"));
   EXPECT_THAT(changed([](core::Json& json) { json["configurations"] = 3; }),
-              HasSubstr("states 3 configurations, and counters.json has 4"));
+              HasSubstr("states 3 configurations, but counters.json contains 4"));
   // The history contains a hash of these statements, because no other file contains them.
   for (const char* name : {"plan_hash", "checks"}) {
     EXPECT_THAT(changed([&](core::Json& json) { json[name] = "memory"; }),
@@ -242,7 +242,7 @@ TEST_F(AsBegunTest, ALostConfigurationOfTheBaselinesIsNoticed) {
   counters.erase(plain_);
   rewrite("counters.json", counters.dump(1));
   EXPECT_THAT(Baselines(folder_.path() / "baselines", plan).problem(),
-              HasSubstr("states 4 configurations, and counters.json has 3"));
+              HasSubstr("states 4 configurations, but counters.json contains 3"));
 }
 
 // A later run may have failed before it began, so the latest run in the store is an older one. The

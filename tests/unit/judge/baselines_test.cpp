@@ -53,7 +53,7 @@ TEST_F(BaselinesTest, EveryFileThatIsGoneIsNamed) {
   for (const std::string& name : names()) {
     const std::string kept = folder_.read(baseline(name));
     std::filesystem::remove(baseline(name));
-    EXPECT_THAT(verdict(), HasSubstr(name + " is gone"));
+    EXPECT_THAT(verdict(), HasSubstr(name + " is missing"));
     core::write_file(kept, baseline(name));
   }
 }
@@ -62,19 +62,19 @@ TEST_F(BaselinesTest, EveryFileThatIsEmptiedIsNamed) {
   for (const std::string& name : names()) {
     const std::string kept = folder_.read(baseline(name));
     core::write_file(std::string_view("{}"), baseline(name));
-    EXPECT_THAT(verdict(), HasSubstr(name + " was changed"));
+    EXPECT_THAT(verdict(), HasSubstr(name + " was changed after it was accepted"));
     core::write_file(kept, baseline(name));
   }
 }
 
 TEST_F(BaselinesTest, AFileThatWasNotAcceptedIsNamed) {
   core::write_file(std::string_view("{}"), baseline("timings/other.json"));
-  EXPECT_THAT(verdict(), HasSubstr("timings/other.json is not one of its files"));
+  EXPECT_THAT(verdict(), HasSubstr("timings/other.json does not belong to the baselines"));
 }
 
 TEST_F(BaselinesTest, WithoutAManifestNothingIsJudged) {
   std::filesystem::remove(baseline("manifest.json"));
-  EXPECT_THAT(verdict(), HasSubstr("manifest.json is gone"));
+  EXPECT_THAT(verdict(), HasSubstr("manifest.json is missing"));
 }
 
 TEST_F(BaselinesTest, ABrokenManifestIsNamedWithItsLine) {

@@ -131,8 +131,9 @@ TEST_F(GateTest, AWaiverWithAMisspelledKeyIsRefused) {
     (void)gate("accepted");
     ADD_FAILURE() << "not refused";
   } catch (const core::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("configurations: no such key; there are: device"),
-              std::string::npos)
+    EXPECT_NE(
+        std::string(error.what()).find("configurations: unknown key; expected one of: device"),
+        std::string::npos)
         << error.what();
   }
 }

@@ -23,7 +23,7 @@ TEST_F(PlanTest, UnknownFactorNamesTheNearest) {
   EXPECT_THAT(refusal("suite: fake\ndata: cube\nstepp: 1\n"),
               AllOf(StartsWith(at(3, 1)), HasSubstr("'stepp'"), HasSubstr("did you mean 'step'")));
   EXPECT_THAT(refusal("suite: fake\ncompletely_else: 1\n"),
-              HasSubstr("there are: technique, data"));
+              HasSubstr("expected one of: technique, data"));
 }
 
 TEST_F(PlanTest, FactorTwice) {

@@ -55,7 +55,7 @@ TEST_F(EquivalentsOf, RaysThatEndBelowWhatTheyReachAreTheSame) {
   const auto equivalent = equivalents.find(plain("1", 0.125));
   ASSERT_TRUE(equivalent);
   EXPECT_EQ(equivalent->key, "first");
-  EXPECT_EQ(equivalent->reason, "ert: no ray gets darker than 0.25");
+  EXPECT_EQ(equivalent->reason, "ert: no ray's transmittance falls below 0.25");
   EXPECT_FALSE(equivalents.find(plain("1", 0.3)));
   EXPECT_FALSE(equivalents.find(plain("2", 0.125)));
 }
