@@ -1,4 +1,4 @@
-// Embree's side of embree_spheres: spheres by RTC_GEOMETRY_TYPE_SPHERE_POINT, packets of eight coherent rays, all cores.
+// The Embree program of embree_spheres: spheres as RTC_GEOMETRY_TYPE_SPHERE_POINT, packets of eight coherent rays, all cores.
 //   embree_spheres SCENE COUNT EDGE eye(3) forward(3) up(3) tangent_of_half
 // Prints its version and the build time in ms. Then reads lines: "frame" draws and prints nanoseconds, "image FILE" draws
 // and writes premultiplied RGBA floats, top row first.

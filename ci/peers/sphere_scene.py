@@ -10,7 +10,8 @@ AMBIENT, DIFFUSE = 0.3, 0.7
 
 
 class Spheres:
-    """Spheres in a cube of edge 10. Their radius is chosen so that any number of them fills the same share of it."""
+    """Spheres in a cube with an edge length of 10. The radius depends on their number, so that they always fill the
+    same share of the cube."""
 
     def __init__(self, count):
         random = numpy.random.default_rng(count)

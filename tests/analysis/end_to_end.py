@@ -1,5 +1,6 @@
-"""Measured on scripted devices, exported, analysed: every figure there, well-formed, and one number of each against
-a computation of its own, in plain Python over the raw tables. The program is $TRIPTYCH_PROGRAM."""
+"""Measures on scripted devices, exports and analyses. Every figure must exist and be well-formed, and one number of
+each figure is compared with a separate computation, in plain Python from the raw tables. The program is
+$TRIPTYCH_PROGRAM."""
 
 import csv
 import glob
@@ -61,7 +62,7 @@ class EndToEnd(unittest.TestCase):
 
     @classmethod
     def raw_times(cls):
-        """suite → [({factor: level}, ms)], medians of the raw samples on the clock that counts."""
+        """Returns suite → [({factor: level}, ms)]: the medians of the raw samples on the clock that the analysis uses."""
         samples = {}
         for row in read(cls.folder, "tables", "samples.csv"):
             samples.setdefault((row["record"], row["clock"]), []).append(float(row["time_ns"]))
@@ -74,7 +75,7 @@ class EndToEnd(unittest.TestCase):
         return times
 
     def pairs(self, suite, factor, a, b, change=lambda factors: factors):
-        """Times of a and of b, paired by everything else."""
+        """Returns the times of a and of b for configurations that are equal in all other factors."""
         by_rest = {}
         for factors, ms in self.times[suite]:
             factors = change(dict(factors))
@@ -176,7 +177,8 @@ class EndToEnd(unittest.TestCase):
         self.assertAlmostEqual(float(row["d"]), d, places=9)
 
     def test_forest_against_lines(self):
-        """Time goes with pixels, voxels and samples in products: the forest follows, and held-out parts add up."""
+        """Time is a product of pixels, voxels and samples. The forest must predict that, and the numbers of
+        observations that were held out must add up."""
         rows = {each["data"]: each for each in read(self.out, "volume", "time", "predictions.csv")}
         whole = rows["every held-out observation"]
         self.assertEqual(int(whole["trained"]) + int(float(whole["held_out"])), len(self.times["volume"]))
@@ -201,7 +203,7 @@ class EndToEnd(unittest.TestCase):
                 self.assertEqual(one.read(), other.read(), file)
 
     def test_frames_taken_over_are_no_observation(self):
-        """No brick of a box that is full is empty: two ways to skip them are one work."""
+        """A full box has no empty brick, so two ways of skipping are the same work."""
         with open(os.path.join(self.folder, "copies.yaml"), "w", encoding="utf-8") as file:
             json.dump({"suite": "volume", "technique": ["raycast"], "data": ["generate:uniform_box:8"], "viewport": [8],
                        "skip": ["none", "distance"]}, file)

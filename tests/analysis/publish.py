@@ -1,5 +1,5 @@
-"""A result set of two small plans on scripted devices: whole, proven by its sums, and the same when it is made again.
-The program is $TRIPTYCH_PROGRAM."""
+"""Makes a result set of two small plans on scripted devices. It must be complete, agree with its checksums, and be the
+same when it is made again. The program is $TRIPTYCH_PROGRAM."""
 
 import csv
 import hashlib

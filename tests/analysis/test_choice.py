@@ -1,4 +1,4 @@
-"""Techniques by count, and which factor moves a value most."""
+"""Tests the choice of a technique by the number of spheres, and the influence of each factor."""
 
 import unittest
 
@@ -9,7 +9,8 @@ from triptych_analysis import analysis, choice, correlation, tables
 
 
 def spheres(**more):
-    """quad takes 1 + N/1000 ms, tiles 3 + N/4000 ms: cheapest below 2667 spheres and above."""
+    """quad takes 1 + N/1000 ms and tiles take 3 + N/4000 ms, so quad is cheaper below 2667 spheres and tiles are
+    cheaper above."""
     def value(at):
         count = int(at["data"].split(":")[2])
         return 1 + count / 1e3 if at["technique"] == "quad" else 3 + count / 4e3
@@ -41,7 +42,7 @@ class Techniques(unittest.TestCase):
         self.assertEqual(len(choice.technique_for(None, "gl:*", 2000)), 0)
 
     def test_a_technique_without_a_count_is_not_compared(self):
-        """Else its mean would be of other configurations."""
+        """Otherwise, its mean would be over other configurations."""
         data = spheres(without=lambda at: at["technique"] == "tiles" and at["camera"] == "orbit_y:1/2"
                        and at["data"] == "generate:uniform:16000" and at["device"] == "gl:x")
         counts = choice.by_count(data)
@@ -60,7 +61,8 @@ class Techniques(unittest.TestCase):
 
 class Effects(unittest.TestCase):
     def test_shares_of_a_product(self):
-        """ln value = i·ln 2 + j·ln 3 over i of 0, 1 and j of 0, 1, 2: variances (ln 2)²/4 and (ln 3)²·2/3."""
+        """ln value is i·ln 2 + j·ln 3 for i of 0, 1 and j of 0, 1, 2, which has the variances (ln 2)²/4 and (ln
+        3)²·2/3."""
         data = synthetic.factorial({"device": ["0", "1"], "step": ["0", "1", "2"], "data": list("abcd")},
                                    lambda at: 2.0 ** int(at["device"]) * 3.0 ** int(at["step"]))
         effects = choice.effects(data, ["data", "device", "step"]).set_index("factor")

@@ -1,4 +1,4 @@
-"""Which records become observations, and how tables are read."""
+"""Tests which records become observations, and how tables are read."""
 
 import json
 import os

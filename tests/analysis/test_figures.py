@@ -1,4 +1,4 @@
-"""What figures draw, and what they do not."""
+"""Tests which figures are drawn, and which are left out."""
 
 import io
 import unittest

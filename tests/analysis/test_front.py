@@ -1,4 +1,4 @@
-"""The front of run time against error, from tables with known answers."""
+"""Tests the front of run time against error, from tables with known results."""
 
 import os
 import tempfile

@@ -1,4 +1,4 @@
-"""The study of ray tracing: times with known ratios, without any device."""
+"""Tests the study of ray tracing with times that have known ratios, without a device."""
 
 import io
 import tempfile
@@ -12,7 +12,7 @@ from triptych_analysis import dataset, rays
 
 
 def observed(rows):
-    """A data set of (device, count, camera, technique, structure, ms)."""
+    """Makes a data set from tuples (device, count, camera, technique, structure, ms)."""
     columns = list(zip(*rows))
     factors = {name: dataset.factor_of(list(texts))
                for name, texts in zip(("device", "data", "camera", "technique", "structure"),

@@ -1,4 +1,4 @@
-"""Numbers against hand computations and textbooks."""
+"""Compares statistics with hand computations and textbooks."""
 
 import itertools
 import unittest
@@ -155,7 +155,8 @@ class Splits(unittest.TestCase):
         self.assertEqual(splits.factors_of(data), ["camera_distance", "camera_path", "camera_rotation", "data"])
 
     def test_the_fullest_block_holds_one_set_of_combinations(self):
-        """Two techniques, each on data of its own: between all four the technique would differ, too."""
+        """The two techniques were measured with different data, so no pair of observations differs only in the
+        technique."""
         plan = {"device": ["x", "y"], "data": list("abcd"), "step": ["1", "2"],
                 "technique": ["raycast", "raycast_fragment"]}
         data = synthetic.factorial(plan, lambda at: 1.0, without=lambda at: (at["technique"] == "raycast") != (

@@ -1,4 +1,4 @@
-"""A headless Chromium, driven over its DevTools protocol by two pipes: nothing but Python is needed.
+"""Controls a headless Chromium over two pipes by its DevTools protocol. It needs nothing but Python.
 
   with Browser() as browser, browser.open(path, 1400, 900, dark=False) as page:
       page.value("document.title")
@@ -15,12 +15,12 @@ PROGRAMS = ["chromium-headless-shell", "chromium", "chromium-browser", "google-c
 
 
 def program():
-    """The first that is installed, or None."""
+    """The first browser that is installed, or None."""
     return next(filter(None, map(shutil.which, PROGRAMS)), None)
 
 
 class Failed(Exception):
-    """The browser refused a command, or a script of the page threw."""
+    """The browser refused a command, or a script of the page threw an exception."""
 
 
 class Browser:
@@ -82,7 +82,7 @@ class Browser:
 
 
 class Page:
-    """A file in a tab of its own; what its console says is in `complaints`."""
+    """Opens a file in a new tab. `complaints` collects the messages of its console."""
 
     def __init__(self, browser, path, width, height, dark):
         self.browser = browser
@@ -107,7 +107,7 @@ class Page:
         return self.browser.call(method, self.session, **parameters)
 
     def value(self, expression):
-        """Of a JavaScript expression, as Python has it."""
+        """Returns the value of a JavaScript expression as a Python object."""
         result = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
         if "exceptionDetails" in result:
             details = result["exceptionDetails"]
@@ -137,7 +137,8 @@ class Page:
         return base64.b64decode(self.call("Page.captureScreenshot", format="png", **more)["data"])
 
     def names(self):
-        """(role, name) of what a screen reader tells, in its order. White space at a name's ends comes and goes."""
+        """Returns (role, name) of everything that a screen reader reads, in its order. Names have no white space at
+        their ends, because browsers differ in it."""
         nodes = self.call("Accessibility.getFullAXTree")["nodes"]
         return [(node["role"]["value"], node.get("name", {}).get("value", "").strip())
                 for node in nodes if not node.get("ignored") and "role" in node]

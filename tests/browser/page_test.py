@@ -1,8 +1,10 @@
-"""The pages in a headless Chromium, as a reader has them: wide and narrow, light and dark, by keyboard and by ear.
+"""Tests the pages in a headless Chromium as readers use them: wide and narrow, light and dark, by keyboard, and with a
+screen reader.
 
   TRIPTYCH_PROGRAM=build/release/src/app/triptych tests/browser/page_test.py [TEST…]
 
-With TRIPTYCH_PICTURES=FOLDER it leaves pictures of what it saw there."""
+With TRIPTYCH_PICTURES=FOLDER, it leaves screenshots in that folder.
+"""
 import itertools
 import os
 import sys

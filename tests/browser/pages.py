@@ -1,6 +1,6 @@
-"""Pages as a gate leaves them on this machine's devices: one that passes, one with an injected fault of each kind.
-
-Small scenes, baselines of their own. Every run is measured by the program under test."""
+"""Makes pages with this machine's devices as a gate does: one that passes, and one with an injected fault of each kind.
+Scenes are small, and the baselines are separate. The program under test measures every run.
+"""
 import os
 import subprocess
 
@@ -40,7 +40,7 @@ FAULTS = {
 
 
 class Triptych:
-    """The program in a folder of its own."""
+    """Runs the program in a separate folder."""
 
     def __init__(self, program, folder):
         self.program = program
@@ -62,7 +62,7 @@ def factors(plan):
 
 
 def measure(triptych, store, faults):
-    """`faults`: by plan, those to inject."""
+    """`faults`: the faults to inject, by plan."""
     chosen = [word for device in DEVICES for word in ("--device", device)]
     for plan in PLANS:
         injected = [word for fault in faults.get(plan, []) for word in ("--inject", fault)]
@@ -70,7 +70,7 @@ def measure(triptych, store, faults):
 
 
 def make(triptych):
-    """{name of the page: its file}, in the program's folder."""
+    """Returns {name of the page: its file}. The files are in the program's folder."""
     for name, text in {"cost.yaml": COST, "accuracy.yaml": ACCURACY}.items():
         with open(os.path.join(triptych.folder, name), "w", encoding="utf-8") as file:
             file.write(text)

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""killed_jobs.py TRIPTYCH SOURCES: a plan's shards as jobs of a real Slurm, on scripted devices, a tenth of them killed.
+"""killed_jobs.py TRIPTYCH SOURCES: runs the shards of a plan as jobs of a real Slurm on scripted devices, and kills a
+tenth of them.
 
-Half of those are ended as a scheduler does that wants the node, and sent again by it. The others are killed at once with
-all their processes, as by a node that dies, and `submit --again` sends them. At the end every configuration is in the
-merged store exactly once on each device. TRIPTYCH_FARM=paper takes 46,656 configurations on three devices.
+Half of these jobs are ended as by a scheduler that needs the node, and the scheduler requeues them. The others are
+killed at once with all their processes, as by a node that fails, and `submit --again` submits them again. At the end,
+the merged store must contain every configuration exactly once on each device. TRIPTYCH_FARM=paper uses 46,656
+configurations on three devices.
 """
 import contextlib
 import os
@@ -64,7 +66,7 @@ def wait(what, done, seconds):
 
 
 def running():
-    """The indices of shards that are being measured, each with what Slurm calls its job."""
+    """Returns the indices of shards that are being measured, each with the id of its Slurm job."""
     lines = run("squeue", "--noheader", "--array", "--states=RUNNING", "--format=%F %K").splitlines()
     return {int(index): f"{job}_{index}" for job, index in map(str.split, lines) if index.isdigit()}
 
@@ -80,7 +82,8 @@ def records_in(store):
 
 
 def kill_some(farm, generator):
-    """Kills a tenth of the jobs while they measure. The indices of those that Slurm sends again, and of the others."""
+    """Kills a tenth of the jobs while they measure. Returns the indices of those that Slurm requeues, and of the
+    others."""
     pool = generator.sample(range(1, SHARDS + 1), SHARDS)
     wanted = max(2, SHARDS // 10)
     again, lost = set(), set()
@@ -124,7 +127,7 @@ def check_merged(store, configurations):
 
 
 def check_sizes(folder, plan, store, configurations):
-    """Jobs of about a minute, by what was measured before: nothing of it is waited for."""
+    """Submits jobs of about a minute each, according to the times of an earlier run. The test does not wait for them."""
     with contextlib.closing(sqlite3.connect(store)) as database:
         count, seconds = database.execute(
             "SELECT count(*), total(prepare_ns + overhead_ns + loop_wall_ns) / 1e9 FROM record").fetchone()
@@ -166,7 +169,7 @@ def test(folder, generator):
 
 
 def ranges(indices):
-    """As ci/cluster says them: 1-3,7."""
+    """Formats indices as ci/cluster does: 1-3,7."""
     parts, numbers = [], sorted(indices)
     while numbers:
         end = 1

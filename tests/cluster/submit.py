@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What ci/cluster/submit asks of a Slurm, whose commands are stand-ins: how many jobs, and what is left where Slurm
-refuses one."""
+"""Tests how ci/cluster/submit calls Slurm, with replacements for Slurm's commands: the number of jobs, and the files
+that remain if Slurm refuses a job."""
 
 import os
 import pathlib

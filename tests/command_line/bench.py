@@ -1,4 +1,4 @@
-"""Where ci/bench says that it injects is where the program injects. The program is $TRIPTYCH_PROGRAM."""
+"""The program injects slowdowns into the configurations that ci/bench reports. The program is $TRIPTYCH_PROGRAM."""
 
 import contextlib
 import importlib.machinery

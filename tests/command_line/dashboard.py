@@ -1,4 +1,5 @@
-"""What ci/dashboard sends arrives, with the numbers and pictures of a check. The other side is a small server here."""
+"""A server receives everything that ci/dashboard sends, including the numbers and images of a check. A small server in
+this test takes the place of CDash."""
 
 import gzip
 import http.server
@@ -53,7 +54,7 @@ class Dashboard(unittest.TestCase):
                               env={**os.environ, "TRIPTYCH_DATA": "", **environment})
 
     def sent(self):
-        """The tests as they came, unpacked."""
+        """Returns the tests that arrived, unpacked."""
         (name, body), = [each for each in self.received.items() if "Test.xml" in each[0]]
         self.assertIn("project=Triptych", name)
         return (gzip.decompress(body) if body[:2] == b"\x1f\x8b" else body).decode()

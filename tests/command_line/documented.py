@@ -40,7 +40,7 @@ FORM = re.compile(r"…| {2,}[a-z]")  # "STORE…", or an explanation after blan
 
 
 def commands(page):
-    """The lines of a page's blocks; a line that ends in a backslash continues on the next one."""
+    """Returns the lines of a page's blocks. A line that ends in a backslash continues on the next one."""
     blocks = BLOCK.findall(page.read_text(encoding="utf-8"))
     for block in (text for language, text in blocks if language in LANGUAGES):
         for line in re.sub(r"\\\n\s*", "", block).splitlines():
@@ -48,7 +48,8 @@ def commands(page):
 
 
 def small(words):
-    """The same command with the scripted device, plans of one scene, and nothing outside its folder."""
+    """Returns the same command with the scripted device, with plans of one scene, and with files in the test's own
+    folder."""
     words = re.sub(r"'?(?:vulkan|gl|opencl):[\w*-]+(?:,[A-Z_]+=\w+)?'?", "null:scripted", words.removesuffix("'"))
     words = re.sub(r"\b(volume|particles)/(\w+)", r"\1-\2.yaml", words).replace("/tmp/", "")
     words = re.sub(r"\S*build/\S*/triptych\b", PROGRAM, words).replace('"…"', "documented").replace("7/4000", "1/1")
@@ -68,7 +69,8 @@ def small(words):
 
 
 def run(words, folder, environment):
-    """The command's end. `view` gets a display and closes by itself; it cannot run where its window or Xvfb is missing."""
+    """Runs the command to its end. `view` gets a display and closes by itself; it cannot run if its window or Xvfb is
+    missing."""
     command = f"'{PROGRAM}' {words}"
     if words.startswith("view "):
         if not pathlib.Path(PROGRAM).with_name("triptych-view").exists() or not (shutil.which("xvfb-run") and shutil.which("xauth")):
@@ -104,7 +106,7 @@ class Documented(unittest.TestCase):
         self.assertGreater(self.ran, 20)
 
     def test_every_example_in_help_runs(self):
-        """Every command that help lists shows an example, which runs after those of run and accept."""
+        """Every command that help lists shows an example, which runs after the examples of run and accept."""
         listed = subprocess.run([PROGRAM, "--help"], capture_output=True, text=True).stdout
         names = re.findall(r"^  ([a-z]+) ", listed[listed.index("ubcommands:"):], re.MULTILINE)
         self.assertGreater(len(names), 10)
@@ -126,7 +128,7 @@ class Documented(unittest.TestCase):
                         shutil.copy(pathlib.Path(folder, "results.sqlite"), pathlib.Path(folder, f"{store}.sqlite"))
 
     def test_what_is_only_named_is_there(self):
-        """The program's help has every command and option that a synopsis or a text in backquotes names."""
+        """The program's help contains every command and option that a synopsis or a text in backquotes names."""
         helps = {}
         for page in PAGES:
             text = page.read_text(encoding="utf-8")

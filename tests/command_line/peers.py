@@ -1,5 +1,5 @@
-"""What the comparisons of ci/peers share, but VTK: our side on a scripted device, and the ratio from both sides' cases.
-The program is $TRIPTYCH_PROGRAM."""
+"""Tests the parts that the comparisons of ci/peers share, without VTK: Triptych's measurements on a scripted device,
+and the ratio of the times of both programs. The program is $TRIPTYCH_PROGRAM."""
 
 import argparse
 import contextlib

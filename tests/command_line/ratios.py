@@ -1,4 +1,5 @@
-"""ci/ratios tells the ratio that a scripted device has, of the best of each side, and says what it cannot tell."""
+"""ci/ratios reports the ratio that the scripted device has, between the best configurations of each side, or the reason
+why there is none."""
 
 import importlib.machinery
 import importlib.util

@@ -1,5 +1,5 @@
-"""Scripts of ci/ in a checkout of their own, what they call replaced by stand-ins: what they leave, where, and what
-they say outside it. No root, no network and no build is needed."""
+"""Runs scripts of ci/ in a separate checkout, with replacements for all programs that they call. Checks the files that
+they leave, their places, and the output. The test needs no root, no network and no build."""
 
 import os
 import pathlib

@@ -32,7 +32,7 @@ def program(arguments, display=True, environment=None, **more):
 
 
 def png(file):
-    """Width, height and the rows of an 8-bit RGB picture, without any package."""
+    """Returns width, height and the rows of an 8-bit RGB image, without using any package."""
     data = pathlib.Path(file).read_bytes()
     position, packed = 8, b""
     while position < len(data):
@@ -67,14 +67,14 @@ class Window(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def view(self, *arguments, environment=None):
-        """Returns the JSON of the window, and the rows of its picture."""
+        """Returns the JSON of the window, and the rows of its image."""
         done = program([*arguments, "--json", "--screenshot", "window.png"], environment=environment, cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stderr, "")
         return json.loads(done.stdout), png(self.folder / "window.png")
 
     def render(self, command):
-        """Pastes a command, and returns the picture and the description of its frame."""
+        """Runs a pasted command, and returns the image and the description of its frame."""
         self.assertTrue(command.startswith("triptych render "), command)
         done = subprocess.run(command.replace("triptych", f"'{PROGRAM}'", 1), shell=True, cwd=self.folder, capture_output=True, text=True)
         self.assertIn(done.returncode, (0, 1), done.stderr)
@@ -173,7 +173,7 @@ class Mistakes(unittest.TestCase):
 
     @unittest.skipUnless(WINDOW.exists(), "the window is not built")
     def test_a_window_without_its_program_is_refused(self):
-        """The program is copied without its window."""
+        """Copies the program without its window."""
         with tempfile.TemporaryDirectory() as folder:
             alone = shutil.copy(PROGRAM, folder)
             done = subprocess.run([alone, "view", "volume"], capture_output=True, text=True)

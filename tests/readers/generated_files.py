@@ -1,4 +1,4 @@
-"""Small files of every format and variant, and readers by hand for formats that no library reads."""
+"""Makes small files of every format and variant, and contains simple readers for formats that no library reads."""
 
 import bz2
 import gzip
@@ -136,7 +136,7 @@ def write_mmpld(folder):
 
 
 def parse_mmpld(data):
-    """Places and radii of the one list that write_mmpld makes; None for any other."""
+    """Returns positions and radii of the single list that write_mmpld makes; None for any other file."""
     version, frames = struct.unpack_from("<HI", data, 6)
     if version != 100 or frames != 1:
         return None
@@ -245,7 +245,7 @@ def write_metaimage(folder):
 
 
 def write_vtk(folder):
-    """With VTK's own writers, where it is installed; else nothing."""
+    """Writes files with VTK's own writers if VTK is installed; otherwise does nothing."""
     try:
         import vtk
         from vtk.util.numpy_support import numpy_to_vtk
@@ -305,7 +305,7 @@ def parse_dat(path, refused):
 
 
 def parse_nrrd(path, refused):
-    """Values by Teem's unu where it is installed, and the header by hand."""
+    """Lets Teem's unu write the values if it is installed, and writes the header itself."""
     if path.suffix == ".gz":
         raise refused("Teem reads no compressed file")
     head = {}

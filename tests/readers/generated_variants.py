@@ -1,7 +1,6 @@
-"""Files with traits on which readers go wrong: line ends, wrapped numbers, optional columns, odd headers.
-
-Each function makes the files of one format. A file is right if Triptych and the second reader agree
-on it, or if either refuses it.
+"""Makes files with properties that readers often handle wrongly: line ends, wrapped numbers, optional columns, unusual
+headers. Each function makes the files of one format. A file passes if Triptych and the second reader agree on it, or
+if either of them refuses it.
 """
 
 import bz2

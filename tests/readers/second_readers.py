@@ -3,7 +3,7 @@
 
 usage: second_readers.py --program READ_DATA [--generate FOLDER] [--list] [FILE|FOLDER ...]
 
-Compared are, of particles, the number, the elements and the places; of volumes, the sizes, the
+For particles, it compares the number, the elements and the positions; for volumes, the sizes, the
 spacing and every value. --generate writes one file of each format and variant into FOLDER and
 compares those, and the seeds of tests/fuzz. Files that either reader refuses are counted, with the
 reasons under --list. Exit code 1 if anything differs, 77 if no second reader is installed.
@@ -32,7 +32,7 @@ import generated_variants
 
 
 class Refused(Exception):
-    """The second reader cannot read the file, or it holds other data."""
+    """The second reader cannot read the file, or the file contains other data."""
 
 
 class Particles:
@@ -69,7 +69,7 @@ def by_gemmi_pdb(path):
 
 
 def states_elements(path):
-    """Whether all atoms have an element in columns 77 and 78: else both readers guess."""
+    """Whether all atoms have an element in columns 77 and 78. Without it, both readers guess."""
     import gemmi
 
     for line in text_of(path).splitlines():
@@ -161,7 +161,7 @@ def by_ase_data(path):
 
 
 def by_hand_mmpld(path):
-    """The MMPLD that generated_files writes: float places with radii, one list."""
+    """Reads the MMPLD files that generated_files writes: one list with float positions and radii."""
     data = path.read_bytes()
     if data[:6] != b"MMPLD\0" or len(data) < 120:
         raise Refused("not the kind of MMPLD that is read by hand")
@@ -278,7 +278,7 @@ def decompressed(data):
 
 
 class unpacked:
-    """A plain copy of a compressed file, for readers that need one."""
+    """Makes an uncompressed copy of a file, for readers that need one."""
 
     def __init__(self, path):
         self.path = path
@@ -411,7 +411,7 @@ def compare(program, path, tally, out):
 
 
 def seeds_as_files(folder):
-    """The inputs of the fuzzers: the first line is the file's ending."""
+    """Returns the inputs of the fuzzers, whose first line is the file's ending."""
     root = pathlib.Path(__file__).resolve().parents[1] / "fuzz" / "seeds"
     folders = [root / "particles", root / "volumes"]
     # Inputs that the fuzzers in this checkout have kept.

@@ -13,8 +13,8 @@
 #include "volume/raycast/raycast.glsl"
 #endif
 
-// A group takes a tile of 8×8 pixels, in an order that gives every 8, 16 or 32 consecutive invocations,
-// whichever a device runs in step, a compact block: rays of one block walk alike.
+// A work group draws a tile of 8×8 pixels. Any 8, 16 or 32 consecutive invocations, which a device may run in
+// lockstep, draw a compact block of it, because neighbouring rays take similar paths.
 layout(local_size_x = 64) in;
 
 ivec2 pixel_in_tile(int i) {
