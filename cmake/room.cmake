@@ -14,8 +14,9 @@ function(triptych_floor room out)
   message(FATAL_ERROR "room '${room}' has no floor; add it to TRIPTYCH_FLOORS in cmake/room.cmake")
 endfunction()
 
-# The files of a target are compiled in batches, because most of the compilation time is spent on reading headers. When this is off,
-# every file is compiled alone, which shows whether it includes everything that it uses.
+# The files of a target are compiled in batches, because most of the compilation time is spent on headers and templates. Therefore a
+# name in an anonymous namespace must be unique within its target. When this is off, every file is compiled alone, which shows whether
+# it includes everything that it uses; a change of one file is then compiled fastest.
 option(TRIPTYCH_UNITY "Compile the files of a target in batches" ON)
 set(TRIPTYCH_UNITY_BATCH 24 CACHE STRING "How many files a batch holds")
 function(triptych_batch target)
@@ -28,6 +29,13 @@ function(triptych_batch target)
   endif()
 endfunction()
 
+# Rooms without loops over voxels, particles or pixels, and without code that runs in a timed frame. Beyond -O2 their programs are
+# not faster, and they take longer to compile.
+set(TRIPTYCH_COLD record judge comparison reduction report)
+function(triptych_cold target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
+endfunction()
+
 # triptych_room(NAME SOURCES file... [ROOMS room...] [PUBLIC lib...] [PRIVATE lib...])
 # Makes a static library triptych_NAME that can include the headers of the given rooms and of no others.
 function(triptych_room name)
@@ -37,6 +45,9 @@ function(triptych_room name)
   target_include_directories(triptych_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
   target_link_libraries(triptych_${name} PRIVATE triptych_options fmt::fmt nlohmann_json::nlohmann_json)
   triptych_batch(triptych_${name})
+  if(name IN_LIST TRIPTYCH_COLD)
+    triptych_cold(triptych_${name})
+  endif()
   foreach(room IN LISTS arg_ROOMS)
     triptych_floor(${room} other)
     if(NOT other LESS own)

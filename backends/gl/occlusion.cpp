@@ -14,10 +14,10 @@ constexpr GLuint binding_before = 8;
 constexpr GLuint binding_now = 9;
 constexpr GLuint binding_farthest = 10;
 constexpr GLuint unit_depth = 3;
-constexpr int block_edge = 16;
+constexpr int cull_block_edge = 16;
 
 GLuint blocks(int pixels) {
-  return static_cast<GLuint>((pixels + block_edge - 1) / block_edge);
+  return static_cast<GLuint>((pixels + cull_block_edge - 1) / cull_block_edge);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace triptych::gl_backend {
 namespace {
 
 // The bindings of technique/volume/raycast/parameters.glsl, and texture units.
-constexpr GLuint binding_parameters = 0;
+constexpr GLuint binding_volume_parameters = 0;
 constexpr GLuint unit_volume = 1;
 constexpr GLuint unit_transfer = 2;
 constexpr GLuint binding_bricks = 3;
@@ -225,7 +225,7 @@ void VolumeData::bind(const Api& gl) const {
   }
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_bricks, bricks_.get());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_quadrature, quadrature_.get());
-  gl.BindBufferBase(GL_UNIFORM_BUFFER, binding_parameters, parameters_.get());
+  gl.BindBufferBase(GL_UNIFORM_BUFFER, binding_volume_parameters, parameters_.get());
   if (parts_) gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_pauses, pauses_.get());
 }
 

@@ -18,7 +18,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-constexpr GLuint binding_counters = 5;  // of technique/volume/raycast/parameters.glsl
+constexpr GLuint binding_volume_counters = 5;  // of technique/volume/raycast/parameters.glsl
 
 std::size_t pixel_count(const measure::VolumeWork& work) {
   return static_cast<std::size_t>(work.scene.width) * static_cast<std::size_t>(work.scene.height);
@@ -88,7 +88,8 @@ class VolumeDrawing final : public Drawing {
     pass_->bind(gl);
     gl.UseProgram(counting ? counting_->program.get() : program_.get());
     if (counting) {
-      gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_counters, counting_->counters.get());
+      gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_volume_counters,
+                        counting_->counters.get());
     }
   }
 

@@ -13,10 +13,10 @@ enum OcclusionBinding : std::uint32_t {
   depths_binding,
   end_of_bindings
 };
-constexpr std::uint32_t block_edge = 16;
+constexpr std::uint32_t cull_block_edge = 16;
 
 std::uint32_t blocks(std::uint32_t pixels) {
-  return (pixels + block_edge - 1) / block_edge;
+  return (pixels + cull_block_edge - 1) / cull_block_edge;
 }
 
 // Before the first frame, all cells count as visible.

@@ -18,15 +18,15 @@
 namespace triptych::scene {
 namespace {
 
-constexpr std::string_view generator_prefix = "generate:";
+constexpr std::string_view particle_generator = "generate:";
 
-struct Generated {
+struct GeneratedParticles {
   std::string_view name;
   std::uint64_t count;
 };
 
-Generated parse_generated(std::string_view data) {
-  const std::string_view rest = data.substr(generator_prefix.size());
+GeneratedParticles parse_generated_particles(std::string_view data) {
+  const std::string_view rest = data.substr(particle_generator.size());
   const std::size_t colon = rest.find(':');
   const auto count = colon == std::string_view::npos
                          ? std::nullopt
@@ -65,8 +65,9 @@ std::span<const char> without_byte_order_mark(const std::vector<char>& content,
                                               const std::string& file) {
   const std::string_view text(content.data(), content.size());
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-    throw core::InputError({.file = file}, "is text in UTF-16; expected ASCII or UTF-8: iconv -f "
-                                           "UTF-16 -t UTF-8 IN > OUT");
+    throw core::InputError({.file = file},
+                           "is text in UTF-16; expected ASCII or UTF-8: iconv -f "
+                           "UTF-16 -t UTF-8 IN > OUT");
   }
   return without_mark(text);
 }
@@ -109,8 +110,8 @@ ParticleSet read(const Source& source, ColourKind colour, const Progress& progre
 ParticleSet load_particles(std::string_view data, ColourKind colour,
                            const std::vector<std::filesystem::path>& folders,
                            const Progress& progress) {
-  if (data.starts_with(generator_prefix)) {
-    const auto [name, count] = parse_generated(data);
+  if (data.starts_with(particle_generator)) {
+    const auto [name, count] = parse_generated_particles(data);
     return generate_particles(name, count, colour, progress);
   }
   const auto source = find_source(data, folders);
@@ -134,13 +135,13 @@ ParticleSet load_particles(std::string_view data, ColourKind colour,
 }
 
 void check_generated_particles(std::string_view data) {
-  if (!data.starts_with(generator_prefix)) return;
-  const auto [name, count] = parse_generated(data);
+  if (!data.starts_with(particle_generator)) return;
+  const auto [name, count] = parse_generated_particles(data);
   check_particle_generator(name, count);
 }
 
 bool particles_present(std::string_view data, const std::vector<std::filesystem::path>& folders) {
-  return data.starts_with(generator_prefix) || find_source(data, folders).has_value();
+  return data.starts_with(particle_generator) || find_source(data, folders).has_value();
 }
 
 }  // namespace triptych::scene

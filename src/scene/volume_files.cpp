@@ -16,7 +16,7 @@
 namespace triptych::scene {
 namespace {
 
-constexpr std::string_view generator_prefix = "generate:";
+constexpr std::string_view volume_generator = "generate:";
 
 [[noreturn]] void reject_size(std::string_view data) {
   throw core::InputError(fmt::format(
@@ -40,13 +40,13 @@ std::array<int, 3> parse_size(std::string_view text, std::string_view data) {
   return size;
 }
 
-struct Generated {
+struct GeneratedVolume {
   std::string_view name;
   std::array<int, 3> size;
 };
 
-Generated parse_generated(std::string_view data) {
-  const std::string_view rest = data.substr(generator_prefix.size());
+GeneratedVolume parse_generated_volume(std::string_view data) {
+  const std::string_view rest = data.substr(volume_generator.size());
   const std::size_t colon = rest.find(':');
   if (colon == std::string_view::npos) reject_size(data);
   return {rest.substr(0, colon), parse_size(rest.substr(colon + 1), data)};
@@ -80,8 +80,8 @@ Component parse_component(std::string_view text) {
 
 Volume load_volume(std::string_view data, const std::vector<std::filesystem::path>& folders,
                    const Component& component) {
-  if (data.starts_with(generator_prefix)) {
-    const auto [name, size] = parse_generated(data);
+  if (data.starts_with(volume_generator)) {
+    const auto [name, size] = parse_generated_volume(data);
     check_component(component, 1, std::filesystem::path(data));
     return generate_volume(name, size);
   }
@@ -104,16 +104,16 @@ Volume load_volume(std::string_view data, const std::vector<std::filesystem::pat
 }
 
 void check_generated_volume(std::string_view data) {
-  if (!data.starts_with(generator_prefix)) {
+  if (!data.starts_with(volume_generator)) {
     static_cast<void>(parse_raw_spec(data));
     return;
   }
-  const auto [name, size] = parse_generated(data);
+  const auto [name, size] = parse_generated_volume(data);
   check_volume_generator(name, size);
 }
 
 bool is_present(std::string_view data, const std::vector<std::filesystem::path>& folders) {
-  return data.starts_with(generator_prefix) || find_volume(data, folders).file.has_value();
+  return data.starts_with(volume_generator) || find_volume(data, folders).file.has_value();
 }
 
 }  // namespace triptych::scene

@@ -17,10 +17,6 @@ technique::RaycastOptions& options_of(measure::Work& work) {
   return std::get<VolumeWork>(work.scene).options;
 }
 
-record::Counts counts_of(measure::Device& device, const measure::Work& work) {
-  return device.prepare(work)->frame(measure::Purpose::counters).counts;
-}
-
 // Samples are merged in the bricks of a walk.
 measure::Work walking(measure::Work work) {
   options_of(work).skip = technique::Skip::bricks;

@@ -28,16 +28,6 @@ measure::Work work_of(const char* data, VoxelFormat format, Sampler sampler) {
                          .options = {.sampler = sampler, .skip = technique::Skip::none, .ert = 0}}};
 }
 
-// The largest ratio of a channel's error to the bound of its pixel.
-double share_of_bound(const core::Image& image, const reference::Truth& truth) {
-  double largest = 0;
-  for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
-    const double error = std::abs(static_cast<double>(image.rgba[i]) - truth.rgba[i]);
-    if (error > 0) largest = std::max(largest, error / truth.bound[i / 4]);
-  }
-  return largest;
-}
-
 // Floats and 16-bit integers, with both techniques and each way to read voxels.
 TEST(Halves, StayWithinTheBoundOfTheDataThatTheyRound) {
   on_every_driver([](measure::Device& device) {

@@ -51,16 +51,6 @@ TEST(Precision, DoubleStaysWithinItsOwnBound) {
   if (drawn == 0) GTEST_SKIP() << "no device has double precision";
 }
 
-// The largest ratio of a channel's error to the bound of fp64 at that pixel.
-double share_of_bound(const core::Image& image, const reference::Truth& truth) {
-  double largest = 0;
-  for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
-    const double error = std::abs(static_cast<double>(image.rgba[i]) - truth.rgba[i]);
-    if (truth.bound[i / 4] > 0) largest = std::max(largest, error / truth.bound[i / 4]);
-  }
-  return largest;
-}
-
 // A bound that single precision also keeps would prove nothing.
 TEST(Precision, SingleIsNotWithinTheBoundOfDouble) {
   on_every_driver([](measure::Device& device) {

@@ -14,7 +14,7 @@ namespace {
 using measure::VolumeWork;
 using reference::AnalyticProblem;
 
-reference::AnalyticScene scene_of(AnalyticProblem problem, int size, double step) {
+reference::AnalyticScene preintegrated_scene(AnalyticProblem problem, int size, double step) {
   reference::AnalyticOptions options;
   options.size = {size, size, size};
   options.step_voxels = step;
@@ -23,7 +23,7 @@ reference::AnalyticScene scene_of(AnalyticProblem problem, int size, double step
   return analytic;
 }
 
-measure::Work work_of(const measure::Device& device, const scene::VolumeScene& scene) {
+measure::Work preintegrated_work(const measure::Device& device, const scene::VolumeScene& scene) {
   return {.technique = "raycast",
           .scene = VolumeWork{
               .scene = scene,
@@ -49,21 +49,24 @@ double rms_error(const core::Image& image, const reference::AnalyticScene& analy
 TEST(Preintegrated, V3IsExactForEveryStepUpToItsPlateaus) {
   on_every_driver([](measure::Device& device) {
     for (const double step : {0.125, 0.3, 0.5, 1.0}) {
-      const reference::AnalyticScene analytic = scene_of(AnalyticProblem::v3_plateaus, 8, step);
-      const double error = rms_error(draw(device, work_of(device, analytic.scene)), analytic);
+      const reference::AnalyticScene analytic =
+          preintegrated_scene(AnalyticProblem::v3_plateaus, 8, step);
+      const double error =
+          rms_error(draw(device, preintegrated_work(device, analytic.scene)), analytic);
       EXPECT_LT(error, 3e-7) << "step " << step;
     }
-    reference::AnalyticScene midpoint = scene_of(AnalyticProblem::v3_plateaus, 8, 1);
+    reference::AnalyticScene midpoint = preintegrated_scene(AnalyticProblem::v3_plateaus, 8, 1);
     midpoint.scene.quadrature = scene::Quadrature::midpoint;
-    EXPECT_GT(rms_error(draw(device, work_of(device, midpoint.scene)), midpoint), 1e-4);
+    EXPECT_GT(rms_error(draw(device, preintegrated_work(device, midpoint.scene)), midpoint), 1e-4);
   });
 }
 
 TEST(Preintegrated, V1IsExactForEveryStep) {
   on_every_driver([](measure::Device& device) {
     for (const double step : {0.125, 0.3, 1.0, 7.7, 100.0}) {
-      const reference::AnalyticScene analytic = scene_of(AnalyticProblem::v1_constant, 16, step);
-      EXPECT_LT(rms_error(draw(device, work_of(device, analytic.scene)), analytic), 3e-7)
+      const reference::AnalyticScene analytic =
+          preintegrated_scene(AnalyticProblem::v1_constant, 16, step);
+      EXPECT_LT(rms_error(draw(device, preintegrated_work(device, analytic.scene)), analytic), 3e-7)
           << "step " << step;
     }
   });
@@ -74,8 +77,8 @@ TEST(Preintegrated, SmoothProblemsAreOfSecondOrder) {
     for (const AnalyticProblem problem :
          {AnalyticProblem::v2_ramp, AnalyticProblem::v3_segment, AnalyticProblem::v5_atmosphere}) {
       const auto error = [&](double step) {
-        const reference::AnalyticScene analytic = scene_of(problem, 10, step);
-        return rms_error(draw(device, work_of(device, analytic.scene)), analytic);
+        const reference::AnalyticScene analytic = preintegrated_scene(problem, 10, step);
+        return rms_error(draw(device, preintegrated_work(device, analytic.scene)), analytic);
       };
       EXPECT_GE(std::log2(error(1) / error(0.125)) / 3, 1.9) << reference::name_of(problem);
     }
@@ -143,7 +146,8 @@ TEST(Preintegrated, SteepTransferFunctionsStayWithinTheBound) {
 
 TEST(Preintegrated, SpeedOfLightRefusesIt) {
   on_every_driver([](measure::Device& device) {
-    measure::Work work = work_of(device, scene_of(AnalyticProblem::v1_constant, 8, 1).scene);
+    measure::Work work =
+        preintegrated_work(device, preintegrated_scene(AnalyticProblem::v1_constant, 8, 1).scene);
     work.technique = "speed_of_light";
     EXPECT_NE(device.unsupported(work), std::nullopt);
   });

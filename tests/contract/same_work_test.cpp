@@ -16,10 +16,6 @@ measure::Work full_volume(const measure::Device& device) {
   return work;
 }
 
-record::Counts counts_of(measure::Device& device, const measure::Work& work) {
-  return device.prepare(work)->frame(measure::Purpose::counters).counts;
-}
-
 void expect_same_work(measure::Device& device, const measure::Work& a, const measure::Work& b) {
   EXPECT_EQ(counts_of(device, a), counts_of(device, b));
   EXPECT_EQ(draw(device, a), draw(device, b));

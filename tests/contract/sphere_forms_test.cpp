@@ -26,7 +26,7 @@ ParticleWork white_spheres(const std::vector<std::array<double, 4>>& spheres,
   return particle_work(std::move(set), camera, side, side);
 }
 
-double covered(const core::Image& image) {
+double pixels_with_ids(const core::Image& image) {
   return static_cast<double>(std::ranges::count_if(
       image.ids, [](std::uint32_t id) { return id != core::Image::no_particle; }));
 }
@@ -49,7 +49,7 @@ TEST(SphereForms, S1TheSilhouetteIsTheEllipse) {
       const auto ellipse = reference::s1_silhouette(sine, theta, focal);
       ASSERT_TRUE(ellipse);
       with_every_technique(device, work, [&](const measure::Work& whole) {
-        EXPECT_NEAR(covered(draw(device, whole)), ellipse->area,
+        EXPECT_NEAR(pixels_with_ids(draw(device, whole)), ellipse->area,
                     lattice_error(2 * pi * ellipse->semi_major));
       });
     }
@@ -71,7 +71,7 @@ TEST(SphereForms, S3TheMeanCosineOfADiscIsTwoThirds) {
       for (std::size_t i = 0; i < image.ids.size(); ++i) {
         if (image.ids[i] == 0) sum += static_cast<double>(image.rgba[4 * i]);
       }
-      const double cosine = (sum / covered(image) - shading.ambient) / shading.diffuse;
+      const double cosine = (sum / pixels_with_ids(image) - shading.ambient) / shading.diffuse;
       EXPECT_NEAR(cosine, reference::s3_mean_cosine, std::pow(radius_px, -1.5));
     });
   });
@@ -124,7 +124,7 @@ TEST(SphereForms, S5RandomDiscsLeaveTheirShare) {
     const double free = reference::s5_uncovered(discs, radius, 4);
     const double deviation = std::sqrt(free * (1 - free) * 4 * pi * radius * radius / 3.24);
     with_every_technique(device, work, [&](const measure::Work& whole) {
-      EXPECT_NEAR(1 - covered(draw(device, whole)) / (side * side), free, 3 * deviation);
+      EXPECT_NEAR(1 - pixels_with_ids(draw(device, whole)) / (side * side), free, 3 * deviation);
     });
   });
 }

@@ -46,6 +46,10 @@ inline void on_every_driver(const std::function<void(measure::Device&)>& body) {
   on_devices(body, every == nullptr || *every == '\0');
 }
 
+inline record::Counts counts_of(measure::Device& device, const measure::Work& work) {
+  return device.prepare(work)->frame(measure::Purpose::counters).counts;
+}
+
 // The scene on the default path of the device.
 inline measure::Work default_work(const measure::Device& device, scene::Volume volume,
                                   scene::VolumeScene scene) {

@@ -47,4 +47,14 @@ inline void expect_closed_form(measure::Device& device, const measure::Work& wor
   }
 }
 
+// The largest ratio of a channel's error to the bound of its pixel.
+inline double share_of_bound(const core::Image& image, const reference::Truth& truth) {
+  double largest = 0;
+  for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
+    const double error = std::abs(static_cast<double>(image.rgba[i]) - truth.rgba[i]);
+    if (error > 0) largest = std::max(largest, error / truth.bound[i / 4]);
+  }
+  return largest;
+}
+
 }  // namespace triptych::contract

@@ -9,7 +9,7 @@
 namespace triptych::judge {
 namespace {
 
-Absent read_entry(const core::JsonNode& entry) {
+Absent read_absent(const core::JsonNode& entry) {
   refuse_other_keys(entry, {"device", "host", "reason", "expiry"});
   Absent absent{.device = entry.at("device").text(), .reason = reason_of(entry)};
   if (entry.has("host")) absent.host = entry.at("host").text();
@@ -27,7 +27,7 @@ std::vector<Absent> read_absent(const std::filesystem::path& file) {
   std::vector<Absent> result;
   const auto json = core::JsonFile::read(file);
   if (!json) return result;
-  for (const core::JsonNode& entry : json->root().elements()) result.push_back(read_entry(entry));
+  for (const core::JsonNode& entry : json->root().elements()) result.push_back(read_absent(entry));
   return result;
 }
 

@@ -18,7 +18,7 @@ namespace {
 constexpr std::array<std::pair<Known, std::string_view>, 3> known_names{
     {{Known::fail, "fail"}, {Known::flake, "flake"}, {Known::skip, "skip"}}};
 
-Waiver read_entry(const core::JsonNode& entry) {
+Waiver read_waiver(const core::JsonNode& entry) {
   refuse_other_keys(entry, {"device", "test", "configuration", "reason", "expiry", "outcome"});
   Waiver waiver{.device = entry.at("device").text(),
                 .test = entry.at("test").text(),
@@ -58,7 +58,7 @@ std::vector<Waiver> read_waivers(const std::filesystem::path& file, const std::s
   for (const core::JsonNode& entry : json->root().elements()) {
     // An entry that nobody reviews would also excuse later failures.
     refuse_distant_expiry(entry.at("expiry"), today);
-    result.push_back(read_entry(entry));
+    result.push_back(read_waiver(entry));
     refuse_without_limits(entry, result.back());
   }
   return result;
@@ -69,7 +69,7 @@ std::vector<Waiver> read_expected(const std::filesystem::path& file) {
   if (!json) throw core::InputError(file.string() + ": the file does not exist");
   std::vector<Waiver> result;
   for (const core::JsonNode& entry : json->root().elements()) {
-    result.push_back(read_entry(entry));
+    result.push_back(read_waiver(entry));
     static_cast<void>(entry.at("configuration"));
     refuse_without_limits(entry, result.back());
     result.back().known = read_known(entry.at("outcome"));

@@ -16,19 +16,19 @@ struct Row {
   std::vector<double> ms;
 };
 
-struct Scene {
+struct ChartScene {
   std::string title;
   std::vector<Row> rows;
 };
 
 // Scenes in the order of their first configuration. Configurations that differ only in factors that
 // no title contains share a row.
-std::vector<Scene> scenes_of(const PlanData& plan) {
-  std::vector<Scene> scenes;
+std::vector<ChartScene> scenes_of(const PlanData& plan) {
+  std::vector<ChartScene> scenes;
   for (const record::Record& record : plan.records) {
     if (!record.same_as.empty() || record.time_ns().empty()) continue;
     const std::string title = scene_title(plan, record);
-    auto scene = std::ranges::find(scenes, title, &Scene::title);
+    auto scene = std::ranges::find(scenes, title, &ChartScene::title);
     if (scene == scenes.end()) scene = scenes.insert(scenes.end(), {title, {}});
     auto row = std::ranges::find_if(scene->rows, [&](const Row& each) {
       return each.device == record.device && each.technique == record.technique;
@@ -41,7 +41,7 @@ std::vector<Scene> scenes_of(const PlanData& plan) {
   return scenes;
 }
 
-Html figure_of(const Scene& scene, const std::vector<std::string>& techniques) {
+Html figure_of(const ChartScene& scene, const std::vector<std::string>& techniques) {
   Axis up;
   for (const Row& row : scene.rows) up.names.push_back(row.device + " " + row.technique);
   Figure figure("Times of frames: " + scene.title,
@@ -65,14 +65,14 @@ Html figure_of(const Scene& scene, const std::vector<std::string>& techniques) {
 }  // namespace
 
 Html time_chart(const PlanData& plan) {
-  const std::vector<Scene> scenes = scenes_of(plan);
+  const std::vector<ChartScene> scenes = scenes_of(plan);
   std::set<std::string> names;
-  for (const Scene& scene : scenes) {
+  for (const ChartScene& scene : scenes) {
     for (const Row& row : scene.rows) names.insert(row.technique);
   }
   const std::vector<std::string> techniques(names.begin(), names.end());
   std::vector<Titled> all;
-  for (const Scene& scene : scenes) all.push_back({scene.title, figure_of(scene, techniques)});
+  for (const ChartScene& scene : scenes) all.push_back({scene.title, figure_of(scene, techniques)});
   return all.empty() ? Html() : figures(all);
 }
 

@@ -77,11 +77,11 @@ struct Plane {
 
 // Planes are tried at multiples of 1/16 of the distance from the first centre to the last one.
 constexpr std::size_t slices = 16;
-using Slices = std::array<Group, slices>;
+using SliceGroups = std::array<Group, slices>;
 
 // Returns the slice before which a plane has the smallest cost, and that cost. Slice 0 means that
 // no cost is below `most`.
-std::pair<std::size_t, double> cheapest(const Slices& parts, double most) {
+std::pair<std::size_t, double> cheapest(const SliceGroups& parts, double most) {
   std::array<double, slices> below_cost{};
   Group below;
   for (std::size_t i = 0; i < slices; ++i) {
@@ -138,7 +138,7 @@ class PlaneSearch {
 
  private:
   Box centres_;
-  std::array<Slices, 3> by_axis_{};
+  std::array<SliceGroups, 3> by_axis_{};
 };
 
 }  // namespace

@@ -16,7 +16,8 @@
 namespace triptych::technique {
 namespace {
 
-constexpr std::size_t entries = std::tuple_size_v<decltype(scene::TransferFunction::entries)>;
+constexpr std::size_t function_entries =
+    std::tuple_size_v<decltype(scene::TransferFunction::entries)>;
 
 // Extremes of the four channels.
 struct Extremes {
@@ -41,7 +42,7 @@ class FunctionExtremes {
     });
     for (std::size_t level = 1; level < levels_.size(); ++level) {
       const std::size_t half = std::size_t{1} << (level - 1);
-      for (std::size_t k = 0; k + 2 * half <= entries; ++k) {
+      for (std::size_t k = 0; k + 2 * half <= function_entries; ++k) {
         levels_[level][k] = levels_[level - 1][k];
         levels_[level][k].widen(levels_[level - 1][k + half]);
       }
@@ -66,14 +67,15 @@ class FunctionExtremes {
 
  private:
   // Level n contains, for each entry, the extremes of the 2ⁿ entries that begin with it.
-  std::array<std::array<Extremes, entries>, std::bit_width(entries)> levels_{};
+  std::array<std::array<Extremes, function_entries>, std::bit_width(function_entries)> levels_{};
 
   [[nodiscard]] static double position(double value) {
-    return std::clamp(value * entries - 0.5, 0.0, static_cast<double>(entries - 1));
+    return std::clamp(value * function_entries - 0.5, 0.0,
+                      static_cast<double>(function_entries - 1));
   }
 
   [[nodiscard]] Extremes at(double position) const {
-    const auto below = std::min(static_cast<std::size_t>(position), entries - 2);
+    const auto below = std::min(static_cast<std::size_t>(position), function_entries - 2);
     const double weight = position - static_cast<double>(below);
     Extremes between = levels_[0][below];
     for (std::size_t c = 0; c < 4; ++c) {

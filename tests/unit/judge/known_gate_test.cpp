@@ -12,7 +12,7 @@ namespace {
 using core::ExitCode;
 using ::testing::SizeIs;
 
-constexpr const char* lavapipe = "vulkan:lavapipe";
+constexpr const char* known_device = "vulkan:known_device";
 
 class KnownGateTest : public GateTest {
  protected:
@@ -40,7 +40,7 @@ class KnownGateTest : public GateTest {
 };
 
 TEST_F(KnownGateTest, AFailureIsWaivedTheNextTime) {
-  add_run("b", wrong_image_on(lavapipe));
+  add_run("b", wrong_image_on(known_device));
   const GateResult first = gate("b");
   EXPECT_EQ(first.exit_code(), ExitCode::regression);
   request_.known = written_by(first);
@@ -55,7 +55,7 @@ TEST_F(KnownGateTest, AFailureIsWaivedTheNextTime) {
 
 TEST_F(KnownGateTest, ANewFailureIsRed) {
   request_.known.emplace();
-  add_run("b", wrong_image_on(lavapipe));
+  add_run("b", wrong_image_on(known_device));
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
   // Another configuration, device or check.
   add_run("c", wrong_image_on("opencl:pocl"));
@@ -65,7 +65,7 @@ TEST_F(KnownGateTest, ANewFailureIsRed) {
 }
 
 TEST_F(KnownGateTest, APassThatWasNotExpectedIsTold) {
-  add_run("b", wrong_image_on(lavapipe));
+  add_run("b", wrong_image_on(known_device));
   request_.known = written_by(gate("b"));
   const GateResult mended = gate("accepted");
   EXPECT_EQ(mended.exit_code(), ExitCode::pass);
@@ -77,7 +77,7 @@ TEST_F(KnownGateTest, APassThatWasNotExpectedIsTold) {
 }
 
 TEST_F(KnownGateTest, ASkipThatWasNotExpectedIsNoPass) {
-  add_run("b", skipped_on(lavapipe));
+  add_run("b", skipped_on(known_device));
   AcceptRequest only_it;
   only_it.only = plain_;
   only_it.drop = true;
@@ -94,7 +94,7 @@ TEST_F(KnownGateTest, ASkipThatWasNotExpectedIsNoPass) {
 }
 
 TEST_F(KnownGateTest, AnExpiredEntryExcusesNothing) {
-  add_run("b", wrong_image_on(lavapipe));
+  add_run("b", wrong_image_on(known_device));
   request_.known = written_by(gate("b"));
   request_.known->front().expiry = request_.today;
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
@@ -118,7 +118,7 @@ TEST_F(KnownGateTest, AFileWithAMistakeIsRefused) {
 // --- drawn again ---
 
 TEST_F(KnownGateTest, WhatIsRightWhenDrawnAgainIsAFlakeAndNoPass) {
-  add_run("b", wrong_image_on(lavapipe));
+  add_run("b", wrong_image_on(known_device));
   const GateResult first = gate("b");
   const Places places = failing(first);
   ASSERT_THAT(places, SizeIs(1));
@@ -141,7 +141,7 @@ TEST_F(KnownGateTest, WhatIsRightWhenDrawnAgainIsAFlakeAndNoPass) {
 // Neither a failure nor a pass, because a slow driver on a busy machine also ends like this.
 TEST_F(KnownGateTest, AHangThatIsRightWhenDrawnAgainCannotBeJudged) {
   add_run("b", [](record::Record& record, core::Image&) {
-    if (record.device != lavapipe || record.configuration != plain_) return;
+    if (record.device != known_device || record.configuration != plain_) return;
     record.outcome = record::Outcome::hung;
     record.reason = {.cause = record::Cause::timeout, .numbers = {{"limit_s", 60}}};
   });
@@ -158,7 +158,7 @@ TEST_F(KnownGateTest, AHangThatIsRightWhenDrawnAgainCannotBeJudged) {
 // is no such finding then.
 TEST_F(KnownGateTest, ACrashOfWhatHasNoPictureIsAFlakeToo) {
   const auto sums = [](record::Record& record, core::Image&) {
-    if (record.device != lavapipe || record.configuration != plain_) return;
+    if (record.device != known_device || record.configuration != plain_) return;
     record.technique = "speed_of_light";
     if (record.run != "b") return;
     record.outcome = record::Outcome::crashed;
@@ -176,8 +176,8 @@ TEST_F(KnownGateTest, ACrashOfWhatHasNoPictureIsAFlakeToo) {
 }
 
 TEST_F(KnownGateTest, WhatIsSkippedWhenDrawnAgainStaysARegression) {
-  add_run("b", wrong_image_on(lavapipe));
-  add_run("c", skipped_on(lavapipe));
+  add_run("b", wrong_image_on(known_device));
+  add_run("c", skipped_on(known_device));
   const GateResult first = gate("b");
   const Redrawn redrawn = tell_flakes(first, gate("c"), failing(first));
   EXPECT_TRUE(redrawn.flakes.empty());
@@ -192,7 +192,7 @@ TEST_F(KnownGateTest, WhatIsSkippedWhenDrawnAgainStaysARegression) {
 TEST_F(KnownGateTest, EachCheckIsAFlakeByItself) {
   request_.checks = {Check::image, Check::counters};
   const auto miscounted = [](record::Record& record, core::Image& image) {
-    if (record.device != lavapipe || record.configuration != plain_) return;
+    if (record.device != known_device || record.configuration != plain_) return;
     ++record.counters["samples"];
     if (record.run == "b") image.rgba[4 * 11] += 0.01F;
   };
@@ -210,7 +210,7 @@ TEST_F(KnownGateTest, EachCheckIsAFlakeByItself) {
 }
 
 TEST_F(KnownGateTest, WhatFailsTwiceIsNoFlake) {
-  add_run("b", wrong_image_on(lavapipe));
+  add_run("b", wrong_image_on(known_device));
   const GateResult first = gate("b");
   const Redrawn same = tell_flakes(first, gate("b"), failing(first));
   EXPECT_TRUE(same.flakes.empty());

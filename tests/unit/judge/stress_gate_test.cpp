@@ -15,7 +15,7 @@
 namespace triptych::judge {
 namespace {
 
-constexpr const char* lavapipe = "vulkan:lavapipe";
+constexpr const char* stress_device = "vulkan:stress_device";
 
 class StressGateTest : public JudgeTest {
  protected:
@@ -38,7 +38,7 @@ class StressGateTest : public JudgeTest {
   // Changes the plain image of one device.
   static Tweak on_lavapipe(const std::function<void(record::Record&, core::Image&)>& change) {
     return [change](record::Record& record, core::Image& image) {
-      if (record.device == lavapipe && record.configuration == plain_) change(record, image);
+      if (record.device == stress_device && record.configuration == plain_) change(record, image);
     };
   }
 
@@ -49,7 +49,7 @@ class StressGateTest : public JudgeTest {
     add_run("judged", tweak);
     Finding result;
     for (const Finding& finding : gate("judged").findings) {
-      const bool about = finding.device == lavapipe && finding.configuration == plain_;
+      const bool about = finding.device == stress_device && finding.configuration == plain_;
       if (about && finding.check == Check::stress) result = finding;
     }
     return result;
@@ -129,7 +129,7 @@ TEST_F(StressGateTest, AnAcceptedLossStaysInSight) {
 
 TEST_F(StressGateTest, ADeviceThatWasNeverAcceptedIsHeldToTheOthers) {
   add_run("a", [](record::Record& record, core::Image&) {
-    if (record.device == lavapipe) record.outcome = record::Outcome::skipped;
+    if (record.device == stress_device) record.outcome = record::Outcome::skipped;
   });
   accept_scores("a");
   add_run("b", on_lavapipe([](record::Record&, core::Image& image) { image.rgba[17] += 1; }));
@@ -147,10 +147,10 @@ TEST_F(StressGateTest, OneDeviceAskedForIsHeldAgainstTheOthersOfTheRun) {
     for (float& value : image.rgba) value += bound / 2;
   }));
   GateRequest one = request_;
-  one.devices = {lavapipe};
+  one.devices = {stress_device};
   const auto lost = with(gate("judged", one), Verdict::regression, Check::stress);
   ASSERT_EQ(lost.size(), 1U);
-  EXPECT_EQ(lost[0].device, lavapipe);
+  EXPECT_EQ(lost[0].device, stress_device);
 }
 
 TEST_F(StressGateTest, ARefusalIsRightOnlyWhereItIsAllowed) {

@@ -14,7 +14,6 @@
 namespace triptych::measure {
 namespace {
 
-constexpr double ms = 1e6;
 constexpr int warm_up = 4;
 constexpr int timed = 8;
 

@@ -17,8 +17,6 @@ using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr double ms = 1e6;
-
 std::vector<record::ClockTrust> trusting(technique::Work kind) {
   record::ClockTrust trust;
   trust.work = technique::name_of(kind);

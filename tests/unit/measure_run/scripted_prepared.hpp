@@ -13,6 +13,8 @@
 
 namespace triptych::measure {
 
+inline constexpr double ms = 1e6;  // nanoseconds
+
 class ScriptedPrepared final : public Prepared {
  public:
   // The result of the n-th frame, counted from 0, whatever its purpose.

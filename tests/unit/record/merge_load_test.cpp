@@ -31,7 +31,7 @@ int number_from(const char* variable, int standard) {
 // Like the records of a volume study: 14 factors, a frame by two clocks, six counts. They are in
 // the order of a plan, in which cameras vary fastest, and not in the order of their text. The merge
 // passes seals on, so here they depend only on the number.
-constexpr const char* fill = R"sql(
+constexpr const char* fill_sql = R"sql(
 CREATE TEMP TABLE n AS WITH RECURSIVE n (seq, i) AS (
   SELECT 1, :first UNION ALL SELECT seq + 1, i + :step FROM n WHERE seq < :count)
 SELECT seq, i, format('orbit_y:%d/252', i % 252) AS camera,
@@ -77,7 +77,7 @@ class MergeLoad : public StoreTest {
     }
     SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
     database.exec("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; BEGIN");
-    std::string sql = fill;
+    std::string sql = fill_sql;
     replace_all(sql, "RUN", run);
     replace_all(sql, ":first", std::to_string(index));
     replace_all(sql, ":step", std::to_string(count));

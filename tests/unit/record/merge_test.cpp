@@ -51,11 +51,6 @@ Record failed(int number, Outcome outcome = Outcome::crashed) {
   return record;
 }
 
-std::vector<std::byte> bytes_of(std::string_view text) {
-  const auto bytes = std::as_bytes(std::span(text));
-  return {bytes.begin(), bytes.end()};
-}
-
 class Merge : public StoreTest {
  protected:
   // A shard whose run began at a given second.
@@ -319,7 +314,8 @@ TEST_F(Merge, NamesWhatWasNeverBegun) {
     Store store(file, Mode::append);
     const std::vector<std::string> planned{configuration(1), configuration(2)};
     store.begin(store.runs().back().id,
-                {.host = "a", .found = {"null:other", "null:scripted"},
+                {.host = "a",
+                 .found = {"null:other", "null:scripted"},
                  .devices = {"null:other", "null:scripted"}},
                 planned);
   }

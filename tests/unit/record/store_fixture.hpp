@@ -10,12 +10,16 @@
 
 #include <array>
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "record/store.hpp"
 #include "samples.hpp"
@@ -29,10 +33,13 @@ inline void make_store(const std::filesystem::path& file) {
   store.add_record(sample_record());
 }
 
-inline  // A disk of 1 MiB that only this process sees; needs no root where users may have
-        // namespaces.
-    bool
-    mount_small_disk(const std::filesystem::path& folder) {
+inline std::vector<std::byte> bytes_of(std::string_view text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+// A disk of 1 MiB that only this process sees; needs no root where users may have namespaces.
+inline bool mount_small_disk(const std::filesystem::path& folder) {
   const uid_t user = geteuid();
   if (unshare(CLONE_NEWNS) != 0) {
     if (unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;

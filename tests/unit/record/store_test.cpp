@@ -21,11 +21,6 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 using Mode = Store::Mode;
 
-std::vector<std::byte> bytes_of(std::string_view text) {
-  const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
-  return {bytes.begin(), bytes.end()};
-}
-
 std::vector<std::string> ids_of(const std::vector<Run>& runs) {
   std::vector<std::string> ids;
   for (const Run& each : runs) ids.push_back(each.id);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-SphereErrorModel some_model() {
+SphereErrorModel some_sphere_model() {
   SphereErrorModel model;
   model.lateral_px = 1e-3;
   model.lateral_relative = 1e-7;
@@ -82,7 +82,7 @@ TEST(Spheres, EveryPixelIsThatOfALoopOverAllSpheres) {
     for (const std::uint64_t seed : {1U, 2U}) {
       auto scene = scene_of(random_set(seed, 1500, 0.005, 0.1), 41, 33, 60);
       scene.camera = view.camera;
-      for (const SphereErrorModel& model : {SphereErrorModel{}, some_model()}) {
+      for (const SphereErrorModel& model : {SphereErrorModel{}, some_sphere_model()}) {
         const std::size_t changes = expect_brute_force(scene, model, view.what);
         if (view.sees_many) {
           EXPECT_GT(changes, 100U) << view.what;
@@ -100,13 +100,13 @@ TEST(Spheres, EyeInsideAndCloseToSpheres) {
   set.rgba8.push_back(0xFF123456);
   auto scene = scene_of(std::move(set), 40, 30, 90);
   scene.camera = look_at({0.4, -0.3, 0.2}, {-1, 0, 0}, {0, 1, 0}, 90);
-  EXPECT_GT(expect_brute_force(scene, some_model(), "inside"), 20U);
+  EXPECT_GT(expect_brute_force(scene, some_sphere_model(), "inside"), 20U);
   const SphereTruth inside = render_spheres(scene);
   EXPECT_EQ(inside.coverage, 1.0);
   scene.camera = look_at({6.0001, 0, 0}, {5, 0, 0}, {0, 1, 0}, 100);
-  expect_brute_force(scene, some_model(), "1.0001 radii, towards it");
+  expect_brute_force(scene, some_sphere_model(), "1.0001 radii, towards it");
   scene.camera = look_at({6.0001, 0, 0}, {6.0001, 1, 0.001}, {1, 0, 0}, 100);
-  expect_brute_force(scene, some_model(), "1.0001 radii, along it");
+  expect_brute_force(scene, some_sphere_model(), "1.0001 radii, along it");
   scene.camera = look_at({6, 0, 0}, {7, 0, 0}, {0, 1, 0}, 100);
   for (const std::uint8_t certain : render_spheres(scene).certain) {
     EXPECT_EQ(certain, 0) << "on the surface: it may be seen from inside or not at all";
@@ -119,9 +119,9 @@ TEST(Spheres, OneSphereTenThousandTimesAsLargeAsItsNeighbours) {
   set.rgba8.push_back(0xFF00FF00);
   auto scene = scene_of(std::move(set), 48, 48, 50);
   scene.camera = look_at({0.5, 0.4, 3}, {0, 0, 0});
-  EXPECT_GT(expect_brute_force(scene, some_model(), "from above"), 100U);
+  EXPECT_GT(expect_brute_force(scene, some_sphere_model(), "from above"), 100U);
   scene.camera.eye = {0, -150, 0};  // inside the large one
-  EXPECT_EQ(expect_brute_force(scene, some_model(), "from below"), 0U);
+  EXPECT_EQ(expect_brute_force(scene, some_sphere_model(), "from below"), 0U);
 }
 
 TEST(Spheres, RadiusScaleAndAxisParallelRays) {
@@ -129,7 +129,7 @@ TEST(Spheres, RadiusScaleAndAxisParallelRays) {
   scene.camera.eye = {0, 0, 2};
   for (const double scale : {0.25, 1.0, 3.0}) {
     scene.radius_scale = scale;
-    expect_brute_force(scene, some_model(), std::to_string(scale));
+    expect_brute_force(scene, some_sphere_model(), std::to_string(scale));
   }
   scene.radius_scale = 1e-60;
   EXPECT_EQ(render_spheres(scene).coverage, 0.0);
@@ -141,14 +141,15 @@ TEST(Spheres, OrderAndThreadsChangeNothing) {
   const scene::ParticleSet set = random_set(6, 3000, 0.01, 0.2);
   auto scene = scene_of(set, 37, 29, 60);
   scene.camera = look_at({1, 0.4, 1.2}, {0, 0, 0});
-  const SphereTruth first = render_spheres(scene, some_model(), 1);
+  const SphereTruth first = render_spheres(scene, some_sphere_model(), 1);
   EXPECT_GT(first.coverage, 0.5);
   for (const int threads : {0, 2, 3, 64}) {
-    expect_equal(first, render_spheres(scene, some_model(), threads), std::to_string(threads));
+    expect_equal(first, render_spheres(scene, some_sphere_model(), threads),
+                 std::to_string(threads));
   }
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     scene.particles = std::make_shared<const scene::ParticleSet>(shuffled(set, seed));
-    expect_equal(first, render_spheres(scene, some_model()), "shuffled");
+    expect_equal(first, render_spheres(scene, some_sphere_model()), "shuffled");
   }
 }
 
@@ -158,7 +159,7 @@ TEST(Spheres, LowestIdOnATie) {
   const scene::ParticleSet set = set_of(twice);
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const auto scene = scene_of(shuffled(set, seed), 21, 21, 60);
-    const SphereTruth truth = render_spheres(scene, some_model());
+    const SphereTruth truth = render_spheres(scene, some_sphere_model());
     const std::size_t middle = 10 * 21 + 10;
     EXPECT_EQ(truth.ids[middle], 0U);
     EXPECT_EQ(truth.certain[middle], 1);
@@ -200,7 +201,7 @@ TEST(Spheres, ColoursOfEveryKind) {
 TEST(Spheres, ImagesCarryDepthIdsAndBounds) {
   auto scene = scene_of(set_of({{0, 0, -3, 1}}), 31, 31, 90);
   scene.background = {0.125F, 0.25F, 0.5F, 1.0F};
-  const SphereTruth truth = render_spheres(scene, some_model());
+  const SphereTruth truth = render_spheres(scene, some_sphere_model());
   const core::Image image = truth.image();
   const core::Image bound = truth.bound_image();
   EXPECT_EQ(image.pixel(0, 0), scene.background);
@@ -224,7 +225,7 @@ TEST(Spheres, ImagesCarryDepthIdsAndBounds) {
 
 TEST(Spheres, NoParticlesAndNoScene) {
   auto scene = scene_of(set_of({}), 3, 2, 60);
-  const SphereTruth truth = render_spheres(scene, some_model());
+  const SphereTruth truth = render_spheres(scene, some_sphere_model());
   EXPECT_EQ(truth.coverage, 0.0);
   EXPECT_EQ(truth.certain, std::vector<std::uint8_t>(6, 1));
   scene.width = 0;

@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 
 // A cube with an edge length of 1, except for `flat`, the thickness of a voxel.
-scene::VolumeScene scene_of(double flat) {
+scene::VolumeScene flat_scene(double flat) {
   scene::Volume volume = scene::generate_volume("uniform_box", {8, 8, 8});
   volume.spacing = {0.125, 0.125, flat};
   return {.grid = std::make_shared<const scene::VoxelGrid>(
@@ -21,8 +21,8 @@ scene::VolumeScene scene_of(double flat) {
 }
 
 TEST(RaycastReason, SamplesAreCountedInIntegersOfADevice) {
-  EXPECT_FALSE(raycast_reason("raycast", scene_of(1e-8), {}));
-  scene::VolumeScene scene = scene_of(1e-10);
+  EXPECT_FALSE(raycast_reason("raycast", flat_scene(1e-8), {}));
+  scene::VolumeScene scene = flat_scene(1e-10);
   EXPECT_THAT(raycast_reason("raycast", scene, {}).value_or(""),
               HasSubstr("1.4e+10 samples, but devices count only to 2³⁰: use a longer step"));
   scene.step_voxels = 4096;
@@ -31,13 +31,13 @@ TEST(RaycastReason, SamplesAreCountedInIntegersOfADevice) {
 
 // Rays go from plane to plane of the grid, and there are few planes.
 TEST(RaycastReason, OfCellsHasNoSamplesToCount) {
-  scene::VolumeScene scene = scene_of(1e-10);
+  scene::VolumeScene scene = flat_scene(1e-10);
   scene.quadrature = scene::Quadrature::cells;
   EXPECT_FALSE(raycast_reason("raycast", scene, {}));
 }
 
 TEST(RaycastParameters, OfCellsAreTheSameForEveryStepFromACellOn) {
-  scene::VolumeScene scene = scene_of(0.5);
+  scene::VolumeScene scene = flat_scene(0.5);
   scene.quadrature = scene::Quadrature::cells;
   const auto one = raycast_parameters(scene, {}, 1);
   scene.step_voxels = 7;
