@@ -20,7 +20,7 @@ namespace triptych::null_backend {
 // prepare, of the work's preparation.
 void play_failure(const Script& script, Place at, const std::string& subject, int number = 0);
 
-// The first failure that concerns the picture: Place::image, wrong_image or nan_image.
+// The first failure that concerns the image: Place::image, wrong_image or nan_image.
 [[nodiscard]] std::optional<FailureKind> image_failure(const Script& script,
                                                        const std::string& subject);
 

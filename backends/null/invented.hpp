@@ -23,7 +23,7 @@ namespace triptych::null_backend {
 [[nodiscard]] record::Counts statistics_of(const measure::Work& work);
 
 // Slopes in x and y whose strength and offset depend on the scene. An injected fault of the
-// technique changes it as it would change a real picture. Particles also have depth and ids.
+// technique changes it as it would change a real image. Particles also have depth and ids.
 [[nodiscard]] core::Image pattern(const measure::Work& work);
 
 // A key for the device code that would be compiled for this work.

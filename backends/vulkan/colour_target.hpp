@@ -18,7 +18,7 @@ namespace triptych::vulkan_backend {
                                                        const Image& target);
 
 // Fills the only target of the framebuffer, which has this format, with NaN. Fresh memory may
-// contain a picture that was right before.
+// contain an image that was right before.
 void mark_unwritten(const Gpu& gpu, vk::Format format, const vk::raii::Framebuffer& framebuffer,
                     vk::Extent3D extent);
 

@@ -32,7 +32,7 @@ class TilePipelines {
   std::vector<vk::Pipeline> pipelines_;
 };
 
-// The pipeline that colours the picture. `state` describes everything but the stages.
+// The pipeline that colours the image. `state` describes everything but the stages.
 [[nodiscard]] vk::Pipeline tiles_show(const Gpu& gpu, const Layout& layout,
                                       const vk::raii::RenderPass& pass, DrawState state,
                                       const Specialization& constants);

@@ -35,7 +35,7 @@ struct FindingGroup {
   // Devices of other driver families that fail the same check in some of its configurations and
   // pass it in none.
   std::vector<std::string> wrong_on = {};
-  // For a wrong picture: the number of its configurations in which the counters or statistics
+  // For a wrong image: the number of its configurations in which the counters or statistics
   // changed as well.
   std::size_t changed_with_it = 0;
   std::vector<const judge::Finding*> members = {};
@@ -50,7 +50,7 @@ struct FindingGroup {
 // worst first: regressions, then what could not be judged, then the rest. Within these, what ended
 // a program comes before what it drew; then the order of the checks decides, and then the number of
 // configurations, largest first. Two kinds of regressions are left out: one of correlation that a
-// regression of cost explains, and one of counters or statistics where the picture is wrong, which
+// regression of cost explains, and one of counters or statistics where the image is wrong, which
 // is counted in changed_with_it.
 [[nodiscard]] std::vector<FindingGroup> grouped(std::span<const judge::Finding> findings);
 
@@ -62,7 +62,7 @@ struct FindingGroup {
 // the smallest case of the result.
 bool take_in(FindingGroup& group, const FindingGroup& other);
 
-// Whether somebody has to look at the finding: it is neither a pass nor advisory.
+// Whether the finding needs attention: it is neither a pass nor advisory.
 [[nodiscard]] bool is_open(const judge::Finding& finding);
 
 // A command that reproduces a finding of the result and can be pasted. It contains the settings

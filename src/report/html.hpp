@@ -103,7 +103,7 @@ using Rows = std::vector<TableRow>;
 [[nodiscard]] Html embedded_markup(std::string_view file);
 [[nodiscard]] std::string embedded_sha256(std::string_view file);
 
-// The page, with the bytes of each picture only once. An image that repeats an earlier one has no
+// The page, with the bytes of each image only once. An image that repeats an earlier one has no
 // `src` but `data-same`, with the number of that image among all `img` elements.
 [[nodiscard]] Html without_repeated_pictures(const Html& page);
 

@@ -70,7 +70,7 @@ KindRow row_of(const words::CheckWords& kind, std::span<const GateResult* const>
       if (decides(finding.verdict)) ++tally.decided;
     }
   }
-  const bool shown =  // and nothing else, because nobody asked for a verdict
+  const bool shown =  // only shown, because no verdict was requested
       kind.check == Check::timing &&
       std::ranges::none_of(results, [](const GateResult* each) { return each->times_decided; });
   KindRow row{kind.check, kind.label, "–", Verdict::skipped, std::string(kind.none)};

@@ -33,7 +33,7 @@ struct Overview {
   std::size_t devices = 0;
   bool part = false;  // at least one plan is incomplete: a shard, some levels
   std::vector<KindRow> rows;
-  std::vector<Cause> open;   // findings that somebody has to look at, the worst first
+  std::vector<Cause> open;   // findings that need attention, the worst first
   std::vector<Cause> aside;  // waived, improved, advisory or skipped; not what passed
   std::vector<NearestBound> bounds;
   std::vector<std::string> circumstances;  // see report/circumstances.hpp

@@ -1,5 +1,5 @@
 #pragma once
-// The result of a check as output of a CTest test: text for the log, numbers and pictures for the
+// The result of a check as output of a CTest test: text for the log, numbers and images for the
 // dashboard.
 
 #include <optional>
@@ -12,8 +12,8 @@
 namespace triptych::report {
 
 // The findings, the numbers of the worst one, and the headline. With `truth`, also the three
-// pictures for the configuration of the worst finding, which are written among the temporary files;
-// without it, no pictures.
+// images for the configuration of the worst finding, which are written among the temporary files;
+// without it, no images.
 [[nodiscard]] std::string ctest_answer(const judge::GateResult& result, const record::Store& store,
                                        const judge::FindTruth& truth);
 

@@ -17,7 +17,7 @@ struct NearestBound {
   std::string device;
   std::size_t pictures = 0;
   double share = 0;  // the largest ratio of an error to its bound over all pixels; above 1 the
-                     // picture is wrong
+                     // image is wrong
   std::string configuration;  // the configuration of that pixel
 };
 
@@ -27,7 +27,7 @@ struct NearestBound {
 
 // "at most 0.61 of the bound, only 0.0031 on gl:x in volume/quick": the largest share of all, and then
 // the device and plan with the smallest share if it is below a hundredth. Empty if there are no
-// pictures.
+// images.
 [[nodiscard]] std::string nearest_text(std::span<const NearestBound> bounds);
 
 }  // namespace triptych::report

@@ -229,7 +229,7 @@ TEST(NullTime, SleepTakesTheTimeItSays) {
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(40));
 }
 
-// --- counts and pictures
+// --- counts and images
 // -----------------------------------------------------------------------------------
 
 TEST(NullCounts, AreToldPerPurposeOrNotAtAll) {
