@@ -77,7 +77,7 @@ class Walk {
   std::vector<Candidate> candidates_;
   std::size_t at_ = 0;
   std::optional<record::Device> first_;  // until it has appeared again
-  std::map<std::string, int> count_;     // by id
+  std::map<std::string, int> count_;     // number of devices by id
 };
 
 // The text form of a listing, which one process sends to another.

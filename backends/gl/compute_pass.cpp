@@ -10,7 +10,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-constexpr GLuint binding_pixels = 4;  // of shaders/raycast.comp
+constexpr GLuint binding_pixels = 4;  // the binding in shaders/raycast.comp
 
 constexpr GLuint groups(int size) {
   return static_cast<GLuint>((size + group_edge - 1) / group_edge);

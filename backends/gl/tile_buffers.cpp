@@ -84,7 +84,8 @@ Texture pair_texture(const Api& gl, int width, int height, bool any) {
 
 std::optional<std::string> TileBuffers::unsupported(const Api& gl,
                                                     const scene::ParticleScene& scene) {
-  constexpr std::int64_t blocks = 9;  // of tiles_bin, including the counters
+  // Number of storage blocks of tiles_bin, including the counters.
+  constexpr std::int64_t blocks = 9;
   const std::int64_t most_blocks = gl.limit(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS);
   if (most_blocks < blocks) {
     return fmt::format("needs {} storage blocks, but GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS is {}",

@@ -72,8 +72,8 @@ class TileBuffers {
   Buffer cell_ends_;
   Texture large_pixels_;
   std::vector<Texels> texels_;
-  Buffer zeros_;         // the initial values of tiles, and of a plane of depths
-  Buffer no_particles_;  // and of a plane of particle keys
+  Buffer zeros_;         // the initial values of tiles and of a plane of depths
+  Buffer no_particles_;  // the initial values of a plane of particle keys
 };
 
 }  // namespace triptych::gl_backend

@@ -52,7 +52,7 @@ void wait_for_device(const Api& gl);
 
 struct Statistic {
   GLenum target = 0;
-  std::string_view name;  // as in record::Counts
+  std::string_view name;  // the name in record::Counts
 };
 
 // The driver's pipeline statistics for some calls and the stages that they use. A statistic that

@@ -18,7 +18,8 @@
 namespace triptych::gl_backend {
 namespace {
 
-constexpr GLuint binding_volume_counters = 5;  // of technique/volume/raycast/parameters.glsl
+// The binding in technique/volume/raycast/parameters.glsl.
+constexpr GLuint binding_volume_counters = 5;
 
 std::size_t pixel_count(const measure::VolumeWork& work) {
   return static_cast<std::size_t>(work.scene.width) * static_cast<std::size_t>(work.scene.height);

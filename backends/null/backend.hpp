@@ -1,8 +1,8 @@
 #pragma once
-// A backend without an API, whose devices play a script. Tests of measuring, supervising and judging
-// use it, because its correct results are known. Nothing is rendered: images are read from files
-// that the script names, or are patterns that depend only on the factors that determine an image
-// (data, camera, step, …). Times and counts are computed from the work and a seed.
+// A backend without an API, whose devices play a script. Tests of measuring, supervising and
+// judging use it, because its correct results are known. Nothing is rendered: images are read from
+// files that the script names, or are patterns that depend only on the factors that determine an
+// image (data, camera, step, …). Times and counts are computed from the work and a seed.
 //
 // Its devices "null:scripted", "null:scripted#2", … are listed only when the environment variable
 // TRIPTYCH_NULL_SCRIPT contains a script ("{}" is enough), or when a Script is given. An ordinary

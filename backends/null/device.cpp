@@ -137,8 +137,8 @@ class NullPrepared final : public measure::Prepared {
   std::string subject_;
   double device_factor_;
   int frames_ = 0;
-  bool overwritten_ = false;  // at least once
-  bool drawn_ = false;        // since then
+  bool overwritten_ = false;  // poison() was called at least once
+  bool drawn_ = false;        // a frame was drawn since then
   std::optional<core::Image> image_;
   std::optional<FailureKind> failure_;
 };
@@ -196,7 +196,7 @@ class NullDevice final : public measure::Device {
   std::shared_ptr<const Script> script_;
   record::Device info_;
   double factor_;
-  std::map<std::string, std::size_t> prepares_;  // for each work so far
+  std::map<std::string, std::size_t> prepares_;  // number of preparations of each work
 };
 
 }  // namespace

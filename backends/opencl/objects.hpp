@@ -95,7 +95,7 @@ class Queue {
 struct Session {
   cl::Device device;
   cl::Context context;
-  Queue queue;  // in order, with profiling
+  Queue queue;  // an in-order queue with profiling
   // The number of samples in a batch of the kernels (volume.cl).
   int batch = 1;
   measure::MemoryLedger held = {};  // memory of the objects that make_buffer and make_image created

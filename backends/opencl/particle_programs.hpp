@@ -65,7 +65,7 @@ struct ParticlePrograms {
                                                  const ParticleConstants& constants);
 
 struct RayPrograms {
-  cl::Program rays;     // those of particle_hierarchy.cl, and trace_tiles
+  cl::Program rays;     // the kernels of particle_hierarchy.cl, and trace_tiles
   cl::Program shading;  // shade
 };
 [[nodiscard]] RayPrograms ray_programs(Programs& programs, const ParticleConstants& constants);

@@ -85,15 +85,15 @@ class ParticleStages {
   BinTable table_;
   ParticleData data_;
   std::size_t counter_rows_;
-  cl::Buffer stored_;          // vertices, or points
+  cl::Buffer stored_;  // vertices, or points
   cl::Buffer patches_;
   cl::Buffer camera_;          // spheres in camera space
-  cl::Buffer rectangles_;      // of pixels
-  cl::Buffer sprite_colours_;  // if the transfer function is evaluated for each sprite
-  cl::Buffer cosines_;         // if rays are those of sprites
-  cl::Buffer shown_;           // for each cell: 1 if it was visible in the last frame
-  cl::Buffer states_;          // for each cell: its state in this frame
-  cl::Buffer farthest_;        // for each tile
+  cl::Buffer rectangles_;      // the rectangles of pixels that sprites cover
+  cl::Buffer sprite_colours_;  // used if the transfer function is evaluated for each sprite
+  cl::Buffer cosines_;         // used if rays are computed for each sprite
+  cl::Buffer shown_;           // 1 for each cell that was visible in the last frame
+  cl::Buffer states_;          // the state of each cell in this frame
+  cl::Buffer farthest_;        // the farthest depth of each tile
   cl::Buffer image_;
   cl::Buffer ids_;
   cl::Buffer counters_;

@@ -62,7 +62,7 @@ class Programs {
 
  private:
   const Session& session_;
-  std::map<std::string, CapturedProgram> built_;  // by hash
+  std::map<std::string, CapturedProgram> built_;  // the key is the hash
   bool captures_ = false;
   std::vector<std::string> captured_;  // hashes
 };

@@ -20,7 +20,7 @@ struct DrawState {
   std::vector<vk::VertexInputBindingDescription> vertex_bindings;  // empty: no vertex buffers
   std::vector<vk::VertexInputAttributeDescription> vertex_attributes;
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
-  std::uint32_t patch_points = 1;  // for ePatchList
+  std::uint32_t patch_points = 1;  // control points of a patch, for ePatchList
   std::uint32_t colour_targets = 1;
   std::optional<vk::CompareOp> depth;  // depth is tested and written if this is given
   vk::Extent3D extent;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int edge = 8;  // voxels
 constexpr std::size_t places = 8192;
-constexpr std::uint32_t group_size = 64;  // as in filter_probe.comp
+constexpr std::uint32_t group_size = 64;  // the work-group size in filter_probe.comp
 using Sample = std::array<float, 4>;      // position in voxels, value
 
 vk::FormatFeatureFlags features(const Gpu& gpu, scene::VoxelFormat format) {

@@ -13,7 +13,7 @@ namespace {
 
 struct Statistic {
   vk::QueryPipelineStatisticFlagBits flag;
-  std::string_view name;  // as in record::Counts
+  std::string_view name;  // the name in record::Counts
 };
 
 // The statistics in the order of their bits, in which a query returns them.

@@ -40,7 +40,7 @@ struct Gpu {
   bool draws = false;                // the queue takes draw calls
   bool labelled = false;             // objects and commands are named for tools
   std::uint32_t timestamp_bits = 0;  // 0 if the queue has no clock
-  std::uint64_t most_allocated = 0;  // at once: maxMemoryAllocationSize
+  std::uint64_t most_allocated = 0;  // the largest single allocation: maxMemoryAllocationSize
   vk::raii::Device device;
   vk::raii::Queue queue;
   vk::raii::CommandPool commands;

@@ -16,7 +16,7 @@ constexpr std::uint32_t block_edge = 4;  // TRI_BLOCK
 constexpr vk::DeviceSize word = sizeof(std::uint32_t);
 constexpr vk::DeviceSize tile_bytes = 8 * word;
 constexpr vk::DeviceSize header_bytes = 8 * word;
-constexpr vk::DeviceSize groups_at = 4 * word;  // in the header
+constexpr vk::DeviceSize groups_at = 4 * word;  // the offset of the group counts in the header
 constexpr std::uint32_t texel_bindings = id_texels_binding - camera_texels_binding + 1;
 
 std::uint32_t parts(std::uint32_t size, std::uint32_t part) {

@@ -59,7 +59,7 @@ class TileBuffers {
   const Gpu& gpu_;
   std::uint32_t columns_;
   std::uint32_t rows_;
-  vk::DeviceSize plane_;  // in bytes
+  vk::DeviceSize plane_;  // size of a plane in bytes
   bool small_;
   Buffer camera_spheres_;
   Buffer kept_;

@@ -37,9 +37,9 @@ enum Binding : std::uint32_t {
 
 // A pass over the image.
 enum class Pass : std::uint8_t {
-  timed,     // with the injected extra work if there is any
-  counting,  // only the image, with the counters bound
-  tracing    // the same by the build that records the history of one pixel
+  timed,     // draws the image, and the injected extra work if there is any
+  counting,  // draws only the image, with the counters bound
+  tracing    // does the same with the build that records the history of one pixel
 };
 
 class VolumeResources {

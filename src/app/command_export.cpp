@@ -73,7 +73,7 @@ class Errors {
 
   Registry registry_;
   std::deque<record::Store> stores_;
-  std::map<std::string, measure::Truths> truths_;  // by run
+  std::map<std::string, measure::Truths> truths_;  // the key is the run
 };
 
 // The plan's name in the stores. If the user named a YAML file, that is the name with which the

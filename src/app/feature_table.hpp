@@ -11,7 +11,8 @@
 
 namespace triptych::app {
 
-using FeatureTable = std::map<std::string, std::vector<measure::FeatureRow>>;  // by device
+// The key is the device.
+using FeatureTable = std::map<std::string, std::vector<measure::FeatureRow>>;
 
 // `only`: the name of a probe; empty: all. Devices that cannot be probed have no rows.
 [[nodiscard]] FeatureTable probe_devices(const std::vector<std::string>& devices,

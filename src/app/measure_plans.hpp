@@ -29,7 +29,7 @@ struct Measuring {
   bool measure_every = false;
   bool brief = false;                     // times are shown and do not affect a verdict
   bool untimed = false;                   // one frame each for the image and the counters
-  bool statistics = false;                // and one for the statistics
+  bool statistics = false;                // also read the statistics in an untimed run
   bool timed = false;                     // also measure times for plans without the check timing
   std::optional<std::string> error = {};  // requested error, as typed by the user
   bool chooses = false;                   // report the fastest of the levels that `auto` stands for

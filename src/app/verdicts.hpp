@@ -47,7 +47,7 @@ void excuse_absent_data(const record::Store& store, judge::GateResult& result);
 
 // The files to which a verdict is written; empty: not written.
 struct VerdictFiles {
-  std::string folder;  // for a CI: see report/ci/folder.hpp
+  std::string folder;  // files for a CI system: see report/ci/folder.hpp
   std::string junit;
   std::string markdown;
   std::string json;       // "-": printed instead of the last screen

@@ -42,7 +42,8 @@ bool lacks_data(record::Outcome outcome, const record::Reason& reason) {
 std::vector<std::string> circumstances(std::span<const judge::GateResult* const> results) {
   std::set<std::string> injected;
   std::size_t injected_records = 0;
-  std::map<std::string, std::set<std::string>> unusable;  // by reason
+  // Loaders and drivers by the reason why they cannot be used.
+  std::map<std::string, std::set<std::string>> unusable;
   std::set<std::string> programs;
   std::set<std::string> days;
   for (const judge::GateResult* result : results) {

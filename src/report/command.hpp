@@ -14,11 +14,11 @@ struct Command {
   std::string command;  // "render"
   std::string object;   // a suite or a plan
   std::string device;
-  std::map<std::string, std::string> factors;           // only factors without their default level
-  std::vector<std::string> injected = {};               // faults
+  std::map<std::string, std::string> factors;  // only factors without their default level
+  std::vector<std::string> injected = {};      // faults
   // The time limit of a frame, if it is not the default.
   std::optional<std::chrono::seconds> limit = {};
-  std::vector<std::string> more = {};                   // words at the end of the command
+  std::vector<std::string> more = {};  // words at the end of the command
   // Variables that are set for the device's driver.
   std::map<std::string, std::string> environment = {};
 };

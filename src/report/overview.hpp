@@ -31,7 +31,8 @@ struct Cause {
 struct Overview {
   core::ExitCode code = core::ExitCode::cannot_judge;
   std::size_t devices = 0;
-  bool part = false;  // at least one plan is incomplete: a shard, some levels
+  // At least one plan is incomplete: only a shard or only some levels were measured.
+  bool part = false;
   std::vector<KindRow> rows;
   std::vector<Cause> open;   // findings that need attention, the worst first
   std::vector<Cause> aside;  // waived, improved, advisory or skipped; not what passed

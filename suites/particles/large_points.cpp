@@ -15,7 +15,7 @@ namespace {
 // The length of a silhouette along one axis of the image plane, clipped to [−reach, reach]; 0 if
 // the sphere is not in front. Computed like tri_sphere_interval (technique/portable/sphere_math.h).
 double length_on_image(double a, double z, double r, double margin, double reach) {
-  const double side = std::abs(a);  // by symmetry
+  const double side = std::abs(a);  // the silhouette is symmetric about the axis
   const double k2 = side * side + z * z - r * r;
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();

@@ -82,7 +82,7 @@ struct Injected {
   const char* fault;
   const char* says;        // text in the first lines of the last screen
   int code;                // exit code of the pasted command
-  const char* shows;       // what it prints
+  const char* shows;       // text that the pasted command prints
   const char* extra = "";  // part of the command
 };
 

@@ -18,7 +18,7 @@ namespace triptych::layer {
 namespace {
 
 std::mutex mutex;
-std::set<VkCommandBuffer> executed;  // those that were executed since they were recorded
+std::set<VkCommandBuffer> executed;  // command buffers that were executed since they were recorded
 std::atomic<int> submissions = 0;
 
 VKAPI_ATTR VkResult VKAPI_CALL begin_commands(VkCommandBuffer commands,

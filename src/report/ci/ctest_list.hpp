@@ -17,7 +17,8 @@ struct PlanTests {
   std::string stem;   // the names of its tests begin with it
   std::string store;  // the store of its records
   record::Checks checks;
-  bool one_per_driver = false;  // of devices with the same driver, only the first measures the plan
+  // If several devices have the same driver, only the first one measures the plan.
+  bool one_per_driver = false;
 };
 
 // "volume.quick" for volume/quick, and also for a file quick.yaml of that suite: letters that names

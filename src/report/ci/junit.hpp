@@ -14,7 +14,7 @@ struct JunitFacts {
   // The seconds that a configuration took, by plan, device and configuration. Its first test case
   // has them, and the test cases of its other checks have 0, so that sums are right.
   std::map<std::string, std::map<std::pair<std::string, std::string>, double>> seconds = {};
-  const FindingPlaces* places = nullptr;  // for the attributes `file` and `line`
+  const FindingPlaces* places = nullptr;  // the source of the attributes `file` and `line`
 };
 
 // JUnit XML with a test suite for each plan and check, and a test case for each finding, which has

@@ -116,7 +116,7 @@ std::string markdown(std::span<const judge::GateResult> results) {
       rest.push_back(&all.open[i]);
     }
   }
-  std::map<std::string_view, std::size_t> remarks;  // by check
+  std::map<std::string_view, std::size_t> remarks;  // number of remarks by check
   for (const Cause& cause : all.aside) {
     const judge::Verdict verdict = cause.group.first->verdict;
     if (verdict == judge::Verdict::waived || verdict == judge::Verdict::improved) {

@@ -19,8 +19,8 @@ struct SourcePlace {
 class FindingPlaces {
  public:
   struct Sources {
-    std::filesystem::path repository;                    // its top folder
-    std::filesystem::path baselines;  // the folder of the baselines that were used
+    std::filesystem::path repository;  // the top folder of the repository
+    std::filesystem::path baselines;   // the folder of the baselines that were used
     std::map<std::string, record::Device> devices = {};  // devices of all results, by id
     std::string job = {};  // the file that defines the CI job, relative to the repository
   };

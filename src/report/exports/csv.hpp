@@ -25,7 +25,7 @@ class CsvFile {
  public:
   // Replaces the file. Throws core::IoError, as do all functions of this class.
   CsvFile(std::filesystem::path file, std::span<const std::string> columns);
-  void add(std::span<const Cell> row);  // as many cells as columns
+  void add(std::span<const Cell> row);  // `row` has one cell for each column
   void close();                         // after this, the file contains everything that was added
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
 

@@ -67,7 +67,7 @@ struct SampleSource {
 };
 struct ValueSource {
   std::uint64_t record;
-  std::string_view of;  // for a cost: "frame" or "prepare"
+  std::string_view of;  // the part of the run that a cost belongs to: "frame" or "prepare"
   const std::string& name;
   std::uint64_t value;
 };

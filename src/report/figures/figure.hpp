@@ -15,7 +15,7 @@ namespace triptych::report {
 struct Axis {
   std::string title = {};
   bool logarithmic = false;
-  bool percent = false;                 // numbers are shares: 0.1 is "+10 %"
+  bool percent = false;  // numbers are shares: 0.1 is "+10 %"
   // Bands instead of numbers: name i is at i, the first one at the top or at the left.
   std::vector<std::string> names = {};
   // The ends of the axis. By default, the axis fits the data.

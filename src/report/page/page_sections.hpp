@@ -30,7 +30,7 @@ struct Judged {
   std::set<std::string_view> checks;
   std::string cause;  // element id of the first open cause; empty if there is none
 };
-using JudgedPictures = std::map<std::string, Judged>;  // by picture_id
+using JudgedPictures = std::map<std::string, Judged>;  // the key is picture_id()
 [[nodiscard]] JudgedPictures judged_pictures(const Overview& all, std::span<const PlanData> plans);
 
 struct PictureSources {

@@ -310,7 +310,8 @@ std::string nothing_compared(const TimeReason& first) {
 std::string sides(const record::Device& a, const record::Device& b) {
   std::vector<KeyPart> parts_a = parts_of(a);
   std::vector<KeyPart> parts_b = parts_of(b);
-  // The list of processor features is long, and if both sides have the same one, it explains nothing.
+  // The list of processor features is long, and if both sides have the same one, it explains
+  // nothing.
   const auto is_shared_processor = [](const std::vector<KeyPart>& other) {
     return [&other](const KeyPart& part) { return part.processor && has(other, part); };
   };

@@ -105,7 +105,7 @@ TEST(PictureErrors, AreOfEveryMetric) {
   core::Image limit(100, 20);
   core::Image picture = limit;
   for (std::size_t i = 0; i < 20; ++i) limit.rgba[4 * i] = 0.5F;  // 1 % of the pixels
-  picture.rgba[0] = 1.0F;  // its error is 0.5, and so is that of all others
+  picture.rgba[0] = 1.0F;  // this pixel has the error 0.5, and so have all others
   const PictureErrors errors = errors_against(limit, picture);
   EXPECT_EQ(errors.covered, 20U);
   EXPECT_DOUBLE_EQ(errors.of(Metric::max), 0.5);

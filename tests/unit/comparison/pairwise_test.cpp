@@ -145,7 +145,7 @@ TEST(Shift, TooFewDifferencesHaveAnEndlessInterval) {
 struct Machine {
   double noise = 0.01;
   double drift = 0.01;        // standard deviation of the drift
-  double persistence = 0.98;  // from one batch to the next
+  double persistence = 0.98;  // correlation of the drift from one batch to the next
   double disturbed = 0.02;    // share of batches that take half as long again
 
   [[nodiscard]] std::vector<double> blocks(double shift, int count, core::Random& random) const {
@@ -238,7 +238,7 @@ TEST(Sequential, LooksFollowOneAnother) {
   const SequentialDesign design = SequentialDesign::standard();
   EXPECT_EQ(design.next_look(0), 12);
   EXPECT_EQ(design.next_look(12), 24);
-  EXPECT_EQ(design.next_look(20), 24);  // there is a look when the budget ends
+  EXPECT_EQ(design.next_look(20), 24);  // the design looks at the data when the budget ends
   EXPECT_EQ(design.next_look(384), 0);
   EXPECT_NEAR(design.alpha_of_a_look(), 0.01 / 6, 1e-15);
 }
@@ -301,7 +301,7 @@ TEST(Confirm, OneProcessRunHasNoScatter) {
 // The process runs of each suspect, returned one by one.
 struct ProcessRuns {
   std::vector<std::vector<double>> process_runs;
-  std::vector<std::vector<std::size_t>> asked;  // which suspects, by process run
+  std::vector<std::vector<std::size_t>> asked;  // the suspects that each process run measured
 
   std::vector<Confirmation> confirm_all() {
     std::vector<Suspect> suspects(process_runs.size());

@@ -123,7 +123,7 @@ TEST(RobustLine, WithstandsWildPointsOfAlmostHalf) {
   Values y;
   for (int i = 0; i < 100; ++i) {
     x.push_back(0.05 * i);
-    const bool wild = i % 20 < 9;  // 45 %
+    const bool wild = i % 20 < 9;  // 45 % of the points are outliers
     y.push_back(wild ? 20 - 3 * x.back() : 1 + 1.1 * x.back() + 0.02 * std::sin(37.0 * i));
   }
   const RobustLine fit = robust_line(x, y);

@@ -62,11 +62,11 @@ class JudgeTest : public testing::Test {
   TemporaryFolder folder_;
   record::Store store_;
   GateRequest request_;
-  record::Checks checks_;  // of the plan, for runs that are added later
+  record::Checks checks_;  // checks of the plan, for runs that are added later
   std::string plan_hash_;
   // Driver versions of devices by id, for runs that are added later.
   std::map<std::string, std::string> driver_versions_;
-  std::map<std::string, std::string> settings_;  // for all devices
+  std::map<std::string, std::string> settings_;  // settings for all devices
   std::map<std::string, std::map<std::string, record::StatisticWorth>> calibrations_;
 
  private:

@@ -87,7 +87,8 @@ TEST_F(KnownGateTest, ASkipThatWasNotExpectedIsNoPass) {
   ASSERT_THAT(*request_.known, SizeIs(1));
   EXPECT_EQ(request_.known->front().known, Known::skip);
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
-  EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(1));  // it was drawn after all
+  // A known skip that was drawn counts as improved.
+  EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(1));
   request_.known->clear();
   EXPECT_EQ(gate("b").exit_code(), ExitCode::cannot_judge);
   EXPECT_EQ(with(gate("b"), Verdict::cannot_judge).at(0).excuse.of, Excuse::Of::unexpected);

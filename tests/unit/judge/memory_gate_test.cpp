@@ -69,7 +69,8 @@ TEST_F(MemoryGateTest, ANewDeviceIsOneLineOfAdvice) {
   const auto advice = with(gate("b"), Verdict::advisory);
   ASSERT_EQ(advice.size(), 1U) << text(gate("b"));
   EXPECT_EQ(advice[0].device, "opencl:pocl");
-  EXPECT_EQ(with(gate("accepted"), Verdict::skipped).size(), 1U);  // it reports nothing
+  // A device that reports nothing is skipped.
+  EXPECT_EQ(with(gate("accepted"), Verdict::skipped).size(), 1U);
 }
 
 TEST_F(MemoryGateTest, WhatAnAcceptedDeviceLacksCannotBeJudged) {

@@ -159,8 +159,8 @@ TEST_F(StressGateTest, ARefusalIsRightOnlyWhereItIsAllowed) {
     record.reason = {.cause = record::Cause::not_supported, .detail = "too large"};
   });
   const Finding finding = found(refuse);
-  EXPECT_EQ(finding.verdict, Verdict::cannot_judge);  // it drew the case when it was accepted
-  EXPECT_TRUE(finding.numbers.empty());               // and it has no score now
+  EXPECT_EQ(finding.verdict, Verdict::cannot_judge);  // the case was drawn when it was accepted
+  EXPECT_TRUE(finding.numbers.empty());               // the case has no score now
   expected_ = [](const record::Record&) {
     return std::vector<record::Expectation>{{"may be refused", record::MayBeRefused{}}};
   };

@@ -1,13 +1,13 @@
 // measure_run_helper worker DEVICE       serves the null backend's device with the fake suite
 // measure_run_helper supervise STORE     runs the fake suite's quick plan on null:scripted, or
 //                                        continues its latest run in the store
-// measure_run_helper count LOOPS         counts a loop with LOOPS iterations, whose code is in memory
-//                                        without a file, and an allocation
+// measure_run_helper count LOOPS         counts an allocation and a loop with LOOPS iterations,
+//                                        whose code is in memory without a file
 // measure_run_helper count-busy LOOPS    does the same while another thread has much to do at first
 // measure_run_helper count-stride BYTES  counts instructions and cache misses of 1,000 loads with
 //                                        this distance
-// measure_run_helper keeps PID           exits with code 0 if this child is still alive after another
-//                                        process was started and has ended
+// measure_run_helper keeps PID           exits with code 0 if this child is still alive after
+//                                        another process was started and has ended
 //
 // Each counting command counts three times and prints one line for each time.
 //

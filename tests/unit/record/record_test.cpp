@@ -159,7 +159,8 @@ TEST(DeviceTest, StatisticsKeyIsOfIdAndDriverAlone) {
   other.cpu_features = "none";
   other.statistics_calibration.clear();
   EXPECT_EQ(other.statistics_key(), device.statistics_key());
-  other.driver_version = "1.2 LLVM-15";  // these letters once gave the same file name
+  // Earlier versions replaced these letters, so both had the same file name.
+  other.driver_version = "1.2 LLVM-15";
   EXPECT_NE(other.statistics_key(), device.statistics_key());
 }
 

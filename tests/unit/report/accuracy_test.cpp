@@ -50,7 +50,8 @@ TEST(AccuracyChart, ShowsWhatLogarithmicAxesCan) {
   EXPECT_EQ(test::xml_fault(html), "") << html;
   EXPECT_THAT(html, HasSubstr("step=2: RMSE 0.004, 3 ms"));
   EXPECT_THAT(html, HasSubstr("the front"));
-  EXPECT_THAT(html, testing::Not(HasSubstr("step=0.125:")));  // the one without error
+  // A case without error cannot be shown.
+  EXPECT_THAT(html, testing::Not(HasSubstr("step=0.125:")));
   EXPECT_EQ(accuracy_chart(scenes, Cost::samples).text(), "");
   EXPECT_THAT(accuracy_chart(scenes, Cost::instructions).text(),
               HasSubstr("step=2: RMSE 0.004, 3 million"));
@@ -95,8 +96,8 @@ TEST(AccuracySection, TellsOrdersTimesAndParts) {
 // The plan counts instructions and measures no time.
 TEST(AccuracySection, TellsInstructionsWhereThereAreNoTimes) {
   const std::string text = untimed_section();
-  EXPECT_THAT(text, HasSubstr("1.0 M instructions"));  // to 1/255
-  EXPECT_THAT(text, HasSubstr("3.2 M instructions"));  // to 1e-4, between two steps
+  EXPECT_THAT(text, HasSubstr("1.0 M instructions"));  // the cost of RMSE 1/255
+  EXPECT_THAT(text, HasSubstr("3.2 M instructions"));  // the cost of RMSE 1e-4, between two steps
   EXPECT_THAT(text, testing::Not(HasSubstr("time of a frame, ms")));
 }
 

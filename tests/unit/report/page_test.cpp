@@ -115,7 +115,7 @@ TEST(Page, TellsHowMuchOfWhatWasTakenThePictureNeeded) {
       "<td class=\"number\">0.750</td>";
   EXPECT_THAT(page, HasSubstr(row));
   const std::string devices = before(page.substr(page.find(row) + row.size()), "</tr>");
-  EXPECT_THAT(devices, HasSubstr(", "));  // the page's own script
+  EXPECT_THAT(devices, HasSubstr(", "));  // every device did the same work
 }
 
 TEST(Page, NeedsNoNetwork) {
@@ -138,7 +138,7 @@ TEST(Page, KeepsAPictureOnce) {
 // Names of factors come from plans, and levels and reasons may come from anywhere.
 TEST(Page, KeepsTextText) {
   const std::string page = page_of(true, "<script>\"&\x1b");
-  EXPECT_EQ(page.find("<script"), page.rfind("<script"));  // that of the page itself
+  EXPECT_EQ(page.find("<script"), page.rfind("<script"));  // only the page's own script
   EXPECT_EQ(page.find('\x1b'), std::string::npos);
 }
 
