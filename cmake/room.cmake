@@ -22,8 +22,8 @@ set(TRIPTYCH_UNITY_BATCH 24 CACHE STRING "How many files a batch holds")
 function(triptych_batch target)
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD ${TRIPTYCH_UNITY} UNITY_BUILD_BATCH_SIZE ${TRIPTYCH_UNITY_BATCH})
-  # GCC warns about members whose type is in an anonymous namespace unless the file that is compiled defines them;
-  # in a batch every file is included.
+  # In a batch every file is included, and GCC warns about members whose type is in an anonymous namespace unless the compiled file
+  # itself defines them.
   if(TRIPTYCH_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
   endif()
@@ -66,8 +66,9 @@ function(triptych_patience seconds out)
   set(${out} ${patience} PARENT_SCOPE)
 endfunction()
 
-# Compiles a test's own code. Little time of a test is spent in it, so it is optimised less than the rooms: without optimisation
-# a batch takes two thirds of the time to compile. Tests of devices compare whole images.
+# Compiles a test's own code with less optimisation than the rooms, because little time of a test is spent in it: without
+# optimisation, a batch takes two thirds of the time to compile. Tests of devices are the exception, because they compare whole
+# images.
 function(triptych_test_code target)
   cmake_parse_arguments(arg "" "" "LABELS" ${ARGN})
   triptych_batch(${target})

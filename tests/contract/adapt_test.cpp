@@ -1,5 +1,5 @@
-// Samples that are merged within bricks: images within the budget, fewer samples, and for V1 a
-// single sample on each ray.
+// Samples that are merged within bricks: images stay within the budget, fewer samples are taken,
+// and for V1 each ray takes a single sample.
 
 #include <cmath>
 
@@ -23,7 +23,7 @@ measure::Work walking(measure::Work work) {
   return work;
 }
 
-// A volume of a generator, mostly with several bricks of one value.
+// A generated volume, mostly with several bricks of one value.
 measure::Work generated(const measure::Device& device, std::string_view name,
                         scene::VolumeScene scene) {
   return walking(
@@ -59,7 +59,7 @@ TEST(Adapt, PicturesStayWithinTheBudget) {
   });
 }
 
-// Two images of one device, each exact within its rounding, differ by the budget.
+// Two images of one device, each of which is exact except for rounding, may differ by the budget.
 TEST(Adapt, MovesADevicesOwnPictureByItsBudget) {
   on_every_driver([](measure::Device& device) {
     for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
@@ -98,7 +98,8 @@ TEST(Adapt, TakesFewerSamplesAndSavesTheRest) {
   });
 }
 
-// Whatever the budget is, a homogeneous box adds no error, so the bound is that of rounding only.
+// In a homogeneous box, merging adds no error for any budget, so the bound is that of rounding
+// only.
 TEST(Adapt, V1IsExactWithOneSampleARay) {
   on_every_driver([](measure::Device& device) {
     for (const double step : {0.125, 0.3, 1.0, 7.7}) {

@@ -28,7 +28,7 @@ measure::Work work_of(const char* data, VoxelFormat format, Sampler sampler) {
                          .options = {.sampler = sampler, .skip = technique::Skip::none, .ert = 0}}};
 }
 
-// Floats and 16-bit integers, with both techniques and each way to read voxels.
+// Tests floats and 16-bit integers with both techniques and each way of reading voxels.
 TEST(Halves, StayWithinTheBoundOfTheDataThatTheyRound) {
   on_every_driver([](measure::Device& device) {
     double unpaid = 0;
@@ -67,9 +67,10 @@ TEST(Halves, StayWithinTheBoundOfTheDataThatTheyRound) {
   });
 }
 
-// Within the bound of bytes, to which halves add nothing. For cells and for OpenCL's buffers, both
-// formats reach the kernel as the same integers, so the counts are equal. On OpenCL, whose
-// compilers do not change arithmetic, the bits are equal too.
+// Halves of bytes stay within the bound of bytes, because halves store bytes exactly. For
+// quadrature cells and for OpenCL's buffers, both formats reach the kernel as the same integers, so
+// the counts are equal. On OpenCL, whose compilers do not change arithmetic, the bits are equal,
+// too.
 TEST(Halves, OfBytesAreTheSamePictureAndWork) {
   on_every_driver([](measure::Device& device) {
     const bool opencl = device.info().api == "opencl";
@@ -114,7 +115,7 @@ TEST(Halves, TakeHalfTheMemoryOfFloats) {
     };
     const std::uint64_t saved = bytes_held(VoxelFormat::f32) - bytes_held(VoxelFormat::f16);
     const std::uint64_t expected = 2 * voxels(device.info().api == "opencl" ? 2 : 0);
-    if (device.info().api == "vulkan") {  // reports an image with the padding of its rows
+    if (device.info().api == "vulkan") {  // counts the padding of the image's rows
       EXPECT_NEAR(static_cast<double>(saved), static_cast<double>(expected),
                   0.25 * static_cast<double>(expected));
     } else {

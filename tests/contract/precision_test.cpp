@@ -1,5 +1,5 @@
-// Precision fp64 on real devices: within its own bound, which single precision exceeds, and refused
-// if a part of the path is in single precision.
+// Precision fp64 on real devices: it stays within its own bound, which single precision exceeds,
+// and is refused if a part of the path is in single precision.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ measure::Work fp64_work(const char* data, scene::VolumeScene scene) {
                                           .precision = technique::Precision::fp64}}};
 }
 
-// Voxels of all three types, both techniques, and both ways of skipping or none.
+// Tests voxels of all three types, both techniques, both ways of skipping, and no skipping.
 TEST(Precision, DoubleStaysWithinItsOwnBound) {
   int drawn = 0;
   on_every_driver([&](measure::Device& device) {
@@ -51,7 +51,7 @@ TEST(Precision, DoubleStaysWithinItsOwnBound) {
   if (drawn == 0) GTEST_SKIP() << "no device has double precision";
 }
 
-// A bound that single precision also keeps would prove nothing.
+// The bound would prove nothing if single precision kept it, too.
 TEST(Precision, SingleIsNotWithinTheBoundOfDouble) {
   on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = small_scene("haze");

@@ -1,4 +1,4 @@
-// Quadrature preintegrated on real devices: exact where the field is straight along every step, of
+// Quadrature preintegrated on real devices: it is exact if the field is linear along every step, of
 // second order elsewhere, and within its bound everywhere.
 
 #include <algorithm>

@@ -39,8 +39,9 @@ inline void on_every_device(const std::function<void(measure::Device&)>& body) {
   on_devices(body, false);
 }
 
-// For what only the driver and the backend decide, not how a device is opened: one device of each
-// driver, unless TRIPTYCH_EVERY_DEVICE is set.
+// Runs `body` on one device of each driver, or on every device if TRIPTYCH_EVERY_DEVICE is set.
+// This is for results that depend only on the driver and the backend, not on how a device is
+// opened.
 inline void on_every_driver(const std::function<void(measure::Device&)>& body) {
   const char* const every = std::getenv("TRIPTYCH_EVERY_DEVICE");
   on_devices(body, every == nullptr || *every == '\0');

@@ -1,4 +1,4 @@
-// Known failures: one run writes them, and the next one expects them.
+// Known failures: one run writes them to a file, and the next one expects them.
 
 #include <gmock/gmock.h>
 
@@ -49,7 +49,7 @@ TEST_F(KnownGateTest, AFailureIsWaivedTheNextTime) {
   EXPECT_EQ(second.exit_code(), ExitCode::pass) << text(second);
   ASSERT_THAT(with(second, Verdict::waived), SizeIs(1));
   EXPECT_EQ(with(second, Verdict::waived).at(0).excuse.of, Excuse::Of::known);
-  // Once more: what is waived remains known.
+  // A second run that expects them writes the same file, because waived failures remain known.
   EXPECT_EQ(expected_text(written_by(second)), expected_text(*request_.known));
 }
 
@@ -57,7 +57,7 @@ TEST_F(KnownGateTest, ANewFailureIsRed) {
   request_.known.emplace();
   add_run("b", wrong_image_on(known_device));
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
-  // Another configuration, device or check.
+  // The failures of another configuration, device or check are new.
   add_run("c", wrong_image_on("opencl:pocl"));
   request_.known = written_by(gate("c"));
   EXPECT_EQ(gate("c").exit_code(), ExitCode::pass);
@@ -135,11 +135,12 @@ TEST_F(KnownGateTest, WhatIsRightWhenDrawnAgainIsAFlakeAndNoPass) {
   EXPECT_EQ(known[0].known, Known::flake);
   request_.known = known;
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass);  // the flake fails this time
-  // A pass of a flake is no surprise.
+  // A flake that passes is no unexpected pass.
   EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(0));
 }
 
-// Neither a failure nor a pass, because a slow driver on a busy machine also ends like this.
+// The verdict is neither a failure nor a pass, because a slow driver on a busy machine also ends in
+// this way.
 TEST_F(KnownGateTest, AHangThatIsRightWhenDrawnAgainCannotBeJudged) {
   add_run("b", [](record::Record& record, core::Image&) {
     if (record.device != known_device || record.configuration != plain_) return;
@@ -155,8 +156,8 @@ TEST_F(KnownGateTest, AHangThatIsRightWhenDrawnAgainCannotBeJudged) {
   EXPECT_THAT(written_by(right.result), SizeIs(0));
 }
 
-// A crash is reported under the first check. Sums have no image when they are drawn again, so there
-// is no such finding then.
+// A crash is reported under the first check. Configurations that only sum have no image when they
+// are drawn again, so there is no such finding then.
 TEST_F(KnownGateTest, ACrashOfWhatHasNoPictureIsAFlakeToo) {
   const auto sums = [](record::Record& record, core::Image&) {
     if (record.device != known_device || record.configuration != plain_) return;
@@ -189,7 +190,7 @@ TEST_F(KnownGateTest, WhatIsSkippedWhenDrawnAgainStaysARegression) {
   EXPECT_EQ(wrong[0].again[0].reason.cause, record::Cause::not_supported);
 }
 
-// Its counters fail both times.
+// Its counters fail both times, so only the image is a flake.
 TEST_F(KnownGateTest, EachCheckIsAFlakeByItself) {
   request_.checks = {Check::image, Check::counters};
   const auto miscounted = [](record::Record& record, core::Image& image) {

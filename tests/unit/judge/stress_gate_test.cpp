@@ -42,7 +42,7 @@ class StressGateTest : public JudgeTest {
     };
   }
 
-  // The only finding about it, after a first run was accepted without a change.
+  // Accepts a run without a change, and returns the only finding about a second run with it.
   Finding found(const Tweak& tweak) {
     add_run("accepted");
     accept_scores("accepted");
@@ -87,8 +87,8 @@ TEST_F(StressGateTest, WithinTheBoundOnlyAgreementIsLost) {
   EXPECT_TRUE(has(finding.because, Cause::farther_device));
 }
 
-// The other devices are closer to the reference image, so the one that differs must not cost them a
-// point.
+// The other devices are closer to the reference image, so they must not lose a point because one
+// device differs.
 TEST_F(StressGateTest, TheNearerKeepsItsPoint) {
   (void)found(on_lavapipe([](record::Record&, core::Image& image) {
     for (float& value : image.rgba) value += bound / 2;
@@ -167,7 +167,7 @@ TEST_F(StressGateTest, ARefusalIsRightOnlyWhereItIsAllowed) {
   EXPECT_EQ(with(gate("judged"), Verdict::pass, Check::stress).size(), 12U);
 }
 
-// Skipping must change no bit, although the bound would permit it.
+// Skipping must not change a bit, even if the bound would permit the change.
 TEST_F(StressGateTest, OtherBitsThanAnotherConfigurationLoseAPoint) {
   expected_ = [](const record::Record& record) {
     std::vector<record::Expectation> result;
@@ -189,7 +189,7 @@ TEST_F(StressGateTest, OtherBitsThanAnotherConfigurationLoseAPoint) {
   EXPECT_EQ(finding.because[0].number("x"), 1);
 }
 
-// A shard may contain only one of the two.
+// A shard may contain only one of the two configurations that are compared.
 TEST_F(StressGateTest, OfAPartOfAPlanThePicturesThatAreNotInItAreNotMissed) {
   add_run("a");
   accept_scores("a");
@@ -230,7 +230,7 @@ TEST_F(StressGateTest, OnlyAStressPlanIsJudgedUnasked) {
   }
 }
 
-// Expectations alone: two configurations of one device.
+// Tests expectations alone, with two configurations of one device.
 class ExpectationTest : public JudgeTest {
  protected:
   static constexpr int width = 3;
@@ -261,7 +261,7 @@ class ExpectationTest : public JudgeTest {
     return image;
   }
 
-  // The observation; its cause is Cause::none if the expectation is met.
+  // Returns the observation, whose cause is Cause::none if the expectation is met.
   Observation judge(const record::SamePicture& rule) {
     StressRun run(store_, records_);
     const auto what = unmet({"a test", rule}, records_.front(), run, [](const record::Record&) {

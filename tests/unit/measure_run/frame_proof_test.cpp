@@ -83,9 +83,11 @@ TEST(FrameProof, FindsAnImageThatIsNeverDrawn) {
   }
 }
 
-// It is a wrong image, which the comparison with the reference image finds.
+// An image with computed NaNs was drawn. The comparison with the reference image finds that it is
+// wrong.
 TEST(FrameProof, TakesNaNsThatAFrameComputedForItsImage) {
-  static constexpr std::uint32_t computed_nan = 0xFFC00000;  // what a processor makes of 0/0
+  // The NaN that a processor computes for 0/0.
+  static constexpr std::uint32_t computed_nan = 0xFFC00000;
   ScriptedPrepared prepared = steady(50 * ms);
   prepared.picture = [](int) { return std::bit_cast<float>(computed_nan); };
   EXPECT_NO_THROW(measure_all(prepared));

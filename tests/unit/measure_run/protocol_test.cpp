@@ -159,7 +159,7 @@ TEST(Protocol, ATrustedClockThatLeavesOutTheWorkOfThisConfigurationIsNotBelieved
 }
 
 TEST(Protocol, AnErrorOfAFrameComesOutAsItWas) {
-  // The frames are one during warm-up, a timed one, and the one for the counters.
+  // The failing frame is one during warm-up, a timed one, or the one for the counters.
   for (const int failing : {2, 7, 13}) {
     ScriptedPrepared prepared([=](int n) {
       if (n == failing) throw core::ApiError("vkQueueSubmit", "VK_ERROR_UNKNOWN");
@@ -198,7 +198,7 @@ TEST(Protocol, BenchmarkEntriesCarrySamplesStatisticsAndCountsAsFlatKeys) {
       EXPECT_NEAR(entry.at("real_time").get<double>(), 54 * ms, 1);
     }
   }
-  // Wall times from the fifth frame on.
+  // These are the wall times from the fifth frame on.
   ASSERT_EQ(samples.size(), 8U);
   for (std::size_t i = 0; i < 8; ++i) {
     EXPECT_NEAR(samples[i], (54.0 + static_cast<double>(i)) * ms, 1);

@@ -1,5 +1,5 @@
-// A merge of many records: how much memory and how much time it takes.
-// TRIPTYCH_MERGE_RECORDS=10000000 gives it the size of a result of a cluster: 15 minutes and 26 GB
+// Measures how much memory and time a merge of many records takes. With
+// TRIPTYCH_MERGE_RECORDS=10000000 it has the size of the results of a cluster: 15 minutes and 26 GB
 // of disk space.
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -28,9 +28,9 @@ int number_from(const char* variable, int standard) {
   return text == nullptr ? standard : std::stoi(text);
 }
 
-// Like the records of a volume study: 14 factors, a frame by two clocks, six counts. They are in
-// the order of a plan, in which cameras vary fastest, and not in the order of their text. The merge
-// passes seals on, so here they depend only on the number.
+// The records are like those of a volume study: 14 factors, a frame by two clocks, six counts. They
+// are in the order of a plan, in which cameras vary fastest, and not in alphabetical order. The
+// merge copies seals, so here they depend only on the number.
 constexpr const char* fill_sql = R"sql(
 CREATE TEMP TABLE n AS WITH RECURSIVE n (seq, i) AS (
   SELECT 1, :first UNION ALL SELECT seq + 1, i + :step FROM n WHERE seq < :count)
@@ -94,7 +94,7 @@ TEST_F(MergeLoad, TakesBoundedMemory) {
   std::vector<fs::path> files;
   for (int i = 0; i < count; ++i) files.push_back(shard(i, count, records));
   const auto begin = std::chrono::steady_clock::now();
-  // In a process of its own, whose peak of memory the system reports.
+  // The merge runs in a separate process, for which the system reports the peak of memory.
   const pid_t child = fork();
   if (child == 0) {
     std::uint64_t merged = 0;

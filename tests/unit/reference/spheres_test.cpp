@@ -1,5 +1,5 @@
-// Compares the reference image of particles with a loop over all of them, and checks what must not
-// change it.
+// Compares the reference image of particles with a loop over all of them, and checks changes that
+// must not affect it.
 
 #include "reference/spheres.hpp"
 
@@ -40,8 +40,8 @@ void expect_equal(const SphereTruth& a, const SphereTruth& b, const std::string&
   EXPECT_EQ(a.coverage, b.coverage) << what;
 }
 
-// Compares to the bit. Returns the number of different particles that are visible, so that a test
-// can check that it saw some.
+// Compares all bits. Returns the number of different particles that are visible, so that a test can
+// check that there were some.
 std::size_t expect_brute_force(const scene::ParticleScene& scene, const SphereErrorModel& model,
                                const std::string& what) {
   const SphereTruth truth = render_spheres(scene, model, 2);
@@ -94,7 +94,7 @@ TEST(Spheres, EveryPixelIsThatOfALoopOverAllSpheres) {
 
 TEST(Spheres, EyeInsideAndCloseToSpheres) {
   scene::ParticleSet set = random_set(3, 300, 0.01, 0.1);
-  ASSERT_TRUE(append(set, {0, 0, 0, 1.5}, 300));  // around everything
+  ASSERT_TRUE(append(set, {0, 0, 0, 1.5}, 300));  // this sphere surrounds all others
   set.rgba8.push_back(0xFF40E0D0);
   ASSERT_TRUE(append(set, {5, 0, 0, 1}, 301));
   set.rgba8.push_back(0xFF123456);
@@ -165,7 +165,8 @@ TEST(Spheres, LowestIdOnATie) {
     EXPECT_EQ(truth.certain[middle], 1);
     EXPECT_LT(truth.bound[middle], 1e-2);
   }
-  // They are equal at one point only: the lowest id is visible there, but nobody has to agree.
+  // The spheres touch in one point only. The lowest id is visible there, but a device need not
+  // agree.
   const auto touching = scene_of(set_of({{0, 0, -4, 2}, {0, 0, -3, 1}}), 21, 21, 60);
   const SphereTruth truth = render_spheres(touching);
   EXPECT_EQ(truth.ids[10 * 21 + 10], 0U);
