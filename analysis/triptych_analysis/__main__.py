@@ -11,8 +11,8 @@ EXIT_NOTHING, EXIT_USAGE = 2, 3
 
 def arguments_of(words):
     parser = argparse.ArgumentParser(
-        prog="analyze", description="Distributions, correlations, speed-ups, predictions and views from tables: "
-        "FOLDER/SUITE/SIGNAL holds a CSV file a table and an SVG file a figure.",
+        prog="analyze", description="Computes distributions, correlations, speed-ups, predictions and views from tables. "
+        "FOLDER/SUITE/SIGNAL gets a CSV file for each table and an SVG file for each figure.",
         epilog="Exit codes: 0 done, 2 nothing could be computed, 3 usage or I/O.")
     parser.add_argument("source", nargs="+", help="a folder written by `triptych export`, or a store")
     parser.add_argument("--out", required=True, help="folder for tables and figures")

@@ -74,7 +74,7 @@ def _correlate(dataset, references, left_out):
     for factor, level in references.items():
         if factor not in factors:
             left_out.append((f"speed-up relative to {factor}={level}",
-                             "the records of this suite have no such factor with two levels"))
+                             "the records of this suite have no factor of this name with at least two levels"))
     return {"correlations": _stacked(matrices), "correlation_boxes": pd.DataFrame(boxes), "speed_ups": _stacked(lines)}
 
 

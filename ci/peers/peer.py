@@ -147,19 +147,19 @@ def print_ratio(scene, ours, vtk, error):
     """Prints each side's Pareto front and the ratio of the smallest times to the error. Returns whether there is a ratio."""
     print(f"{scene}")
     ours = short_names(ours)
-    for program, cases in (("ours", ours), ("VTK", vtk)):
+    for program, cases in (("Triptych", ours), ("VTK", vtk)):
         least = float("inf")
         for name, (ns, rmse) in sorted(cases.items(), key=lambda case: case[1]):
             if rmse < least:
-                print(f"  {program:5} {ns / 1e6:9.3f} ms  RMSE {rmse * 255:8.4f}/255  {name}")
+                print(f"  {program:8} {ns / 1e6:9.3f} ms  RMSE {rmse * 255:8.4f}/255  {name}")
             least = min(least, rmse)
     fastest = [min(((ns, name) for name, (ns, rmse) in cases.items() if rmse <= error), default=None)
                for cases in (ours, vtk)]
     if None in fastest:
-        print(f"  no ratio: {' and '.join(p for p, f in zip(('ours', 'VTK'), fastest) if f is None)} "
+        print(f"  no ratio: {' and '.join(p for p, f in zip(('Triptych', 'VTK'), fastest) if f is None)} "
               f"does not reach RMSE {error:.5f}")
         return False
     (our_ns, our_name), (vtk_ns, vtk_name) = fastest
-    print(f"  time to RMSE {error:.5f}: ours {our_ns / 1e6:.3f} ms ({our_name}), VTK {vtk_ns / 1e6:.3f} ms "
+    print(f"  time to RMSE {error:.5f}: Triptych {our_ns / 1e6:.3f} ms ({our_name}), VTK {vtk_ns / 1e6:.3f} ms "
           f"({vtk_name}): {our_ns / vtk_ns:.3f}")
     return True

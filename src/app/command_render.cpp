@@ -239,7 +239,7 @@ void add_render_command(Commands& commands) {
                    "difference.png, and exit with code 1 if the image is wrong");
   command.add_flag("--describe", arguments.describe,
                    "Draw nothing, but describe the data (format, sizes, spacing, orientation, "
-                   "elements, range, a small picture). Needs neither --device nor --out");
+                   "elements, range, a small image). Needs neither --device nor --out");
   add_example(command,
               "triptych render volume --device vulkan:lavapipe --set viewport=256 --out frame");
 }

@@ -144,7 +144,7 @@ void add_view_command(Commands& commands) {
   command.add_option("--device", arguments.devices,
                      "A column for each device that matches this glob (repeatable; default: one "
                      "device of each API). DEVICE,NAME=VALUE,… sets variables for its driver, so "
-                     "that two drivers can stand side by side");
+                     "that two drivers can be shown next to each other");
   command.add_option("--set", arguments.frame.set,
                      "factor=value (repeatable); write a comma in a value as %2C");
   add_inject_option(command, arguments.frame.faults, "Inject a fault (repeatable); see run --help");
