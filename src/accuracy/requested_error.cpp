@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, all_metrics.size()> names{"rms", "covered
 Metric metric_called(std::string_view name, std::string_view text) {
   const auto found = std::ranges::find(names, name);
   if (found == names.end()) {
-    throw core::InputError(fmt::format("--error {}: no metric '{}'; there are {}", text, name,
+    throw core::InputError(fmt::format("--error {}: unknown metric '{}'; there are: {}", text, name,
                                        fmt::join(names, ", ")));
   }
   return all_metrics[static_cast<std::size_t>(found - names.begin())];

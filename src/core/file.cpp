@@ -72,7 +72,8 @@ Descriptor open_to_read(const std::filesystem::path& file, struct stat& facts) {
   if (in.get() < 0 || ::fstat(in.get(), &facts) != 0) fail("cannot read", file, errno);
   if (S_ISDIR(facts.st_mode)) fail("cannot read", file, EISDIR);
   if (!S_ISREG(facts.st_mode)) {
-    throw IoError(fmt::format("{}: cannot read: is a pipe or a device, not a file", file.string()));
+    throw IoError(
+        fmt::format("{}: cannot read: it is a pipe or a device, not a file", file.string()));
   }
   return in;
 }
@@ -82,7 +83,7 @@ Bytes read_at_most(const std::filesystem::path& file, std::size_t most) {
   const auto refuse_more = [&](std::size_t size) {
     if (size <= most) return;
     throw InputError({.file = file.string()},
-                     fmt::format("is too large: more than {} bytes are not read", most));
+                     fmt::format("is too large; the limit is {} bytes", most));
   };
   struct stat facts {};
   const Descriptor in = open_to_read(file, facts);

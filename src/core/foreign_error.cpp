@@ -35,7 +35,7 @@ void rethrow_as_ours(const std::string& about) {
       throw InputError({.file = about}, fmt::format("cannot be used ({})", error.what()));
     }
     throw Error(fmt::format(
-        "a fault of the program itself ({}): please report it with the command and its files",
+        "internal error of Triptych ({}): please report it, with the command and its input files",
         error.what()));
   }
 }

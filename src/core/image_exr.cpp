@@ -143,7 +143,8 @@ Image allocate(const Imf::Header& header, std::size_t file_bytes) {
       static_cast<std::size_t>(width * height) / most_pixels_per_byte <= file_bytes;
   if (!possible) {
     throw std::runtime_error(
-        fmt::format("states {}x{} pixels, which {} bytes cannot hold", width, height, file_bytes));
+        fmt::format("the header states {}x{} pixels, which a file of {} bytes cannot contain",
+                    width, height, file_bytes));
   }
   Image image(static_cast<int>(width), static_cast<int>(height));
   if (header.channels().findChannel(depth_channel) != nullptr) {
@@ -175,15 +176,16 @@ void require_attributes_inside(std::span<const std::byte> bytes) {
     place += sizeof(size);
     if (size < 0 || static_cast<std::size_t>(size) > text.size() - place) {
       throw std::runtime_error(
-          fmt::format("has an attribute of {} bytes at byte {} of {}", size, place, text.size()));
+          fmt::format("has an attribute of {} bytes at byte {}, which exceeds the file of {} bytes",
+                      size, place, text.size()));
     }
     const std::size_t end = place + static_cast<std::size_t>(size);
     while (channels && place < text.size() && !take_text().empty()) {
       place = std::min(place + 16, text.size());
     }
     if (channels && place != end) {
-      throw std::runtime_error(
-          fmt::format("has channels that end at byte {}, and not at {} as stated", place, end));
+      throw std::runtime_error(fmt::format(
+          "its list of channels ends at byte {}, but the header states byte {}", place, end));
     }
     place = end;
   }

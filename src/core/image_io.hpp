@@ -21,7 +21,7 @@ void write_exr(const Image& image, const std::filesystem::path& file);
 [[nodiscard]] Image read_exr(const std::filesystem::path& file);
 // `name` is the name of the image in errors.
 [[nodiscard]] Image decode_exr(std::span<const std::byte> bytes,
-                               const std::string& name = "a picture");
+                               const std::string& name = "an image");
 
 // Writes 8-bit sRGB without alpha: the image over a black background, clamped to [0, 1]. NaN is
 // shown as magenta.

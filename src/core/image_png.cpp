@@ -44,9 +44,8 @@ std::vector<std::byte> encode_png(const RgbPicture& picture) {
   const auto pixels =
       static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
   if (picture.width < 1 || picture.height < 1 || picture.rgb.size() != 3 * pixels) {
-    throw InputError(
-        fmt::format("a picture of {}x{} pixels with {} values cannot be written as PNG",
-                    picture.width, picture.height, picture.rgb.size()));
+    throw InputError(fmt::format("an image of {}x{} pixels with {} values cannot be written as PNG",
+                                 picture.width, picture.height, picture.rgb.size()));
   }
   png_image png{};
   png.version = PNG_IMAGE_VERSION;

@@ -158,7 +158,7 @@ JsonNode JsonNode::at(const std::string& key) const {
 }
 
 std::string JsonNode::text() const {
-  if (!value_->is_string()) fail("expected a text");
+  if (!value_->is_string()) fail("expected a string");
   return value_->get<std::string>();
 }
 

@@ -28,7 +28,7 @@ constexpr std::size_t most_pairs = 990;
 void require_points(Points x, Points y) {
   const auto finite = [](double value) { return std::isfinite(value); };
   if (x.size() != y.size() || x.size() < 4) {
-    throw core::InputError("a line needs as many x as y, and four points at least");
+    throw core::InputError("a line needs equally many x and y, and at least four points");
   }
   if (!std::ranges::all_of(x, finite) || !std::ranges::all_of(y, finite)) {
     throw core::InputError("a line needs finite points");

@@ -196,7 +196,7 @@ std::vector<std::string> Store::planned(const Run& run) const {
     const bool none = planned.empty() && run.planned_hash.empty();
     if (!none) {
       require_seal(run.planned_hash, hash_of_planned(planned),
-                   fmt::format("what run '{}' was to measure", run.id));
+                   fmt::format("the list of configurations of run '{}'", run.id));
     }
     return planned;
   });
@@ -298,7 +298,7 @@ std::optional<TruthImage> Store::truth(std::string_view scene, std::string_view 
     std::string seal;
     Reader(row) >> truth.scene >> truth.version >> truth.image >> truth.bound >> truth.own_seal >>
         seal;
-    require_seal(seal, seal_of(truth), fmt::format("the truth of {}", scene));
+    require_seal(seal, seal_of(truth), fmt::format("the reference image of {}", scene));
     return truth;
   });
 }

@@ -125,7 +125,7 @@ SQLite::Database open_store_file(const std::filesystem::path& file, Store::Mode 
     if (mode == Store::Mode::append) return open_to_append(file, busy_limit);
     if (!std::filesystem::exists(file, ignored)) {
       throw core::IoError(
-          fmt::format("{}: there is no such file; 'triptych run' makes one", file.string()));
+          fmt::format("{}: there is no such file; 'triptych run' creates one", file.string()));
     }
     return open_to_read(file, busy_limit);
   });
@@ -151,16 +151,17 @@ void require_file(const std::filesystem::path& file, SQLite::Database& database)
   const bool lost_log = !std::filesystem::exists(log, ignored) &&
                         database.execAndGet("PRAGMA journal_mode").getString() == "wal";
   if (!lost_log && (answer != SQLITE_OK || moved == 0)) return;
-  throw core::IoError(
-      fmt::format("{}: was removed or renamed while it was open; what is added now would be lost",
-                  lost_log ? log.string() : file.string()));
+  throw core::IoError(fmt::format(
+      "{}: was removed or renamed while it was open; data that are added now would be lost",
+      lost_log ? log.string() : file.string()));
 }
 
 void throw_damaged(const std::filesystem::path& file, std::string_view what) {
   throw core::InputError(
       {.file = file.string()},
-      fmt::format("is damaged ({}): measure again; 'sqlite3 FILE .recover' may save what is left",
-                  what));
+      fmt::format(
+          "is damaged ({}): measure again; 'sqlite3 FILE .recover' may recover the remaining data",
+          what));
 }
 
 void throw_store_error(const std::filesystem::path& file, const SQLite::Exception& error) {
@@ -168,25 +169,29 @@ void throw_store_error(const std::filesystem::path& file, const SQLite::Exceptio
   const std::string_view what = error.what();
   switch (error.getErrorCode()) {
     case SQLITE_NOTADB:
-      throw core::InputError({.file = name}, "is not an SQLite file, so not a Triptych store");
+      throw core::InputError({.file = name},
+                             "is not an SQLite file, so it is not a Triptych store");
     case SQLITE_CORRUPT:
       throw_damaged(file, what);
     case SQLITE_FULL:
-      throw core::IoError(fmt::format("{}: the disk is full; what was added before is safe", name));
-    case SQLITE_READONLY:
       throw core::IoError(
-          fmt::format("{}: nothing can be added, it or its folder is read-only ({})", name, what));
-    case SQLITE_CANTOPEN:
+          fmt::format("{}: the disk is full; data that were added before are intact", name));
+    case SQLITE_READONLY:
       throw core::IoError(fmt::format(
-          "{}: cannot be opened ({}); is its folder there, and can it be written?", name, what));
+          "{}: cannot be written, because the file or its folder is read-only ({})", name, what));
+    case SQLITE_CANTOPEN:
+      throw core::IoError(
+          fmt::format("{}: cannot be opened ({}); check that its folder exists and can be written",
+                      name, what));
     case SQLITE_IOERR:
       throw core::IoError(fmt::format(
-          "{}: cannot be read or written ({}): is the disk full, or broken?", name, what));
+          "{}: cannot be read or written ({}); check whether the disk is full or broken", name,
+          what));
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       throw core::IoError(
-          fmt::format("{}: another process has kept it locked too long ({}); try again when that "
-                      "one is done",
+          fmt::format("{}: another process has locked it for too long ({}); try again when that "
+                      "process has finished",
                       name, what));
     default:
       throw core::IoError(fmt::format("{}: {}", name, what));

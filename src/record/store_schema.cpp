@@ -273,15 +273,15 @@ void require_our_objects(const SQLite::Database& database, const std::filesystem
     if (known != found.end() && known->second == statement) continue;
     throw core::InputError(
         {.file = file.string()},
-        fmt::format("the {} {} is {}: measure again, into another file", object.first,
-                    object.second,
-                    known == found.end() ? "missing" : "not the one that Triptych makes"));
+        fmt::format(
+            "the {} {} is {}; measure again into another file", object.first, object.second,
+            known == found.end() ? "missing" : "different from the one that Triptych creates"));
   }
   for (const auto& [object, statement] : found) {
     if (object.first == "table" || our_objects().contains(object)) continue;
     throw core::InputError({.file = file.string()},
-                           fmt::format("has the {} {}, which Triptych did not make and which may "
-                                       "change what is read or added: remove it",
+                           fmt::format("has the {} {}, which Triptych did not create and which "
+                                       "may change data that are read or added: remove it",
                                        object.first, object.second));
   }
 }
@@ -297,17 +297,17 @@ bool is_blank(const SQLite::Database& database) {
 
 void require_our_schema(const SQLite::Database& database, const std::filesystem::path& file) {
   if (pragma(database, "application_id") != application_id) {
-    throw core::InputError({.file = file.string()},
-                           is_blank(database)
-                               ? "is empty, not a Triptych store; 'triptych run' makes one"
-                               : "is an SQLite file, but not a Triptych store");
+    throw core::InputError(
+        {.file = file.string()},
+        is_blank(database) ? "is empty, so it is not a Triptych store; 'triptych run' creates one"
+                           : "is an SQLite file, but not a Triptych store");
   }
   const int found = pragma(database, "user_version");
   if (found == Store::schema_version) return require_our_objects(database, file);
   throw core::InputError(
       {.file = file.string()},
-      fmt::format("store of schema version {}, but this program reads version {}: {}, or give "
-                  "another file with --store",
+      fmt::format("the store has schema version {}, but this program reads version {}: {}, or "
+                  "name another file with --store",
                   found, Store::schema_version,
                   found > Store::schema_version ? "use the newer Triptych that wrote it"
                                                 : "measure again, or use the older Triptych"));

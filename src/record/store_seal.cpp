@@ -32,7 +32,7 @@ std::string seal_of(const TruthImage& truth) {
 }
 
 void require_seal(std::string_view stored, std::string_view found, const std::string& what) {
-  if (stored != found) throw core::InputError(what + " is not as it was written");
+  if (stored != found) throw core::InputError(what + " was changed after it was written");
 }
 
 }  // namespace triptych::record

@@ -46,7 +46,7 @@ class Binder {
   }
   Binder& operator<<(std::span<const std::byte> bytes) {
     constexpr std::size_t largest = std::numeric_limits<int>::max();
-    if (bytes.size() > largest) throw core::InputError("an image of 2 GiB or more cannot be kept");
+    if (bytes.size() > largest) throw core::InputError("images of 2 GiB or more cannot be stored");
     // SQLite treats a null pointer as NULL, so an empty blob needs another pointer.
     const void* data = bytes.empty() ? static_cast<const void*>("") : bytes.data();
     statement_.bind(++index_, data, static_cast<int>(bytes.size()));
@@ -69,7 +69,7 @@ class Reader {
     // text.
     constexpr int most = 64 << 20;
     if (column.getBytes() > most) {
-      throw core::InputError(fmt::format("holds a text of {} bytes; the longest that is read has {}",
+      throw core::InputError(fmt::format("contains a text of {} bytes; the limit is {} bytes",
                                          column.getBytes(), most));
     }
     text = column.getString();

@@ -113,10 +113,10 @@ ReadFacts facts_of(Atoms& atoms) {
                   .notes = std::move(atoms.notes)};
   if (!atoms.elements || !atoms.radii.empty()) return facts;
   if (const std::string list = without_element(facts.kinds); !list.empty()) {
-    facts.notes.push_back(
-        fmt::format("{}: these are not chemical elements; they are drawn with a radius of 2 Å "
-                    "and a colour of their own",
-                    list));
+    facts.notes.push_back(fmt::format(
+        "{}: these kinds are not chemical elements, so they are drawn with a radius of 2 Å "
+        "and with colours that do not depend on an element",
+        list));
   }
   return facts;
 }

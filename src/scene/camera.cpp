@@ -218,7 +218,7 @@ Pose pose_of(std::string_view spec, const Stage& stage) {
   if (std::find(paths.begin(), paths.end(), path) == paths.end()) {
     std::string known = "random, view";
     for (const std::string_view name : paths) known += fmt::format(", {}", name);
-    reject(spec, "a path of " + known);
+    reject(spec, "one of the paths " + known);
   }
   return on_path(stage, path, parse_lambda(spec, rest));
 }
@@ -250,7 +250,8 @@ void require_usable(const Box& box, double fov_y_deg) {
     const double extent = box.hi[axis] - box.lo[axis];
     if (!(extent > 0 && std::isfinite(extent))) {
       throw core::InputError(fmt::format(
-          "a camera needs a box with an extent; it spans {} along {}", extent, "xyz"[axis]));
+          "a camera needs data with a positive, finite extent, but the extent is {} along {}",
+          extent, "xyz"[axis]));
     }
   }
 }

@@ -48,7 +48,7 @@ class Bunzipper {
     while (filled < out.size()) {
       if (!has_input()) {
         if (ended_) break;
-        reject("ends too early");
+        reject("the data end too early");
       }
       if (ended_) {
         BZ2_bzDecompressEnd(&stream_);

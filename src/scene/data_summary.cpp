@@ -129,7 +129,7 @@ void append_picture(std::vector<std::string>& lines, const Volume& volume) {
       }
     }
   });
-  lines.emplace_back("picture, the largest value along z, x to the right and y up:");
+  lines.emplace_back("preview of the largest value along z (x points right, y points up):");
   picture.append_to(lines);
 }
 
@@ -141,7 +141,7 @@ void append_picture(std::vector<std::string>& lines, const ParticleSet& set, con
     };
     picture.at(share(sphere[0], box.lo.x, box.hi.x), share(sphere[1], box.lo.y, box.hi.y)) += 1;
   }
-  lines.emplace_back("picture, the number of centres along z, x to the right and y up:");
+  lines.emplace_back("preview of the number of centres along z (x points right, y points up):");
   picture.append_to(lines);
 }
 
@@ -156,17 +156,16 @@ std::vector<std::string> summary_of(const Volume& volume) {
   std::vector<std::string> lines;
   lines.push_back(fmt::format("data: {}", volume.name));
   lines.push_back(fmt::format("format: {}", facts.format.empty() ? "generated" : facts.format));
-  lines.push_back(fmt::format("voxels: {} x {} x {}, {} each of {}, kept as {}", nx, ny, nz,
-                              facts.components == 1 ? "one value"
-                                                    : fmt::format("{} values", facts.components),
-                              facts.value_type.empty() ? name_of(volume.type) : facts.value_type,
-                              name_of(volume.type)));
+  lines.push_back(fmt::format(
+      "voxels: {} x {} x {}, {} of type {} each, stored as {}", nx, ny, nz,
+      facts.components == 1 ? "one value" : fmt::format("{} values", facts.components),
+      facts.value_type.empty() ? name_of(volume.type) : facts.value_type, name_of(volume.type)));
   lines.push_back(fmt::format("spacing: {:.6g} x {:.6g} x {:.6g}{}", sx, sy, sz, unit));
   lines.push_back(fmt::format("extent: {:.6g} x {:.6g} x {:.6g}{}", nx * sx, ny * sy, nz * sz, unit));
-  lines.push_back(fmt::format(
-      "orientation: {}", facts.orientation.empty()
-                             ? "not stated"
-                             : facts.orientation + " (where the axes x, y and z point)"));
+  lines.push_back(fmt::format("orientation: {}",
+                              facts.orientation.empty()
+                                  ? "not stated"
+                                  : facts.orientation + " (directions of the axes x, y and z)"));
   lines.push_back(fmt::format("range: {:.9g} to {:.9g}{}", volume.range_lo, volume.range_hi,
                               histogram.other == 0
                                   ? ""
@@ -192,9 +191,11 @@ std::vector<std::string> summary_of(const ParticleSet& set) {
   lines.push_back(fmt::format("format: {}", facts.format.empty() ? "generated" : facts.format));
   lines.push_back(fmt::format(
       "particles: {}{}", set.count(),
-      set.dropped == 0 ? ""
-                       : fmt::format(", and {} dropped, whose position or radius cannot be drawn",
-                                     set.dropped)));
+      set.dropped == 0
+          ? ""
+          : fmt::format(
+                ", and {} that were dropped, because their position or radius cannot be drawn",
+                set.dropped)));
   if (!facts.kinds.empty()) {
     std::string kinds = facts.elements ? "elements:" : "types:";
     for (const auto& [name, count] : facts.kinds) kinds += fmt::format(" {} {}", name, count);

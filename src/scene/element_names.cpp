@@ -273,8 +273,8 @@ void name_elements(Atoms& atoms, bool aligned) {
   atoms.take_names(std::move(named));
   if (guessed > 0) {
     atoms.notes.push_back(
-        fmt::format("the file states no element for {} atom{} in residues that are not known; "
-                    "guessed from the atom names: {}",
+        fmt::format("the file states no element for {} atom{} in unknown residues; the "
+                    "elements were guessed from the atom names: {}",
                     guessed, guessed == 1 ? "" : "s", listed(guesses)));
   }
 }

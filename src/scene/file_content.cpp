@@ -62,8 +62,9 @@ std::vector<char> read_content(const std::filesystem::path& file, const Progress
   const Packing packing = packing_of(bytes, name);
   const bool promises_gzip = lower_case(file.extension().string()) == ".gz";
   if (promises_gzip && packing == Packing::none) {
-    throw core::InputError({.file = name}, "broken gzip stream: it does not begin as one; if the file "
-                                           "is not compressed, remove .gz from its name");
+    throw core::InputError({.file = name},
+                           "not a gzip stream, because it does not begin like one; if the file "
+                           "is not compressed, remove .gz from its name");
   }
   if (packing == Packing::none) {
     const auto* begin = reinterpret_cast<const char*>(bytes.data());

@@ -201,7 +201,8 @@ struct Generator {
 };
 
 constexpr std::array<Generator, 8> generators{{
-    {{"uniform_box", "one value everywhere: nothing to skip, closed form"}, uniform_box},
+    {{"uniform_box", "the same value everywhere: no empty space, known in closed form"},
+     uniform_box},
     {{"gradient_box", "a ramp from corner to corner"}, gradient_box},
     {{"frequency_box", "twelve sine periods along each axis: the worst case for caches and steps"},
      frequency_box},
@@ -210,7 +211,7 @@ constexpr std::array<Generator, 8> generators{{
     {{"marschner_lobb", "the reconstruction filter test signal"}, marschner_lobb},
     {{"nested_shells", "three smooth concentric shells"}, nested_shells},
     {{"sparse_field", "forty small blobs in empty space, about 4 % occupied"}, sparse_field},
-    {{"gaussian_blob", "a Gaussian: closed form for every ray"}, gaussian_blob},
+    {{"gaussian_blob", "a Gaussian, known in closed form for every ray"}, gaussian_blob},
 }};
 
 // Throws InputError for an unknown name or a size that cannot be made.

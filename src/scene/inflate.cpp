@@ -17,7 +17,7 @@ namespace triptych::scene {
 void refuse_unpacked(const std::string& file, std::uint64_t most) {
   throw core::InputError({.file = file},
                          fmt::format("unpacks to more than {} bytes; if that is intended, unpack "
-                                     "it yourself, because an uncompressed file may be larger",
+                                     "it first, because uncompressed files have no limit",
                                      most));
 }
 
@@ -49,7 +49,7 @@ struct Inflater::Stream {
   void drop_padding() {
     bool padded = false;
     for (; has_input() && *zlib.next_in == 0; ++zlib.next_in, --zlib.avail_in) padded = true;
-    if (padded && has_input()) reject("more data after zero bytes");
+    if (padded && has_input()) reject("other data follow the padding of zero bytes");
   }
 
   void step() {
@@ -84,7 +84,7 @@ std::size_t Inflater::read(std::span<std::byte> out) {
     if (stream_->ended) stream_->drop_padding();
     if (!stream_->has_input()) {
       if (stream_->ended) break;
-      stream_->reject("ends too early");
+      stream_->reject("the data end too early");
     }
     const auto piece = static_cast<uInt>(
         std::min<std::size_t>(out.size() - filled, std::numeric_limits<uInt>::max()));

@@ -78,8 +78,8 @@ const Style& guessed_style(const Words& words, const LineReader& reader) {
   if (atomic.has_flags(words.size()) && are_whole(words, atomic.flags())) {
     if (!are_whole(words, atomic.place)) return atomic;
     reader.reject(
-        "8 whole numbers: the last 3 could be image flags (style atomic) or the place (style electron "
-        "and others); expected the style in a comment, such as 'Atoms # atomic'");
+        "the last 3 of 8 whole numbers could be image flags (style atomic) or the position (style "
+        "electron and others); expected the style in a comment, such as 'Atoms # atomic'");
   }
   reader.reject(
       fmt::format("expected the style of {} columns in a comment, such as 'Atoms # charge' or "

@@ -45,7 +45,8 @@ Cell read_cell(LineReader& reader, std::string_view header) {
   constexpr std::array<std::string_view, 3> axes{"x bounds", "y bounds", "z bounds"};
   const bool tilted = header.find("xy xz yz") != std::string_view::npos;
   if (header.find("abc origin") != std::string_view::npos) {
-    reader.reject("expected an orthogonal or 'xy xz yz' box; general triclinic boxes are not read");
+    reader.reject(
+        "expected an orthogonal or 'xy xz yz' box; general triclinic boxes are not supported");
   }
   const std::size_t expected = tilted ? 3 : 2;
   std::array<std::array<double, 3>, 3> bounds{};

@@ -56,7 +56,7 @@ std::uint64_t LineReader::count(std::string_view word, std::string_view what) co
   const auto value = parse_number<std::uint64_t>(trimmed(word));
   if (!value) reject(fmt::format("expected {}, found '{}'", what, quotable(trimmed(word))));
   if (*value > most_particles) {
-    reject(fmt::format("{} particles are too many; at most {}", *value, most_particles));
+    reject(fmt::format("{} particles are too many; the limit is {}", *value, most_particles));
   }
   return *value;
 }

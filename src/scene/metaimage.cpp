@@ -159,7 +159,7 @@ void take_meta_sizes(const MetaHeader& header, Volume& volume, ValueLayout& layo
         whole_number({std::string(split_words(sizes.value)[3]), sizes.place});
     if (further > 1 && layout.components > 1) {
       throw core::InputError(sizes.place,
-                             "channels and a fourth dimension; expected one of the two");
+                             "has channels and also a fourth dimension; expected only one of them");
     }
     if (further > 1) layout.block = volume.voxel_count();
     layout.components *= further;

@@ -291,7 +291,8 @@ class ClosingMarks {
     if (tokens.peek() || tokens.marks_before() > 0 || !closes_heading_ || closed_ == 0) return;
     if (closed_ >= enough) reader.reject("the file ends here, where '#' was expected");
     atoms.notes.emplace_back(
-        "other parts of the file end with '#', and the atoms do not: if the file was cut off, atoms "
+        "other parts of the file end with '#', but the atoms do not; if the file was cut off, "
+        "atoms "
         "are missing");
   }
 
@@ -349,7 +350,7 @@ ParticleSet read_mmcif(LineReader& reader, std::uint64_t frame, ColourKind colou
   }
   if (others > 0) {
     atoms->notes.emplace_back(
-        "the file has atoms in further data blocks, too; only those of the first are read");
+        "the file has atoms in several data blocks; only those of the first block are read");
   }
   return to_particles(std::move(*atoms), colour, reader);
 }

@@ -117,7 +117,8 @@ List read_list(Bytes& bytes, int version) {
   }
   list.count = bytes.take<std::uint64_t>("the list's number of particles");
   if (list.count > most_particles) {
-    bytes.reject(fmt::format("{} particles are too many; at most {}", list.count, most_particles));
+    bytes.reject(
+        fmt::format("{} particles are too many; the limit is {}", list.count, most_particles));
   }
   if (list.vertex == VertexType::none && list.count > 0) {
     bytes.reject(
@@ -256,7 +257,7 @@ ParticleSet read_mmpld(std::span<const char> content, const std::string& file, s
   }
   if (total == 0) bytes.reject("expected particles, found none");
   if (total > most_particles) {
-    bytes.reject(fmt::format("{} particles are too many; at most {}", total, most_particles));
+    bytes.reject(fmt::format("{} particles are too many; the limit is {}", total, most_particles));
   }
   ParticleSet set;
   set.colour = colour;

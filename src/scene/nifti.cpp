@@ -233,13 +233,14 @@ void note_orientation(const NiftiHeader& header, Volume& volume) {
       if (std::abs(length - volume.spacing.at(i)) <= allowed * volume.spacing.at(i)) continue;
       volume.facts.notes.push_back(fmt::format(
           "axis {} has the spacing {} (pixdim), but the length {} in the matrix (sform); "
-          "the former is drawn",
+          "the spacing is used",
           i, volume.spacing.at(i), length));
     }
     if (const std::string sheared = sheared_axes(axes); !sheared.empty()) {
-      volume.facts.notes.push_back(fmt::format(
-          "{} are not perpendicular in the matrix (sform); the grid is drawn in its own axes",
-          sheared));
+      volume.facts.notes.push_back(
+          fmt::format("{} are not perpendicular in the matrix (sform); the grid is drawn with "
+                      "perpendicular axes",
+                      sheared));
     }
   } else if (header.qform_code() > 0) {
     volume.facts.orientation =
@@ -299,7 +300,7 @@ Volume read_nifti(const std::filesystem::path& file, const Component& component)
   RawVoxels source;
   const std::uint64_t further = take_nifti_sizes(header, volume);
   if (datatype.components > 1 && further > 1) {
-    header.reject("has colours and a fourth dimension; expected one of the two");
+    header.reject("has colours and also a fourth dimension; expected only one of them");
   }
   volume.spacing = spacing_of(header, volume, file.string());
   volume.facts.unit = unit_name(header.units());
@@ -309,8 +310,8 @@ Volume read_nifti(const std::filesystem::path& file, const Component& component)
   source.start = start_of_voxels(header);
   if (header.is_single_file() && header.vox_offset() == 0) {
     volume.facts.notes.push_back(fmt::format(
-        "vox_offset is 0; the voxels are read from byte {} on, where they begin in a file that has no "
-        "extension",
+        "vox_offset is 0, so the voxels are read from byte {} on, where they begin in a file "
+        "without extensions",
         source.start));
   }
   source.layout.type = datatype.type;

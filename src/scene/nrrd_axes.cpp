@@ -145,9 +145,10 @@ std::optional<Vector> spacing_of_ends(const Header& header, const std::array<int
     const int steps = node.at(i) ? size.at(i) - 1 : size.at(i);
     if (steps == 0) {
       throw core::InputError(
-          highest->place, fmt::format("axis {} has one sample, a node: its ends give no spacing; "
-                                      "expected 'spacings'",
-                                      i));
+          highest->place,
+          fmt::format("axis {} has a single node-centred sample, so its ends determine no spacing; "
+                      "expected 'spacings'",
+                      i));
     }
     spacing.at(i) = usable_spacing(length / steps, size.at(i), highest->place);
   }
@@ -188,8 +189,8 @@ void require_places(const Field& kinds) {
     if (is_space(words[i])) continue;
     throw core::InputError(
         kinds.place,
-        fmt::format("kind '{}' of axis {}; expected domain or space, or a fourth axis: "
-                    "a volume has three axes in space",
+        fmt::format("kind '{}' of axis {}; expected domain or space, because three axes "
+                    "must be spatial; only a fourth axis may have another kind",
                     quotable(words[i]), i));
   }
 }

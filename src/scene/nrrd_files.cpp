@@ -112,7 +112,7 @@ void locate_files(const Header& header, const Field& data, const std::filesystem
     for (std::string& name : *names) named.push_back({std::move(name), data.place});
   } else if (data.value == "LIST" || data.value.starts_with("LIST ")) {
     throw core::InputError(data.place,
-                           "expected the names of the data files after LIST, one a line");
+                           "expected the names of the data files after LIST, one per line");
   } else {
     named.push_back(data);
   }

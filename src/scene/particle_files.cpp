@@ -118,7 +118,8 @@ ParticleSet load_particles(std::string_view data, ColourKind colour,
   if (!source) {
     std::string where;
     for (const auto& folder : folders) where += ", " + folder.string();
-    throw core::IoError(fmt::format("{}: not found (looked here{})", data, where));
+    throw core::IoError(
+        fmt::format("{}: not found (searched in the current folder{})", data, where));
   }
   ParticleSet set = read(*source, colour, progress);
   if (set.count() == 0 && set.dropped > 0) {

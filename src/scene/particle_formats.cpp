@@ -104,7 +104,8 @@ const ParticleFormat& particle_format(const std::string& file, std::string_view 
   if (begun->name == "LAMMPS dump" && named->name == "LAMMPS data") return *begun;
   throw core::InputError(
       {.file = file},
-      fmt::format("is named as {} ({}) but begins as {}; if that is what it is, rename it to {}",
+      fmt::format("has a name for {} ({}), but its content begins like {}; if the content is "
+                  "right, change the ending to {}",
                   named->name, ending, begun->name, split_words(begun->endings).front()));
 }
 

@@ -295,13 +295,15 @@ struct Generator {
 };
 
 constexpr std::array<Generator, 7> generators{{
-    {{"uniform", "uniformly in a box, equal radii that fill a tenth of it"}, uniform},
+    {{"uniform", "uniformly distributed in a box, with equal radii that fill a tenth of it"},
+     uniform},
     {{"droplets", "three dense droplets in thin vapour"}, droplets},
-    {{"layer", "a liquid layer across a long box, vapour on both sides"}, layer},
+    {{"layer", "a liquid layer across a long box, with vapour on both sides"}, layer},
     {{"plume", "a lattice slab with a crater and an expanding cone of clusters above it"}, plume},
-    {{"coincident", "every position eight times, in different colours: ties"}, coincident},
-    {{"wall", "a wall without a gap, seen whole from +z"}, wall},
-    {{"hidden", "a wall of a tenth of the particles, with the others behind it"}, hidden},
+    {{"coincident", "every position eight times, in different colours, so that depths tie"},
+     coincident},
+    {{"wall", "a wall without gaps, completely visible from +z"}, wall},
+    {{"hidden", "a wall of a tenth of the particles, with the others hidden behind it"}, hidden},
 }};
 
 // Throws InputError for an unknown name or a count that cannot be made.

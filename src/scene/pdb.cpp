@@ -71,16 +71,17 @@ double coordinate(std::string_view line, std::size_t first, std::string_view wha
   const bool begins = is_blank_column(line, first - 1) || (after_a_number && field[0] == ' ');
   const bool is_alone = begins && is_blank_column(line, last + 1);
   if (after_a_number ? !as_specified && !is_alone : !begins || (!as_specified && !is_alone)) {
-    reader.reject(fmt::format("{}: '{}' is not separated from the columns beside it; a number that "
-                              "is too wide for its columns cannot be read",
-                              what, quotable(trimmed(field))));
+    reader.reject(
+        fmt::format("{}: '{}' is not separated from the columns next to it; a number that "
+                    "is too wide for its columns cannot be read",
+                    what, quotable(trimmed(field))));
   }
   return value;
 }
 
 void add_pdb_atom(Atoms& atoms, std::string_view line, const LineReader& reader) {
   if (line.substr(0, end_of_place).find('\t') != std::string_view::npos) {
-    reader.reject("the atom has tabs in it; expected fixed columns filled with blanks");
+    reader.reject("the atom's line contains tabs; expected fixed columns filled with blanks");
   }
   if (line.size() < end_of_place) {
     reader.reject(fmt::format(
@@ -106,9 +107,10 @@ bool is_atom(std::string_view line, const LineReader& reader) {
   for (const std::string_view name : {"atom", "hetatm"}) {
     if (!word.starts_with(name)) continue;
     if (text.size() > name.size() && is_letter_of_pdb(text[name.size()])) continue;
-    reader.reject(fmt::format("'{}' begins like an atom; expected ATOM or HETATM in capitals from "
-                              "column 1 on, followed by blanks or digits",
-                              quotable(text.substr(0, 12))));
+    reader.reject(
+        fmt::format("'{}' looks like an atom; expected ATOM or HETATM in capitals from "
+                    "column 1 on, followed by blanks or digits",
+                    quotable(text.substr(0, 12))));
   }
   return false;
 }
@@ -151,7 +153,7 @@ class PdbFrames {
   void begin_model() {
     if (in_model_) reader_.reject("expected ENDMDL before the next MODEL");
     if (count_ > 0 && !has_models_) {
-      reader_.reject("expected no MODEL after atoms outside of models");
+      reader_.reject("MODEL is not allowed after atoms outside of models");
     }
     has_models_ = in_model_ = true;
     ++count_;

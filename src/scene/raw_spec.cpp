@@ -17,8 +17,8 @@ namespace triptych::scene {
 namespace {
 
 constexpr std::string_view form =
-    "FILE:NXxNYxNZ:TYPE, for instance head.raw:256x256x128:u8, and after it the spacing (:1x1x2.5), "
-    "big, skip=BYTES or components=N";
+    "FILE:NXxNYxNZ:TYPE, for instance head.raw:256x256x128:u8, optionally followed by the spacing "
+    "(:1x1x2.5), :big, :skip=BYTES or :components=N";
 
 constexpr std::array<std::pair<std::string_view, StoredType>, 20> type_names{
     {{"u8", StoredType::u8},       {"i8", StoredType::i8},      {"u16", StoredType::u16},

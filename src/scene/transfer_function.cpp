@@ -167,8 +167,7 @@ TransferFunction load_transfer_function(std::string_view name,
   const auto file = find_file(name, folders);
   if (!file) {
     throw core::InputError(fmt::format(
-        "transfer function '{}' is neither a preset (haze, surfaces) nor a file that is here",
-        name));
+        "transfer function '{}' is neither a preset (haze, surfaces) nor an existing file", name));
   }
   result.entries = from_file(*file);
   return result;

@@ -15,8 +15,8 @@ namespace {
 
 [[noreturn]] void refuse(std::string_view text) {
   throw core::InputError(
-      fmt::format("window '{}': expected full or LOW..HIGH, each a number or a percentile p0 to "
-                  "p100, such as 0.5..3, p1..p99 or 0..p99.5",
+      fmt::format("window '{}': expected full, or LOW..HIGH where each end is a number or a "
+                  "percentile from p0 to p100, such as 0.5..3, p1..p99 or 0..p99.5",
                   quotable(text)));
 }
 
@@ -81,8 +81,9 @@ class Counted {
 [[noreturn]] void refuse_values(const Volume& volume, Mapping mapping) {
   throw core::InputError(
       mapping == Mapping::logarithmic
-          ? fmt::format("{}: mapping log needs values above 0, and no voxel has one", volume.name)
-          : fmt::format("{}: no voxel has a finite value, so it has no window", volume.name));
+          ? fmt::format("{}: mapping log needs values above 0, but no voxel has one", volume.name)
+          : fmt::format("{}: no voxel has a finite value, so there is no range to map",
+                        volume.name));
 }
 
 template <typename Scalar>
@@ -93,8 +94,8 @@ Range range_of(const Window& window, Counted<Scalar>& counted, const std::string
   const Range range{end(window.lo), end(window.hi)};
   if (range.lo < range.hi) return range;
   throw core::InputError(
-      fmt::format("{}: the window {} of values {} is empty; take percentiles farther apart, or "
-                  "numbers",
+      fmt::format("{}: the window {} of values {} is empty; choose percentiles that are farther "
+                  "apart, or numbers",
                   name, text_of(range), text_of(counted.range())));
 }
 
@@ -107,8 +108,8 @@ void set_window_of(Volume& volume, const std::optional<Window>& window, Mapping 
                              : Range{std::max(volume.range_lo, there.lo), volume.range_hi};
   if (mapping == Mapping::logarithmic && !(range.lo > 0)) {
     throw core::InputError(
-        fmt::format("{}: mapping log cannot begin a window at {}; begin it above 0, where the "
-                    "values are {}",
+        fmt::format("{}: a window of mapping log cannot begin at {}; choose a lower end above 0 "
+                    "(the values above 0 are {})",
                     volume.name, range.lo, text_of(there)));
   }
   volume.range_lo = range.lo;

@@ -89,7 +89,8 @@ Volume load_volume(std::string_view data, const std::vector<std::filesystem::pat
   if (!source.file) {
     std::string where;
     for (const auto& folder : folders) where += ", " + folder.string();
-    throw core::IoError(fmt::format("{}: not found (looked here{})", data, where));
+    throw core::IoError(
+        fmt::format("{}: not found (searched in the current folder{})", data, where));
   }
   Volume volume;
   if (source.raw) {

@@ -88,7 +88,8 @@ const VolumeFormat& volume_format(const std::filesystem::path& file) {
   if (begun != formats.end() && begun != named) {
     throw core::InputError(
         {.file = file.string()},
-        fmt::format("is named as {} ({}) but begins as {}; if that is what it is, rename it to {}",
+        fmt::format("has a name for {} ({}), but its content begins like {}; if the content is "
+                    "right, change the ending to {}",
                     named->name, ending, begun->name, split_words(begun->endings).front()));
   }
   return *named;

@@ -79,7 +79,7 @@ class HexReader {
       const auto high = digit();
       if (!high) return i;
       const auto low = digit();
-      if (!low) throw core::InputError({.file = file_}, "data: half a byte at the end");
+      if (!low) throw core::InputError({.file = file_}, "data: half a byte is missing at the end");
       out[i] = static_cast<std::byte>(*high << 4U | *low);
     }
     return out.size();

@@ -23,8 +23,8 @@ std::string folder_of_files() {
 
 [[noreturn]] void refuse(const std::string& folder, std::size_t bytes, int code) {
   throw core::IoError(
-      fmt::format("{}: no file of {} MiB for voxels ({}); make room there, or name another folder "
-                  "by TMPDIR",
+      fmt::format("{}: cannot create a file of {} MiB for voxels ({}); free space there, or set "
+                  "TMPDIR to another folder",
                   folder, bytes >> 20U, std::strerror(code)));
 }
 

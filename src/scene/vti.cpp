@@ -89,9 +89,10 @@ VtiFile read_tags(const std::filesystem::path& file) {
     vti.reject("expected <VTKFile type=\"ImageData\"> with <ImageData>");
   }
   if (vti.pieces.size() > 1) {
-    vti.reject(fmt::format("has {} pieces; expected one: in ParaView, Filters, Merge Blocks or "
-                           "Resample To Image",
-                           vti.pieces.size()));
+    vti.reject(
+        fmt::format("has {} pieces; expected one (in ParaView, use Filters, Merge Blocks or "
+                    "Resample To Image)",
+                    vti.pieces.size()));
   }
   if (vti.arrays.empty()) {
     vti.reject("holds no data: <Piece> with <PointData> and a <DataArray> are missing");
@@ -222,7 +223,9 @@ class ZlibBlocks {
     size_ = header.take();
     const std::uint64_t last = header.take();
     if (count > most_blocks || size_ > largest || last > size_ || (count > 0 && size_ == 0)) {
-      vti.reject(fmt::format("{} blocks of {} bytes, the last of {}, cannot be", count, size_, last));
+      vti.reject(
+          fmt::format("the block sizes are not valid: {} blocks of {} bytes, the last one of {}",
+                      count, size_, last));
     }
     last_ = last == 0 ? size_ : last;
     for (std::uint64_t i = 0; i < count; ++i) packed_.push_back(header.take());
@@ -247,10 +250,11 @@ class ZlibBlocks {
     const std::uint64_t size = next_ == packed_.size() ? last_ : size_;
     // zlib's upper limit for the compressed size of a block of that size.
     if (packed_size > compressBound(static_cast<uLong>(size)) + 64) {
-      reject(fmt::format("{} compressed bytes for a block of {}", packed_size, size));
+      reject(fmt::format("{} compressed bytes are too many for a block of {} bytes", packed_size,
+                         size));
     }
     input_.resize(static_cast<std::size_t>(packed_size));
-    if (source_(input_) != input_.size()) reject("ends too early");
+    if (source_(input_) != input_.size()) reject("the data end too early");
     block_.resize(static_cast<std::size_t>(size));
     auto unpacked = static_cast<uLongf>(size);
     const int code =
@@ -335,8 +339,9 @@ Volume read_vti(const std::filesystem::path& file, const Component& component) {
   layout.big_endian = text ? std::endian::native == std::endian::big
                            : vti.root.attribute("byte_order") == "BigEndian";
   if (vti.arrays.size() > 1) {
-    volume.facts.notes.push_back(fmt::format(
-        "the array '{}' of {} is drawn", quotable(array.tag.attribute("Name")), vti.arrays.size()));
+    volume.facts.notes.push_back(
+        fmt::format("the array '{}' is drawn; it is one of {} arrays in the file",
+                    quotable(array.tag.attribute("Name")), vti.arrays.size()));
   }
   read_stream(volume, layout, component, open_array(vti, array.tag, file, layout.type), file);
   return volume;

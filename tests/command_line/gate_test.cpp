@@ -173,9 +173,10 @@ TEST(Gate, NoOutputReplacesAnother) {
   ASSERT_EQ(program.run(measure_into("s.sqlite"), script(right_picture(program), 1, 1)).code, 0);
   const std::string store = program.read("s.sqlite");
   for (const auto& [outputs, says] :
-       {std::pair("--junit s.sqlite", "--junit s.sqlite is the file of --store: choose another"),
-        {"--markdown ./s.sqlite", "--markdown ./s.sqlite is the file of --store"},
-        {"--junit new --markdown ./new", "--markdown ./new is the file of --junit"}}) {
+       {std::pair("--junit s.sqlite",
+                  "--junit s.sqlite is also the file of --store: choose another"),
+        {"--markdown ./s.sqlite", "--markdown ./s.sqlite is also the file of --store"},
+        {"--junit new --markdown ./new", "--markdown ./new is also the file of --junit"}}) {
     const Result judged = program.run(judge_from("s.sqlite") + " " + outputs);
     EXPECT_EQ(judged.code, 3) << judged.output;
     EXPECT_NE(judged.output.find(says), std::string::npos) << judged.output;

@@ -16,14 +16,15 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
     case ParticleFault::wrong_sense:
       // tiles always rejects whole spheres by the depth of their front, whatever the option is.
       if (tiles || options.conservative_depth) return std::nullopt;
-      return "the fault wrong_sense needs conservative depth: without it nothing is rejected early";
+      return "the fault wrong_sense needs conservative depth, because nothing is rejected early "
+             "without it";
     case ParticleFault::culled_visible:
       if (options.culling != Culling::none) return std::nullopt;
       return "the fault culled_visible needs culling";
     case ParticleFault::lost_at_border:
       if (in_tiles) return std::nullopt;
-      return "the fault lost_at_border needs tiles: here the rasterizer decides what a sprite "
-             "covers";
+      return "the fault lost_at_border needs tiles, but here the rasterizer decides which "
+             "pixels a sprite covers";
     case ParticleFault::missing_barrier:
       if (rasterizer == SpriteRasterizer::in_tiles) return std::nullopt;
       return "the fault missing_barrier needs work groups with barriers, which are not used here";
@@ -41,11 +42,11 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
 std::optional<std::string> fault_of_rays(ParticleFault fault) {
   switch (fault) {
     case ParticleFault::small_sprite:
-      return "the fault small_sprite needs sprites: rays need none";
+      return "the fault small_sprite needs sprites, but rays use none";
     case ParticleFault::culled_visible:
-      return "the fault culled_visible needs culling: rays do not cull cells";
+      return "the fault culled_visible needs culling, but rays do not cull cells";
     case ParticleFault::lost_at_border:
-      return "the fault lost_at_border needs tiles: rays do not use tiles";
+      return "the fault lost_at_border needs tiles, but rays do not use tiles";
     case ParticleFault::missing_barrier:
       return "the fault missing_barrier needs work groups with barriers, which rays do not use";
     case ParticleFault::none:
@@ -65,10 +66,11 @@ std::optional<std::string> option_reason(std::string_view id, const ParticleOpti
   const Technique& technique = technique::technique(id);
   if (options.ray == ComputedAt::vertex) {
     if (technique.vertices == Vertices::one) {
-      return fmt::format("a {} has one vertex: its rays are computed per pixel", id);
+      return fmt::format("{} draws one vertex per sphere, so rays can be computed only per pixel",
+                         id);
     }
     if (technique.vertices == Vertices::none) {
-      return fmt::format("{} draws no vertices: rays are computed per pixel", id);
+      return fmt::format("{} draws no vertices, so rays can be computed only per pixel", id);
     }
   }
   if (technique.asks_corners && options.corners < 4) {

@@ -182,18 +182,18 @@ std::optional<std::string> adapt_reason(std::string_view technique, const scene:
                                         const RaycastOptions& options) {
   if (!(options.adapt > 0)) return std::nullopt;
   if (!technique::technique(technique).picture) {
-    return fmt::format("{} takes every sample of the lattice, but adapt merges some", technique);
+    return fmt::format("adapt merges samples, but {} always takes every sample", technique);
   }
   if (scene.quadrature != scene::Quadrature::midpoint) {
-    return "adapt merges samples of quadrature midpoint: other quadratures have no sample in the "
-           "middle of a step";
+    return "adapt works only with quadrature midpoint, because other quadratures have no sample in "
+           "the middle of a step";
   }
   if (options.skip == Skip::none) {
-    return "adapt merges samples by bricks, but skip none has no bricks";
+    return "adapt merges the samples in a brick, but skip none uses no bricks";
   }
   if (options.skip == Skip::distance) {
-    return "adapt needs skip bricks: leaps cross cubes of bricks whose values differ from one to "
-           "the next";
+    return "adapt needs skip bricks, because the leaps of skip distance cross several bricks with "
+           "different values";
   }
   return std::nullopt;
 }

@@ -83,7 +83,7 @@ std::vector<std::byte> bytes_of(const BasicRaycastParameters<Real>& parameters) 
 std::optional<std::string> cells_reason(const scene::VolumeScene& scene,
                                         const RaycastOptions& options) {
   if (options.sampler == Sampler::hardware) {
-    return "quadrature cells reads the voxels of a cell itself: it is for sampler manual or packed";
+    return "quadrature cells reads voxels without filtering, so it needs sampler manual or packed";
   }
   if (cell_passes(scene, 0) <= most_cell_passes) return std::nullopt;
   return fmt::format(
@@ -175,11 +175,11 @@ std::optional<std::string> raycast_reason(std::string_view technique,
   }
   if (!midpoint) {
     return fmt::format(
-        "quadrature {} computes in single precision: precision fp64 is for quadrature midpoint",
+        "quadrature {} computes only in single precision; precision fp64 needs quadrature midpoint",
         quadrature);
   }
   if (options.sampler == Sampler::hardware) {
-    return "a device's sampler interpolates in single precision at best: precision fp64 is for "
+    return "a device's sampler interpolates in single precision at best; precision fp64 needs "
            "sampler manual or packed";
   }
   return std::nullopt;

@@ -81,7 +81,7 @@ class Screen {
     ImGui::PushStyleColor(ImGuiCol_Text, colours::quiet);
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(
-        "Drag an image to turn the camera, use the wheel to go nearer. Hold R for the "
+        "Drag an image to turn the camera, use the wheel to move closer. Hold R for the "
         "reference image. Click the right button for the commands about a pixel.");
     if (!copied_.empty()) {
       ImGui::Spacing();
@@ -166,7 +166,7 @@ core::ExitCode show(const measure::ViewRequest& request, measure::InterruptGuard
 
 core::ExitCode run(int argc, char** argv) {
   if (argc != 2) {
-    throw core::InputError("triptych-view is started by `triptych view`, which has the options");
+    throw core::InputError("triptych-view cannot be started directly; use `triptych view`");
   }
   const auto request = core::Json::parse(argv[1]).get<measure::ViewRequest>();
   measure::InterruptGuard interrupts;  // before any thread is started

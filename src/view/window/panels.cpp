@@ -106,7 +106,7 @@ void Panels::draw_header(Session& session, std::size_t index) {
       if (ImGui::Selectable(name_of(each).c_str(), each == now)) session.set_side(index, each);
     }
     ImGui::Separator();
-    if (ImGui::Selectable("start its driver again")) session.set_side(index, now);
+    if (ImGui::Selectable("restart the driver")) session.set_side(index, now);
     ImGui::EndCombo();
   }
   if (!ImGui::IsItemHovered()) return;

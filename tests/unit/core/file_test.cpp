@@ -66,7 +66,7 @@ TEST(File, TextsHaveALargestSize) {
   const auto file = folder.write("a.txt", std::string(10, 'x'));
   EXPECT_EQ(read_text(file, 10), std::string(10, 'x'));
   EXPECT_THAT([&] { (void)read_text(file, 9); },
-              ThrowsMessage<InputError>(HasSubstr("a.txt: is too large: more than 9 bytes")));
+              ThrowsMessage<InputError>(HasSubstr("a.txt: is too large; the limit is 9 bytes")));
   // The limit also holds for a file that reports no size.
   EXPECT_THAT([&] { (void)read_text("/proc/self/status", 100); },
               ThrowsMessage<InputError>(HasSubstr("is too large")));

@@ -89,7 +89,7 @@ TEST_F(JsonFileTest, EveryAccessorChecksItsType) {
     EXPECT_THAT(error_of("{\"a\": [1.5]}", use).what(), HasSubstr(message));
   };
   expect("'b' is missing", [](const JsonNode& n) { (void)n.at("b"); });
-  expect("expected a text", [](const JsonNode& n) { (void)n.at("a").text(); });
+  expect("expected a string", [](const JsonNode& n) { (void)n.at("a").text(); });
   expect("expected an array", [](const JsonNode& n) { (void)n.elements(); });
   expect("expected an object", [](const JsonNode& n) { (void)n.at("a").members(); });
   expect("expected a positive number", [](const JsonNode& n) { (void)n.positive_number(); });

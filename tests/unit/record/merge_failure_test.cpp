@@ -79,7 +79,7 @@ TEST_F(MergeFailure, WithoutRoomLeavesNothing) {
       fs::remove(out);
     } else {
       EXPECT_THAT(answer, AllOf(StartsWith(out.string() + ": cannot be read or written"),
-                                HasSubstr("is the disk full"), Not(HasSubstr("safe"))));
+                                HasSubstr("whether the disk is full"), Not(HasSubstr("safe"))));
     }
     EXPECT_EQ(files_in(folder_), before);
   }

@@ -352,7 +352,7 @@ TEST_F(Merge, SealsHoldAfterwards) {
   fs::remove(folder_ / "out");
   static_cast<void>(merge({file}));
   EXPECT_THAT([&] { static_cast<void>(merged_records()); },
-              ThrowsMessage<core::InputError>(HasSubstr("not as it was written")));
+              ThrowsMessage<core::InputError>(HasSubstr("was changed after it was written")));
 }
 
 // More stores than are open at the same time.

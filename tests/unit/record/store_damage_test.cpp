@@ -59,7 +59,7 @@ TEST_F(StoreDamage, AChangedValueIsFoundByAVisit) {
   change("UPDATE counter SET value = value + 1 WHERE name = 'rays_hit'");
   const Store store(file_, Mode::read);
   EXPECT_THAT([&] { store.visit_records("run-1", [](const Record&) { FAIL(); }); },
-              ThrowsMessage<core::InputError>(HasSubstr("is not as it was written")));
+              ThrowsMessage<core::InputError>(HasSubstr("was changed after it was written")));
 }
 
 TEST_F(StoreDamage, AChangedValueIsFoundWhereverItIs) {
@@ -92,8 +92,8 @@ TEST_F(StoreDamage, AChangedValueIsFoundWhereverItIs) {
                                std::filesystem::copy_options::overwrite_existing);
     change(sql);
     EXPECT_THAT([&] { read_all(); },
-                ThrowsMessage<core::InputError>(
-                    AllOf(StartsWith(file_.string()), HasSubstr("not as it was written"))))
+                ThrowsMessage<core::InputError>(AllOf(
+                    StartsWith(file_.string()), HasSubstr("was changed after it was written"))))
         << sql;
     std::filesystem::copy_file(folder_ / "kept", file_,
                                std::filesystem::copy_options::overwrite_existing);

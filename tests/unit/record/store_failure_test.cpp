@@ -101,13 +101,13 @@ TEST_F(StoreTest, ObjectsThatOthersMadeAreRefused) {
       {"CREATE TRIGGER hide AFTER INSERT ON device_fault BEGIN DELETE FROM device_fault; END",
        "has the trigger hide"},
       {"ALTER TABLE record RENAME TO kept; CREATE VIEW record AS SELECT * FROM kept",
-       "measure again, into another file"},
+       "measure again into another file"},
       {"CREATE VIEW x AS SELECT * FROM record", "has the view x"},
       {"CREATE INDEX x ON record (outcome) WHERE outcome = 'measured'", "has the index x"},
       {"DROP INDEX run_of_plan", "index run_of_plan is missing"},
       {"DROP TABLE device_fault; CREATE TABLE device_fault (seq INTEGER PRIMARY KEY, device, kind "
        "DEFAULT 'x', subject, detail, last_words)",
-       "measure again, into another file"}};
+       "measure again into another file"}};
   int number = 0;
   for (const auto& [attack, expected] : attacks) {
     const auto file = folder_ / ("s" + std::to_string(number++));
@@ -129,7 +129,7 @@ TEST_F(StoreTest, MissingFile) {
   EXPECT_THAT(refusal<core::IoError>(file_, Mode::read), HasSubstr("no such file"));
   EXPECT_FALSE(std::filesystem::exists(file_)) << "reading makes no file";
   EXPECT_THAT(refusal<core::IoError>(folder_ / "no" / "x.sqlite", Mode::append),
-              HasSubstr("is its folder there"));
+              HasSubstr("check that its folder exists"));
   EXPECT_THAT(refusal<core::IoError>(folder_, Mode::append), HasSubstr("is a folder"));
 }
 
@@ -225,7 +225,7 @@ TEST_F(StoreTest, ReadOnlyFolder) {
   std::filesystem::permissions(file_, Perms::owner_all | Perms::others_all);
   std::filesystem::permissions(folder_, read_only_folder);
   EXPECT_THAT(as_nobody([&] { return refusal<core::IoError>(folder_ / "new", Mode::append); }),
-              HasSubstr("can it be written"));
+              HasSubstr("its folder exists and can be written"));
   EXPECT_THAT(as_nobody([&]() -> std::string {
                 Store store(file_, Mode::append);
                 store.add_run(sample_run("x"));

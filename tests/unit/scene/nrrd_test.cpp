@@ -299,7 +299,7 @@ TEST(Nrrd, BrokenHeadersNameTheirLine) {
       {minimal + "axis mins: 0 0 0\naxis maxs: 1 1 1\ncenterings: cell mid cell\n\nAB",
        ":8: centering 'mid' of axis 1; expected cell or node"},
       {minimal + "axis mins: 0 0 0\naxis maxs: 1 1 1\ncenterings: node node cell\n\nAB",
-       ":7: axis 1 has one sample, a node"},
+       ":7: axis 1 has a single node-centred sample"},
       {"NRRD0004\ntype: float\ndimension: 3\nsizes: 1 1 1\nencoding: raw\n\n....",
        ":2: values of several bytes need a field 'endian'"},
       {"NRRD0004\ntype: float\ndimension: 3\nsizes: 1 1 1\nencoding: raw\nendian: up\n\n....",
@@ -386,12 +386,13 @@ TEST(Nrrd, BrokenGzipStreamsAreBadInput) {
   bad_sum[bad_sum.size() - 6] ^= 1;
   expect_rejected({
       {header + "not gzip", ": broken gzip stream: incorrect header check"},
-      {header + good.substr(0, good.size() - 5), ": broken gzip stream: ends too early"},
-      {header + good.substr(0, 12), ": broken gzip stream: ends too early"},
-      {header, ": broken gzip stream: ends too early"},
+      {header + good.substr(0, good.size() - 5), ": broken gzip stream: the data end too early"},
+      {header + good.substr(0, 12), ": broken gzip stream: the data end too early"},
+      {header, ": broken gzip stream: the data end too early"},
       {header + bad_sum, ": broken gzip stream: incorrect data check"},
       {header + good + "garbage", ": broken gzip stream: incorrect header check"},
-      {header + good + std::string("\0x", 2), ": broken gzip stream: more data after zero bytes"},
+      {header + good + std::string("\0x", 2),
+       ": broken gzip stream: other data follow the padding of zero bytes"},
   });
 }
 

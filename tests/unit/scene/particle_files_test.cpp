@@ -92,7 +92,8 @@ TEST(Pdb, FramesWithoutModelsEndWithEnd) {
   const std::string atoms = replaced(frame(1), "CRYST1   52.000   58.600   61.900\n", "");
   expect_refused("a.pdb", atoms + atoms.substr(0, atoms.size() - 4), ":3:", "END was expected");
   const std::string model = "MODEL        1\n" + atoms.substr(0, atoms.size() - 4) + "ENDMDL\n";
-  expect_refused("a.pdb", atoms + model, ":3:", "expected no MODEL after atoms outside of models");
+  expect_refused("a.pdb", atoms + model,
+                 ":3:", "MODEL is not allowed after atoms outside of models");
 }
 
 TEST(Pdb, RefusesBrokenFiles) {
@@ -205,7 +206,7 @@ TEST(Gro, RefusesBrokenFiles) {
   expect_refused("a.gro", replaced(gro, " 4\n", " four\n"),
                  ":2:", "expected the number of atoms, found 'four'");
   expect_refused("a.gro", replaced(gro, " 4\n", " 4294967295\n"),
-                 ":2:", "too many; at most 4294967294");
+                 ":2:", "too many; the limit is 4294967294");
   expect_refused("a.gro", replaced(gro, "-2.000", "-2.0o0"), ":4:", "y: expected a number");
   expect_refused("a.gro", gro.substr(0, 90), ":4:", "expected an atom with its position");
   expect_refused("a.gro", gro.substr(0, gro.size() - 31), ":6:", "the box was expected");
@@ -303,7 +304,7 @@ TEST(ParticleFiles, RefuseWhatTheyCannotRead) {
   }
   const std::string packed = gzipped(xyz);
   expect_refused("a.xyz.gz", packed.substr(0, packed.size() - 9), ": ", "broken gzip stream");
-  expect_refused("a.xyz.gz", xyz, ": ", "broken gzip stream");
+  expect_refused("a.xyz.gz", xyz, ": ", "not a gzip stream");
   expect_refused("a.abc", xyz, ": ", "'.abc' is not a known particle format; expected .pdb");
   EXPECT_THAT([] { static_cast<void>(load_particles("generate:uniform", ColourKind::rgba8)); },
               ThrowsMessage<core::InputError>(HasSubstr("expected generate:NAME:COUNT")));
@@ -323,8 +324,10 @@ TEST(ParticleFiles, WithoutAnyUsableParticleAreRefused) {
 TEST(ParticleFiles, ZeroBytesBehindGzipAreSkipped) {
   const std::string padded = gzipped(xyz) + std::string(100'000, '\0');
   EXPECT_EQ(load("a.xyz.gz", padded).hash, load("a.xyz.gz", gzipped(xyz)).hash);
-  expect_refused("a.xyz.gz", padded + "x", ": ", "broken gzip stream: more data after zero bytes");
-  expect_refused("a.xyz.gz", padded + gzipped(xyz), ": ", "more data after zero bytes");
+  expect_refused("a.xyz.gz", padded + "x", ": ",
+                 "broken gzip stream: other data follow the padding of zero bytes");
+  expect_refused("a.xyz.gz", padded + gzipped(xyz), ": ",
+                 "other data follow the padding of zero bytes");
 }
 
 TEST(ParticleFiles, UnpackNoMoreThanIsAllowed) {

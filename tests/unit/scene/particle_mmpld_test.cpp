@@ -202,7 +202,7 @@ TEST(Mmpld, SaysWhatItExpected) {
   expect_mmpld_refused(with(1, 8, 1), "colour type from 0 to 7, found 8");
   expect_mmpld_refused(with(1, 0, 2), "where the list's particles was expected");
   expect_mmpld_refused(with(1, 0, 0), "expected the frame's end");
-  expect_mmpld_refused(with(1, 0, 4'294'967'295), "too many; at most 4294967294");
+  expect_mmpld_refused(with(1, 0, 4'294'967'295), "too many; the limit is 4294967294");
   expect_mmpld_refused(with(1, 0, ~std::uint64_t{0}), "too many");
   expect_mmpld_refused(file(100, {frame(100, {})}), "expected particles");
   expect_mmpld_refused(file(100, {}), "no frame 0; the file has 0");

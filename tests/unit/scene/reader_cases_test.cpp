@@ -135,8 +135,8 @@ TEST(Compression, IsKnownByTheContent) {
 }
 
 TEST(Content, ThatIsOfAnotherFormatIsNamed) {
-  expect_refused("a.pdb", "data_1ABC\n#\n", ": ", "begins as mmCIF; if that is what it is, rename");
-  expect_refused("a.xyz", "ITEM: TIMESTEP\n0\n", ": ", "begins as LAMMPS dump");
+  expect_refused("a.pdb", "data_1ABC\n#\n", ": ", "begins like mmCIF; if the content is right");
+  expect_refused("a.xyz", "ITEM: TIMESTEP\n0\n", ": ", "begins like LAMMPS dump");
   const std::string dump =
       "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id x y z\n1 0 0 0\n";
   EXPECT_EQ(load("a.lammps", dump).facts.format, "LAMMPS dump");

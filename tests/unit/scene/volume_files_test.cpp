@@ -54,9 +54,9 @@ TEST(LoadVolume, TellsAbsentFromUnknown) {
               ThrowsMessage<core::IoError>(
                   testing::AllOf(HasSubstr("none.nrrd"), HasSubstr(folder.path().string()))));
   folder.write("a.tiff", "x");
-  EXPECT_THAT([&] { (void)load_volume("a.tiff", {folder.path()}); },
-              ThrowsMessage<core::InputError>(
-                  HasSubstr("the nearest supported format is .raw and its size")));
+  EXPECT_THAT(
+      [&] { (void)load_volume("a.tiff", {folder.path()}); },
+      ThrowsMessage<core::InputError>(HasSubstr("the nearest supported format is raw voxels")));
 }
 
 TEST(LoadVolume, KnowsFilesByTheirEnding) {

@@ -333,7 +333,7 @@ TEST(VtkXml, ThatIsBrokenNamesTheCause) {
   expect_volume_refused("a.vti",
                         vti(little + " compressor=\"vtkZLibDataCompressor\"",
                             "format=\"binary\">/////////////////////w=="),
-                        "cannot be");
+                        "block sizes are not valid");
   expect_volume_refused("a.vti", vti(little, "format=\"appended\" offset=\"0\"/><DataArray>"),
                         "expected <AppendedData>");
 }

@@ -75,12 +75,12 @@ TEST(VoxelMemory, WithoutRoomSaysWhereAndWhatToDo) {
     return said;
   };
   EXPECT_EQ(message("/no/such/folder", least_bytes_in_a_file),
-            "/no/such/folder: no file of 512 MiB for voxels (No such file or directory); make room "
-            "there, or name another folder by TMPDIR");
+            "/no/such/folder: cannot create a file of 512 MiB for voxels (No such file or "
+            "directory); free space there, or set TMPDIR to another folder");
   const test::TemporaryFolder folder;
   // The size is larger than any file system.
   const std::string full = message(folder.path().c_str(), std::size_t{1} << 60U);
-  EXPECT_NE(full.find("; make room there"), std::string::npos) << full;
+  EXPECT_NE(full.find("; free space there"), std::string::npos) << full;
 }
 
 }  // namespace
