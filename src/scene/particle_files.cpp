@@ -43,7 +43,7 @@ struct Source {
   std::uint64_t frame = 0;
 };
 
-// A file of that very name, else FILE@K.
+// Finds a file with exactly this name; otherwise the text is parsed as FILE@K.
 std::optional<Source> find_source(std::string_view data,
                                   const std::vector<std::filesystem::path>& folders) {
   if (const auto file = find_file(data, folders)) return Source{*file, 0};
@@ -87,7 +87,7 @@ void end_lines_with_lf(std::vector<char>& content) {
 ParticleSet read(const Source& source, ColourKind colour, const Progress& progress) {
   const std::string name = source.file.string();
   const bool packed = packing_of_file(source.file) != Packing::none;
-  // The share of unpacking in the progress.
+  // Unpacking counts as this share of the progress.
   const double unpacked = packed ? 0.25 : 0;
   const Progress unpacking =
       progress ? Progress([&progress, unpacked](double share) { progress(unpacked * share); })

@@ -57,7 +57,7 @@ struct VolumeFile {
   std::optional<RawSpec> raw;
 };
 
-// A file of that very name, else FILE:SIZE:TYPE.
+// Finds a file with exactly this name; otherwise the text is parsed as FILE:SIZE:TYPE.
 VolumeFile find_volume(std::string_view data, const std::vector<std::filesystem::path>& folders) {
   if (auto file = find_file(data, folders)) return {.file = std::move(file), .raw = {}};
   auto raw = parse_raw_spec(data);

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t function_entries =
     std::tuple_size_v<decltype(scene::TransferFunction::entries)>;
 
-// Extremes of the four channels.
+// The extremes of the four channels.
 struct Extremes {
   std::array<double, 4> least;
   std::array<double, 4> largest;
@@ -32,7 +32,8 @@ struct Extremes {
   }
 };
 
-// Extremes of a transfer function, which is linear between its entries, over ranges of values.
+// Finds the extremes of a transfer function, which is linear between its entries, over ranges of
+// values.
 class FunctionExtremes {
  public:
   explicit FunctionExtremes(const scene::TransferFunction& function) {
@@ -66,7 +67,7 @@ class FunctionExtremes {
   [[nodiscard]] const Extremes& overall() const { return levels_.back()[0]; }
 
  private:
-  // Level n contains, for each entry, the extremes of the 2ⁿ entries that begin with it.
+  // Level n contains, for each entry, the extremes of the 2ⁿ entries that begin with this entry.
   std::array<std::array<Extremes, function_entries>, std::bit_width(function_entries)> levels_{};
 
   [[nodiscard]] static double position(double value) {
@@ -86,14 +87,14 @@ class FunctionExtremes {
   }
 };
 
-// x^exponent for an exponent that is a power of two. It multiplies, because std::pow depends on the
-// C library.
+// x^exponent for an exponent that is a power of two. It uses multiplication, because the result of
+// std::pow depends on the C library.
 double power(double x, int exponent) {
   for (; exponent > 1; exponent /= 2) x *= x;
   return x;
 }
 
-// Decides for one brick after the other whether it may be merged.
+// Decides for single bricks whether they may be merged.
 class Merging {
  public:
   Merging(const scene::VolumeScene& scene, double adapt)
@@ -120,7 +121,7 @@ class Merging {
     const double magnitude = std::max(std::abs(lo - offset_), std::abs(hi - offset_));
     const double rounding = lo == hi ? 0 : 16 * unit_roundoff * (magnitude + std::abs(offset_));
     const Extremes range = function_.over(lo - rounding, hi + rounding);
-    if (!(range.largest[3] < 1)) return false;  // the first sample in it would end a ray
+    if (!(range.largest[3] < 1)) return false;  // an opaque sample would end a ray
     const double a = -scene::logarithm_of_1_plus(-range.least[3]);
     const double b = -scene::logarithm_of_1_plus(-range.largest[3]);
     // No central difference exceeds half the brick's range of values.
@@ -138,12 +139,12 @@ class Merging {
   FunctionExtremes function_;
   scene::Shading light_;
   double offset_;
-  double opaque_share_;      // this is K
-  double thin_share_ = 0;    // this is Y
-  double colour_range_ = 1;  // this is R
+  double opaque_share_;      // K of the derivation
+  double thin_share_ = 0;    // Y of the derivation
+  double colour_range_ = 1;  // R of the derivation
   double steepest_ = 0;      // largest cosine per range of values
 
-  // A colour shaded with this cosine. Shading gets brighter with the cosine.
+  // A colour that is shaded with this cosine. The larger the cosine, the brighter the result.
   [[nodiscard]] double lit(double colour, double cosine) const {
     if (!light_.enabled) return colour;
     return colour * (light_.ambient + light_.diffuse * cosine) +
@@ -158,7 +159,7 @@ std::vector<std::int32_t> brick_kinds(const BrickRanges& ranges, const scene::Vo
   const auto visible = brick_visibility(ranges, scene.transfer_function);
   const Merging may_merge(scene, adapt);
   std::vector<std::int32_t> kinds(visible.size());
-  // Numbers of the values that fill homogeneous bricks.
+  // Numbers the values that fill homogeneous bricks.
   std::unordered_map<float, std::int32_t> numbers;
   for (std::size_t b = 0; b < kinds.size(); ++b) {
     const float lo = ranges.minimum[b];
