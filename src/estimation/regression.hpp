@@ -32,8 +32,8 @@ struct LeastSquares {
 // median of y − slope·x. It tolerates 29 % outliers.
 [[nodiscard]] Line theil_sen(std::span<const double> x, std::span<const double> y);
 
-// Tukey's bisquare function: ρ(u) = 1 − (1 − u²)³ for |u| ≤ 1, otherwise 1, with u =
-// residual/(c·scale).
+// Tukey's bisquare function: ρ(u) = 1 − (1 − u²)³ for |u| ≤ 1, otherwise 1, with
+// u = residual/(c·scale).
 struct Bisquare {
   // With this c, the mean of ρ is 1/2 for normal residuals, so up to half of the points may be
   // outliers.

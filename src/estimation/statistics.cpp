@@ -107,8 +107,8 @@ VariancePrior fit_variance_prior(std::span<const double> variances,
   using boost::math::trigamma;
   if (variances.empty()) return {};
   if (variances.size() == 1) return {0, variances.front()};
-  // e = ln s² − ψ(d/2) + ln(d/2) has the mean ln s₀² − ψ(d₀/2) + ln(d₀/2) and the variance ψ'(d/2)
-  // + ψ'(d₀/2).
+  // e = ln s² − ψ(d/2) + ln(d/2) has the mean ln s₀² − ψ(d₀/2) + ln(d₀/2) and the variance
+  // ψ'(d/2) + ψ'(d₀/2).
   std::vector<double> centred;
   std::vector<double> sampling;
   for (std::size_t i = 0; i < variances.size(); ++i) {

@@ -215,8 +215,8 @@ double length_within(const Chord& chord, const Closest& closest, double radius) 
 // Half the width w of the zone around a face in which grid and table may differ from the closed
 // form. The table changes from one entry to the next within h ≈ R/510 on each side. The grid's r
 // has an error of at most D/(r − d), with D = Σ Δᵢ²/8 because |∂ᵢ²r| ≤ 1/r, and with the diagonal d
-// of a cell, plus its rounding. Therefore w is the smaller root of (w − h)(s − w) = D with s = face
-// − d. It is infinite if there is no root, which means that the grid is too coarse.
+// of a cell, plus its rounding. Therefore w is the smaller root of (w − h)(s − w) = D with
+// s = face − d. It is infinite if there is no root, which means that the grid is too coarse.
 double unsure_zone(const Setting& setting, double face) {
   const auto& spacing = setting.options.spacing;
   double squares = 0;

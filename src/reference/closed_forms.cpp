@@ -37,8 +37,8 @@ Radiance v3_segment(const LinearSegment& s) {
 
 namespace {
 
-// The differential equation E' = −(a + bt)·E gives the Taylor coefficients (n+1)·eₙ₊₁ = −a·eₙ −
-// b·eₙ₋₁. They are multiplied by lengthⁿ here.
+// The differential equation E' = −(a + bt)·E gives the Taylor coefficients
+// (n+1)·eₙ₊₁ = −a·eₙ − b·eₙ₋₁. They are multiplied by lengthⁿ here.
 double taylor_integral(double a, double b, double length) {
   const double x = a * length;
   const double y = b * length * length;

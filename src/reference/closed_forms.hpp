@@ -61,8 +61,8 @@ struct LinearSegment {
 [[nodiscard]] double v9_difference_factor(double k, double delta);
 
 // The light of V9: ∫ sinⁿ(phase + rate·t)·τ·e^(−τt) dt over [0, length], for τ > 0 and n that is 1
-// or even. It is computed as the Fourier sum of sinⁿ, where ∫ e^(i(φ+ωt))·e^(−τt) dt =
-// e^(iφ)·(e^((iω−τ)·length) − 1)/(iω − τ).
+// or even. It is computed as the Fourier sum of sinⁿ, where
+// ∫ e^(i(φ+ωt))·e^(−τt) dt = e^(iφ)·(e^((iω−τ)·length) − 1)/(iω − τ).
 [[nodiscard]] double v9_lit_wave(double tau, int power, double phase, double rate, double length);
 
 // The scaled complementary error function e^(x²)·erfc(x) for x ≥ 0.

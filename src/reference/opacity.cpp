@@ -7,9 +7,9 @@ namespace triptych::reference {
 
 namespace {
 
-// The usual steps are powers of two, for which no logarithm is needed: 1 − √(1 − α) = α/(1 + √(1 −
-// α)) halves a step, and 1 − (1 − α)² = α·(2 − α) doubles it. Neither formula cancels, and both are
-// rounded in the same way on every machine.
+// The usual steps are powers of two, for which no logarithm is needed:
+// 1 − √(1 − α) = α/(1 + √(1 − α)) halves a step, and 1 − (1 − α)² = α·(2 − α) doubles it. Neither
+// formula cancels, and both are rounded in the same way on every machine.
 constexpr int most_doublings = 5;
 
 double doubled(double alpha, int times) {

@@ -122,7 +122,8 @@ class Stops {
   double smallest_ = 1;
 };
 
-// What a device sees at a position: `possible` if it may see opacity, `certain` if it does.
+// The opacity that a device may see at a position. It is `possible` if a device may see some, and
+// `certain` if every device does.
 struct Sight {
   bool possible = false;
   bool certain = false;

@@ -38,9 +38,10 @@ double SpherePicture::chord(double pixels, double along) const {
   return sine / std::sqrt(0.5 + 0.5 * std::sqrt(1 - sine * sine));
 }
 
-// Let D be the distance of a box's farthest corner (no radius in the box is above D) and κ = chord
-// + shift. A sphere inside is reached if the central ray comes within δ ≤ κD of it, at a point that
-// Reach moves along the ray by up to Δb ≤ (chord + chord²/2)·D. 1e-12 is added for rounding.
+// Let D be the distance of a box's farthest corner (no radius in the box is above D) and
+// κ = chord + shift. A sphere inside is reached if the central ray comes within δ ≤ κD of it, at a
+// point that Reach moves along the ray by up to Δb ≤ (chord + chord²/2)·D. 1e-12 is added for
+// rounding.
 double SpherePicture::growth() const {
   const double turn = chord(std::max(model.margin_px, model.lateral_px), 1.0);
   const double kappa = turn + model.lateral_relative;

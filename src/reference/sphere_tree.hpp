@@ -34,8 +34,8 @@ class SphereTree {
   [[nodiscard]] double farthest() const { return farthest_; }
   [[nodiscard]] const Sphere& sphere(std::uint32_t place) const { return spheres_[place]; }
 
-  // Calls visit(place) at least for every sphere whose grown box the ray meets at some t ≥ 0 with t
-  // ≤ limit(), in the order of the boxes' distances. limit() may decrease in the meantime.
+  // Calls visit(place) at least for every sphere whose grown box the ray meets at some t ≥ 0 with
+  // t ≤ limit(), in the order of the boxes' distances. limit() may decrease in the meantime.
   // `direction` is a unit vector.
   template <typename Limit, typename Visit>
   void walk(const glm::dvec3& direction, const Limit& limit, const Visit& visit) const {

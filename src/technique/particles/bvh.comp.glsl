@@ -81,8 +81,8 @@ float highest(vec3 n, vec3 lo, vec3 hi) {
 
 // Whether the beam crosses the box and something in it may be visible. `nearest` is the smallest distance of the
 // box along the view axis. Tolerance for rounding: 2⁻¹⁸ of the distance from the eye to the farthest point of the
-// box covers products and sums (8u), the rounded axes (u) and, in `nearest`, the error of distances of 24u·(|C| +
-// r). The rounding of the eye's coordinates is covered by 2.4e-7 of them.
+// box covers products and sums (8u), the rounded axes (u) and, in `nearest`, the error of distances of
+// 24u·(|C| + r). The rounding of the eye's coordinates is covered by 2.4e-7 of them.
 bool may_show(vec3 world_lo, vec3 world_hi, out float nearest) {
   TRI_PRECISE vec3 around = 2.4e-7 * abs(u.eye.xyz);
   TRI_PRECISE vec3 lo = (world_lo - u.eye.xyz) - around;

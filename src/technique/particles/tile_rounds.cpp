@@ -83,10 +83,10 @@ class NeedBound {
     return {.pixels = pixels, .entries = columns * rows, .large = 1, .small = small};
   }
 
-  // The number of pixels on one axis between the two tangents of the sphere, (a·z ± r·√(a² + z² −
-  // r²))/(z² − r²) on the image plane, clipped to ±half. Three pixels are added for the margin and
-  // rounding, so that a small sphere gets less than `slack` too many. Not positive if the sphere is
-  // not visible.
+  // The number of pixels on one axis between the two tangents of the sphere,
+  // (a·z ± r·√(a² + z² − r²))/(z² − r²) on the image plane, clipped to ±half. Three pixels are
+  // added for the margin and rounding, so that a small sphere gets less than `slack` too many. Not
+  // positive if the sphere is not visible.
   [[nodiscard]] double extent(double a, double z, double r, double half) const {
     const double k2 = (z - r) * (z + r);
     const double reach = r * std::sqrt(a * a + k2);

@@ -163,8 +163,8 @@ TRI_FN float tri_sprite_radius(float d, float r, float plane, float pixel, float
 TRI_FN float tri_projected_radius(float d, float r, float pixel) { return r / (d * pixel); }
 
 // The number of corners, 4…16, with the lowest cost. An N-gon around a disc of radius R covers ≈ πR²·(π/N)²/3
-// additional pixels (tan x ≈ x + x³/3), and a corner costs about as much as 64 fragments. The sum is smallest at N³
-// = 2π³R²/(3·64) ≈ 0.323·R².
+// additional pixels (tan x ≈ x + x³/3), and a corner costs about as much as 64 fragments. The sum is smallest at
+// N³ = 2π³R²/(3·64) ≈ 0.323·R².
 TRI_FN int tri_adaptive_corners(float projected_radius) {
   float cube = 0.323f * projected_radius * projected_radius;
   int corners = 4;

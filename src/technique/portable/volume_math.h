@@ -73,10 +73,10 @@ TRI_FN real tri_log2_1m(real alpha) {
   return TRI_TO_REAL(e) + TRI_2_OVER_LN2 * t * p;
 }
 
-// 1 − 2^z, computed as in single precision below, with an error of 5u in addition to the error of z. With x = (z −
-// n)·ln 2 and |x| ≤ ½·ln 2, truncating the series after x¹³ has an error below 1.1·x¹³/14! < 1.4e-17 = 0.2u. There
-// are one and a half roundings in x (half of one in the constant), one in the outermost sum, and one in its product
-// with x. Roundings of nested sums are multiplied by at most x/2.
+// 1 − 2^z, computed as in single precision below, with an error of 5u in addition to the error of z. With
+// x = (z − n)·ln 2 and |x| ≤ ½·ln 2, truncating the series after x¹³ has an error below 1.1·x¹³/14! < 1.4e-17 =
+// 0.2u. There are one and a half roundings in x (half of one in the constant), one in the outermost sum, and one in
+// its product with x. Roundings of nested sums are multiplied by at most x/2.
 TRI_FN real tri_1m_exp2(real z) {
   real c = z > -1022.0f ? z : TRI_TO_REAL(0 - 1022);
   real n = TRI_FLOOR(c + 0.5f);

@@ -3,8 +3,8 @@
 // A step is cut where the value passes an entry of the transfer function, into at most three pieces: the rest of
 // the first entry's cell, whole cells (whose integrals are tabulated, preintegration.hpp), and a part of the last
 // entry's cell. For each piece, the optical depth D is known. Its colour is a function of y, the share of D that
-// has been passed; it is represented by its first three coefficients in the Legendre polynomials on [0, 1]: c(y) =
-// a0 + a1·P1(y) + a2·P2(y). The light of the piece is then
+// has been passed; it is represented by its first three coefficients in the Legendre polynomials on [0, 1]:
+// c(y) = a0 + a1·P1(y) + a2·P2(y). The light of the piece is then
 //  D·∫c(y)·e^(−Dy) dy = (1 − e^(−D))·(a0 − a1·L + a2·(1 − 3L/z)),   z = D/2,  L = coth z − 1/z,
 // because ∫Pn(y)·e^(−Dy) dy = (−1)ⁿ·e^(−z)·i_n(z), where i_n are the modified spherical Bessel functions.
 //

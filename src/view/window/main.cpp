@@ -114,7 +114,7 @@ class Loop {
       window_.begin_frame();
       screen_.draw();
       --frames_due_;
-      // By the last of the frames that are due, everything has its final position.
+      // In the last of the frames that are due, everything has its final position.
       const auto picture = window_.end_frame(capture && frames_due_ == 0);
       if (!picture) continue;
       return core::write_file(core::encode_png(*picture), session_.request().screenshot);

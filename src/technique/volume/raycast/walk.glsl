@@ -18,7 +18,7 @@ void enter(inout Walk walk) {
   ivec3 size = walk.size;
   walk.at = walk.first + real3(walk.brick) * walk.spacing;
   walk.leave = min(walk.at.x, min(walk.at.y, walk.at.z));
-  // As unsigned numbers, negative indices also exceed the size.
+  // Negative indices, read as unsigned numbers, also exceed the size.
   walk.outside = any(greaterThanEqual(uvec3(walk.brick), uvec3(size)));
   int index = walk.brick.x + size.x * (walk.brick.y + size.y * walk.brick.z);
   int kind = walk.outside ? 1 : brick_at(walk.outside ? 0 : index);
