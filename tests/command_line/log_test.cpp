@@ -26,7 +26,7 @@ constexpr const char* many =
     "technique=raycast --set data=generate:gaussian_blob:8 --set viewport=8 --set "
     "transfer_function=haze --set camera=orbit_y:*/12 --set step=0.5,1,2,4 ";
 
-long lines_of(const std::string& text) {
+long line_count(const std::string& text) {
   return std::ranges::count(text, '\n');
 }
 
@@ -37,12 +37,12 @@ TEST(Log, IsShortWithoutATerminal) {
   ASSERT_EQ(program.run("accept --reason new --baselines b --store s.sqlite").code, 0);
   const Result green = program.run(std::string(many) + "--check counters --out out");
   EXPECT_EQ(green.code, 0) << green.output;
-  EXPECT_LE(lines_of(green.output), 60) << green.output;
+  EXPECT_LE(line_count(green.output), 60) << green.output;
   EXPECT_THAT(green.output, HasSubstr("volume/quick on null:scripted: 48 measured, 0 skipped"));
   EXPECT_THAT(green.output, Not(HasSubstr("1/48")));
   const Result red = program.run(std::string(many) + "--out out");  // every image is wrong
   EXPECT_EQ(red.code, 1) << red.output;
-  EXPECT_LE(lines_of(red.output), 100) << red.output;
+  EXPECT_LE(line_count(red.output), 100) << red.output;
   EXPECT_THAT(program.run(std::string(many) + "--verbose").output, HasSubstr("\n48/48 null:"));
 }
 

@@ -21,7 +21,9 @@ std::size_t depth_of(scene::VoxelFormat format) {
 }
 
 // The voxels before and after a face between voxels along an axis, clamped to the volume.
-std::size_t before(std::size_t face) { return face == 0 ? 0 : face - 1; }
+std::size_t before(std::size_t face, int voxels) {
+  return std::min(face == 0 ? 0 : face - 1, static_cast<std::size_t>(voxels) - 1);
+}
 std::size_t after(std::size_t face, int voxels) {
   return std::min(face, static_cast<std::size_t>(voxels) - 1);
 }
@@ -38,12 +40,12 @@ void fill_rows(const scene::VoxelGrid& grid, std::size_t texel, std::span<std::b
     const std::size_t z = texel / (cells[0] * cells[1]);
     std::array<const std::byte*, 2 * layers> rows{};
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const std::size_t row_y = i % 2 == 0 ? before(y) : after(y, grid.size[1]);
-      const std::size_t row_z = i / 2 == 0 ? before(z) : after(z, grid.size[2]);
+      const std::size_t row_y = i % 2 == 0 ? before(y, grid.size[1]) : after(y, grid.size[1]);
+      const std::size_t row_z = i / 2 == 0 ? before(z, grid.size[2]) : after(z, grid.size[2]);
       rows.at(i) = &grid.data[row_bytes * (row_y + static_cast<std::size_t>(grid.size[1]) * row_z)];
     }
     for (std::size_t x = texel % cells[0]; x < cells[0] && to != out.data() + out.size(); ++x) {
-      const std::size_t left = voxel_bytes * before(x);
+      const std::size_t left = voxel_bytes * before(x, grid.size[0]);
       const std::size_t right = voxel_bytes * after(x, grid.size[0]);
       for (const std::byte* row : rows) {
         std::memcpy(to, row + left, voxel_bytes);

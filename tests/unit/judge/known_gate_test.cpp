@@ -12,7 +12,7 @@ namespace {
 using core::ExitCode;
 using ::testing::SizeIs;
 
-constexpr const char* known_device = "vulkan:known_device";
+constexpr const char* known_device = "vulkan:lavapipe";
 
 class KnownGateTest : public GateTest {
  protected:

@@ -15,7 +15,7 @@
 namespace triptych::judge {
 namespace {
 
-constexpr const char* stress_device = "vulkan:stress_device";
+constexpr const char* stress_device = "vulkan:lavapipe";
 
 class StressGateTest : public JudgeTest {
  protected:
