@@ -63,8 +63,11 @@ def small(words):
         words += " --baselines baselines" if "--base " not in words else ""
     if name in ("gate", "run") and "--device" not in words:
         words += " --device null:scripted"
+    if name == "devices":
+        words += " --device 'null:*'"
     if name == "validate":
-        words += " --shard 1/300"
+        words += " --shard 1/3000" + (" --baselines baselines" if "--baselines" not in words else "")
+    words = words.replace("mandelbulb:96", "mandelbulb:32")
     return re.sub(r"--budget \d+", "--budget 1", words)
 
 
