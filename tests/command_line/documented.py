@@ -24,7 +24,7 @@ PLANS = {
 ELSEWHERE = {
     "ci/gate": "ci_test and CI", "ci/test": "CI", "ci/build": "ci_test", "ci/setup": "CI", "ci/lint": "CI",
     "ci/fresh": "needs root and a network", "ci/fuzz": "CI", "ci/package": "ci/fresh", "ci/arm64": "needs root and a network",
-    "ci/drivers/fetch": "needs a network", "ci/drivers/spheres": "ci/test", "analysis/rays": "analysis.unit",
+    "ci/drivers/fetch": "needs a network", "ci/drivers/spheres": "the test drivers.spheres", "analysis/rays": "analysis.unit",
     "ci/peers/embree_spheres": "no test: its packages are not installed",
     "ci/drivers/history": "needs a network", "ci/gpu": "needs a GPU", "ci/bench": "takes hours", "ci/cluster/submit": "cluster tests",
     "ci/dashboard": "command_line.dashboard", "ci/ratios": "command_line.ratios", "ci/publish": "analysis.publish", "analysis/analyze": "analysis.end_to_end", "analysis/notebook": "analysis.end_to_end",
