@@ -25,7 +25,7 @@ TEST(Usage, HelpIsNotAnError) {
 TEST(Usage, NoCommandAndAnUnknownOne) {
   const Program program;
   EXPECT_EQ(program.run("").code, 3);
-  expect_refused(program.run("fly"), 3, "unknown command 'fly'; there are: devices, list, run,");
+  expect_refused(program.run("fly"), 3, "unknown command 'fly'; expected one of: devices, list, run,");
 }
 
 TEST(Usage, ASuiteIsListedWithAllThatAPlanMayHold) {

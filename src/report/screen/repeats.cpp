@@ -30,7 +30,7 @@ std::string repeats_text(std::span<const judge::RepeatedCase> cases, std::size_t
   return text +
          fmt::format(
              "{} cases in {} repetitions: {} fail in only some of them, {} have different images\n",
-             repetitions, cases.size(), flaking, changing);
+             cases.size(), repetitions, flaking, changing);
 }
 
 std::string repeats_json_lines(std::span<const judge::RepeatedCase> cases) {

@@ -91,7 +91,7 @@ TEST_F(FastestTest, IsThatOfTheFewestInstructionsWhereTheyWereCounted) {
   add("raycast", {}).cost = {{"device_code", 5'000'000}, {"driver", 1'000'000}, {"libc", 9}};
   add("raycast_fragment", {}).cost = {{"device_code", 2'000'000}, {"driver", 2'000'000}};
   EXPECT_THAT(text(), HasSubstr("raycast_fragment takes the fewest instructions, 4.0 million; "
-                                "raycast 1.50 times"));
+                                "raycast takes 1.50 times that"));
 }
 
 TEST_F(FastestTest, NamesWhatTheDeviceCannotDraw) {
