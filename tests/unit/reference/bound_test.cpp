@@ -128,13 +128,14 @@ TEST(Bound, OfCellsHoldsForADisplacedEye) {
     scene.quadrature = scene::Quadrature::cells;
     scene.step_voxels = seed % 2 == 0 ? 1.0 : 0.4;
     scene.shading.enabled = seed % 4 < 2;
+    // Each seed has every distance, and each distance has both directions.
+    glm::dvec3 sign = seed % 2 == 0 ? glm::dvec3{1, 1, 1} : glm::dvec3{1, -1, -1};
     for (const double voxels : {1e-5, 1e-3, 0.02}) {
-      for (const glm::dvec3& sign : {glm::dvec3{1, 1, 1}, {1, -1, -1}}) {
-        const Comparison c = compare_displaced(scene, sign, voxels);
-        EXPECT_EQ(c.violations, 0) << "seed " << seed << ", voxels " << voxels
-                                   << ", largest error/bound " << c.largest_ratio;
-        largest_ratio = std::max(largest_ratio, c.largest_ratio);
-      }
+      const Comparison c = compare_displaced(scene, sign, voxels);
+      EXPECT_EQ(c.violations, 0) << "seed " << seed << ", voxels " << voxels
+                                 << ", largest error/bound " << c.largest_ratio;
+      largest_ratio = std::max(largest_ratio, c.largest_ratio);
+      sign = {1, -sign.y, -sign.z};
     }
   }
   EXPECT_GT(largest_ratio, 0.3);
