@@ -66,17 +66,11 @@ function(triptych_patience seconds out)
   set(${out} ${patience} PARENT_SCOPE)
 endfunction()
 
-# Compiles a test's own code with less optimisation than the rooms, because little time of a test is spent in it: without
-# optimisation, a batch takes two thirds of the time to compile. Tests of devices are the exception, because they compare whole
-# images.
+# Compiles a test's own code with less optimisation than the rooms, because little time of a test is spent in it. Without any
+# optimisation, tests take longer, because the linker may keep the tests' instances of templates in place of those of the rooms.
 function(triptych_test_code target)
-  cmake_parse_arguments(arg "" "" "LABELS" ${ARGN})
   triptych_batch(${target})
-  set(level -O1)
-  if(arg_LABELS AND NOT "device" IN_LIST arg_LABELS)
-    set(level -O0)
-  endif()
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # triptych_test(NAME SOURCES file... ROOMS room... [LABELS label...] [LIBS lib...])
@@ -91,7 +85,7 @@ function(triptych_test name)
   if(NOT arg_LABELS)
     set(arg_LABELS unit)
   endif()
-  triptych_test_code(${name} LABELS ${arg_LABELS})
+  triptych_test_code(${name})
   triptych_patience(60 discovery)
   triptych_patience(300 timeout)
   gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT ${discovery}

@@ -39,12 +39,16 @@ inline void on_every_device(const std::function<void(measure::Device&)>& body) {
   on_devices(body, false);
 }
 
-// Runs `body` on one device of each driver, or on every device if TRIPTYCH_EVERY_DEVICE is set.
-// This is for results that depend only on the driver and the backend, not on how a device is
-// opened.
-inline void on_every_driver(const std::function<void(measure::Device&)>& body) {
+// Whether the nightly run asks for every combination on every device (TRIPTYCH_EVERY_DEVICE).
+inline bool everything() {
   const char* const every = std::getenv("TRIPTYCH_EVERY_DEVICE");
-  on_devices(body, every == nullptr || *every == '\0');
+  return every != nullptr && *every != '\0';
+}
+
+// Runs `body` on one device of each driver, or on every device if everything() is asked for. This
+// is for results that depend only on the driver and the backend, not on how a device is opened.
+inline void on_every_driver(const std::function<void(measure::Device&)>& body) {
+  on_devices(body, !everything());
 }
 
 inline record::Counts counts_of(measure::Device& device, const measure::Work& work) {
