@@ -95,6 +95,8 @@ class NullPrepared final : public measure::Prepared {
     } else if (script_->counts) {
       frame.counts =
           purpose == measure::Purpose::counters ? counters_of(work_) : statistics_of(work_);
+      const auto samples = frame.counts.find("samples");
+      if (samples != frame.counts.end()) samples->second += script_->extra_samples;
     }
     return frame;
   }

@@ -133,6 +133,9 @@ void parse_key(const std::string& key, const Json& value, Script& script) {
     if (!value.is_null()) script.device_over_wall = number(value, key, 0);
   } else if (key == "counts") {
     script.counts = flag(value, key);
+  } else if (key == "extra_samples") {
+    if (!value.is_number_unsigned()) refuse(key, "a whole number, 0 or more");
+    script.extra_samples = value.get<std::uint64_t>();
   } else if (key == "sleep") {
     script.sleep = flag(value, key);
   } else if (key == "images") {

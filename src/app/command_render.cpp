@@ -44,8 +44,9 @@ struct RenderArguments {
 core::ExitCode hold_against_truth(const core::Image& image, const judge::TruthPair& pair,
                                   const fs::path& out) {
   const report::HeldAgainstTruth held = report::write_difference(out, image, pair);
-  if (held.white > 0) {
-    put("{}: white is an error of {:.3g}\n", (out / "difference.png").string(), held.white);
+  if (held.has_difference) {
+    put("{}: black is no error, white is the bound of each pixel, cyan is beyond the bound\n",
+        (out / "difference.png").string());
   }
   put_lines(report::words::text_of(held.what) + "\n");
   return held.right() ? core::ExitCode::pass : core::ExitCode::regression;

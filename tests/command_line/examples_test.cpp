@@ -11,6 +11,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <regex>
+#include <sstream>
 #include <vector>
 
 #include "program.hpp"
@@ -98,7 +100,10 @@ chmod +x "$3/ci/package"
 class Examples : public testing::TestWithParam<Job (*)()> {
  protected:
   void SetUp() override {
-    right_ = fmt::format(R"({{"images": {{"*": "{}"}}}})", right_picture(program).string());
+    const std::string images =
+        fmt::format(R"("images": {{"*": "{}"}})", right_picture(program).string());
+    right_ = fmt::format("{{{}}}", images);
+    right_with_more_work_ = fmt::format(R"({{{}, "extra_samples": 5}})", images);
     fs::create_directory(program.folder() / "bin");
     make("triptych", fmt::format(stand_in, TRIPTYCH_PROGRAM, tiny));
     make("apt-get", "#!/bin/sh\n");
@@ -117,6 +122,18 @@ class Examples : public testing::TestWithParam<Job (*)()> {
   }
   [[nodiscard]] Result pass() const { return run(right_); }
   [[nodiscard]] Result accept() const { return run(right_, "they are right"); }
+  // The driver draws the right image, but takes more samples for it.
+  [[nodiscard]] Result more_work(const std::string& accept = {}) const {
+    return run(right_with_more_work_, accept);
+  }
+
+  // The line of the file of the program's folder, counted from 1.
+  [[nodiscard]] std::string line(const std::string& file, int number) const {
+    std::istringstream text(program.read(file));
+    std::string found;
+    for (int i = 0; i < number; ++i) std::getline(text, found);
+    return found;
+  }
 
   Program program;
 
@@ -127,6 +144,7 @@ class Examples : public testing::TestWithParam<Job (*)()> {
   }
 
   std::string right_;
+  std::string right_with_more_work_;
 };
 
 TEST_P(Examples, GoGreenRedAndGreenInARepositoryOfTheirOwn) {
@@ -144,6 +162,30 @@ TEST_P(Examples, GoGreenRedAndGreenInARepositoryOfTheirOwn) {
   const Result mended = pass();
   EXPECT_EQ(mended.code, 0) << mended.output;
   EXPECT_EQ(program.read("builds"), "built\n") << "the package is built once and then kept";
+}
+
+// A change that is intended: it fails at the line of the stored value, is accepted, and passes from
+// then on.
+TEST_P(Examples, AcceptAnIntendedChange) {
+  ASSERT_EQ(accept().code, 2);
+  ASSERT_EQ(pass().code, 0);
+  const Result red = more_work();
+  ASSERT_EQ(red.code, 1) << red.output;
+  const std::string file = "baselines/volume/quick/counters.json";
+  std::smatch place;
+  if (GetParam() == &github) {
+    ASSERT_TRUE(std::regex_search(red.output, place,
+                                  std::regex("\n::error file=" + file + ",line=([0-9]+)")));
+  } else {
+    const std::string quality = program.read("out/codequality.json");
+    const std::regex at("\"begin\": ([0-9]+)[^\"]*\"path\": \"" + file + "\"");
+    ASSERT_TRUE(std::regex_search(quality, place, at)) << quality;
+  }
+  EXPECT_THAT(line(file, std::stoi(place[1])), HasSubstr("data=generate:gaussian_blob:16"));
+  EXPECT_EQ(more_work("the new sampler needs them").code, 1) << "the job that accepts judges first";
+  const Result green = more_work();
+  EXPECT_EQ(green.code, 0) << green.output;
+  EXPECT_EQ(pass().code, 1) << "fewer samples than accepted are now the change";
 }
 
 TEST_P(Examples, KeepEverythingAndAnnotate) {

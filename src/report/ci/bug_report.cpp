@@ -39,8 +39,10 @@ constexpr std::array files{
     File{"frame.json", "camera, scene, transfer function and every factor"},
     File{"image.png", "the device's image; `image.exr`: as floats, linear and premultiplied"},
     File{"truth.png", "the reference image, rendered in double precision; `truth.exr`: as floats"},
-    File{"difference.png",
-         "the difference between image and reference; white is the largest error"},
+    File{
+        "difference.png",
+        "the error as a share of the pixel's bound: black is no error, white is the bound, cyan is "
+        "beyond it"},
     File{"dump",
          "all input of the driver: device code, options, buffers, for some techniques a program in "
          "C; `compile.sh` compiles the device code"},

@@ -6,6 +6,7 @@
 #include "core/image_io.hpp"
 #include "core/json.hpp"
 #include "judge/image_observation.hpp"
+#include "report/page/share_of_bound.hpp"
 
 namespace triptych::report {
 namespace {
@@ -53,9 +54,8 @@ HeldAgainstTruth write_difference(const std::filesystem::path& folder, const cor
   HeldAgainstTruth held{
       judge::image_observation(comparison, image, pair.truth, judge::Against::reference)};
   if (!comparison.size_mismatch) {
-    held.white = comparison.largest.error > 0 ? comparison.largest.error : 1;
-    core::write_png(accuracy::difference_image(image, pair.truth, 1 / held.white),
-                    folder / "difference.png");
+    core::write_png(share_of_bound(image, pair.truth, pair.bound).image, folder / "difference.png");
+    held.has_difference = true;
   }
   return held;
 }

@@ -27,12 +27,13 @@ void write_picture(const std::filesystem::path& folder, const std::string& name,
 // An image compared with its reference image.
 struct HeldAgainstTruth {
   judge::Observation what;
-  // The error that is shown as white; 0: no difference.png, because the sizes differ.
-  double white = 0;
+  // False: there is no difference.png, because the sizes differ.
+  bool has_difference = false;
   [[nodiscard]] bool right() const { return what.cause == judge::Cause::within_bound; }
 };
 
-// Writes truth.exr, truth.png and difference.png. Throws IoError.
+// Writes truth.exr, truth.png and difference.png, which shows each error as a share of its pixel's
+// bound (page/share_of_bound.hpp). Throws IoError.
 [[nodiscard]] HeldAgainstTruth write_difference(const std::filesystem::path& folder,
                                                 const core::Image& image,
                                                 const judge::TruthPair& pair);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -66,6 +67,21 @@ std::string colour_name(const accuracy::AccuracyFamily& family,
   return alone ? technique->second : family.name;
 }
 
+// A case without error or without cost cannot be shown on logarithmic axes.
+std::optional<Figure::Place> place_of(const accuracy::AccuracyCase& each, Cost cost) {
+  const auto paid = cost_of(each, cost);
+  if (!paid || !(*paid > 0) || !(each.rmse > 0)) return std::nullopt;
+  return Figure::Place{each.rmse, *paid};
+}
+
+// "1/255", or "0.0001" if the denominator has many digits.
+std::string goal_name(double goal) {
+  constexpr double largest_denominator = 9999;
+  const double denominator = std::round(1 / goal);
+  return denominator <= largest_denominator ? fmt::format("1/{:.0f}", denominator)
+                                            : short_number(goal);
+}
+
 std::vector<std::string> factors_of(const accuracy::AccuracyScene& scene) {
   std::vector<std::string> factors;
   std::istringstream text(scene.scene);
@@ -77,12 +93,19 @@ std::vector<std::string> factors_of(const accuracy::AccuracyScene& scene) {
 // dashed lines.
 class Diagram {
  public:
-  Diagram(const accuracy::AccuracyScene& scene, const std::string& title, Cost cost)
+  // `all`: the places of all diagrams that share their axes with this one.
+  Diagram(const accuracy::AccuracyScene& scene, const std::string& title, Cost cost,
+          std::span<const Figure::Place> all)
       : scene_(scene),
         cost_(cost),
         figure_(title + " on " + scene.device,
-                {.title = "RMSE against the limit image", .logarithmic = true},
-                {.title = axis_of(cost).title, .logarithmic = true}, 230, 150) {}
+                {.title = "RMSE against the limit image",
+                 .logarithmic = true,
+                 .contains = coordinates(all, &Figure::Place::x)},
+                {.title = axis_of(cost).title,
+                 .logarithmic = true,
+                 .contains = coordinates(all, &Figure::Place::y)},
+                230, 150) {}
 
   [[nodiscard]] Html svg() {
     find_front();
@@ -95,11 +118,17 @@ class Diagram {
   }
 
  private:
+  static std::vector<double> coordinates(std::span<const Figure::Place> places,
+                                         double Figure::Place::*coordinate) {
+    std::vector<double> values;
+    for (const Figure::Place& place : places) values.push_back(place.*coordinate);
+    return values;
+  }
   // Finds the front again for the displayed cost, because the fastest configuration need not be the
   // one with the least memory.
   void find_front() {
     front_ = accuracy::pareto_front(scene_.cases, [this](const accuracy::AccuracyCase& each) {
-      const auto place = place_of(each);
+      const auto place = place_of(each, cost_);
       return place ? std::optional(place->y) : std::nullopt;
     });
   }
@@ -111,12 +140,6 @@ class Diagram {
       if (!in_front || named_.size() == colour_count) continue;
       named_.insert(colour_name(family, scene_.cases[family.members.front()]));
     }
-  }
-  // A case without error or without cost cannot be shown on logarithmic axes.
-  [[nodiscard]] std::optional<Figure::Place> place_of(const accuracy::AccuracyCase& each) const {
-    const auto paid = cost_of(each, cost_);
-    if (!paid || !(*paid > 0) || !(each.rmse > 0)) return std::nullopt;
-    return Figure::Place{each.rmse, *paid};
   }
   // If there are more families than colours, only families on the front get a colour.
   std::string_view colour(const std::string& name) {
@@ -130,9 +153,10 @@ class Diagram {
     std::vector<Figure::Place> places;
     for (const std::size_t i : family.members) {
       const accuracy::AccuracyCase& each = scene_.cases[i];
-      const auto place = place_of(each);
+      const auto place = place_of(each, cost_);
       if (!place) continue;
       places.push_back(*place);
+      figure_.series(family.name.empty() ? "configurations" : family.name);
       figure_.point(*place, {.colour = colour(colour_name(family, each)), .opacity = 0.8},
                     fmt::format("{}: RMSE {:.3g}, {:.3g} {}", each.configuration, place->x,
                                 place->y, axis_of(cost_).unit));
@@ -144,14 +168,15 @@ class Diagram {
   }
   void add_front() {
     std::vector<Figure::Place> places;
-    for (const std::size_t i : front_) places.push_back(*place_of(scene_.cases[i]));
+    for (const std::size_t i : front_) places.push_back(*place_of(scene_.cases[i], cost_));
     std::ranges::reverse(places);
     figure_.line(places, {.colour = "ink", .width = 1.6}, "the front");
+    figure_.series({});
     for (const auto& place : places) figure_.point(place, {.colour = "ink", .hollow = true});
     figure_.legend("the front", {.colour = "ink"}, true);
   }
   void add_goals() {
-    for (const double goal : accuracy::accuracy_goals) figure_.upright(goal);
+    for (const double goal : accuracy::accuracy_goals) figure_.upright(goal, goal_name(goal));
   }
 
   const accuracy::AccuracyScene& scene_;
@@ -161,6 +186,19 @@ class Diagram {
   std::set<std::string> named_;
   std::map<std::string, std::string_view> colours_;
 };
+
+// The places of all devices for the scene with this title.
+std::vector<Figure::Place> places_of(std::span<const accuracy::AccuracyScene> scenes,
+                                     const std::string& title, Cost cost) {
+  std::vector<Figure::Place> places;
+  for (const accuracy::AccuracyScene& scene : scenes) {
+    if (accuracy_title(scenes, scene) != title) continue;
+    for (const accuracy::AccuracyCase& each : scene.cases) {
+      if (const auto place = place_of(each, cost)) places.push_back(*place);
+    }
+  }
+  return places;
+}
 
 }  // namespace
 
@@ -181,7 +219,7 @@ Html accuracy_chart(std::span<const accuracy::AccuracyScene> scenes, Cost cost) 
   std::vector<Titled> all;
   for (const accuracy::AccuracyScene& scene : scenes) {
     const std::string title = accuracy_title(scenes, scene);
-    Html svg = Diagram(scene, title, cost).svg();
+    Html svg = Diagram(scene, title, cost, places_of(scenes, title, cost)).svg();
     if (!svg.empty()) all.push_back({title + " on " + scene.device, std::move(svg)});
   }
   return all.empty() ? Html() : figures(all);

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double line_height = 16;
 constexpr double gap = 8;
+constexpr double letter_height = 12;
 
 // One axis with its ends. Maps a value to its position between them, from 0 to 1.
 class Measure {
@@ -98,8 +99,8 @@ class Figure::Drawing {
         fmt::format("{:.0f} {:.0f} {:.0f} {:.0f}", left_, top_, figure_.width_, figure_.height_);
     return markup(
                "<svg class=\"figure\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
-               "height=\"{1:.0f}\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\">",
-               total_width_, total_height_) +
+               "height=\"{1:.0f}\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\"{2}>",
+               total_width_, total_height_, data_attribute()) +
            title_element(figure_.description_) + legend() + axes() +
            markup(
                "<svg class=\"marks\" x=\"{0:.0f}\" y=\"{1:.0f}\" width=\"{2:.0f}\" "
@@ -113,6 +114,10 @@ class Figure::Drawing {
   [[nodiscard]] Measure measure(const Axis& axis, double Place::*coordinate) const {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
+    for (const double value : axis.contains) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
     for (const Shape& shape : figure_.shapes_) {
       if (shape.kind == Kind::upright) continue;
       for (const Place& place : shape.places) {
@@ -214,15 +219,25 @@ class Figure::Drawing {
     return markup("<g>{}{}</g>", title_element(tick.whole), element);
   }
 
+  [[nodiscard]] Html data_attribute() const {
+    const std::string csv = figure_.csv();
+    return csv.empty() ? Html() : markup(" data-csv=\"{}\"", csv);
+  }
+
+  [[nodiscard]] static std::string title_of(const Axis& axis) {
+    const bool logarithmic = axis.logarithmic && axis.names.empty();
+    return shortened(axis.title) + (logarithmic ? " (log)" : "");
+  }
+
   [[nodiscard]] Html titles() const {
     Html text;
     if (!figure_.across_.title.empty()) {
       text += text_element(left_ + figure_.width_ / 2, total_height_ - 5, "middle",
-                           shortened(figure_.across_.title), markup(" class=\"axis\""));
+                           title_of(figure_.across_), markup(" class=\"axis\""));
     }
     if (!figure_.up_.title.empty()) {
       const double y = top_ + figure_.height_ / 2;
-      text += text_element(12, y, "middle", shortened(figure_.up_.title),
+      text += text_element(12, y, "middle", title_of(figure_.up_),
                            markup(" class=\"axis\" transform=\"rotate(-90 12 {:.1f})\"", y));
     }
     return text;
@@ -242,6 +257,7 @@ class Figure::Drawing {
       case Kind::upright:
         if (const double at = across_.share(first.x); at < 0 || at > 1)
           return {};  // outside of the frame
+        label_upright(shape);
         return markup("<path {} d=\"M{:.1f} {:.1f}v{:.0f}\"/>", line_attributes(shape.style),
                       x_of(first.x), top_, figure_.height_);
       case Kind::label:
@@ -291,17 +307,33 @@ class Figure::Drawing {
     const double right = left_ + figure_.width_;
     if (x + width > right) x -= width + 14;
     const double y = std::clamp(y_of(shape.places[0].y), top_ + 8, top_ + figure_.height_ - 8) + 4;
-    const bool taken = std::ranges::any_of(labelled_, [&](const auto& other) {
-      return std::abs(other.y - y) < 12 && x < other.x + other.width && other.x < x + width;
-    });
-    if (taken || x < left_) return;
-    labelled_.push_back({x, y, width});
-    labels_ += text_element(x, y, "start", shape.text);
+    if (x < left_ || !take({x, y - letter_height, width, letter_height})) return;
+    labels_ += text_element(x, y, "start", shape.text, markup(" class=\"on\""));
   }
 
-  struct Label {
-    double x, y, width;
+  // The label is turned and ends at the top, to the left of its line if there is space.
+  void label_upright(const Shape& shape) {
+    if (shape.text.empty()) return;
+    const double line = x_of(shape.places[0].x);
+    const double x = line - letter_height < left_ ? line + letter_height - 1 : line - 3;
+    const double y = top_ + 5;
+    if (!take({x - letter_height, y, letter_height, width_of(shape.text)})) return;
+    labels_ += text_element(x, y, "end", shape.text,
+                            markup(" class=\"on\" transform=\"rotate(-90 {:.1f} {:.1f})\"", x, y));
+  }
+
+  struct Area {
+    double x, y, width, height;
   };
+  // Reserves the area for a label. False: another label is there.
+  bool take(const Area& area) {
+    const bool taken = std::ranges::any_of(labelled_, [&](const Area& other) {
+      return area.x < other.x + other.width && other.x < area.x + area.width &&
+             area.y < other.y + other.height && other.y < area.y + area.height;
+    });
+    if (!taken) labelled_.push_back(area);
+    return !taken;
+  }
 
   const Figure& figure_;
   Measure across_;
@@ -315,7 +347,7 @@ class Figure::Drawing {
   double legend_height_ = 0;
   bool turned_ = false;
   std::vector<Place> spots_;
-  std::vector<Label> labelled_;
+  std::vector<Area> labelled_;
   Html marks_;
   Html labels_;
 };
@@ -335,6 +367,7 @@ void Figure::add(Shape shape) {
     return !has_place(across_, place.x) || !has_place(up_, place.y);
   });
   const std::size_t needed = shape.kind == Kind::box ? 2 : 1;
+  shape.series = series_;
   if (shape.places.size() >= needed) shapes_.push_back(std::move(shape));
 }
 
@@ -357,8 +390,11 @@ void Figure::strokes(std::span<const double> across, double row, double half, co
   add(std::move(shape));
 }
 
-void Figure::upright(double across) {
-  add({Kind::upright, {{across, 1}}, {.colour = "soft", .dashed = true, .width = 1}, {}});
+void Figure::upright(double across, std::string_view label) {
+  add({Kind::upright,
+       {{across, 1}},
+       {.colour = "soft", .dashed = true, .width = 1},
+       std::string(label)});
 }
 
 void Figure::label(Place at, std::string_view text) {

@@ -21,6 +21,9 @@ struct Axis {
   // The ends of the axis. By default, the axis fits the data.
   std::optional<double> low = {};
   std::optional<double> high = {};
+  // Values that the axis contains even if nothing is drawn at them. Figures with the same values
+  // share their axis, so that a reader can compare them.
+  std::vector<double> contains = {};
 };
 
 // Multiples of 1, 2 or 5 times a power of ten within [low, high], about `wanted` of them. On a
@@ -62,14 +65,21 @@ class Figure {
   // Vertical strokes in one row, which extend by `half` of a band up and down: every sample of a
   // distribution.
   void strokes(std::span<const double> across, double row, double half, const Style& style);
-  // A dashed vertical line across the whole frame. The axis is not extended to include it.
-  void upright(double across);
+  // A dashed vertical line across the whole frame, with its label beside it. The axis is not
+  // extended to include it.
+  void upright(double across, std::string_view label = {});
   // A label next to a point, inside the frame. It is left out if another label is already at this
   // place.
   void label(Place at, std::string_view text);
   void legend(std::string_view text, const Style& style, bool line = false);
+  // The points and strokes that follow are data of this series, and are in the table that a reader
+  // can save. Empty: they are not, because they repeat other data.
+  void series(std::string_view name) { series_ = name; }
 
+  // The element has the data as CSV in its attribute `data-csv`, if there are any.
   [[nodiscard]] Html svg() const;
+  // One row for each value of a series: series, position across and upwards, tooltip.
+  [[nodiscard]] std::string csv() const;
   // Whether there is nothing to show.
   [[nodiscard]] bool empty() const { return shapes_.empty(); }
 
@@ -81,6 +91,7 @@ class Figure {
     Style style;
     std::string text;
     double half = 0;
+    std::string series = {};
   };
   struct Entry {
     std::string text;
@@ -96,6 +107,7 @@ class Figure {
   Axis up_;
   double width_;
   double height_;
+  std::string series_;
   std::vector<Shape> shapes_;
   std::vector<Entry> entries_;
 };

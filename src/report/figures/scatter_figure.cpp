@@ -33,6 +33,7 @@ class Scatter {
                   {.title = scatter_.up, .logarithmic = true}, side, side);
     add_line(figure);
     for (const auto& point : scatter_.points) {
+      figure.series(point.technique.empty() ? "configurations" : point.technique);
       figure.point({point.across, point.up}, style_of(point), tooltip(point));
     }
     add_legend(figure);
@@ -53,8 +54,10 @@ class Scatter {
     add_rule(figure, 0, {.colour = "soft"});
     if (scatter_.shows_from) {
       add_rule(figure, *scatter_.shows_from, {.colour = "soft", .dashed = true});
+      figure.label({ends().first, *scatter_.shows_from}, "an outlier from here");
     }
     for (const auto& point : scatter_.points) {
+      figure.series(point.technique.empty() ? "configurations" : point.technique);
       figure.point({point.across, point.deviation}, style_of(point), tooltip(point));
       if (!point.flag.empty())
         figure.label({point.across, point.deviation}, whole_percent(point.deviation));

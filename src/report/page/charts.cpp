@@ -56,7 +56,9 @@ Html figure_of(const ChartScene& scene, const std::vector<std::string>& techniqu
     figure.box({summary.lower_quartile, place - 0.32}, {summary.upper_quartile, place + 0.32},
                {.colour = colour, .opacity = 0.35},
                row.device + " " + row.technique + ": median " + duration(1e6 * summary.median));
+    figure.series(row.device + " " + row.technique);
     figure.strokes(row.ms, place, 0.25, {.colour = colour, .opacity = 0.7, .width = 1});
+    figure.series({});
     figure.strokes(std::vector{summary.median}, place, 0.4, {.colour = "ink", .width = 2});
   }
   return figure.svg();

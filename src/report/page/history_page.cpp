@@ -33,18 +33,21 @@ std::string driver_of(const Json& point) {
 // look like a slope.
 constexpr double least_span = 0.01;
 
-// An axis around the values, which extends at least `least_span` in both directions.
-Axis axis_of(const Json& points) {
+// An axis around the values of all devices, which extends at least `least_span` in both directions.
+Axis axis_of(const Json& history) {
   Axis axis{.title = "relative to the first store"};
   std::vector<double> values;
-  for (const Json& point : points) {
-    for (const char* key : {"cost", "time"}) {
-      if (point.contains(key)) values.push_back(point.at(key).get<double>());
+  for (const Json& device : history) {
+    for (const Json& point : device.at("points")) {
+      for (const char* key : {"cost", "time"}) {
+        if (point.contains(key)) values.push_back(point.at(key).get<double>());
+      }
     }
   }
   if (values.empty()) return axis;
   const auto [low, high] = std::ranges::minmax(values);
   const double middle = (low + high) / 2;
+  axis.contains = {low, high};
   if (high - low >= 2 * least_span * middle) return axis;
   axis.low = (1 - least_span) * middle;
   axis.high = (1 + least_span) * middle;
@@ -56,12 +59,12 @@ std::string number_text(const Json& point, const char* key) {
 }
 
 // Each store has a band of the figure. A missing point leaves a gap.
-Html figure_of(const Json& device) {
+Html figure_of(const Json& device, const Axis& up) {
   const Json& points = device.at("points");
   std::vector<std::string> names;
   for (const Json& point : points) names.push_back(name_of_store(point));
   Figure figure("Cost and time of each store relative to the first store",
-                {.title = "store", .names = std::move(names)}, axis_of(points), 320, 180);
+                {.title = "store", .names = std::move(names)}, up, 320, 180);
   struct Series {
     const char* key;
     Style style;
@@ -70,6 +73,7 @@ Html figure_of(const Json& device) {
        {Series{"cost", {.colour = "c0"}},
         Series{"time", {.colour = "c1", .mark = Mark::triangle, .dashed = true}}}) {
     std::vector<Figure::Place> places;
+    figure.series(series.key);
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!points[i].contains(series.key)) continue;
       places.push_back({static_cast<double>(i), points[i].at(series.key).get<double>()});
@@ -103,15 +107,16 @@ std::string history_page(const Json& history) {
       "<main><h1>History</h1>\n<p>Cost is the number of instructions of a frame, in generated code "
       "and in the driver. Cost and time are geometric means over the configurations that "
       "neighbouring stores share. Times are shown, not judged.</p>\n");
+  const Axis up = axis_of(history);
   for (const Json& device : history) {
     page += markup("<h2>{}</h2>\n", device.at("device").get<std::string>());
     if (device.contains("first_worse")) {
       page += markup("<p><b class=\"regression\">First store that is worse</b>: {}</p>\n",
                      device.at("first_worse").get<std::string>());
     }
-    page += figure_of(device) + table_of(device);
+    page += figure_of(device, up) + table_of(device);
   }
-  return (page + markup("</main>") + page_end()).text();
+  return (page + markup("</main>") + page_end(/*with_script=*/true)).text();
 }
 
 }  // namespace triptych::report

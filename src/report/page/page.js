@@ -1,5 +1,5 @@
 // Fills in repeated images and makes the page interactive: filters, the comparison of two images,
-// links into folded parts, buttons that copy commands, and sortable tables. Controls are hidden
+// links into folded parts, buttons that copy commands or save figures, and sortable tables. Controls are hidden
 // until this script shows them.
 'use strict';
 const all = (selector, within = document) => [...within.querySelectorAll(selector)];
@@ -194,11 +194,61 @@ function startPrinting() {
   });
 }
 
+// Saves a text as a file.
+function save(name, type, text) {
+  const link = document.createElement('a');
+  link.download = name;
+  link.href = URL.createObjectURL(new Blob([text], { type }));
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+// A figure as a file of its own: with the colours and fonts that it has on the page.
+function standalone(figure) {
+  const copy = figure.cloneNode(true);
+  delete copy.dataset.csv;
+  const copies = [copy, ...all('*', copy)];
+  [figure, ...all('*', figure)].forEach((element, i) => {
+    const style = getComputedStyle(element);
+    for (const name of ['fill', 'stroke', 'stroke-width', 'paint-order', 'font-size', 'font-family']) {
+      copies[i].setAttribute(name, style.getPropertyValue(name));
+    }
+  });
+  const ground = document.createElementNS(copy.namespaceURI, 'rect');
+  ground.setAttribute('width', '100%');
+  ground.setAttribute('height', '100%');
+  ground.setAttribute('fill', getComputedStyle(document.body).backgroundColor);
+  copy.prepend(ground);
+  return new XMLSerializer().serializeToString(copy);
+}
+
+// Adds buttons that save a figure as SVG, and its data as CSV.
+function startSaving() {
+  for (const figure of all('svg.figure')) {
+    const title = find('title', figure).textContent;
+    const name = title.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '').slice(0, 80);
+    const bar = document.createElement('p');
+    bar.className = 'save';
+    const add = (kind, type, text) => {
+      const button = document.createElement('button');
+      button.type = 'button';
+      button.textContent = kind;
+      button.setAttribute('aria-label', `Save as ${kind}: ${title}`);
+      button.addEventListener('click', () => save(`${name}.${kind.toLowerCase()}`, type, text()));
+      bar.append(button);
+    };
+    add('SVG', 'image/svg+xml', () => standalone(figure));
+    if (figure.dataset.csv) add('CSV', 'text/csv', () => figure.dataset.csv);
+    figure.after(bar);
+  }
+}
+
 showRepeated(all('img'));
 startCopying();
 startSorting();
+startSaving();
 startPrinting();
 addEventListener('hashchange', openTarget);
-startFilters(find('#filters'));
-startComparison(find('#compare'));
+if (find('#filters')) startFilters(find('#filters'));
+if (find('#compare')) startComparison(find('#compare'));
 openTarget();

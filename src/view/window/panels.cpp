@@ -45,6 +45,19 @@ void say(const Panels::Place& place, const ImVec4& colour, const std::string& te
                                       ImGui::GetColorU32(colour), shown.c_str(), nullptr, width);
 }
 
+// Draws text at the top left of an image, on a dark ground, because the image may be bright or
+// noisy.
+void caption(const Panels::Place& place, const std::string& text) {
+  const std::string shown = core::printable(text, 100);
+  const ImVec2 size = ImGui::CalcTextSize(shown.c_str());
+  const float right = std::min(place.to.x, place.from.x + size.x + 8);
+  ImDrawList* const list = ImGui::GetWindowDrawList();
+  list->PushClipRect(place.from, place.to, true);
+  list->AddRectFilled(place.from, {right, place.from.y + size.y + 4}, IM_COL32(0, 0, 0, 215));
+  list->AddText({place.from.x + 4, place.from.y + 2}, IM_COL32_WHITE, shown.c_str());
+  list->PopClipRect();
+}
+
 std::string name_of(const measure::ViewSide& side) {
   std::string name = side.device;
   for (const std::string& each : side.environment) name += "," + each;
@@ -170,8 +183,7 @@ void Panels::draw_image(Session& session, std::size_t index, bool reference, ImV
     say(place, failed ? colours::wrong : colours::quiet, why);
   } else if (reference && column.reference && !uploaded.truth.is_empty()) {
     uploaded.truth.draw(place.from, place.to);
-    say({place.from, {place.to.x, place.from.y + 2 * ImGui::GetFontSize()}}, colours::right,
-        "reference image");
+    caption(place, "reference image");
   } else {
     uploaded.image.draw(place.from, place.to);
   }
@@ -195,9 +207,6 @@ void Panels::draw_error(Session& session, std::size_t index, ImVec2 area) {
     uploaded.difference.draw(place.from, place.to);
     const auto against = session.against();
     const std::string from = against ? session.columns()[*against].side.device : "the reference";
-    ImGui::GetWindowDrawList()->AddText({place.from.x + 4, place.from.y + 2},
-                                        ImGui::GetColorU32(colours::quiet),
-                                        ("difference from " + from).c_str());
     const float scale =
         (place.to.x - place.from.x) / static_cast<float>(uploaded.difference.width());
     for (const ShownError::Ring& ring : column.error->rings) {
@@ -207,6 +216,7 @@ void Panels::draw_error(Session& session, std::size_t index, ImVec2 area) {
       ImGui::GetWindowDrawList()->AddCircle(centre, radius, IM_COL32(0, 0, 0, 255), 0, 4);
       ImGui::GetWindowDrawList()->AddCircle(centre, radius, IM_COL32(255, 255, 255, 255), 0, 1.5F);
     }
+    caption(place, "difference from " + from);
   }
   steer(session, column, place);
   offer_commands(session, column, place);

@@ -64,8 +64,10 @@ Figure some_figure(const std::string& text) {
   figure.line(std::array{Figure::Place{1, 2}, Figure::Place{10, 4}}, {.dashed = true}, text);
   figure.box({2, 0}, {3, 4}, {.opacity = 0.5}, text);
   figure.label({10, 4}, text);
-  figure.upright(5);
+  figure.upright(5, text);
   figure.legend(text, {});
+  figure.series(text);
+  figure.point({3, 3}, {}, text);
   return figure;
 }
 
@@ -78,6 +80,53 @@ TEST(Figure, ARuleBeyondTheAxisIsNotDrawn) {
   EXPECT_EQ(figure.svg().text(), without);
   figure.upright(5);
   EXPECT_NE(figure.svg().text(), without);
+}
+
+TEST(Figure, ARuleHasItsLabelInsideTheFrame) {
+  Figure figure("rules", {.low = 0, .high = 10}, {.low = 0, .high = 1}, 200, 100);
+  figure.point({1, 0}, {});
+  figure.upright(5, "1/255");
+  figure.upright(5.2, "1/256");  // there is no space beside the first
+  const std::string svg = figure.svg().text();
+  EXPECT_THAT(svg, HasSubstr(">1/255</text>"));
+  EXPECT_THAT(svg, Not(HasSubstr(">1/256</text>")));
+}
+
+TEST(Figure, ALogarithmicAxisIsMarked) {
+  Figure figure("f", {.title = "error", .logarithmic = true}, {.title = "time"}, 200, 100);
+  figure.point({1, 1}, {});
+  EXPECT_THAT(figure.svg().text(), HasSubstr(">error (log)<"));
+  EXPECT_THAT(figure.svg().text(), HasSubstr(">time<"));
+}
+
+// The mark lies at the same place whatever else a figure shows, if the axes contain the same
+// values.
+TEST(Figure, SharesItsAxisByTheValuesItContains) {
+  const std::vector<double> shared{1, 1000};
+  const auto mark = [&](double other) {
+    Figure figure("f", {.logarithmic = true, .contains = shared}, {}, 200, 100);
+    figure.point({10, 1}, {});
+    figure.point({other, 1}, {.colour = "c1"});
+    const std::string svg = figure.svg().text();
+    const auto begin = svg.find("class=\"fill c0\"");
+    return svg.substr(begin, svg.find('>', begin) - begin);
+  };
+  EXPECT_EQ(mark(2), mark(900));
+  EXPECT_NE(mark(2), mark(1e6)) << "beyond the shared values the axis grows";
+}
+
+TEST(Figure, HasItsDataAsATable) {
+  Figure figure("f", {.title = "time, ms"}, {.names = {"gl:x", "gl:y"}}, 200, 100);
+  figure.point({1, 0}, {}, "not data");
+  EXPECT_THAT(figure.svg().text(), Not(HasSubstr("data-csv")));
+  figure.series("raycast");
+  figure.strokes(std::vector<double>{2, 0.5}, 1, 0.3, {});
+  figure.point({3, 0}, {}, "a \"b\"");
+  figure.line(std::array{Figure::Place{1, 0}, Figure::Place{3, 0}}, {});
+  EXPECT_EQ(figure.csv(),
+            "series,\"time, ms\",y,label\nraycast,0.5,gl:y,\nraycast,2,gl:y,\nraycast,3,gl:x,"
+            "\"a \"\"b\"\"\"\n");
+  EXPECT_THAT(figure.svg().text(), HasSubstr("data-csv=\"series,"));
 }
 
 TEST(Figure, IsWellFormedWhateverItIsTold) {

@@ -32,6 +32,21 @@ TEST(HistoryPage, MakesNoSlopeOfNoise) {
   EXPECT_THAT(page_of({1, 1.5}), Not(HasSubstr(">1.01<")));
 }
 
+TEST(HistoryPage, GivesAllDevicesTheSameAxis) {
+  const auto device = [](const char* name, double time) {
+    const core::Json point{{"store", "s"},         {"name", "s"},   {"started_at", ""},
+                           {"driver_version", ""}, {"changes", ""}, {"worse", false},
+                           {"time", time}};
+    return core::Json{{"device", name}, {"points", core::Json::array({point})}};
+  };
+  const std::string page = history_page(core::Json::array({device("gl:x", 1), device("gl:y", 3)}));
+  const std::size_t second = page.find("<h2>gl:y");
+  for (const char* tick : {">1<", ">2<", ">3<"}) {
+    EXPECT_LT(page.find(tick), second) << tick;
+    EXPECT_NE(page.find(tick, second), std::string::npos) << tick;
+  }
+}
+
 TEST(HistoryPage, NamesStoresAsTheHistoryDoes) {
   const std::string page = page_of({1, 1.5});
   EXPECT_THAT(page, HasSubstr("<td>d1/gate.sqlite</td>"));
