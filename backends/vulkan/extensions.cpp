@@ -37,7 +37,8 @@ ExtensionRequest::ExtensionRequest(const vk::raii::PhysicalDevice& physical) {
   if (!offers(offered, spirv_1_4_names)) return;
   if (offers(offered, structure_names)) ask_for_rays(physical);
   if (offered.contains(VK_EXT_MESH_SHADER_EXTENSION_NAME)) ask_for_meshes(physical);
-  if (!names_.empty()) names_.insert(names_.end(), spirv_1_4_names.begin(), spirv_1_4_names.end());
+  if (names_.empty()) return;
+  for (const char* name : spirv_1_4_names) names_.push_back(name);
 }
 
 void ExtensionRequest::ask_for_rays(const vk::raii::PhysicalDevice& physical) {
