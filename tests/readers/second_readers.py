@@ -13,6 +13,7 @@ import argparse
 import bz2
 import collections
 import gzip
+import inspect
 import json
 import pathlib
 import subprocess
@@ -147,14 +148,18 @@ def by_ase_dump(path):
 
 def by_ase_data(path):
     import ase.io
+    import ase.io.lammpsdata
 
+    options = {}
+    if "read_image_flags" in inspect.signature(ase.io.lammpsdata.read_lammps_data).parameters:
+        options["read_image_flags"] = False  # Triptych draws atoms inside the box, as the file places them.
     style = "atomic"
     for line in text_of(path).splitlines():
         if line.strip().startswith("Atoms"):
             style = line.partition("#")[2].strip() or style
     with unpacked(path) as plain:
         try:
-            atoms = ase.io.read(str(plain), format="lammps-data", style=style)
+            atoms = ase.io.read(str(plain), format="lammps-data", style=style, **options)
         except Exception as error:
             raise Refused(f"ASE: {error}")
     return Particles(atoms.positions)

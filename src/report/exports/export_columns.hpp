@@ -9,7 +9,7 @@
 
 #include "core/json.hpp"
 #include "record/record.hpp"
-#include "report/exports/csv.hpp"
+#include "report/figures/csv.hpp"
 
 namespace triptych::report {
 

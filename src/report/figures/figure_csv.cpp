@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "report/exports/csv.hpp"
+#include "report/figures/csv.hpp"
 #include "report/figures/figure.hpp"
 
 namespace triptych::report {

@@ -1,4 +1,4 @@
-#include "report/exports/csv.hpp"
+#include "report/figures/csv.hpp"
 
 #include <fmt/format.h>
 
