@@ -136,7 +136,11 @@ TEST_F(History, WritesAPage) {
   const std::string page = program.read("history.html");
   EXPECT_THAT(page, HasSubstr("<svg"));
   EXPECT_THAT(page, HasSubstr("First store that is worse"));
-  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  // The only script saves the figures, and the page allows no other.
+  const std::size_t script = page.find("<script>");
+  EXPECT_NE(script, std::string::npos);
+  EXPECT_EQ(page.find("<script", script + 1), std::string::npos);
+  EXPECT_THAT(page, HasSubstr("script-src 'sha256-"));
   const Result json = program.run("history 1.sqlite 2.sqlite --json --out history.html");
   EXPECT_TRUE(core::Json::accept(json.output)) << json.output;
 }
