@@ -285,7 +285,7 @@ TEST(VtkXml, IsReadInAllItsForms) {
     const Volume volume = load_as_volume("a.vti", text);
     EXPECT_THAT(values_of(volume), ElementsAre(-3, 500)) << text;
     EXPECT_EQ(volume.spacing, (std::array<double, 3>{1, 2, 3}));
-    EXPECT_THAT(volume.facts.notes, ElementsAre(HasSubstr("array 's' of ")));
+    EXPECT_THAT(volume.facts.notes, ElementsAre(HasSubstr("the array 's' is drawn; it is one of ")));
   };
   const std::string little = "byte_order=\"LittleEndian\"";
   expect(vti(little, "format=\"ascii\">-3 500"));
