@@ -8,7 +8,7 @@
 #include "accuracy/image_metrics.hpp"
 #include "core/error.hpp"
 #include "judge/image_observation.hpp"
-#include "report/page/share_of_bound.hpp"
+#include "report/figures/share_of_bound.hpp"
 #include "report/words/finding.hpp"
 
 namespace triptych::view {

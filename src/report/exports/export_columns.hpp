@@ -9,7 +9,7 @@
 
 #include "core/json.hpp"
 #include "record/record.hpp"
-#include "report/figures/csv.hpp"
+#include "report/csv.hpp"
 
 namespace triptych::report {
 

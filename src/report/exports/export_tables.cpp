@@ -9,8 +9,8 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/json_text.hpp"
+#include "report/csv.hpp"
 #include "report/exports/export_columns.hpp"
-#include "report/figures/csv.hpp"
 
 namespace triptych::report {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/image_io.hpp"
 #include "core/json.hpp"
 #include "judge/image_observation.hpp"
-#include "report/page/share_of_bound.hpp"
+#include "report/figures/share_of_bound.hpp"
 
 namespace triptych::report {
 namespace {

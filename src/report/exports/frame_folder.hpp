@@ -33,7 +33,7 @@ struct HeldAgainstTruth {
 };
 
 // Writes truth.exr, truth.png and difference.png, which shows each error as a share of its pixel's
-// bound (page/share_of_bound.hpp). Throws IoError.
+// bound (figures/share_of_bound.hpp). Throws IoError.
 [[nodiscard]] HeldAgainstTruth write_difference(const std::filesystem::path& folder,
                                                 const core::Image& image,
                                                 const judge::TruthPair& pair);

@@ -187,19 +187,6 @@ class Diagram {
   std::map<std::string, std::string_view> colours_;
 };
 
-// The places of all devices for the scene with this title.
-std::vector<Figure::Place> places_of(std::span<const accuracy::AccuracyScene> scenes,
-                                     const std::string& title, Cost cost) {
-  std::vector<Figure::Place> places;
-  for (const accuracy::AccuracyScene& scene : scenes) {
-    if (accuracy_title(scenes, scene) != title) continue;
-    for (const accuracy::AccuracyCase& each : scene.cases) {
-      if (const auto place = place_of(each, cost)) places.push_back(*place);
-    }
-  }
-  return places;
-}
-
 }  // namespace
 
 std::string accuracy_title(std::span<const accuracy::AccuracyScene> scenes,
@@ -216,11 +203,18 @@ std::string accuracy_title(std::span<const accuracy::AccuracyScene> scenes,
 }
 
 Html accuracy_chart(std::span<const accuracy::AccuracyScene> scenes, Cost cost) {
-  std::vector<Titled> all;
+  std::vector<std::string> titles;
+  std::map<std::string, std::vector<Figure::Place>> places;  // of all devices, by title
   for (const accuracy::AccuracyScene& scene : scenes) {
-    const std::string title = accuracy_title(scenes, scene);
-    Html svg = Diagram(scene, title, cost, places_of(scenes, title, cost)).svg();
-    if (!svg.empty()) all.push_back({title + " on " + scene.device, std::move(svg)});
+    titles.push_back(accuracy_title(scenes, scene));
+    for (const accuracy::AccuracyCase& each : scene.cases) {
+      if (const auto place = place_of(each, cost)) places[titles.back()].push_back(*place);
+    }
+  }
+  std::vector<Titled> all;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    Html svg = Diagram(scenes[i], titles[i], cost, places[titles[i]]).svg();
+    if (!svg.empty()) all.push_back({titles[i] + " on " + scenes[i].device, std::move(svg)});
   }
   return all.empty() ? Html() : figures(all);
 }

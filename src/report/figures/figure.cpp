@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "report/figures/axis_scale.hpp"
 #include "report/figures/figure_elements.hpp"
 #include "report/html.hpp"
 
@@ -15,69 +16,6 @@ namespace {
 constexpr double line_height = 16;
 constexpr double gap = 8;
 constexpr double letter_height = 12;
-
-// One axis with its ends. Maps a value to its position between them, from 0 to 1.
-class Measure {
- public:
-  Measure(const Axis& axis, double low, double high) : axis_(axis), low_(low), high_(high) {
-    if (!axis.names.empty()) {
-      low_ = -0.5;
-      high_ = static_cast<double>(axis.names.size()) - 0.5;
-      return;
-    }
-    if (!(low_ <= high_)) low_ = axis.logarithmic ? 1 : 0, high_ = low_ + 1;
-    const double margin =
-        axis.logarithmic ? std::max(0.03 * std::log(high_ / low_), 0.02) : 0.03 * (high_ - low_);
-    if (axis.logarithmic) {
-      low_ *= std::exp(-margin);
-      high_ *= std::exp(margin);
-    } else if (high_ == low_) {
-      const double half = low_ == 0 ? 1 : 0.1 * std::abs(low_);
-      low_ -= half;
-      high_ += half;
-    } else {
-      // Bars begin at 0, so the axis gets no margin below 0 if no value is negative.
-      if (low_ != 0) low_ -= margin;
-      high_ += margin;
-    }
-    low_ = axis.low.value_or(low_);
-    high_ = axis.high.value_or(high_);
-  }
-
-  [[nodiscard]] double share(double value) const {
-    const bool logarithmic = axis_.logarithmic && axis_.names.empty();
-    return logarithmic ? std::log(value / low_) / std::log(high_ / low_)
-                       : (value - low_) / (high_ - low_);
-  }
-  struct Tick {
-    double at;
-    std::string text;
-    std::string whole = {};  // the unshortened text, if it was shortened
-  };
-  [[nodiscard]] std::vector<Tick> ticks(int wanted) const {
-    std::vector<Tick> all;
-    for (std::size_t i = 0; i < axis_.names.size(); ++i) {
-      all.push_back({static_cast<double>(i), shortened(axis_.names[i]), axis_.names[i]});
-    }
-    if (!all.empty()) return all;
-    for (const double value : report::ticks(low_, high_, axis_.logarithmic, wanted)) {
-      all.push_back(
-          {value, axis_.percent ? fmt::format("{:+.3g} %", 100 * value) : short_number(value)});
-    }
-    return all;
-  }
-
- private:
-  const Axis& axis_;
-  double low_;
-  double high_;
-};
-
-double longest(const std::vector<Measure::Tick>& ticks) {
-  double width = 0;
-  for (const auto& tick : ticks) width = std::max(width, width_of(tick.text));
-  return width;
-}
 
 }  // namespace
 
@@ -111,7 +49,7 @@ class Figure::Drawing {
 
  private:
   // Computes the range of the axis that contains everything that is drawn.
-  [[nodiscard]] Measure measure(const Axis& axis, double Place::*coordinate) const {
+  [[nodiscard]] AxisScale measure(const Axis& axis, double Place::*coordinate) const {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     for (const double value : axis.contains) {
@@ -129,11 +67,11 @@ class Figure::Drawing {
   }
 
   void lay_out() {
-    left_ = longest(up_ticks_) + gap + (figure_.up_.title.empty() ? 4 : line_height + 4);
+    left_ = widest_text(up_ticks_) + gap + (figure_.up_.title.empty() ? 4 : line_height + 4);
     // Names that do not fit next to each other are rotated.
     const double band =
         figure_.width_ / static_cast<double>(std::max<std::size_t>(across_ticks_.size(), 1));
-    const double widest = longest(across_ticks_);
+    const double widest = widest_text(across_ticks_);
     turned_ = !figure_.across_.names.empty() && widest + 4 > band;
     const double below = turned_ ? widest + gap : line_height + 2;
     const double last = across_ticks_.empty() ? 0 : width_of(across_ticks_.back().text) / 2;
@@ -214,7 +152,7 @@ class Figure::Drawing {
            text + titles();
   }
 
-  static Html named(const Measure::Tick& tick, const Html& element) {
+  static Html named(const AxisScale::Tick& tick, const Html& element) {
     if (tick.whole.empty() || tick.whole == tick.text) return element;
     return markup("<g>{}{}</g>", title_element(tick.whole), element);
   }
@@ -336,10 +274,10 @@ class Figure::Drawing {
   }
 
   const Figure& figure_;
-  Measure across_;
-  Measure up_;
-  std::vector<Measure::Tick> across_ticks_;
-  std::vector<Measure::Tick> up_ticks_;
+  AxisScale across_;
+  AxisScale up_;
+  std::vector<AxisScale::Tick> across_ticks_;
+  std::vector<AxisScale::Tick> up_ticks_;
   double left_ = 0;
   double top_ = 0;
   double total_width_ = 0;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "report/figures/csv.hpp"
+#include "report/csv.hpp"
 #include "report/figures/figure.hpp"
 
 namespace triptych::report {

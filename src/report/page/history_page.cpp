@@ -116,7 +116,7 @@ std::string history_page(const Json& history) {
     }
     page += figure_of(device, up) + table_of(device);
   }
-  return (page + markup("</main>") + page_end(/*with_script=*/true)).text();
+  return (page + markup("</main>") + page_end()).text();
 }
 
 }  // namespace triptych::report

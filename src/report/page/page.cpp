@@ -83,8 +83,8 @@ std::string page(const record::Store& store, const PageRequest& request) {
   for (std::size_t i = 0; i < plans.size(); ++i)
     text += plan_part(store, request.plans[i], plans[i]);
   text += words_section(all);
-  const Html whole = without_repeated_pictures(text) + markup("</main>") + comparison_dialog() +
-                     page_end(/*with_script=*/true);
+  const Html whole =
+      without_repeated_pictures(text) + markup("</main>") + comparison_dialog() + page_end();
   return whole.text();
 }
 

@@ -26,10 +26,8 @@ Html page_begin(std::string_view title) {
          embedded_markup("style.css") + markup("</style></head><body>\n");
 }
 
-Html page_end(bool with_script) {
-  const Html script =
-      with_script ? markup("<script>{}</script>", embedded_markup("page.js")) : Html();
-  return script + markup("</body></html>\n");
+Html page_end() {
+  return markup("<script>{}</script></body></html>\n", embedded_markup("page.js"));
 }
 
 Html folded(const Content& summary, const Html& body) {

@@ -12,7 +12,7 @@ namespace triptych::report {
 // repeated. Its Content-Security-Policy allows only that script, by its hash, and nothing from
 // anywhere else.
 [[nodiscard]] Html page_begin(std::string_view title);
-[[nodiscard]] Html page_end(bool with_script = false);
+[[nodiscard]] Html page_end();
 
 // Empty if the body is empty.
 [[nodiscard]] Html folded(const Content& summary, const Html& body);

@@ -10,8 +10,8 @@
 #include "accuracy/image_metrics.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
+#include "report/figures/share_of_bound.hpp"
 #include "report/html.hpp"
-#include "report/page/share_of_bound.hpp"
 #include "report/words/outcome.hpp"
 
 namespace triptych::report {

@@ -7,8 +7,8 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "report/csv.hpp"
 #include "report/exports/export_tables.hpp"
-#include "report/figures/csv.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace triptych::report {

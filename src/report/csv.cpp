@@ -1,4 +1,4 @@
-#include "report/figures/csv.hpp"
+#include "report/csv.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "report/page/share_of_bound.hpp"
+#include "report/figures/share_of_bound.hpp"
 
 #include <algorithm>
 #include <cmath>
