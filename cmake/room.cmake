@@ -18,7 +18,7 @@ endfunction()
 # name in an anonymous namespace must be unique within its target. When this is off, every file is compiled alone, which shows whether
 # it includes everything that it uses; a change of one file is then compiled fastest.
 option(TRIPTYCH_UNITY "Compile the files of a target in batches" ON)
-set(TRIPTYCH_UNITY_BATCH 24 CACHE STRING "How many files a batch holds")
+set(TRIPTYCH_UNITY_BATCH 24 CACHE STRING "The number of files in a batch")
 function(triptych_batch target)
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD ${TRIPTYCH_UNITY} UNITY_BUILD_BATCH_SIZE ${TRIPTYCH_UNITY_BATCH})

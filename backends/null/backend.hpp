@@ -25,8 +25,8 @@
 //     "device_over_wall": 0.98,   ratio of device time to wall time; a wrong clock has 0, 0.1 or 3;
 //                                 null: the device has no clock
 //     "counts": true,             false: neither counters nor statistics are reported
-//     "extra_samples": 0,         added to the counter samples of volumes: a driver that does more
-//     work "sleep": false,             true: a frame really lasts as long as its reported time
+//     "extra_samples": 0,         added to the counter samples of volumes, for more work than before
+//     "sleep": false,             true: a frame really lasts as long as its reported time
 //     "filter_weight_error": 0,   error of the hardware sampler
 //     "images": {"GLOB": "FILE.exr"},           files that replace the pattern
 //     "failures": [{"kind": "crash", "at": "frame", "frame": 2, "only": "GLOB", "once": "FILE"}]

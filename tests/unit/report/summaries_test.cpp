@@ -117,7 +117,7 @@ TEST(Markdown, KeepsTextText) {
 
 TEST(Markdown, StaysShortWhateverFails) {
   judge::GateResult result{.plan = "p", .run = "r", .findings = {}};
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < 3000; ++i) {
     judge::Finding finding = some_result().findings.front();
     finding.device = fmt::format("gl:{}", i);
     finding.detail = std::string(2000, '<');

@@ -5,8 +5,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cstddef>
-#include <span>
 #include <string>
 
 #include "core/error.hpp"
@@ -31,17 +29,6 @@ class DataLimit {
   rlimit before_{};
 };
 
-// Memory for voxels without a vector, which would visit each of its bytes.
-struct Allocated {
-  explicit Allocated(std::size_t size)
-      : bytes(static_cast<std::byte*>(allocate_voxels(size)), size) {}
-  ~Allocated() { free_voxels(bytes.data(), bytes.size()); }
-  Allocated(const Allocated&) = delete;
-  Allocated& operator=(const Allocated&) = delete;
-
-  std::span<std::byte> bytes;
-};
-
 TEST(VoxelMemory, IsZeroAndCopiesAsAVector) {
   VoxelBytes bytes(1000);
   EXPECT_EQ(std::ranges::count(bytes, std::byte{0}), 1000);
@@ -61,16 +48,16 @@ TEST(VoxelMemory, OfManyIsNoneOfTheProcessData) {
 #endif
   const DataLimit limit(least_bytes_in_a_file / 2);
   EXPECT_THROW(VoxelBytes(least_bytes_in_a_file - 1), std::bad_alloc);
-  const Allocated many(least_bytes_in_a_file);
-  many.bytes.front() = std::byte{1};
-  many.bytes.back() = std::byte{2};
-  EXPECT_EQ(many.bytes.back(), std::byte{2});
+  VoxelBytes many(least_bytes_in_a_file);
+  many.front() = std::byte{1};
+  many.back() = std::byte{2};
+  EXPECT_EQ(many.back(), std::byte{2});
 }
 
 TEST(VoxelMemory, LeavesNoFile) {
   const test::TemporaryFolder folder;
   ::setenv("TMPDIR", folder.path().c_str(), 1);
-  const Allocated many(least_bytes_in_a_file);
+  const VoxelBytes many(least_bytes_in_a_file);
   ::unsetenv("TMPDIR");
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
