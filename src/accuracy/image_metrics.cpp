@@ -142,23 +142,4 @@ double root_mean_square(const core::Image& a, const core::Image& b, const core::
   return std::isfinite(mean) ? std::sqrt(mean) : none;
 }
 
-core::Image difference_image(const core::Image& a, const core::Image& b, double gain) {
-  if (!same_size(a, b)) {
-    throw core::InputError(fmt::format("images of different sizes: {}x{} and {}x{}", a.width,
-                                       a.height, b.width, b.height));
-  }
-  core::Image result(a.width, a.height);
-  for (std::size_t i = 0; i < a.pixel_count(); ++i) {
-    const auto left = channels(a, i);
-    const auto right = channels(b, i);
-    const bool shown = finite(left) && finite(right);
-    for (std::size_t c = 0; c < 3; ++c) {
-      result.rgba[4 * i + c] = shown ? static_cast<float>(gain * difference(left[c], right[c]))
-                                     : std::numeric_limits<float>::quiet_NaN();
-    }
-    result.rgba[4 * i + 3] = 1;
-  }
-  return result;
-}
-
 }  // namespace triptych::accuracy

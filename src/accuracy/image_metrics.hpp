@@ -68,8 +68,4 @@ struct ImageComparison {
 [[nodiscard]] double root_mean_square(const core::Image& a, const core::Image& b,
                                       const core::Image& bound = {});
 
-// The opaque image |a − b|·gain per colour channel, for viewing. A pixel where either image is not
-// finite is NaN, which is displayed as magenta. Throws InputError if the sizes differ.
-[[nodiscard]] core::Image difference_image(const core::Image& a, const core::Image& b, double gain);
-
 }  // namespace triptych::accuracy

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <string_view>
 
-#include "accuracy/image_metrics.hpp"
 #include "core/image_io.hpp"
 #include "core/private_folder.hpp"
 #include "core/quoting.hpp"
+#include "report/figures/share_of_bound.hpp"
 #include "report/words/finding.hpp"
 
 namespace triptych::report {
@@ -45,11 +45,12 @@ std::string pictures(const record::Store& store, const std::string& run,
     if (record.configuration != worst.configuration || record.device != worst.device) continue;
     if (record.image.empty()) return {};
     const core::Image image = store.picture(record.image);
-    const core::Image right = truth(record).truth;
-    return picture("TestImage", worst.test, "test", image) +
-           picture("ValidImage", worst.test, "valid", right) +
-           picture("DifferenceImage", worst.test, "difference",
-                   accuracy::difference_image(image, right, 16));
+    const judge::TruthPair right = truth(record);
+    std::string both = picture("TestImage", worst.test, "test", image) +
+                       picture("ValidImage", worst.test, "valid", right.truth);
+    if (image.width != right.truth.width || image.height != right.truth.height) return both;
+    return both + picture("DifferenceImage", worst.test, "difference",
+                          share_of_bound(image, right.truth, right.bound).image);
   }
   return {};
 }

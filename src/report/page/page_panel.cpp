@@ -19,12 +19,12 @@ namespace {
 
 using core::Image;
 
-std::string technique_names(const SameBits& group) {
+std::vector<std::string> techniques_of(const SameBits& group) {
   std::vector<std::string> names;
   for (const record::Record* record : group) {
     if (names.empty() || names.back() != record->technique) names.push_back(record->technique);
   }
-  return fmt::format("{}", fmt::join(names, ", "));
+  return names;
 }
 
 // Describes how an image was made: each factor that has fewer levels in the group than in the
@@ -49,7 +49,8 @@ std::vector<std::string> made_by(const SameBits& group, const PictureScene& scen
 
 // The factors that distinguish it from the other images of the scene.
 std::string name_of(const PictureScene& scene, const SameBits& group) {
-  std::string name = group.front()->device + ", " + technique_names(group);
+  std::string name =
+      fmt::format("{}, {}", group.front()->device, fmt::join(techniques_of(group), ", "));
   for (const std::string& difference : made_by(group, scene)) name += ", " + difference;
   return name;
 }
@@ -124,8 +125,9 @@ Html finding_link(const PictureScene& scene, const SameBits& group) {
 // `about` describes the image and precedes the text about how it was made.
 Html titled(const PictureScene& scene, const SameBits& group, const Html& figures,
             const Html& about, const ShareOfBound* shares = nullptr) {
-  std::string made = "technique: " + technique_names(group);
-  if (group.size() > 1 && made.find(", ") != std::string::npos) made += ": the same bits";
+  const std::vector<std::string> techniques = techniques_of(group);
+  std::string made = fmt::format("technique: {}", fmt::join(techniques, ", "));
+  if (techniques.size() > 1) made += ": bit-identical images";
   for (const std::string& difference : made_by(group, scene)) made += "; " + difference;
   return opening(scene, group, shares) +
          markup(

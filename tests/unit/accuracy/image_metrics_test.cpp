@@ -70,7 +70,6 @@ TEST(ImageMetrics, SizesMustMatch) {
   EXPECT_TRUE(compare(filled(2, 3, 0), filled(3, 2, 0), 1.0).size_mismatch);
   EXPECT_TRUE(compare(filled(2, 2, 0), filled(2, 2, 0), filled(1, 1, 0)).size_mismatch);
   EXPECT_TRUE(std::isnan(root_mean_square(filled(2, 3, 0), filled(3, 2, 0))));
-  EXPECT_THROW((void)difference_image(filled(2, 3, 0), filled(3, 2, 0), 1), core::InputError);
 }
 
 // An image of four pixels: particles 7 and 8 at depths 2 and 3, then nothing, then an uncertain
@@ -147,14 +146,6 @@ TEST(ImageMetrics, NinetyNinthPercentile) {
   core::Image image = truth;
   for (int x = 0; x < 101; ++x) channel(image, x, 0, 1) = static_cast<float>(x) / 128;
   EXPECT_DOUBLE_EQ(compare(image, truth, 1.0).error_99, 99.0 / 128);
-}
-
-TEST(ImageMetrics, DifferenceImageIsAmplified) {
-  core::Image a = filled(2, 1, 0.25F);
-  channel(a, 1, 0, 0) = std::numeric_limits<float>::quiet_NaN();
-  const core::Image result = difference_image(a, filled(2, 1, 0.5F), 4);
-  EXPECT_EQ(result.pixel(0, 0), (std::array<float, 4>{1, 1, 1, 1}));
-  EXPECT_TRUE(std::isnan(result.pixel(1, 0)[0]));
 }
 
 }  // namespace
