@@ -216,12 +216,16 @@ void DeviceRun::greet(const Hello& hello) {
   context_.store.add_device(context_.run, *known_, clocks_);
 }
 
+std::chrono::seconds DeviceRun::limit() const {
+  const std::chrono::seconds asked = context_.options.limit;
+  if (context_.plan.counted()) return std::max(counted_limit, asked);
+  // A limit that the user sets applies even if it is shorter.
+  return context_.plan.compiled() && asked == record::standard_limit ? compiled_limit : asked;
+}
+
 Done DeviceRun::ask(const Job& job, const OnLoading& on_loading) {
   const Stopwatch stopwatch;
-  const std::chrono::seconds limit = context_.plan.counted()
-                                         ? std::max(counted_limit, context_.options.limit)
-                                         : context_.options.limit;
-  auto reply = slot_.ask(to_message(job), limit, on_loading);
+  auto reply = slot_.ask(to_message(job), limit(), on_loading);
   if (const auto* lost = std::get_if<Ended>(&reply)) return {ended(lost->outcome, lost->reason)};
   Answer& answer = std::get<Answer>(reply);
   watch_memory(answer.record.peak_memory_bytes);

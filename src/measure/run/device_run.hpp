@@ -70,6 +70,8 @@ class DeviceRun {
   void greet(const Hello& hello);
   [[nodiscard]] Job job(const Configuration& configuration, const std::string& key) const;
   void sign(const Job& job, const std::string& key, record::Record& record) const;
+  // The time limit for one configuration.
+  [[nodiscard]] std::chrono::seconds limit() const;
   [[nodiscard]] Done ask(const Job& job, const OnLoading& on_loading);
   // Reports a worker whose memory grows from configuration to configuration.
   void watch_memory(std::uint64_t peak_bytes);

@@ -19,6 +19,8 @@ namespace triptych::measure {
 namespace {
 
 constexpr std::chrono::seconds listing_limit{30};
+// On a busy machine it takes half a minute to load the driver of a compile-only device.
+constexpr std::chrono::seconds compiler_limit{120};
 constexpr std::chrono::seconds greeting_limit{
     120};  // opening may compile; calibrating draws frames
 
@@ -88,8 +90,12 @@ void list_compiler(const std::string& id, Listing& listing) {
   try {
     const WorkerLink::Reply reply =
         ask_once({own_program(), "list-api", api}, id, {.json = core::Json::object(), .binary = {}},
-                 listing_limit);
+                 compiler_limit);
     const auto* answer = std::get_if<Message>(&reply);
+    if (std::holds_alternative<WorkerLink::Late>(reply)) {
+      return refuse(
+          fmt::format("the installed driver did not respond within {} s", compiler_limit.count()));
+    }
     if (answer == nullptr) {
       // RADV aborts if the requested family is not known to it.
       listing.broken.push_back({.what = id,

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <string>
 
 #include "core/error.hpp"
@@ -111,6 +112,16 @@ TEST(StandardError, IsKeptAndGivenBack) {
   };
   EXPECT_EQ(standard_error_of([&] { write("from a driver\n"); }), "from a driver\n");
   EXPECT_EQ(standard_error_of([] {}), "");
+}
+
+// Rust's runtime writes to the file descriptor, whereas Mesa writes single words to the C stream.
+TEST(StandardError, KeepsTheOrderOfWritesToTheStreamAndTheDescriptor) {
+  const std::string both = standard_error_of([] {
+    for (const char* word : {"shader: ", "a ", "kernel\n"}) std::fputs(word, stderr);
+    ASSERT_EQ(::write(STDERR_FILENO, "a name\n", 7), 7);
+    std::fputs("last", stderr);
+  });
+  EXPECT_EQ(both, "shader: a kernel\na name\nlast");
 }
 
 TEST(CompileOnly, FamiliesAreReadFromIds) {
