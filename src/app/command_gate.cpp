@@ -192,6 +192,7 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
     measure_resumably({.plans = typed,
                        .choice = arguments.choice,
                        .devices = arguments.devices,
+                       .required = arguments.required,
                        .store = arguments.store,
                        .faults = arguments.faults,
                        .brief = !arguments.times,

@@ -8,6 +8,7 @@
 #include "app/registry.hpp"
 #include "app/terminal.hpp"
 #include "app/version.hpp"
+#include "core/glob.hpp"
 #include "core/output_files.hpp"
 #include "measure/request/error_request.hpp"
 #include "measure/request/fastest.hpp"
@@ -113,14 +114,16 @@ struct Bench {
   record::Store& store;
 };
 
-// GPU families whose compiler is not installed are recorded only if the user named one of them.
-record::Beginning begun_with(const measure::Listing& listing,
-                             const std::vector<std::string>& asked) {
-  record::Beginning begun{.host = measure::host_name(), .asked = asked};
-  const bool named = measure::name_a_compiler(asked);
+// GPU families whose compiler is not installed are recorded only if the user named them.
+record::Beginning begun_with(const measure::Listing& listing, const Measuring& measuring) {
+  record::Beginning begun{.host = measure::host_name(), .asked = measuring.devices};
+  const bool named = measure::name_a_compiler(measuring.devices);
+  const auto is_required = [&](const std::string& id) {
+    return core::any_glob_matches(measuring.required, id);
+  };
   for (const record::Device& each : listing.devices) begun.found.push_back(each.id);
   for (const measure::Broken& each : listing.broken) {
-    if (!named && measure::compile_only(each.what)) continue;
+    if (!named && measure::compile_only(each.what) && !is_required(each.what)) continue;
     begun.unusable.push_back({each.what, each.reason, each.ended});
   }
   return begun;
@@ -208,9 +211,24 @@ std::vector<std::string> devices_of(const measure::Listing& listing,
 measure::Listing listing_for(const Measuring& measuring, const Registry& registry,
                              const std::vector<measure::Plan>& plans) {
   const bool compiled = std::ranges::any_of(plans, &measure::Plan::compiled);
-  return compiled || measure::name_a_compiler(measuring.devices)
-             ? registry.devices_and_compilers(measuring.devices)
-             : registry.devices(measuring.devices);
+  if (!compiled && !measure::name_a_compiler(measuring.devices)) {
+    return registry.devices(measuring.devices);
+  }
+  measure::Listing listing = registry.devices_and_compilers(measuring.devices);
+  // A required device need not match `devices`, and its family need not be one of the usual ones.
+  std::vector<std::string> more = measuring.required;
+  std::erase_if(more, [&](const std::string& id) {
+    return !measure::compile_only(id) ||
+           std::ranges::find(listing.devices, id, &record::Device::id) != listing.devices.end() ||
+           std::ranges::find(listing.broken, id, &measure::Broken::what) != listing.broken.end();
+  });
+  if (more.empty()) return listing;
+  measure::Listing compilers = measure::list_compilers(more);
+  if (measuring.devices.empty()) {
+    std::ranges::move(compilers.devices, std::back_inserter(listing.devices));
+  }
+  std::ranges::move(compilers.broken, std::back_inserter(listing.broken));
+  return listing;
 }
 
 // Plans that only compile use other devices than plans that draw.
@@ -229,7 +247,7 @@ std::vector<measure::RunResult> measure_each(const Measuring& measuring, const R
     }
     if (group.empty()) continue;
     const Bench bench{measuring, registry, devices_of(listing, measuring.devices, compiled),
-                      begun_with(listing, measuring.devices), store};
+                      begun_with(listing, measuring), store};
     if (bench.devices.empty()) {
       std::string missing;
       for (const measure::Broken& each : listing.broken) {
@@ -256,7 +274,7 @@ Measured measure_and_tell(const Measuring& measuring) {
   record::Store store(measuring.store, record::Store::Mode::append);
   const Bench bench{measuring, registry,
                     devices_of(listing, measuring.devices, plans.front().compiled()),
-                    begun_with(listing, measuring.devices), store};
+                    begun_with(listing, measuring), store};
   if (measuring.error) return measure_within_error(bench, plans.front());
   Measured measured{.results = measure_each(measuring, registry, plans, listing, store)};
   for (std::size_t i = 0; measuring.chooses && i < plans.size(); ++i) {

@@ -19,6 +19,8 @@ struct Measuring {
   std::vector<std::string> plans = {};    // as typed by the user
   PlanChoice choice = {};                 // --set for a single plan, --shard for each plan
   std::vector<std::string> devices = {};  // globs
+  // Globs of devices that must be measured. If one of them cannot be used, the run records why.
+  std::vector<std::string> required = {};
   std::string store = standard_store;
   bool resume = false;  // continue the plans' latest runs instead of beginning new ones
   std::set<std::pair<std::string, std::string>> again = {};  // see measure::RunOptions

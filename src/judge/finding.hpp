@@ -50,7 +50,7 @@ enum class Cause : std::uint8_t {
   ended,               // the configuration was not measured [outcome, reason]
   no_run,              // no run was begun
   nothing_measured,    // the run has no measured record [<run> <plan> "records"]
-  no_required_device,  // no device that measured something matches a required glob [<glob>]
+  no_required_device,  // no measured device matches a required glob [<glob>, detail, reason]
   device_missing,      // a device is gone that was accepted with this driver version of [<sibling>]
   listing_failed,      // devices could not be listed [<what>, reason]
   no_description,      // the run has records of a device that it does not describe [<run>]

@@ -77,8 +77,7 @@ TEST_F(OnlyCompile, AnUnknownFamilyIsToldInOneLine) {
   EXPECT_EQ(std::ranges::count(result.output, '\n'), 1) << result.output;
   EXPECT_EQ(result.output.find("triptych: no device matches vulkan:radv-nosuch"), 0U)
       << result.output;
-  EXPECT_NE(result.output.find("vulkan:radv-nosuch: the installed driver"),
-            std::string::npos)
+  EXPECT_NE(result.output.find("vulkan:radv-nosuch: the installed driver"), std::string::npos)
       << result.output;
   EXPECT_NE(result.output.find("know this family"), std::string::npos) << result.output;
 }
@@ -119,6 +118,24 @@ TEST_F(OnlyCompile, AFaultInTheLoopIsFoundOnEveryFamily) {
     EXPECT_EQ(changes["instructions per iteration"], 1) << device;
     EXPECT_EQ(changes["tiles_index.comp instructions per iteration"], 2) << device;
   }
+}
+
+// The verdict says why a required family was not measured.
+TEST_F(OnlyCompile, ARequiredFamilyThatCannotBeUsedIsNotAPass) {
+  ASSERT_EQ(on("run compiled.yaml").code, 0);
+  ASSERT_EQ(program.run("accept compiled.yaml --reason new --baselines b --store s.sqlite").code,
+            0);
+  const Result judged =
+      on("gate compiled.yaml --measure --baselines b --json --require vulkan:radv-nosuch");
+  EXPECT_EQ(judged.code, 2) << judged.output;
+  const auto plans = core::Json::parse(judged.output.substr(judged.output.find('[')));
+  std::vector<core::Json> found;
+  for (const core::Json& finding : plans.front().at("findings")) {
+    if (finding.at("cause") == "no_required_device") found.push_back(finding);
+  }
+  ASSERT_EQ(found.size(), 1U) << judged.output;
+  EXPECT_EQ(found.front().at("facts").at("glob"), "vulkan:radv-nosuch");
+  EXPECT_FALSE(found.front().at("detail").get<std::string>().empty()) << judged.output;
 }
 
 // Without stored code there is nothing to judge, and nothing is compiled for it.

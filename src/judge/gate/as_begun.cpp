@@ -53,7 +53,10 @@ void report_failed_listings(const RunView& view, std::vector<Finding>& findings)
     if (found_all_that_was_asked(begun)) continue;
     for (const record::Unusable& each : begun.unusable) {
       const std::string api = each.api();
-      const bool matters = each.ended && begun.asks_for_api(api);
+      // If the device is required, Cause::no_required_device reports why it is missing.
+      const bool required = std::ranges::find(view.request.required_devices, each.what) !=
+                            view.request.required_devices.end();
+      const bool matters = each.ended && begun.asks_for_api(api) && !required;
       if (!matters || is_excused(view, api) || is_excused(view, api + ":*")) continue;
       findings.push_back(finding_about(
           view, *view.checks.begin(), Verdict::cannot_judge,

@@ -124,6 +124,16 @@ void report_device_faults(const RunView& view, std::vector<Finding>& findings) {
   }
 }
 
+// The first device matching `glob` that the run could not use; null if there is none.
+const record::Unusable* unusable_device(const RunView& view, const std::string& glob) {
+  for (const record::Beginning& begun : view.run.begun) {
+    for (const record::Unusable& each : begun.unusable) {
+      if (core::glob_matches(glob, each.what)) return &each;
+    }
+  }
+  return nullptr;
+}
+
 void report_nothing_measured(const RunView& view, const std::string& run,
                              std::vector<Finding>& findings) {
   const Check check = *view.checks.begin();
@@ -141,9 +151,12 @@ void report_nothing_measured(const RunView& view, const std::string& run,
       return core::glob_matches(glob, record->device);
     });
     if (there) continue;
-    findings.push_back(
-        finding_about(view, check, Verdict::cannot_judge,
-                      {.cause = Cause::no_required_device, .facts = {{"glob", glob}}}));
+    Observation observation{.cause = Cause::no_required_device, .facts = {{"glob", glob}}};
+    if (const record::Unusable* found = unusable_device(view, glob)) {
+      observation.detail = found->reason;
+      if (found->ended) observation.reason = *found->ended;
+    }
+    findings.push_back(finding_about(view, check, Verdict::cannot_judge, std::move(observation)));
   }
 }
 

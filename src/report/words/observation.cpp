@@ -115,6 +115,13 @@ std::string not_counted(const Observation& what) {
   return text;
 }
 
+std::string no_required_device(const Observation& what) {
+  const std::string text = with_detail(
+      fmt::format("a device that matches {} is required, but none was measured", what.fact("glob")),
+      what.detail);
+  return what.reason.cause == record::Cause::none ? text : with_detail(text, text_of(what.reason));
+}
+
 std::string sentence_of(const Observation& what) {
   switch (what.cause) {
     case Cause::none:
@@ -142,8 +149,7 @@ std::string sentence_of(const Observation& what) {
     case Cause::nothing_measured:
       return nothing_measured(what);
     case Cause::no_required_device:
-      return fmt::format("no device that matches {} measured anything, but one is required",
-                         what.fact("glob"));
+      return no_required_device(what);
     case Cause::device_missing:
       return fmt::format(
           "no driver lists this device here, but it was accepted on a machine with this driver "

@@ -108,6 +108,21 @@ TEST_F(AsBegunTest, ARunThatWasCutShortIsNotAccepted) {
   EXPECT_NO_THROW(static_cast<void>(accept_run("run", {.drop = true})));
 }
 
+TEST_F(AsBegunTest, TheReasonIsGivenWhyARequiredDeviceWasNotMeasured) {
+  accept_begun();
+  const std::string package = "install the package mesa-drm-shim";
+  const record::Reason aborted{.cause = record::Cause::signal, .numbers = {{"signal", 6}}};
+  add_begun("run", {.unusable = {{"gl:radeonsi-navi31", package},
+                                 {"vulkan:radv-nosuch", "unknown family", aborted}}});
+  request_.required_devices = {"gl:radeonsi-navi31", "vulkan:radv-nosuch"};
+  const std::vector<Finding> found = with(gate("run"), Verdict::cannot_judge);
+  ASSERT_EQ(found.size(), 2U) << text(gate("run"));
+  EXPECT_EQ(found[0].cause, Cause::no_required_device);
+  EXPECT_EQ(found[0].detail, package);
+  EXPECT_EQ(found[1].cause, Cause::no_required_device);
+  EXPECT_EQ(found[1].reason, aborted);
+}
+
 // The driver crashes while it is listed.
 TEST_F(AsBegunTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
   accept_begun();
