@@ -1,4 +1,5 @@
-# Registers the tests of the suites. CTest asks the program which tests there are when it runs.
+# Registers the tests of the suites. Whenever CTest runs, it queries the program for the list of
+# tests.
 set(test_folder ${PROJECT_BINARY_DIR}/suite_tests)
 file(MAKE_DIRECTORY ${test_folder})
 file(GENERATE OUTPUT ${test_folder}/discover.cmake CONTENT

@@ -25,7 +25,7 @@ Vertices vertices_of(const core::Json& entry) {
 
 std::vector<Technique> parse(std::string_view text) {
   std::vector<Technique> result;
-  // The object needs a name, because at() below returns references into it.
+  // The parsed JSON is stored in a variable, because at() returns references into it.
   const core::Json catalogue = core::Json::parse(text);
   for (const core::Json& entry : catalogue.at("techniques")) {
     result.push_back(
@@ -63,7 +63,7 @@ const Technique& technique(std::string_view id) {
   std::vector<std::string_view> ids;
   for (const Technique& each : all) ids.push_back(each.id);
   throw core::InputError(
-      fmt::format("unknown technique '{}'; there are: {}", id, fmt::join(ids, ", ")));
+      fmt::format("unknown technique '{}'; expected one of {}", id, fmt::join(ids, ", ")));
 }
 
 }  // namespace triptych::technique

@@ -8,15 +8,16 @@
 
 namespace triptych::technique {
 
-// The kind of device work that a frame of the technique consists of. Clocks are calibrated for each
-// kind.
+// The kind of device work that a frame of the technique consists of. Timers are calibrated
+// separately for each kind.
 enum class Work : std::uint8_t { compute, draw };
 [[nodiscard]] std::string_view name_of(Work work);
 
 // How a particle technique finds the pixels of a sphere: by a sprite that covers the sphere, by the
 // tiles of the image that the sphere reaches, or by rays.
 enum class Method : std::uint8_t { sprites, tiles, rays };
-// The vertices that a technique draws for a sphere.
+// The vertices that a technique draws for each sphere: none, a single one, or one for each corner
+// of the sprite.
 enum class Vertices : std::uint8_t { none, one, corners };
 
 struct Technique {
@@ -25,11 +26,11 @@ struct Technique {
   Work work = Work::compute;
   Method method = Method::rays;
   Vertices vertices = Vertices::none;
-  bool asks_corners = false;      // draws the number of corners that the factor `corners` selects
+  bool asks_corners = false;      // sprites have as many corners as the factor `corners` says
   bool fetches_by_index = false;  // its shaders read all spheres from one storage buffer
-  bool instanced = false;         // one instance for each sphere
+  bool instanced = false;         // draws one instance per sphere
   bool parts = false;             // can draw a volume in parts if it does not fit into memory
-  bool picture = true;  // draws the scene; false for a bound on speed, whose image is meaningless
+  bool picture = true;            // produces an image of the scene; false for a bound on speed
   std::vector<std::string> apis;  // the APIs on which the technique exists
   std::string summary;
 };

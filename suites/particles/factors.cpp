@@ -16,7 +16,7 @@ using measure::Factor;
 using measure::number;
 using measure::text;
 
-// Any valid angle, because only the spelling of the camera is checked.
+// Any valid angle will do, because only the syntax of the camera's name is checked here.
 constexpr double any_field_of_view = 60;
 
 }  // namespace
@@ -24,13 +24,13 @@ constexpr double any_field_of_view = 60;
 const std::vector<Factor>& particle_factors() {
   static const std::vector<Factor> factors{
       measure::technique_factor("particles", "quad_instanced", "how the spheres are drawn"),
-      text(
-          "data", "generate:uniform:10000",
-          "a particle file (" + scene::particle_endings() +
-              ", plain or compressed; FILE@K: its K-th frame), generate:NAME:COUNT, or "
-              "stress:CASE:VARIANT (a hostile scene)"),
+      text("data", "generate:uniform:10000",
+           "a particle file (" + scene::particle_endings() +
+               ", plain or compressed; FILE@K: its K-th frame), generate:NAME:COUNT, or "
+               "stress:CASE:VARIANT (a hostile scene)"),
       choice("colour", {"rgba8", "rgba32", "intensity"}, "rgba8", Decides::the_picture,
-             "the source of a particle's colour"),
+             "the source of a particle's colour: four bytes, four floats, or an intensity that is "
+             "looked up in the transfer function"),
       text("transfer_function", "haze",
            "colours for intensities: haze, surfaces, or a file with 256 RGBA entries"),
       choice("transfer", {"vertex", "pixel"}, "vertex", Decides::how_it_is_made,
@@ -44,12 +44,13 @@ const std::vector<Factor>& particle_factors() {
       choice("culling", {"none", "frustum", "occlusion"}, "frustum", Decides::how_it_is_made,
              "which cells of particles are not drawn"),
       choice("structure", {"static", "refit", "rebuild"}, "static", Decides::how_it_is_made,
-             "what each frame does with the hierarchy that rays go through"),
+             "what each frame does with the hierarchy that rays traverse: nothing (static), fit it "
+             "to moved spheres, or build it again"),
       number("radius_scale", 1e-6, 1e6, "1", Decides::the_picture,
              "factor by which every radius is multiplied"),
       text("camera", "orbit_y:1/8",
            "PATH:i/n (orbit_y:1/8, path_z:3/36, …), random:SEED or view:AZIMUTH/ELEVATION/DISTANCE "
-           "(degrees, and radii of the orbits: view:45/20/0.8); own: that of the stress case"),
+           "(degrees, and orbit radii: view:45/20/0.8); own: that of the stress case"),
       number("fov", 0.0005, 179, "60", Decides::the_picture,
              "vertical field of view in degrees; own: that of the stress case",
              {std::string(own_level)}),

@@ -28,7 +28,7 @@ class Image {
         half_y_(scene::tangent_of_half(scene.camera.fov_y_deg)),
         half_x_(half_y_ * scene.width / scene.height) {}
 
-  // The size of a pixel at distance 1, for the larger side.
+  // The larger of a pixel's width and height on the image plane at distance 1.
   [[nodiscard]] double pixel() const {
     return std::max(2 * half_x_ / scene_.width, 2 * half_y_ / scene_.height);
   }
@@ -37,6 +37,7 @@ class Image {
     return {glm::dot(to, scene_.camera.right()), glm::dot(to, scene_.camera.up),
             glm::dot(to, scene_.camera.forward)};
   }
+  // The number of pixels whose rays hit the grown square but not the original one.
   [[nodiscard]] std::uint64_t ring(const Square& square) const;
 
  private:
@@ -91,9 +92,9 @@ std::uint64_t Image::ring(const Square& square) const {
   return count;
 }
 
-// The square where technique/portable/sphere_math.h places the sprite: just in front of the sphere,
-// with a margin of 1/64 pixel around it. nullopt if the sprite is the whole viewport or behind the
-// eye.
+// Returns the square on which technique/portable/sphere_math.h places a sprite: just in front of
+// the sphere, and 1/64 pixel larger than the sphere on each side. Returns nullopt if the sprite
+// covers the whole viewport or the sphere is behind the eye.
 std::optional<Square> square_of(const glm::dvec3& centre, double radius, double pixel,
                                 double growth) {
   const double d = glm::length(centre);

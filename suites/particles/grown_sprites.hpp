@@ -1,15 +1,16 @@
 #pragma once
-// The additional fragments due to a coarse vertex grid.
+// Predicts how many additional fragments sprites produce on a device with a coarse vertex grid.
 
 #include "scene/particle_scene.hpp"
 
 namespace triptych::particles_suite {
 
-// The number of pixels, over all spheres, that lie in a ray-aligned square grown by `growth` pixels
-// (technique::sprite_growth) and not in the square without growth. The square grows by the length
-// in the world that is `growth` pixels at the sphere's depth. Away from the middle of the image a
-// length along the radius covers 1/cos θ times as many pixels, with θ the angle from the axis. The
-// result is therefore much more than edges that move by `growth`. A device that culls draws fewer.
+// Returns the number of pixels, summed over all spheres, that a ray-aligned square covers only
+// because it has grown by `growth` pixels on each side (technique::sprite_growth). In world space,
+// the square grows by the length of `growth` pixels at the sphere's depth. Away from the middle of
+// the image, a radial length covers 1/cos θ times as many pixels, where θ is the angle between the
+// ray and the view axis. The result is therefore much larger than if every edge moved by only
+// `growth` pixels. With culling, a device draws fewer additional fragments than this.
 [[nodiscard]] double fragments_of_growth(const scene::ParticleScene& scene, double growth);
 
 }  // namespace triptych::particles_suite

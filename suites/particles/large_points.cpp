@@ -12,8 +12,9 @@
 namespace triptych::particles_suite {
 namespace {
 
-// The length of a silhouette along one axis of the image plane, clipped to [−reach, reach]; 0 if
-// the sphere is not in front. Computed like tri_sphere_interval (technique/portable/sphere_math.h).
+// Returns the length of a sphere's silhouette along one axis of the image plane, clipped to
+// [−reach, reach], or 0 if no part of the sphere is in front of the eye. Uses the same formulas as
+// tri_sphere_interval (technique/portable/sphere_math.h).
 double length_on_image(double a, double z, double r, double margin, double reach) {
   const double side = std::abs(a);  // the silhouette is symmetric about the axis
   const double k2 = side * side + z * z - r * r;
@@ -30,7 +31,8 @@ double length_on_image(double a, double z, double r, double margin, double reach
   return std::max(0.0, std::min(high + margin, reach) - std::max(low - margin, -reach));
 }
 
-// Visits all spheres with a silhouette in the view, with sizes in pixels.
+// Calls take(size) for every sphere whose silhouette is in view; `size` is its width and height in
+// pixels.
 template <class Take>
 void for_each_silhouette(const scene::ParticleScene& scene, Take&& take) {
   const scene::Camera& camera = scene.camera;
@@ -54,8 +56,9 @@ void for_each_silhouette(const scene::ParticleScene& scene, Take&& take) {
 
 std::map<std::string, double> open_by_quads(const scene::ParticleScene& scene, double largest,
                                             bool occlusion) {
-  // The margin for rounding: a device computes a size with about 16 operations of 2⁻²⁴ each, for
-  // images below 16,384 pixels.
+  // A margin for round-off. A device computes a size with about 16 operations, each with a relative
+  // error of 2⁻²⁴. In images of less than 16,384 pixels per side, the total error is below 1/64
+  // pixel.
   constexpr double rounding = 1.0 / 64;
   const double picture = static_cast<double>(scene.width) * scene.height;
   double quads = 0;

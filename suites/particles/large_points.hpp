@@ -1,6 +1,6 @@
 #pragma once
-// The differences between counters that are allowed because a device has a largest point size: it
-// draws a larger sprite as a quad.
+// Computes how much counters may differ on a device that limits the size of points. Such a device
+// draws larger sprites as quads.
 
 #include <map>
 #include <string>
@@ -9,16 +9,18 @@
 
 namespace triptych::particles_suite {
 
-// Allowed differences by counter name, relative to a device that draws all sprites as points.
-// `largest` is the largest sprite in pixels that the device certainly draws as a point.
+// Returns the allowed differences by counter name, compared with a device that draws all sprites as
+// points. `largest` is the size in pixels up to which the device certainly draws a sprite as a
+// point.
 //
-//   - vertices: four instead of one.
-//   - fragments and discarded ones: a point is the square around a silhouette's rectangle, and
-//     larger by a margin, which is up to a pixel in some drivers. A rectangle of w pixels contains
-//     between ⌊w⌋ and ⌈w⌉ pixel centres along an axis.
-//   - culled, submitted and drawn ones, if `occlusion` culls: quads are drawn first and completely,
-//     so that more cells and particles are culled behind them, up to all of them. The visible ones
-//     may not differ.
+//   - vertices: a quad has four vertices, a point only one.
+//   - fragments and fragments_discarded: a point is the square around the rectangle of a
+//     silhouette, so it covers more pixels than a quad. It is also larger by a margin, which is up
+//     to a pixel in some drivers. A rectangle that is w pixels wide contains between ⌊w⌋ and ⌈w⌉
+//     pixel centres along an axis.
+//   - all other counters of cells, particles and sprites, if `occlusion` is true: quads are drawn
+//     first and completely, so more cells and particles can be culled behind them, up to all of
+//     them. Only the number of visible particles may not differ.
 [[nodiscard]] std::map<std::string, double> open_by_quads(const scene::ParticleScene& scene,
                                                           double largest, bool occlusion);
 

@@ -16,19 +16,20 @@
 namespace triptych::particles_suite {
 namespace {
 
-// Pixels of an image, from lo to hi, hi excluded.
+// A rectangle of pixels in the image. The upper limits are exclusive.
 struct Rectangle {
   int x_lo, x_hi, y_lo, y_hi;
 };
 
-// One axis of the image: its start on the image plane, pixels per unit there, number of pixels.
+// One axis of the image: its start on the image plane, the pixels per unit of length there, and its
+// number of pixels.
 struct Axis {
   double first;
   double per_unit;
   int pixels;
 
-  // The range of pixels that a ball with radius r around (a, z) can cover. A point p with |p − c| ≤
-  // r has a p_a/p_z that differs from a/z by at most r·(1 + |a|/z)/(z − r). Two pixels are added on
+  // Returns the range of pixels that a ball of radius r around (a, z) can cover. For every point p
+  // of the ball, p_a/p_z differs from a/z by at most r·(1 + |a|/z)/(z − r). Two pixels are added on
   // each side, which is more than the margin of any sprite.
   [[nodiscard]] std::pair<int, int> pixels_of(double a, double z, double r) const {
     constexpr double margin = 2;
@@ -41,14 +42,15 @@ struct Axis {
   }
 };
 
-// Marks the pixels that sprites have claimed.
+// Records which pixels have been claimed by sprites.
 class Claims {
  public:
   Claims(int width, int height)
       : width_(static_cast<std::size_t>(width)),
         taken_(width_ * static_cast<std::size_t>(height), false) {}
 
-  // False if another sprite had claimed one of them.
+  // Claims all pixels of the rectangle. Returns false if another sprite has already claimed one of
+  // them.
   bool claim(const Rectangle& rectangle) {
     for (int y = rectangle.y_lo; y < rectangle.y_hi; ++y) {
       for (int x = rectangle.x_lo; x < rectangle.x_hi; ++x) {
@@ -68,7 +70,9 @@ class Claims {
 }  // namespace
 
 bool sprites_are_apart(const scene::ParticleScene& scene) {
-  // A polygon around a silhouette has at least four corners, which reach √2 times as far.
+  // How far a sprite reaches, in radii of the sphere. A polygon around a silhouette has at least
+  // four corners, which are at most √2 times as far from its centre as the silhouette. The factor
+  // 1.05 is a margin.
   constexpr double reach = 1.05 * std::numbers::sqrt2;
   const double tangent = scene::tangent_of_half(scene.camera.fov_y_deg);
   const double aspect = static_cast<double>(scene.width) / scene.height;
@@ -101,19 +105,19 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
   };
   const technique::Technique& technique = technique::technique(configuration.at("technique"));
   if (configuration.at("colour") != "intensity") {
-    plainer("transfer", "vertex", "stored colours are not looked up");
-    plainer("transfer_function", "haze", "stored colours are not looked up");
+    plainer("transfer", "vertex", "stored colours need no transfer function");
+    plainer("transfer_function", "haze", "stored colours need no transfer function");
   }
   if (!technique.asks_corners)
     plainer("corners", "8", "only polygon_tess uses the number of corners");
   if (technique.method == technique::Method::rays) {
-    plainer("conservative_depth", "off", "rays always skip hidden cells");
-    plainer("culling", "frustum", "rays always skip what they cannot hit");
+    plainer("conservative_depth", "off", "rays always skip cells that are hidden");
+    plainer("culling", "frustum", "rays always skip cells that they cannot hit");
     return plain;
   }
   if (work.options.conservative_depth) {
     if (technique.method == technique::Method::tiles) {
-      plainer("conservative_depth", "off", "tiles always reject by the sphere's front");
+      plainer("conservative_depth", "off", "tiles always rejects spheres by their front depth");
     } else if (sprites_are_apart(work.scene)) {
       plainer("conservative_depth", "off", "no sprite lies behind another");
     }

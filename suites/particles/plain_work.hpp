@@ -1,18 +1,19 @@
 #pragma once
-// Finds configurations of particles that do exactly the same work (measure::Suite::plain).
+// Finds particle configurations that do exactly the same work (measure::Suite::plain).
 
 #include "measure/contract/suite.hpp"
 #include "scene/particle_scene.hpp"
 
 namespace triptych::particles_suite {
 
-// Whether no two sprites share a pixel with any technique. False if that is not certain, which is
-// the case for spheres that reach the plane of the eye or come near it.
+// Returns whether no two sprites share a pixel, whichever technique draws them. Returns false if
+// this is not certain, which is the case for spheres that reach or come close to the plane of the
+// eye.
 [[nodiscard]] bool sprites_are_apart(const scene::ParticleScene& scene);
 
-// Replaces levels that matter only for another technique or another kind of colour. This includes
-// conservative depth, which rejects hidden fragments before shading, if no sprite lies behind
-// another one.
+// Replaces levels that have no effect with this technique or kind of colour. If no sprite lies
+// behind another one, conservative depth is also replaced, because all that it does is reject
+// hidden fragments before they are shaded.
 [[nodiscard]] measure::PlainWork plain_work(const measure::Configuration& configuration,
                                             const measure::ParticleWork& work);
 

@@ -18,18 +18,19 @@ struct Entry {
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> all{
       {{33, "scale", "one scene is drawn with radii around 2^-20, 1 and 2^20",
-        "colours and ids have the same bits, because every value is a product, sum, quotient or "
-        "root of values that are scaled by one power of two, and for radii from 2^-50 to 2^50 no "
-        "square leaves the range of floats",
+        "colours and ids are bit-identical, because every value is a product, sum, quotient or "
+        "square root of values that are scaled by one power of two, and no square leaves the range "
+        "of floats for radii from 2^-50 to 2^50",
         {"unit", "small", "large"}}, stress_scale},
       {{34, "far", "the eye is 10^3 to 2*10^5 radii away; the silhouette is half as high as the image",
-        "the silhouette is right within 8u of the image's side and 5u of the radius, because no term "
-        "of the cross product is larger than the image at the sphere, whatever the distance (b^2 - c "
-        "would have an error of u*d^2, more than r^2 from 4,096 radii on). Depth has an error of "
-        "24u(d + r), 0.3 radii for the last variant",
+        "the silhouette is correct to within 8u of the image's side and 5u of the radius, because no "
+        "term of the cross product is larger than the extent of the image at the sphere's distance "
+        "(b^2 - c would have an error of u*d^2, which exceeds r^2 beyond 4,096 radii). The depth has "
+        "an error of up to 24u(d + r), which is 0.3 radii in the last variant",
         {"1e3", "1e4", "1e5", "2e5"}}, stress_far},
       {{35, "giant", "small spheres touch a sphere with 10,000 times their radius",
-        "each sphere is within its own bounds; the giant's larger bounds apply to its pixels only",
+        "each sphere is within its own bounds; the larger bounds of the giant apply only to its own "
+        "pixels",
         {}}, stress_giant},
       {{36, "inside", "the eye is inside a sphere: at its centre, off centre, or just below the "
         "surface",
@@ -46,18 +47,19 @@ const std::vector<Entry>& entries() {
         "completely behind",
         "the parts in front are visible, whatever sign the centre's depth has", {}}, stress_behind},
       {{40, "wide", "the field of view is 150 degrees, with spheres in the corners",
-        "every sprite covers its whole ellipse, which is up to 1/cos^2 times as long as wide", {}},
+        "every sprite covers the whole ellipse of its sphere, which is longest in the corners", {}},
        stress_wide},
       {{41, "edges", "centres are on the edges and corners of the image, and just outside",
-        "the half or quarter inside is visible; a sphere that ends a pixel before the edge is not",
+        "the half or quarter of a sphere inside the image is visible; a sphere that ends one pixel "
+        "outside the edge is not",
         {}}, stress_edges},
       {{42, "subpixel", "radii of 0.01 pixel, with centres on pixel centres or on pixel corners",
-        "spheres on pixel centres are certainly visible, because 0.01 is more than the margin of "
-        "1/256; the others never are",
+        "spheres on pixel centres are certainly visible, because their radius is more than the margin "
+        "of 1/256 pixel; spheres on pixel corners are never visible",
         {}}, stress_subpixel},
       {{43, "no_sphere", "radii are 0, negative, NaN or infinite; a centre is not finite; or the "
         "square of a radius underflows to 0",
-        "invalid spheres are dropped and counted, and the image has the same bits as without them; "
+        "invalid spheres are dropped and counted, and the image is bit-identical to one without them; "
         "a vanishing radius changes no certain pixel", {"without", "with", "vanishing"}},
        stress_no_sphere},
       {{44, "coincident", "every sphere exists eight times, in different colours",
@@ -70,26 +72,27 @@ const std::vector<Entry>& entries() {
         "the same relative precision everywhere, up to 2^24 times the scene's size", {}},
        stress_depth_range},
       {{47, "pile", "all particles cover the centre of one pixel, and the nearest one is last",
-        "the nearest one is visible, within the time limit: atomics or depth tests on one pixel "
-        "take at most linear time",
+        "the nearest particle is visible, and the frame ends within the time limit, because atomics "
+        "or depth tests on one pixel take at most linear time",
         {"200000", "10000000"}}, stress_pile},
-      {{48, "count", "there are no particles, one, or one less or more than a work-group takes",
+      {{48, "count", "there are no particles, one particle, or about as many as fill a work group",
         "all particles are visible; without particles the image is the background",
         {"0", "1", "63", "64", "65", "513"}}, stress_count},
-      {{49, "order", "the particles of a file are in another order",
-        "the image has the same bits, because particles are arranged by position and id, which also "
-        "decides ties",
+      {{49, "order", "the file stores the particles in a different order",
+        "the image is bit-identical, because particles are arranged by position and id, which also "
+        "breaks ties",
         {"as_made", "shuffled"}}, stress_order},
-      {{50, "jump", "the eye jumps behind a wall that hid what it sees now",
-        "the first frame after the jump is right with occlusion culling, because cells that were "
+      {{50, "jump", "the eye jumps to the other side of a wall and sees what the wall has hidden",
+        "the first frame after the jump is correct with occlusion culling, because cells that were "
         "hidden in the previous frame are tested against the depths of this frame", {}}, stress_jump},
       {{51, "shape", "the image has one pixel, one row, one column, or incomplete tiles",
         "the image is within its bounds", {"1x1", "1x40", "40x1", "17x13"}}, stress_shape},
       {{52, "widest", "the image has 16,384 by 8 pixels",
-        "it is within the bounds, which allow 8u of the longer side, 0.008 pixel; a device whose "
-        "limits it exceeds refuses it with both numbers", {}}, stress_widest},
+        "the image is within its bounds, which allow 8u of the longer side (0.008 pixel); a device "
+        "whose limits the image exceeds rejects it and reports both sizes", {}}, stress_widest},
       {{53, "field_of_view", "the field of view is 0.001 or 179 degrees",
-        "centres keep twice a float's precision in camera space, which is 10^-8 pixel here",
+        "centres are transformed to camera space with twice the precision of a float, so their error "
+        "is 10^-8 pixel here",
         {"0.001", "179"}}, stress_field_of_view},
       {{54, "asymmetric", "no flip leaves the scene unchanged",
         "the image has the same orientation on every API", {}}, stress_asymmetric},
@@ -131,20 +134,20 @@ std::vector<record::Expectation> stress_expectations(const StressData& data) {
         record::SamePicture{.changed = {{"data", name_of(first)}}, .depth_scale = depth_scale}};
   };
   if (name == "scale" && data.variant != "unit") {
-    return {as_first("the same bits as with unit radii, with depths scaled by a power of two",
+    return {as_first("the same image as with unit radii, and depths that are scaled like the radii",
                      data.variant == "small" ? 0x1.0p-20F : 0x1.0p20F)};
   }
   if (name == "no_sphere" && data.variant == "with") {
-    return {as_first("the same bits as the image of the valid spheres alone", 1)};
+    return {as_first("an image that is bit-identical to that of the valid spheres alone", 1)};
   }
   if (name == "order" && data.variant == "shuffled") {
-    return {as_first("the same bits for any order of the particles in the file", 1)};
+    return {as_first("a bit-identical image for any order of the particles in the file", 1)};
   }
   if (name == "count" && data.variant == "0") {
     return {{"only the background", record::OneColour{{0, 0, 0, 0}}}};
   }
   if (name == "widest") {
-    return {{"an image so wide that a device may refuse it", record::MayBeRefused{}}};
+    return {{"an image that a device may reject because it is too wide", record::MayBeRefused{}}};
   }
   return {};
 }

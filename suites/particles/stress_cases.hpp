@@ -1,12 +1,12 @@
 #pragma once
-// Scenes that break renderers of spheres, each with the expected result: data "stress:CASE" or
-// "stress:CASE:VARIANT". They bring their own camera and viewport, which the factors `camera`,
-// `fov` and `viewport` use with the level `own`.
+// Scenes on which sphere renderers often fail, each with the expected result. A plan selects them
+// with data "stress:CASE" or "stress:CASE:VARIANT". Each scene has its own camera and viewport,
+// which are used if the factors `camera`, `fov` and `viewport` have the level `own`.
 //
-// In every image a certain pixel (reference/spheres.hpp) must show the reference's id, with depth
-// and colour within the bounds of tolerance.hpp; any other pixel must show a colour that is
-// possible there. Each case states why single precision can achieve that, and what else is
-// expected.
+// In every image, each certain pixel (reference/spheres.hpp) must show the same particle as the
+// reference image, with depth and colour within the bounds of tolerance.hpp. Any other pixel must
+// show one of the colours that are possible there. Each case states why single precision is
+// sufficient for this, and what else is expected.
 
 #include <optional>
 #include <string>
@@ -19,7 +19,7 @@
 
 namespace triptych::particles_suite {
 
-// The level of `camera`, `fov` and `viewport` that selects the value that belongs to the data.
+// With this level, `camera`, `fov` and `viewport` use the values that the stress case defines.
 using measure::own_level;
 
 struct StressCase {
@@ -36,7 +36,8 @@ using StressData = measure::StressChoice<StressCase>;
 // The name of the data in a plan.
 [[nodiscard]] std::string name_of(const StressData& data);
 
-// nullopt for other data. Throws InputError for an unknown case or variant.
+// Returns nullopt if `data` does not name a stress case. Throws InputError if the case or variant
+// is unknown.
 [[nodiscard]] std::optional<StressData> stress_data(std::string_view data);
 
 struct StressScene {
@@ -49,7 +50,7 @@ struct StressScene {
 };
 [[nodiscard]] StressScene stress_scene(const StressData& data, scene::ColourKind colour);
 
-// Expectations in addition to the bound.
+// The expectations of the case, in addition to its error bound.
 [[nodiscard]] std::vector<record::Expectation> stress_expectations(const StressData& data);
 
 }  // namespace triptych::particles_suite

@@ -26,7 +26,7 @@ StressMaker::StressMaker(scene::ColourKind colour, const scene::Camera& camera, 
 void StressMaker::add(const glm::dvec3& centre, double radius) {
   const std::uint32_t index = next_++;
   if (!scene::append(scene_.particles, {centre.x, centre.y, centre.z, radius}, index)) return;
-  // Multiples of the golden ratio, so that neighbours in the set have very different colours.
+  // The hue advances by the golden ratio, so that successive particles have very different colours.
   const double turns = std::fmod(index * std::numbers::phi, 1.0);
   scene::append_colour(scene_.particles, scene::hue_colour(turns), turns);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Building blocks of the stress scenes.
+// Building blocks for stress scenes.
 
 #include <charconv>
 #include <glm/vec3.hpp>
@@ -14,8 +14,8 @@ using scene::looking;
 // Width and height of most stress images, in pixels.
 inline constexpr int stress_side = 96;
 
-// The number at the beginning of a variant such as "1e6" or "64x48"; 0 if it does not begin with
-// one.
+// Returns the number at the beginning of a variant, such as 64 for "64x48", or 0 if the variant
+// does not begin with a number.
 template <typename Number>
 [[nodiscard]] Number number_in(std::string_view variant) {
   Number number = 0;
@@ -30,14 +30,15 @@ class StressMaker {
  public:
   StressMaker(scene::ColourKind colour, const scene::Camera& camera, int width, int height);
 
-  // Adds the next particle. An invalid sphere is dropped, but its number is used up.
+  // Adds the next particle. An invalid sphere is dropped, but still uses up its particle number.
   void add(const glm::dvec3& centre, double radius);
   // Adds a particle at a place in the image, given in pixels from the upper left corner, at the
   // distance `depth` along the view axis, with a radius in pixels at that depth.
   void add_at(double x, double y, double depth, double radius_px);
-  // Leaves out one particle number.
+  // Skips one particle number.
   void skip() { ++next_; }
 
+  // Returns the world-space point at a position in the image (in pixels) and a depth.
   [[nodiscard]] glm::dvec3 place(double x, double y, double depth) const;
   // The edge length of a pixel at distance 1 along the view axis.
   [[nodiscard]] double pixel() const;
@@ -49,7 +50,7 @@ class StressMaker {
   std::uint32_t next_ = 0;
 };
 
-// Makes a scene from existing particles.
+// Creates a scene from existing particles.
 [[nodiscard]] StressScene stress_of(scene::ParticleSet set, const scene::Camera& camera, int width,
                                     int height);
 

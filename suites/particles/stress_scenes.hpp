@@ -1,6 +1,6 @@
 #pragma once
-// Functions that make the scenes of stress_cases.hpp. Each makes every variant of its case;
-// `variant` must be one that the catalogue lists.
+// Functions that create the scenes of stress_cases.hpp. Each function creates all variants of its
+// case; `variant` must be listed in the catalogue.
 
 #include <string_view>
 
@@ -23,7 +23,7 @@ using MakeStressScene = StressScene (*)(std::string_view variant, scene::ColourK
 [[nodiscard]] StressScene stress_subpixel(std::string_view, scene::ColourKind);
 [[nodiscard]] StressScene stress_depth_range(std::string_view, scene::ColourKind);
 
-// Sets of particles: valid values, number, order, camera.
+// Particle sets: validity, number and order of the particles, and camera movement.
 [[nodiscard]] StressScene stress_no_sphere(std::string_view, scene::ColourKind);
 [[nodiscard]] StressScene stress_coincident(std::string_view, scene::ColourKind);
 [[nodiscard]] StressScene stress_interpenetrating(std::string_view, scene::ColourKind);

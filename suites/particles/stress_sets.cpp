@@ -1,4 +1,4 @@
-// Stress scenes about sets of particles, and about the frame they are drawn into.
+// Stress scenes that test properties of the particle set, and of the image that it is drawn into.
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -24,7 +24,7 @@ StressScene generated(std::string_view generator, std::uint64_t count, scene::Co
   return stress_of(std::move(set), camera, width, height);
 }
 
-// Reorders the particles with their ids and colours (Fisher and Yates 1938).
+// Shuffles the particles together with their ids and colours (Fisher and Yates 1938).
 void shuffle(scene::ParticleSet& set) {
   core::Random random(5);
   const auto exchange = [](auto& values, std::size_t i, std::size_t j) {
@@ -91,7 +91,8 @@ StressScene stress_interpenetrating(std::string_view, scene::ColourKind colour) 
   return maker.take();
 }
 
-// All particles cover the centre of one pixel, behind the last one.
+// All particles cover the centre of one pixel. The particle that is added last hides all others
+// there.
 StressScene stress_pile(std::string_view variant, scene::ColourKind colour) {
   constexpr int small_side = 33;
   const std::uint64_t count = number_in<std::uint64_t>(variant);
@@ -119,8 +120,8 @@ StressScene stress_order(std::string_view variant, scene::ColourKind colour) {
   return scene;
 }
 
-// Two crowds on both sides of a wall. The eye jumps from one side to the other, so that nothing
-// that was visible before is useful, and most of what was hidden is needed.
+// There is a crowd of spheres on each side of a wall. The eye jumps from one side to the other, so
+// knowing what was visible in the previous frame is useless, and most hidden spheres are needed.
 StressScene stress_jump(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({3, 2, -24}, {0, 0, 0}, fov), stress_side, stress_side);
   for (int y = 0; y < 21; ++y) {
@@ -141,7 +142,7 @@ StressScene stress_jump(std::string_view, scene::ColourKind colour) {
   return scene;
 }
 
-// The longer side always shows the same extent of the scene.
+// Along its longer side, the image always shows the same extent of the scene.
 StressScene stress_shape(std::string_view variant, scene::ColourKind colour) {
   const std::size_t times = variant.find('x');
   const int width = number_in<int>(variant.substr(0, times));
@@ -154,7 +155,7 @@ StressScene stress_shape(std::string_view variant, scene::ColourKind colour) {
   return scene;
 }
 
-// The view spans a quarter of a turn from the left to the right edge.
+// From its left to its right edge, the image spans 90 degrees.
 StressScene stress_widest(std::string_view, scene::ColourKind colour) {
   constexpr int width = 16384;
   constexpr int height = 8;
@@ -176,7 +177,7 @@ StressScene stress_field_of_view(std::string_view variant, scene::ColourKind col
     for (int i = 0; i < 5; ++i) maker.add_at(16 + 15.0 * i, 20 + 13.0 * i, 10, 6 + 2.0 * i);
     return maker.take();
   }
-  // The image shows nearly a half space, so that the spheres at the side look large.
+  // The image shows almost a half space, so spheres near its edges look large.
   const scene::Camera camera = looking({0.1, 0.2, 0.3}, {0.4, 0.1, -2}, 179);
   StressMaker maker(colour, camera, stress_side, stress_side);
   for (int i = 0; i < 8; ++i) {
@@ -188,8 +189,8 @@ StressScene stress_field_of_view(std::string_view variant, scene::ColourKind col
   return maker.take();
 }
 
-// The letter F with its lower end closer to the eye. No flip and no exchange of axes leaves it
-// unchanged.
+// The letter F, with its lower end closer to the eye, so that every flip and every exchange of axes
+// changes the image.
 StressScene stress_asymmetric(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({0, 0, 0}, {0, 0, -1}, fov), stress_side, stress_side);
   for (int i = 0; i < 7; ++i) maker.add_at(30, 16 + 10.0 * i, 5 - 0.3 * i, 7);

@@ -1,4 +1,4 @@
-// Stress scenes about the geometry of one or a few spheres.
+// Stress scenes that test the geometry of one sphere or a few spheres.
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -22,7 +22,8 @@ void add_pair(StressMaker& maker) {
 
 }  // namespace
 
-// Everything is multiplied by one power of two in world units, which commutes with rounding.
+// All lengths are multiplied by the same power of two. This commutes with rounding, so the image
+// must not change.
 StressScene stress_scale(std::string_view variant, scene::ColourKind colour) {
   const double scale = variant == "small" ? 0x1.0p-20 : variant == "large" ? 0x1.0p20 : 1.0;
   StressMaker maker(colour, looking(scale * 5.0 * oblique(), {0, 0, 0}, 40), stress_side,
@@ -34,8 +35,8 @@ StressScene stress_scale(std::string_view variant, scene::ColourKind colour) {
   return maker.take();
 }
 
-// Both silhouettes are complete and apart, so the image does not depend on depths, which a float
-// cannot resolve here.
+// Both silhouettes are fully visible and do not overlap, so the image does not depend on depths,
+// which floats cannot resolve at this distance.
 StressScene stress_far(std::string_view variant, scene::ColourKind colour) {
   constexpr int larger_side = 160;
   const double distance = number_in<double>(variant);
@@ -62,7 +63,7 @@ StressScene stress_inside(std::string_view variant, scene::ColourKind colour) {
                     stress_side);
   add_pair(maker);
   maker.add({0.5, 0.15, -0.6}, 0.15);  // also inside, in front of the shell
-  maker.add({0.9, 0.3, -2.5}, 0.8);    // outside: hidden by the shell
+  maker.add({0.9, 0.3, -2.5}, 0.8);    // outside, hidden by the shell
   return maker.take();
 }
 
@@ -75,7 +76,7 @@ StressScene stress_skimming(std::string_view variant, scene::ColourKind colour) 
   camera.up = up;
   StressMaker maker(colour, camera, stress_side, stress_side);
   maker.add({0, 0, 0}, 1);
-  // These spheres are half sunk into the ground, in front of the horizon, on it and behind it.
+  // These spheres are half sunk into the ground. Some are before the horizon, some behind it.
   for (const double angle : {0.004, 0.014, 0.1, 0.5}) {
     const glm::dvec3 foot = std::cos(angle) * up + std::sin(angle) * ahead;
     maker.add(foot + 0.3 * angle * camera.right(), 0.2 * angle);
@@ -111,8 +112,9 @@ StressScene stress_wide(std::string_view, scene::ColourKind colour) {
   return maker.take();
 }
 
-// Centres lie on the edges and corners of the image. Outside of it, one sphere reaches a pixel into
-// the image and another ends a pixel before it.
+// Nine spheres have their centres on the edges, on the corners and in the middle of the image. Two
+// more spheres have their centres outside the image: one of them reaches one pixel into the image,
+// and the other one ends one pixel before its edge.
 StressScene stress_edges(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({2, 1, 4}, {0, 0, 0}, 50), stress_side, stress_side);
   for (const double x : {0.0, stress_side / 2.0, 1.0 * stress_side}) {
@@ -124,8 +126,9 @@ StressScene stress_edges(std::string_view, scene::ColourKind colour) {
   return maker.take();
 }
 
-// Radii are a hundredth of a pixel. Spheres at the centre of every eighth pixel of every eighth row
-// are visible. No ray hits the spheres on pixel corners four pixels farther.
+// All radii are a hundredth of a pixel. The spheres at the centre of every eighth pixel of every
+// eighth row are visible. No ray hits the spheres on pixel corners, which are offset from them by
+// about four pixels.
 StressScene stress_subpixel(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking(oblique(), {0, 0, 0}, 60), stress_side, stress_side);
   for (int y = 4; y < stress_side; y += 8) {
@@ -137,8 +140,8 @@ StressScene stress_subpixel(std::string_view, scene::ColourKind colour) {
   return maker.take();
 }
 
-// Seven spheres that look equally large because each is as large as its distance. Each overlaps the
-// next one, which is ten times as far away.
+// Seven spheres of the same apparent size, because their radii are proportional to their distances.
+// Each overlaps the next one, which is ten times as far away.
 StressScene stress_depth_range(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({0, 0, 0}, {0.3, -0.1, -1}, 60), stress_side, stress_side);
   double depth = 1e-3;

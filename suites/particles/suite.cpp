@@ -33,8 +33,8 @@ namespace {
 using measure::as_number;
 using measure::Configuration;
 
-// The error model. A device that does not report its sub-pixel grid is assumed to have that of all
-// devices seen so far.
+// Returns the error model for a device with this precision. A device that does not report its
+// number of sub-pixel bits is assumed to have 8, like all devices seen so far.
 reference::SphereErrorModel model_of(const scene::ParticleScene& scene,
                                      const Configuration& configuration,
                                      const std::map<std::string, double>& precision) {
@@ -94,20 +94,23 @@ class ParticleSuite final : public measure::SuiteWithTruth, public measure::Expe
                                              int y) override;
 
  private:
-  // The last set that was loaded, with everything that belongs to it. Neighbouring configurations
-  // of a plan share it.
+  // The particle set that was loaded last, with everything that belongs to it. It is cached because
+  // successive configurations of a plan usually use the same set.
   struct Loaded {
     std::string what;
     std::shared_ptr<const scene::ParticleSet> particles;
-    std::optional<StressScene> own;  // without its particles, which were moved to the member above
+    // The stress scene without its particles, which were moved to `particles`.
+    std::optional<StressScene> own;
   };
 
   void load(const Configuration& configuration);
-  // Throws InputError if the loaded data have no camera and viewport of their own.
+  // Returns the loaded stress scene, which has its own camera and viewport. Throws InputError if
+  // other data are loaded.
   [[nodiscard]] const StressScene& own(std::string_view factor) const;
   [[nodiscard]] scene::Camera camera(const Configuration& configuration) const;
   [[nodiscard]] scene::ParticleScene scene(const Configuration& configuration);
-  // Everything that determines the image and is not a factor, except the particles.
+  // A string that identifies everything that affects the image, except for the factors and the
+  // particles.
   [[nodiscard]] std::string beside_factors(const Configuration& configuration);
 
   std::vector<std::filesystem::path> folders_;
@@ -129,8 +132,8 @@ std::string ParticleSuite::missing_data(const Configuration& configuration) cons
   const std::string& data = configuration.at("data");
   if (stress_data(data) || scene::particles_present(data, folders_)) return {};
   return fmt::format(
-      "data file '{}' was not found{}; set TRIPTYCH_DATA to the folder that holds particles/", data,
-      folders_.empty() ? "" : fmt::format(", nor in {}", folders_.front().string()));
+      "data file '{}' was not found{}; set TRIPTYCH_DATA to the folder that contains particles/",
+      data, folders_.empty() ? "" : fmt::format(" here or in {}", folders_.front().string()));
 }
 
 void ParticleSuite::load(const Configuration& configuration) {
@@ -158,7 +161,7 @@ void ParticleSuite::load(const Configuration& configuration) {
 const StressScene& ParticleSuite::own(std::string_view factor) const {
   if (loaded_.own) return *loaded_.own;
   throw core::InputError(
-      fmt::format("{}: the level own is only for data stress:CASE, but the data are {}", factor,
+      fmt::format("{}: level 'own' is only for data stress:CASE, but the data are {}", factor,
                   loaded_.particles->name));
 }
 
@@ -243,7 +246,8 @@ std::string ParticleSuite::truth_key(const Configuration& configuration,
                      pictured.particles->hash, model_hash, beside_factors(configuration));
 }
 
-// A device whose reported grid is not finer than this draws sprites that grow
+// Counters may differ for two reasons. A device with a limited point size draws larger sprites as
+// quads. A device with a coarse vertex grid draws sprites that are larger than on other devices
 // (technique/particles/margins.hpp).
 std::map<std::string, double> ParticleSuite::open_counts(
     const Configuration& configuration, const std::map<std::string, double>& precision) {
@@ -297,8 +301,8 @@ std::string ParticleSuite::limit_key(const Configuration& configuration) {
       configuration.at("viewport"), beside_factors(configuration));
 }
 
-// A pixel shows the surface on the ray through its centre, so there is no sampling to refine: the
-// reference in double precision is already the limit.
+// A pixel shows the surface on the ray through its centre. No sampling can be refined, so the
+// reference image in double precision is already the limit.
 measure::Limit ParticleSuite::limit(const Configuration& configuration) {
   core::Image image = reference::render_spheres(scene(configuration)).image();
   core::Image none(image.width, image.height);

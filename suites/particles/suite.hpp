@@ -7,8 +7,8 @@
 
 namespace triptych::particles_suite {
 
-// The suite for spheres, drawn as sprites or by compute. Files named by factors are looked for in
-// `data_folders`.
+// Creates the suite for spheres, which are drawn as sprites or by compute. Files named by factors
+// are searched for in `data_folders`.
 [[nodiscard]] std::unique_ptr<measure::SuiteWithTruth> make_suite(
     std::vector<std::filesystem::path> data_folders);
 

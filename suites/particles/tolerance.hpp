@@ -1,6 +1,7 @@
 #pragma once
-// The largest difference from the reference image that a correct image may have. It is derived from
-// the arithmetic of a device. No number here was chosen by looking at an image.
+// Derives how much the image of a correct device may differ from the reference image. All numbers
+// follow from counting the rounding errors of the device's arithmetic. None was tuned by looking at
+// images.
 
 #include "reference/spheres.hpp"
 #include "scene/particle_scene.hpp"
@@ -9,35 +10,43 @@
 namespace triptych::particles_suite {
 
 // The error model counts roundings. u = 2⁻²⁴ is the unit roundoff of float. Every basic operation
-// has a relative error of at most u; a division has 2.5 ulp = 5u, and a square root the same, where
-// the API allows it. W is the longer side of the image in pixels.
+// has a relative error of at most u. APIs allow division and square root to be less precise: 2.5
+// ulp = 5u. W is the longer side of the image in pixels.
 //
-// Lateral, in pixels.
-//   - sx = (x + ½)·pixel − half: rounding the pixel's size moves a point by up to u·W, the product
-//     by u·W, the half extent and the difference by u·W/2 each: 3u·W.
-//   - The centre's coordinates are accurate to u (tri_along_axis). A component of m = c × d adds a
-//     product and a difference of terms within the image plane's extent at that depth: 3u·W/2.
-//   - For two axes this is multiplied by √2. Together below 8u·W.
-//   - If the ray is computed at the vertices, they lie on the rasterizer's grid of g = 2⁻ᵇ pixel.
-//     The interpolated ray is then that of a point up to g/2 away per axis. Adding g leaves as much
-//     again for the interpolation itself. Sprites cover what the grid moves
-//     (technique/particles/margins.hpp), so that a ray computed per pixel depends on no grid.
+// 1. Lateral error of the ray, in pixels.
+//   - sx = (x + ½)·pixel − half. Rounding `pixel`, the size of a pixel, moves a point by up to u·W;
+//     the product adds another u·W, and `half` (half the extent of the image) and the difference
+//     add u·W/2 each. The sum is 3u·W.
+//   - The coordinates of the centre are accurate to u (tri_along_axis). Each component of m = c × d
+//     adds the roundings of a product and of a difference. Their terms are at most half the extent
+//     of the image at that depth, so the three errors sum up to 3u·W/2.
+//   - The error in two axes is √2 times as large. The total is below 8u·W.
+//   - Rays that are computed at vertices and interpolated have an additional error, because
+//     vertices are snapped to the rasterizer's grid of g = 2⁻ᵇ pixel. The interpolated ray is the
+//     ray of a point that is up to g/2 away along each axis. The model adds g, which leaves the
+//     same amount again for the interpolation itself. Rays that are computed per pixel do not
+//     depend on the grid, because sprites are large enough to allow for snapping
+//     (technique/particles/margins.hpp).
 //
-// Lateral, relative to the radius. r²·q (3u + 2u) is compared with |m|² (3 squares and 2 sums, 5u,
-// halved by the root): 5u·r.
+// 2. Lateral error, relative to the radius. A ray hits if |m|² ≤ r²·q. The right side has an error
+// of 5u (3u from q and 2u from two products), and so has the left side (three squares and two
+// sums). The square root halves their sum: 5u·r.
 //
-// Depth, relative to |C| + r.
-//   - b = c·d has 3 products and 2 sums, 3u·|c||d|, and c has u itself: 4u.
-//   - Root: the discriminant's error is the lateral one; the root itself has 5u.
-//   - The difference has u, the division 5u, q 3u, near/Z 5u, and the way back u. Together below
-//     24u.
+// 3. Error of the depth, relative to |C| + r.
+//   - b = c·d consists of 3 products and 2 sums, 3u·|c||d|. The error of c adds u: 4u.
+//   - The root √D: the error of the discriminant D is the lateral error above. The square root
+//     itself adds 5u.
+//   - The difference b − √D adds u, the division by q adds 5u, and q itself 3u. The reversed depth
+//     near/Z adds 5u, and its conversion back to a distance adds u. The total is 24u.
 //
-// Colour, relative to full scale.
-//   - cosine = √(D/q)/r: two divisions 5u + 5u, root 5u, q 2u.
-//   - Light: product and sum, 2u.
-//   - The stored colour: byte/255 has 5u. From a table it has 3u of the value and 3u of
-//     position·256, times the table's slope, which the 256u below cover.
-//   - The final product has u. Together 32u, and 256u more for an intensity.
+// 4. Error of the colour, relative to full scale.
+//   - cosine = √(D/q)/r: 5u for each of the two divisions, 5u for the square root, and 2u from q.
+//   - Light: a product and a sum, 2u.
+//   - The particle's colour: byte/255 has an error of 5u. A colour from the transfer function has
+//     3u from the interpolation. It also has the error of its position in the table, 3u of
+//     position·256, times the slope of the table; the 256u below cover this.
+//   - The product of light and colour adds u. The total is below 32u, or below 32u + 256u for an
+//     intensity.
 [[nodiscard]] reference::SphereErrorModel error_model(const scene::ParticleScene& scene,
                                                       technique::ComputedAt ray,
                                                       int sub_pixel_bits = 8);

@@ -24,11 +24,11 @@ std::vector<std::uint32_t> by_id(const scene::ParticleSet& set) {
   return places;
 }
 
-// A cell with more particles than this becomes several cells, so that a crowded region can still be
-// divided.
+// A cell with more particles than this is split into several cells. A crowded region can therefore
+// be divided even where planes cannot divide it.
 constexpr std::uint32_t longest_run = 4 * particles_per_cell;
 
-// Particles of one part that have successive ids.
+// Particles of one part of the division that have successive ids.
 struct Run {
   glm::vec3 lo{std::numeric_limits<float>::infinity()};
   glm::vec3 hi{-std::numeric_limits<float>::infinity()};
@@ -36,9 +36,9 @@ struct Run {
   std::uint32_t begin = 0;  // index of its first particle in the arrangement
 };
 
-// Divides the particles into runs. It visits all particles several times in the order of their ids,
-// and determines the run of a particle again each time, because storing the runs would take as much
-// memory as the order.
+// Divides the particles into runs. Visits all particles several times in the order of their ids,
+// and determines the run of a particle again each time, because storing the run of each particle
+// would take as much memory as the order itself.
 class Runs {
  public:
   explicit Runs(const scene::ParticleScene& scene)
@@ -126,9 +126,9 @@ class Runs {
     return glm::distance(eye, glm::clamp(eye, glm::dvec3(run.lo), glm::dvec3(run.hi)));
   }
 
-  // Runs with large spheres stay in front. The others are sorted by the distance of their part.
-  // Runs of the same part stay in order. Coincident spheres are in the same part, so the one with
-  // the lowest id is drawn first.
+  // Runs with large spheres stay at the front. All other runs are sorted by the distance of their
+  // part from the eye, and runs of the same part stay in order. Coincident spheres are in the same
+  // part, so the one with the lowest id is drawn first.
   void sort_front_to_back() {
     std::vector<double> distances(runs_.size());
     for (std::size_t part = 0; part < first_run_.size(); ++part) {
@@ -159,7 +159,8 @@ class Runs {
   std::vector<std::uint32_t> front_to_back_;
 };
 
-// Fills `out` with value(k) for k from `first` on. It uses memcpy because `out` is not aligned.
+// Fills `out` with value(k) for k = first, first + 1, and so on. Uses memcpy, because `out` may be
+// unaligned.
 template <typename Value>
 void write(std::size_t first, std::span<std::byte> out, const Value& value) {
   using Element = decltype(value(std::size_t{}));

@@ -13,8 +13,8 @@
 
 namespace triptych::technique {
 
-// A run of particles, and the box around their spheres. It has the same layout as in
-// parameters.glsl (std430) and parameters.cl.
+// A run of particles, and the box around their spheres. The layout is the same as in cells.glsl
+// (std430) and in the OpenCL kernels.
 struct Cell {
   std::array<float, 3> lo{};
   std::uint32_t begin = 0;
@@ -32,14 +32,18 @@ enum class Property : std::uint8_t {
 
 // One drawing order for all techniques: cells from front to back as seen from the eye, and
 // ascending ids in each cell. The cells are those of a regular grid, which is divided further where
-// that saves work (division.hpp). A depth test that keeps the first of equals, or a comparison of
-// indices in this order, then resolves every tie in the same way on every device, whatever is
-// culled. Coincident spheres are in one cell, and the one with the lowest id is visible. The order
-// does not depend on the order of the particles in the set. Spheres whose diameter exceeds the edge
-// of a cell are put into the first cells, so that they do not enlarge the boxes of other cells.
+// that saves work (division.hpp).
 //
-// Properties stay in the set and are gathered while they are copied to a device, because for ten
-// million particles a second copy would take too much memory.
+// Ties in depth are resolved by this order, either by a depth test that keeps the first of equal
+// depths or by comparing indices. Every device therefore resolves them in the same way, whatever is
+// culled. Coincident spheres are in one cell, and the one with the lowest id is visible. The order
+// does not depend on the order of the particles in the set.
+//
+// Spheres whose diameter exceeds the edge length of a cell are put into the first cells, so that
+// they do not enlarge the boxes of other cells.
+//
+// Properties stay in the set and are gathered while they are copied to a device, because a second
+// copy of ten million particles would take too much memory.
 struct Arrangement {
   std::shared_ptr<const scene::ParticleSet> particles;
   double radius_scale = 1;
@@ -61,8 +65,8 @@ struct Arrangement {
   [[nodiscard]] std::size_t bytes(Property property) const {
     return element_bytes(property) * count();
   }
-  // Copies the part of the property's array that begins at byte `begin`. `begin` and the size of
-  // `out` are multiples of element_bytes; `out` need not be aligned.
+  // Copies the part of the property's array that begins at byte `begin`. Both `begin` and the size
+  // of `out` are multiples of element_bytes(property); `out` need not be aligned.
   void copy(Property property, std::size_t begin, std::span<std::byte> out) const;
 };
 
@@ -71,9 +75,8 @@ struct Arrangement {
 // follows the view closely.
 inline constexpr std::size_t particles_per_cell = 512;
 
-// Sorts the particles. It needs memory for its result and about a hundredth of the memory of the
-// set. If the ids in the set are not ascending, it temporarily needs the memory of the order a
-// second time.
+// Sorts the particles. In addition to its result, this needs about a hundredth of the set's memory.
+// If the ids in the set are not ascending, it temporarily needs another array as large as `order`.
 [[nodiscard]] Arrangement arrange(const scene::ParticleScene& scene);
 
 }  // namespace triptych::technique

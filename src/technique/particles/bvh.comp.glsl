@@ -1,11 +1,11 @@
-// One invocation traces a beam of 4×2 pixels. It descends the hierarchy, nearer child first. It tests each sphere
-// whose box the beam crosses, unless the box is behind the surfaces that all pixels of the beam have already found.
-// A block has 8×8 beams. Eight consecutive invocations form a square of 8×8 pixels, because software devices run
-// eight invocations at once.
+// One invocation traces a beam of 4×2 pixels. It descends the hierarchy and visits the nearer child first. It tests
+// each sphere whose box the beam crosses, unless the box is behind the surfaces that all pixels of the beam have
+// already found. A block consists of 8×8 beams. Eight consecutive invocations form a square of 8×8 pixels, because
+// software devices run eight invocations at once.
 //
-// The traversal needs no stack. `trail` has one bit for each level below the root; it is 1 if the sibling was
-// visited or missed. Together with the node's number it determines the way back (Laine, Restart trail for stackless
-// BVH traversal, 2010).
+// The traversal needs no stack. `trail` has one bit for each level below the root, which is 1 if the sibling needs
+// no visit: it was visited or missed. Together with the node's number, the bits determine the way back (Laine,
+// Restart trail for stackless BVH traversal, 2010).
 //
 // Components of TRI_STEP:
 //   x  only every x-th beam is traced
@@ -14,11 +14,11 @@
 //   w  flags: 1 continues traversals that an earlier dispatch did not finish; 2 stores where they end
 //
 // Mesa's software devices run 8 invocations in lockstep. After 65,535 iterations of all loops together, they end
-// the loops without an error. A dispatch therefore visits at most TRI_MOST_STEPS = s nodes. At most s/2 of them
+// the loops without an error. A dispatch therefore visits at most s = TRI_MOST_STEPS nodes. At most s/2 of them
 // (and one for each level) are leaves, because a traversal does not visit more leaves than inner nodes. A leaf
-// takes 1 iteration of the outer loop, 1 to end the inner loop, and 9 for up to 8 spheres. Inner nodes take at most
-// 8·s/2 iterations, if no two invocations are at an inner node at the same time. The total is 9.5s plus a few
-// hundred.
+// takes 1 iteration of the outer loop, 1 to end the inner loop, and 9 for up to 8 spheres: 11·s/2 iterations. Inner
+// nodes take at most 8·s/2 iterations, which happens if no two invocations are at an inner node at the same time.
+// The total is 9.5s plus a few hundred, which is less than 65,535 for s = 6,800.
 layout(local_size_x = 64) in;
 
 TRI_BINDING(13) uniform samplerBuffer box_texels;
@@ -30,7 +30,7 @@ TRI_BINDING(15) uniform usamplerBuffer tree_order_texels;
 #define TRI_BEAM_PIXELS 8
 #define TRI_MOST_STEPS 6800u
 
-// Planes through the eye that bound the beam, which is on the positive side of each.
+// The normals of the planes through the eye that bound the beam. The beam is on the positive side of each plane.
 vec3 left_side;
 vec3 right_side;
 vec3 upper_side;
@@ -49,8 +49,8 @@ uint intersections_tested = 0u;
 ivec2 beam_pixel(int k) { return first_pixel + ivec2(k % TRI_BEAM_X, k / TRI_BEAM_X); }
 bool in_picture(ivec2 pixel) { return pixel.x < u.viewport.x && pixel.y < u.viewport.y; }
 
-// The sides are 1/64 pixel outside of the outermost rays. Sprites have the same margin: in single precision, the
-// silhouette of a sphere exceeds the exact one by less than that.
+// The sides of the beam lie 1/64 pixel outside its outermost rays. Sprites have the same margin, because a
+// silhouette in single precision exceeds the exact silhouette by less than that.
 void open_beam(uint beam) {
   uint block = beam / 64u;
   uint n = beam % 64u;
@@ -79,10 +79,11 @@ float highest(vec3 n, vec3 lo, vec3 hi) {
   return tri_box_highest(n.x, n.y, n.z, lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
 }
 
-// Whether the beam crosses the box and something in it may be visible. `nearest` is the smallest distance of the
-// box along the view axis. Tolerance for rounding: 2⁻¹⁸ of the distance from the eye to the farthest point of the
-// box covers products and sums (8u), the rounded axes (u) and, in `nearest`, the error of distances of
-// 24u·(|C| + r). The rounding of the eye's coordinates is covered by 2.4e-7 of them.
+// Returns whether the beam crosses the box and something in the box may be visible. `nearest` is the smallest
+// distance of the box along the view axis. The tolerance for rounding is 2⁻¹⁸ of the distance from the eye to the
+// farthest point of the box. It covers the products and sums (8u), the rounding of the axes (u) and, for `nearest`,
+// the error of a surface's distance, 24u·(|C| + r). Enlarging the box by 2.4e-7 of the eye's coordinates covers the
+// rounding of the eye.
 bool may_show(vec3 world_lo, vec3 world_hi, out float nearest) {
   TRI_PRECISE vec3 around = 2.4e-7 * abs(u.eye.xyz);
   TRI_PRECISE vec3 lo = (world_lo - u.eye.xyz) - around;
@@ -130,8 +131,8 @@ void test_leaf(uint leaf) {
   }
 }
 
-// Moves to the next node to visit: the sibling of the nearest ancestor whose sibling has not been visited yet, or 0
-// if there is none.
+// Moves to the next node: the sibling of the nearest ancestor whose sibling has not been visited yet, or 0 if there
+// is none.
 void go_on(inout uint node, inout uint trail) {
   int up = findLSB(~trail);
   node >>= up;
@@ -139,10 +140,10 @@ void go_on(inout uint node, inout uint trail) {
   node = node > 1u ? node ^ 1u : 0u;
 }
 
-// Traverses the hierarchy from a node until the end (node 0), or for TRI_MOST_STEPS nodes. The inner loop visits
-// all nodes before the next leaf. Devices that run several invocations in lockstep execute the code for leaves
-// whenever one of them is at a leaf; with this form, they are at leaves together (Aila and Laine, Understanding the
-// efficiency of ray traversal on GPUs, 2009).
+// Traverses the hierarchy from a node until the end (node 0), or for at most TRI_MOST_STEPS nodes. The inner loop
+// visits inner nodes until it reaches a leaf. Devices that run several invocations in lockstep execute the code for
+// leaves whenever any of them is at a leaf. With this nesting, the invocations reach their leaves together (Aila
+// and Laine, Understanding the efficiency of ray traversal on GPUs, 2009).
 void trace(inout uint node, inout uint trail) {
   uint leaves = 1u << TRI_TREE_SHAPE.y;
   uint step = 0u;

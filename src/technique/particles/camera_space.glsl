@@ -1,4 +1,4 @@
-// The centre in camera space, and the radius.
+// Returns the centre of a sphere in camera space (xyz), and its radius (w).
 vec4 camera_space(vec4 s) {
   return vec4(
       tri_along_axis(s.x, s.y, s.z, u.eye.x, u.eye.y, u.eye.z, u.eye_rest.x, u.eye_rest.y, u.eye_rest.z,
@@ -11,7 +11,7 @@ vec4 camera_space(vec4 s) {
       s.w);
 }
 
-// The point where the ray through the centre of pixel (x, y) meets the image plane. Row 0 is the top row.
+// Returns the point where the ray through the centre of pixel (x, y) meets the image plane. Row 0 is the top row.
 vec2 pixel_ray(ivec2 pixel) {
   TRI_PRECISE float sx = (float(pixel.x) + 0.5) * u.plane.z - u.plane.x;
   TRI_PRECISE float sy = u.plane.y - (float(pixel.y) + 0.5) * u.plane.w;

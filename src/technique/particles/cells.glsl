@@ -7,8 +7,8 @@ struct Cell {
 };
 layout(std430) TRI_BINDING(6) readonly buffer Cells { Cell cells[]; };
 
-// Whether the box is completely on the negative side of the plane through the eye, by more than rounding errors.
-// Each product has an error of a few 2⁻²⁴ of its size; 2⁻¹⁸ covers all of them.
+// Returns whether the box is completely on the negative side of a plane through the eye, by more than the rounding
+// errors. Each product has an error of a few 2⁻²⁴ of its size; 2⁻¹⁸ of the sizes covers all of them.
 bool beyond(vec3 normal, vec3 lo, vec3 hi) {
   vec3 highest = max(normal * lo, normal * hi);
   vec3 size = max(abs(normal * lo), abs(normal * hi));
@@ -22,7 +22,7 @@ bool outside_view(Cell cell) {
   vec3 rounding = 2.4e-7 * max(abs(u.eye.xyz), max(abs(cell.lo), abs(cell.hi)));
   lo -= rounding;
   hi += rounding;
-  // The edge is one pixel beyond the outermost pixels, so that the margin of a sprite is never cut off.
+  // The view is extended by one pixel on each side, so that the margin of a sprite is never cut off.
   vec2 edge = u.forward.w * u.plane.xy + u.plane.zw;
   return beyond(u.forward.xyz, lo, hi) ||
          beyond(u.right.xyz + edge.x * u.forward.xyz, lo, hi) ||

@@ -1,7 +1,8 @@
-// Converts a particle's colour to that of a pixel. Before resolve_colour, the first component contains the
-// intensity.
+// Converts the stored colour of a particle to the colour of a pixel. If TRI_COLOUR is 2, the first component of a
+// stored colour is the intensity.
 
-// The transfer function is linear between entry centres and constant outside of them.
+// The transfer function is linear between the centres of its entries, and constant beyond the first and the last
+// centre.
 vec4 transfer_colour(float intensity) {
   float position = tri_table_position(intensity);
   int lower = min(int(position), 254);

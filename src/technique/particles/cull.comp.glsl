@@ -1,7 +1,7 @@
 // Include this after cull.glsl. One invocation for each cell tests whether any part of its box is in front of the
-// eye and between the sides of the view. It writes one draw command for each cell. A cell that is left out gets an
-// empty command, so that the order of drawing remains that of the arrangement. TRI_INSTANCED: 1 if the particles of
-// a cell are instances of four vertices, 0 if they are vertices.
+// eye and between the sides of the view. It writes one draw command for each cell. A culled cell gets an empty
+// command, so that cells are drawn in the order of the arrangement. TRI_INSTANCED: 1 if the particles of a cell are
+// instances of four vertices, 0 if they are vertices.
 layout(local_size_x = 64) in;
 
 struct DrawCommand {

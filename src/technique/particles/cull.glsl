@@ -1,18 +1,18 @@
 // Include this after cells.glsl, and after occlusion.glsl if TRI_OCCLUSION is not 0. If TRI_OCCLUSION is 1, this is
-// the first draw of a frame, which draws the cells that were visible in the last frame. If it is 2, this is the
-// second draw, which draws the cells that have become visible since then, and records the visible cells of this
-// frame. 0 or undefined means that there is no occlusion culling.
+// the first draw of a frame, which draws the cells that were visible in the previous frame. If it is 2, this is the
+// second draw, which draws the cells that have become visible since then, and records which cells are visible in
+// this frame. 0 or undefined means that there is no occlusion culling.
 #ifndef TRI_OCCLUSION
 #define TRI_OCCLUSION 0
 #endif
 
-// Whether the pass draws the cell. This function also counts the cell.
+// Returns whether this draw includes the cell, and updates the counters.
 bool is_drawn(uint index, Cell cell) {
   bool drawn = !outside_view(cell);
   bool left_out = !drawn;
 #if TRI_OCCLUSION == 1
   drawn = drawn && visible_before[index] != 0u;
-  left_out = false;  // the second draw decides whether it is left out
+  left_out = false;  // the second draw decides whether the cell is culled
 #elif TRI_OCCLUSION == 2
   bool drawn_before = drawn && visible_before[index] != 0u;
   bool shown = drawn && !hidden(cell);

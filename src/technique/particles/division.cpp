@@ -10,8 +10,8 @@
 namespace triptych::technique {
 namespace {
 
-// The edge length with which about `wanted` cells fill the box. Axes that are too short to be
-// divided are ignored.
+// Returns the edge length with which about `wanted` cells fill the box. Axes that are too short to
+// be divided are ignored.
 double edge_for(const glm::dvec3& size, double wanted) {
   const double longest = std::max({size.x, size.y, size.z});
   if (!(longest > 0)) return 1;
@@ -25,7 +25,7 @@ double edge_for(const glm::dvec3& size, double wanted) {
   return high;
 }
 
-// Compilers turn a loop over the four numbers of a sphere into one instruction. Boxes do not use
+// A loop over all four numbers of a sphere compiles to a single SIMD instruction. Boxes do not use
 // the fourth number.
 using Four = std::array<float, 4>;
 
@@ -75,12 +75,13 @@ struct Plane {
   float at = 0;
 };
 
-// Planes are tried at multiples of 1/16 of the distance from the first centre to the last one.
+// Along each axis, planes are tried at multiples of 1/16 of the distance from the first centre to
+// the last one.
 constexpr std::size_t slices = 16;
 using SliceGroups = std::array<Group, slices>;
 
-// Returns the slice before which a plane has the smallest cost, and that cost. Slice 0 means that
-// no cost is below `most`.
+// Finds the plane with the smallest cost. Returns the slice in front of which it lies, and its
+// cost. Returns slice 0 if no plane costs less than `most`.
 std::pair<std::size_t, double> cheapest(const SliceGroups& parts, double most) {
   std::array<double, slices> below_cost{};
   Group below;
@@ -120,7 +121,8 @@ class PlaneSearch {
     }
   }
 
-  // The plane that saves most, if it saves more than the price of a part.
+  // Returns the plane that saves the most work, or nullopt if no plane saves more than the price of
+  // one more part.
   [[nodiscard]] std::optional<Plane> best(double price) const {
     Group all;
     for (const Group& group : by_axis_[0]) all.add(group);
@@ -177,7 +179,8 @@ Division::Division(const scene::ParticleScene& scene, std::size_t per_cell)
       price_(static_cast<double>(per_cell) / 2),
       nodes_(std::size_t{grid_.cells()} + 1) {
   const auto count = static_cast<std::uint32_t>(scene.particles->count());
-  // Sorts the indices by cell of the grid. Initially, `ends` contains the beginnings of the cells.
+  // Sorts the indices by grid cell. `ends` contains first the number of particles in each cell,
+  // then the index at which the cell begins, and finally the index at which it ends.
   std::vector<std::uint32_t> ends(nodes_.size());
   for (std::uint32_t place = 0; place < count; ++place) ++ends[undivided_part_of(place)];
   std::uint32_t begin = 0;
@@ -220,7 +223,7 @@ void Division::divide(Crowd all) {
           return scene_.particles->spheres[place][plane->axis] < plane->at;
         });
     const auto below = static_cast<std::size_t>(above - crowd.places.begin());
-    if (below == 0 || below == crowd.places.size()) continue;  // possible by rounding
+    if (below == 0 || below == crowd.places.size()) continue;  // possible because of rounding
     const auto child = static_cast<std::uint32_t>(nodes_.size());
     nodes_[crowd.node] = {
         .axis = static_cast<std::uint32_t>(plane->axis), .plane = plane->at, .below = child};

@@ -13,7 +13,8 @@ namespace triptych::technique {
 // A regular grid over the centres, with approximately cubic cells.
 class Grid {
  public:
-  // Makes cells for about `per_cell` evenly distributed particles each.
+  // Chooses cells that would contain about `per_cell` particles each if the particles were evenly
+  // distributed.
   Grid(const scene::ParticleSet& set, std::size_t per_cell);
 
   [[nodiscard]] double edge() const { return edge_; }
@@ -27,15 +28,17 @@ class Grid {
 };
 
 // Divides space according to the particles in it. It starts with the cells of a grid. Then it
-// repeatedly divides a cell in two if its particles are so uneven that the division saves work. For
-// example, it separates a wall from the particles behind it.
+// repeatedly divides a cell in two if its particles are distributed so unevenly that the division
+// saves work. For example, it separates a wall from the particles behind it.
 //
 // The cost of a box with n particles is n times the probability that it is visible, which is
 // proportional to its surface area (the surface area heuristic of MacDonald and Booth, Heuristics
-// for ray tracing using space subdivision, 1990). A plane is used if n·A exceeds n₁·A₁ + n₂·A₂ by
-// at least half a cell's particles times A, where A is the surface area of a box around spheres.
-// Each half of a cube has two thirds of its surface, so a cell with evenly distributed particles is
-// divided only if it has at least one and a half times the intended number.
+// for ray tracing using space subdivision, 1990). Let A be the surface area of the box around the
+// spheres of a part with n particles. A plane divides it into two parts with n₁·A₁ and n₂·A₂. The
+// plane is used if n·A − n₁·A₁ − n₂·A₂ is at least A times half the intended number of particles
+// per cell. Each half of a cube has two thirds of its surface area, so a cell with evenly
+// distributed particles is divided only if it has at least one and a half times the intended
+// number.
 class Division {
  public:
   // Needs four bytes per particle while it divides.
@@ -49,13 +52,13 @@ class Division {
   [[nodiscard]] std::size_t parts() const { return nodes_.size(); }
 
  private:
-  // Either a part, or a node that divides space by a plane, according to the side on which centres
-  // are. The parts of the grid come first, after part 0.
+  // Either a part, or a node that divides space by a plane: the centre of a particle determines the
+  // side that it belongs to. Node 0 is part 0. The cells of the grid come next.
   struct Node {
     static constexpr std::uint32_t whole = 3;
     std::uint32_t axis = whole;
     float plane = 0;
-    std::uint32_t below = 0;  // node of the lower side; the other side is the next node
+    std::uint32_t below = 0;  // node of the lower side; the next node is the upper side
   };
   struct Crowd {
     std::uint32_t node = 0;
@@ -67,7 +70,7 @@ class Division {
 
   const scene::ParticleScene& scene_;
   Grid grid_;
-  double price_;  // the price of a part, in particles
+  double price_;  // the saving that justifies one more part, in particles
   std::vector<Node> nodes_;
 };
 

@@ -3,12 +3,13 @@
 // n/2^levels particles (rounded down) or one more. Therefore the tree needs no pointers, and its shape depends only
 // on n (technique::Hierarchy). These kernels build it:
 //   hierarchy_keys      computes the position of each particle on the curve
-//   hierarchy_count, _rows, _totals, _scatter   are run four times, as a stable radix sort by eight bits of it
+//   hierarchy_count, _rows, _totals, _scatter   are one pass of a stable radix sort by eight bits of the position;
+//                       there are four passes
 //   hierarchy_leaves    writes the spheres in the order of the tree, and the boxes of its leaves
 //   hierarchy_level     computes a level of boxes from the level below
-// The backend defines TRI_TREE_ORIGIN (vec4: the corner of the curve's grid, and its cells per unit),
-// TRI_TREE_SHAPE (uvec4: numbers of particles, of levels, of particles in a leaf, and of leaves with one more) and
-// TRI_STEP (uvec4), which is explained in each pass.
+// The backend defines TRI_TREE_ORIGIN (vec4: the corner of the curve's grid, and its cells per unit), TRI_TREE_SHAPE
+// (uvec4: the number of particles, of levels, of particles in a leaf, and of leaves with one more particle) and
+// TRI_STEP (uvec4), which each kernel explains.
 layout(std430) TRI_BINDING(7) buffer Boxes { vec4 boxes[]; };              // lower and upper corner of each node
 layout(std430) TRI_BINDING(8) buffer TreeSpheres { vec4 tree_spheres[]; };  // world space, in the order of the tree
 layout(std430) TRI_BINDING(9) buffer TreeOrder { uint tree_order[]; };      // particles of the tree's spheres

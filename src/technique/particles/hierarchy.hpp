@@ -13,8 +13,9 @@ namespace triptych::technique {
 // The parameters of all kernels that build or traverse the hierarchy. `step` differs between
 // passes.
 struct HierarchyParameters {
-  std::array<float, 4> origin{};         // corner of the curve's grid; w: cells per unit
-  std::array<std::uint32_t, 4> shape{};  // particles, levels, particles of a leaf, larger leaves
+  std::array<float, 4> origin{};  // corner of the curve's grid; w: cells per unit
+  // numbers of particles, levels, particles per leaf, larger leaves
+  std::array<std::uint32_t, 4> shape{};
   std::array<std::uint32_t, 4> step{};
 };
 static_assert(sizeof(HierarchyParameters) == std::size_t{3} * 16);
@@ -39,23 +40,24 @@ class Hierarchy {
   [[nodiscard]] std::uint32_t leaves() const noexcept { return std::uint32_t{1} << levels(); }
   // The index at which the run of particles of a leaf begins.
   [[nodiscard]] std::uint32_t leaf_begin(std::uint32_t leaf) const noexcept;
-  // The number of runs of particles; one invocation sorts each run. At most 1,024, so that the loop
-  // over their counts ends before Mesa ends it (technique/volume/long_rays.hpp).
+  // The number of runs of particles. One invocation sorts each run. There are at most 1,024 runs,
+  // so that the loop over their counts ends before Mesa would end it
+  // (technique/volume/long_rays.hpp).
   [[nodiscard]] std::uint32_t runs() const noexcept;
 
   // The sizes of the buffers in words; at least 4 each, because no API allows an empty buffer.
-  [[nodiscard]] std::size_t box_words() const noexcept;     // two corners of four words per node
-  [[nodiscard]] std::size_t sphere_words() const noexcept;  // spheres in the tree's order
-  [[nodiscard]] std::size_t order_words() const noexcept;   // particles of these spheres
-  [[nodiscard]] std::size_t sorted_words() const noexcept;  // two lists of (position, particle)
+  [[nodiscard]] std::size_t box_words() const noexcept;      // two corners of four words per node
+  [[nodiscard]] std::size_t sphere_words() const noexcept;   // spheres in the tree's order
+  [[nodiscard]] std::size_t order_words() const noexcept;    // particles of these spheres
+  [[nodiscard]] std::size_t sorted_words() const noexcept;   // two lists of (position, particle)
   [[nodiscard]] std::size_t scratch_words() const noexcept;  // counts of 256 digits, and their sums
 
  private:
   HierarchyParameters parameters_;
 };
 
-// One pass of the sort, by eight bits of the position on the curve: the lowest of these bits, and
-// the index at which the list to be read begins.
+// One pass of the sort, which sorts by eight bits of the position on the curve. `shift` is the
+// lowest of these bits, and `from` is the index at which the input list begins.
 struct SortPass {
   std::uint32_t shift = 0;
   std::uint32_t from = 0;
@@ -71,8 +73,8 @@ struct BeamGrid {
 };
 [[nodiscard]] BeamGrid beam_grid(int width, int height);
 
-// The number of groups of 64 invocations, in the rows of TRI_GROUP_COLUMNS that hierarchy.glsl
-// uses.
+// The number of groups of 64 invocations, arranged in rows of TRI_GROUP_COLUMNS groups
+// (hierarchy.glsl).
 [[nodiscard]] std::array<std::uint32_t, 2> group_rows(std::uint32_t invocations);
 
 }  // namespace triptych::technique

@@ -1,5 +1,5 @@
-// One invocation for each node of a level computes its box. TRI_STEP.x is the first of these nodes, which is also
-// their number.
+// One invocation for each node of a level computes its box. TRI_STEP.x is the number of the level's first node,
+// which equals the number of nodes in the level.
 layout(local_size_x = 64) in;
 
 void main() {

@@ -1,5 +1,5 @@
-// One invocation for each digit converts the counts of the runs to positions among all particles with this digit.
-// TRI_STEP is the same as for hierarchy_count.
+// One invocation for each digit converts the counts of the runs to positions among all particles that have this
+// digit. TRI_STEP is the same as for hierarchy_count.
 layout(local_size_x = 64) in;
 
 void main() {

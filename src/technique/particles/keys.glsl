@@ -1,5 +1,6 @@
-// The keys that are stored for a pixel. The nearest depth has the largest key, and 0 means that nothing was found.
-// The first particle has the smallest key. Two injected faults reverse this: fault 2 for ties, fault 3 for depths.
+// The keys that are stored for a pixel. The nearest depth has the largest depth key, and 0 means that nothing was
+// found. The first particle in the drawing order has the smallest particle key. Two injected faults reverse these
+// orders: fault 2 for ties, fault 3 for depths.
 
 #define TRI_LARGEST_KEY 0xFFFFFFFFu
 #define TRI_NO_PARTICLE 0xFFFFFFFFu

@@ -6,8 +6,9 @@
 namespace triptych::technique {
 
 double point_margin(std::string_view renderer, double granularity) {
-  // softpipe draws a point of size s as ⌊s⌋ pixels, beginning at the integer next to its lower end.
-  // A point that is two pixels larger contains every pixel whose centre is in the intended square.
+  // softpipe draws a point of size s as ⌊s⌋ pixels along each axis, beginning at the integer
+  // coordinate next to its lower end. A point that is two pixels larger contains every pixel whose
+  // centre is in the intended square.
   if (renderer.starts_with("softpipe")) return 2;
   // llvmpipe snaps points to 1/256 pixel like any vertex, whatever granularity it reports, and the
   // margin of the sprites already covers that. lavapipe also calls itself llvmpipe.

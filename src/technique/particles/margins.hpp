@@ -3,16 +3,17 @@
 
 namespace triptych::technique {
 
-// The number of pixels to add to the size of a point so that the device draws at least the intended
-// square (TRI_POINT_MARGIN). Sizes are multiples of `granularity` and may be rounded down to one,
-// except on drivers that are known to behave differently. `renderer` is the API's name of the
-// driver.
+// Returns the number of pixels to add to the size of a point so that the device draws at least the
+// intended square (TRI_POINT_MARGIN). Devices may round the size down to a multiple of
+// `granularity`; some drivers are known to behave differently. `renderer` is the driver's name as
+// the API reports it.
 [[nodiscard]] double point_margin(std::string_view renderer, double granularity);
 
-// The number of pixels by which a sprite must be larger on each side, in addition to its margin of
-// 1/64 (TRI_SPRITE_GROWTH), on a device that rounds vertices to a grid of 2⁻ᵇ pixel. Whether a
-// vertex is rounded or truncated, it moves by less than one step along each axis, and an edge by
-// less than √2 steps. Two steps cover that. For 7 bits or more, the margin already does.
+// Returns the number of pixels by which a sprite must grow on each side (TRI_SPRITE_GROWTH), in
+// addition to its margin of 1/64 pixel, if the device rounds vertices to a grid of 2⁻ᵇ pixel.
+// Whether a vertex is rounded or truncated, it moves by less than one grid step along each axis, so
+// an edge moves by less than √2 steps. Two steps cover this. With 7 bits or more, the margin alone
+// is sufficient.
 [[nodiscard]] double sprite_growth(int sub_pixel_bits);
 
 }  // namespace triptych::technique

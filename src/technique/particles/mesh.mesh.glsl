@@ -1,4 +1,5 @@
-// One invocation for each sprite makes the same quad as quad.geom.glsl, perpendicular to the ray to the centre.
+// One invocation for each sprite generates the same quad as quad.geom.glsl, perpendicular to the ray through the
+// centre.
 layout(local_size_x = 32) in;
 layout(triangles, max_vertices = 128, max_primitives = 64) out;
 taskPayloadSharedEXT CellList list;

@@ -1,13 +1,13 @@
-// Include this after cells.glsl. It decides which cells are hidden by comparing them with the farthest depth in
-// each block of 16×16 pixels of an image that shows some of the cells. Depth is reversed, so the farthest depth is
-// the smallest value.
-layout(std430) TRI_BINDING(8) readonly buffer VisibleBefore { uint visible_before[]; };  // in the last frame
+// Include this after cells.glsl. Finds hidden cells by comparing cells with the farthest depth in each block of
+// 16×16 pixels of an image that shows some of the cells. Depth is reversed, so the farthest depth is the smallest
+// value.
+layout(std430) TRI_BINDING(8) readonly buffer VisibleBefore { uint visible_before[]; };  // in the previous frame
 layout(std430) TRI_BINDING(9) writeonly buffer VisibleNow { uint visible_now[]; };
 layout(std430) TRI_BINDING(10) readonly buffer Farthest { uint farthest[]; };  // bits of depths, by block
 
-// The sphere around the box determines which blocks the cell may reach, and the box determines how close it comes.
-// A hidden cell is strictly behind everything that these blocks show, so that not even a tie in depth could be
-// decided differently.
+// The sphere around the box determines which blocks the cell may reach, and the box itself determines its smallest
+// distance. A hidden cell is strictly behind everything that these blocks show, so it could not win a tie in depth
+// either.
 bool hidden(Cell cell) {
   vec3 middle = 0.5 * (cell.lo + cell.hi);
   vec3 half_size = 0.5 * (cell.hi - cell.lo) + 2.4e-7 * max(abs(cell.lo), abs(cell.hi));

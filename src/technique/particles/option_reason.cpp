@@ -23,13 +23,13 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
       return "the fault culled_visible needs culling";
     case ParticleFault::lost_at_border:
       if (in_tiles) return std::nullopt;
-      return "the fault lost_at_border needs tiles, but here the rasterizer decides which "
+      return "the fault lost_at_border needs tiles, but here the rasterizer determines which "
              "pixels a sprite covers";
     case ParticleFault::missing_barrier:
       if (rasterizer == SpriteRasterizer::in_tiles) return std::nullopt;
-      return "the fault missing_barrier needs work groups with barriers, which are not used here";
+      return "the fault missing_barrier needs barriers in work groups, which are not used here";
     case ParticleFault::small_box:
-      return "the fault small_box needs a hierarchy of boxes, which only rays have";
+      return "the fault small_box needs a hierarchy of boxes, which only ray techniques use";
     case ParticleFault::none:
     case ParticleFault::small_sprite:
     case ParticleFault::unresolved_ties:
@@ -42,13 +42,13 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
 std::optional<std::string> fault_of_rays(ParticleFault fault) {
   switch (fault) {
     case ParticleFault::small_sprite:
-      return "the fault small_sprite needs sprites, but rays use none";
+      return "the fault small_sprite needs sprites, but ray techniques draw none";
     case ParticleFault::culled_visible:
-      return "the fault culled_visible needs culling, but rays do not cull cells";
+      return "the fault culled_visible needs culling, but ray techniques do not cull cells";
     case ParticleFault::lost_at_border:
-      return "the fault lost_at_border needs tiles, but rays do not use tiles";
+      return "the fault lost_at_border needs tiles, but ray techniques do not use tiles";
     case ParticleFault::missing_barrier:
-      return "the fault missing_barrier needs work groups with barriers, which rays do not use";
+      return "the fault missing_barrier needs barriers in work groups, but ray techniques use none";
     case ParticleFault::none:
     case ParticleFault::unresolved_ties:
     case ParticleFault::reversed_depth:
@@ -78,7 +78,7 @@ std::optional<std::string> option_reason(std::string_view id, const ParticleOpti
   }
   if (technique.method == Method::rays) return fault_of_rays(options.fault);
   if (options.structure != Structure::built_once) {
-    return fmt::format("{} uses no hierarchy, so none can be built in every frame", id);
+    return fmt::format("{} uses no hierarchy, so there is none to refit or rebuild", id);
   }
   return fault_of_sprites(technique, options, rasterizer);
 }

@@ -10,13 +10,12 @@
 
 namespace triptych::technique {
 
-// Determines which pixels a sprite covers: either the rasterizer of the API, or kernels that bin
-// sprites into tiles with work groups. The possible faults depend on this.
+// What determines which pixels a sprite covers: the API's rasterizer, or kernels that bin sprites
+// into tiles with work groups. Some faults can be injected into only one of the two.
 enum class SpriteRasterizer : std::uint8_t { of_the_api, in_tiles };
 
-// The reason why the technique (a name in the catalogue) lacks what these options request or inject
-// a fault into; empty if it lacks nothing. The capabilities of a device are checked by the
-// backends.
+// Returns why the technique (a name in the catalogue) does not support these options or the
+// injected fault, or nullopt if it supports them. The backends check the capabilities of a device.
 [[nodiscard]] std::optional<std::string> option_reason(std::string_view technique,
                                                        const ParticleOptions& options,
                                                        SpriteRasterizer rasterizer);

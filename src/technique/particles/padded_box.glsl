@@ -1,6 +1,6 @@
-// The box of a sphere for an acceleration structure. Include this after sphere_box.glsl. The driver traverses the
-// structure. It uses rays and boxes in single precision and does not specify how its arithmetic rounds. The box
-// must contain everything that the sphere's own test can hit, so it is larger than the sphere by
+// Computes the box of a sphere for an acceleration structure. Include this after sphere_box.glsl. The driver
+// traverses the structure with rays and boxes in single precision, and no specification says how its arithmetic
+// rounds. The box must contain everything that the sphere's own test can hit, so it is larger than the sphere by
 //   2⁻¹⁹·(|eye| + |c| + r)  for the rounding of the eye and of the ray's direction (in each component, u of the
 //                           distance), the driver's differences and divisions (a few u more), and the error of
 //                           24u·(|c| + r) in the distance of a hit. That error is along the view axis, so it is

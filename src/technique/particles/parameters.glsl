@@ -1,10 +1,10 @@
 // The layout is the same as that of technique::ParticleParameters (particle_parameters.hpp), which explains each
 // field. The backend's prelude defines
-//   TRI_BINDING(n)                 the place of the block with that number
-//   TRI_LINK(n)                    the location of a variable between stages, if the language has them
+//   TRI_BINDING(n)                 the binding of block n
+//   TRI_LINK(n)                    the location of a variable between stages, if the language has locations
 //   TRI_COLOUR                     0 rgba8, 1 rgba32, 2 intensity
 //   TRI_TRANSFER_AT_PIXEL, TRI_RAY_AT_VERTEX (0 or 1), TRI_FAULT (technique::ParticleFault)
-// which may be specialization constants, and the macro TRI_COUNT (0 or 1).
+// all of which may be specialization constants, and the macro TRI_COUNT (0 or 1).
 layout(std140) TRI_BINDING(0) uniform Parameters {
   vec4 eye;
   vec4 eye_rest;

@@ -1,5 +1,5 @@
 #pragma once
-// The counters of a counting frame of GL or Vulkan, computed from the sums of the shared shaders.
+// Computes the counters of an OpenGL or Vulkan frame from the sums that the shared shaders write.
 
 #include <cstdint>
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace triptych::technique {
 
-// The columns of the counters, with the values of TRI_COUNT_… in parameters.glsl.
+// The columns of the counters, with the values of the constants TRI_COUNT_… in parameters.glsl.
 enum class ParticleCounter : std::uint8_t {
   sprites,
   vertices,
@@ -33,7 +33,7 @@ inline constexpr std::size_t particle_counter_columns = 8;
 inline constexpr std::size_t particle_counter_bytes =
     particle_counter_rows * particle_counter_columns * sizeof(std::uint32_t);
 
-// The number of different particles that the image shows.
+// The number of different particles that are visible in the image.
 [[nodiscard]] std::uint64_t visible_ids(const core::Image& picture);
 
 struct CountedFrame {

@@ -39,14 +39,14 @@ Structure structure(std::string_view name) {
     if (name == name_of(each)) return each;
   }
   throw core::InputError(
-      fmt::format("unknown structure '{}'; there are: static, refit, rebuild", name));
+      fmt::format("unknown structure '{}'; expected static, refit or rebuild", name));
 }
 
 ComputedAt computed_at(std::string_view name) {
   for (const ComputedAt stage : {ComputedAt::vertex, ComputedAt::pixel}) {
     if (name == name_of(stage)) return stage;
   }
-  throw core::InputError(fmt::format("unknown stage '{}'; there are: vertex, pixel", name));
+  throw core::InputError(fmt::format("unknown stage '{}'; expected vertex or pixel", name));
 }
 
 Culling culling(std::string_view name) {
@@ -54,7 +54,7 @@ Culling culling(std::string_view name) {
     if (name == name_of(each)) return each;
   }
   throw core::InputError(
-      fmt::format("unknown culling '{}'; there are: none, frustum, occlusion", name));
+      fmt::format("unknown culling '{}'; expected none, frustum or occlusion", name));
 }
 
 }  // namespace triptych::technique

@@ -9,7 +9,7 @@ namespace triptych::technique {
 // The stage that computes a quantity, if both the vertex stage and the fragment stage could compute
 // it.
 enum class ComputedAt : std::uint8_t { vertex, pixel };
-// The cells that are left out: none, those outside the view, or also those that are hidden.
+// The cells that are culled: none, the cells outside the view, or also the hidden cells.
 enum class Culling : std::uint8_t { none, frustum, occlusion };
 // The work of a frame on a hierarchy or an acceleration structure before rays traverse it: none,
 // because the structure was built when the scene was prepared; fitting the boxes to spheres that
@@ -22,13 +22,13 @@ enum class Structure : std::uint8_t { built_once, refitted, rebuilt };
 [[nodiscard]] ComputedAt computed_at(std::string_view name);  // throws InputError
 [[nodiscard]] Culling culling(std::string_view name);         // throws InputError
 
-// Faults that can be injected to prove that the gate finds them. They are compile-time constants of
-// shaders and kernels unless they are parameters.
+// Faults that can be injected to prove that the gate finds them. In shaders and kernels, a fault is
+// a compile-time constant unless it only changes a parameter.
 enum class ParticleFault : std::uint8_t {
   none = 0,
   small_sprite = 1,     // the radius of every sprite is 1 % smaller than that of the silhouette
-  unresolved_ties = 2,  // if depths are equal, the particle that is drawn last is kept
-  reversed_depth = 3,   // the farther one of two depths is kept
+  unresolved_ties = 2,  // if depths are equal, the particle that is drawn last stays visible
+  reversed_depth = 3,   // the farther of two surfaces stays visible
   wrong_sense = 4,      // early rejection uses the sphere's back instead of its front; the
                         // shader declares the opposite of what conservative depth needs
   culled_visible = 5,   // culling assumes a view that is half as wide as the real one

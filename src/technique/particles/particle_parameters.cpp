@@ -9,8 +9,8 @@ float nearest(double value) {
   return static_cast<float>(value);
 }
 
-// The function must not be inlined, because GCC 12 vectorises neighbouring calls in a way that
-// omits the rounding to float and back, which would make every rest 0.
+// This function must not be inlined, because GCC 12 vectorises adjacent calls in a way that omits
+// the rounding to float and back. Every result would then be 0.
 [[gnu::noinline]] float rest(double value) {
   return static_cast<float>(value - static_cast<double>(nearest(value)));
 }

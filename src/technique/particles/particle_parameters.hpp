@@ -11,8 +11,8 @@
 
 namespace triptych::technique {
 
-// Has the same layout as particles/parameters.glsl (std140) and particle_parameters.cl. A double is
-// stored as two floats: the nearest float, and the rest (see tri_along_axis in
+// The layout is the same as in particles/parameters.glsl (std140) and particle_parameters.cl. A
+// double is stored as two floats: the nearest float, and the rest (see tri_along_axis in
 // portable/sphere_math.h).
 struct ParticleParameters {
   std::array<float, 4> eye;       // xyz world; w: near, the scale of the depth buffer
@@ -34,7 +34,7 @@ struct ParticleParameters {
 static_assert(sizeof(ParticleParameters) == std::size_t{13} * 16);
 static_assert(offsetof(ParticleParameters, plane) == std::size_t{8} * 16);
 
-// The parameters for an arrangement with this many particles and cells.
+// Returns the parameters for an arrangement with this many particles and cells.
 [[nodiscard]] ParticleParameters particle_parameters(const scene::ParticleScene& scene,
                                                      const ParticleOptions& options,
                                                      std::size_t particles, std::size_t cells);

@@ -1,5 +1,6 @@
 // One particle per patch. TRI_ADAPTIVE: 1 if the number of corners depends on the projected radius, 0 if it is
-// given. TRI_QUAD: 1 for a square without a centre, made of the two triangles of an undivided quad, otherwise 0.
+// given. TRI_QUAD: 1 for a square without a centre vertex, which consists of the two triangles of an undivided
+// quad; otherwise 0.
 layout(vertices = 1) out;
 
 TRI_LINK(0) in vec4 particle_sphere[];

@@ -1,5 +1,5 @@
-// An any-hit shader is necessary, because if several hits have equal distances, the driver reports only the first
-// one as the closest hit.
+// An any-hit shader is necessary, because if several hits have equal distances, the driver reports only one of them
+// as the closest hit.
 hitAttributeEXT uvec2 found;
 layout(location = 0) rayPayloadInEXT uvec2 best;
 

@@ -1,4 +1,4 @@
-// Tests the sphere of a box to which the ray comes close.
+// Tests the sphere whose box the ray may hit.
 hitAttributeEXT uvec2 found;
 
 void main() {

@@ -1,7 +1,7 @@
-// The pixel stage of all sprite techniques. It intersects the ray through this pixel with the sphere.
+// The fragment stage of all sprite techniques. It intersects the ray through this pixel with the sphere.
 // TRI_DEPTH_PROMISE, if defined, is the layout qualifier for conservative depth. Depth is reversed and the surface
-// is behind the sprite, so the correct qualifier is the one for depths less than the sprite's; the opposite one is
-// an injected fault.
+// is behind the sprite, so the correct qualifier declares that depths are less than the sprite's. The opposite
+// qualifier is an injected fault.
 TRI_LINK(0) flat in vec4 sprite_sphere;  // in camera space
 TRI_LINK(1) flat in vec4 sprite_colour;
 TRI_LINK(2) flat in uint sprite_id;

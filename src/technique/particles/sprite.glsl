@@ -1,6 +1,7 @@
-// The sprites of all techniques: the frame of a sphere's centre, and the corners in clip space that follow from it.
-// Depth is reversed with an infinite far plane: clip z is `near` everywhere, so that z/w = near/distance, and
-// nothing visible is closer than `near`. Rows are counted from the top as in Vulkan, so clip y points down.
+// Computes the sprites of all techniques: a coordinate frame at a sphere's centre, and the corners of the sprite in
+// clip space. Depth is reversed with an infinite far plane: clip z is `near` everywhere, so that z/w =
+// near/distance, and nothing visible is closer than `near`. Rows are counted from the top as in Vulkan, so clip y
+// points down.
 
 struct Corner {
   vec4 position;  // in clip space
@@ -11,18 +12,19 @@ Corner corner_at(vec3 place) {
   return Corner(vec4(place.x / u.plane.x, -place.y / u.plane.y, u.eye.w, place.z), place);
 }
 
-// A corner (±1, ±1) of a rectangle on the image plane, drawn at the depth of `distance`.
+// Returns a corner (±1, ±1) of a rectangle on the image plane, drawn at the depth that belongs to `distance`.
 Corner corner_on_image(vec2 low, vec2 high, vec2 side, float distance) {
   vec2 place = mix(low, high, 0.5 * side + 0.5);
   return Corner(vec4(place.x / u.plane.x, -place.y / u.plane.y, tri_depth(u.eye.w, distance), 1.0),
                 vec3(place, 1.0));
 }
 
-// A corner for a sprite that covers no pixel, because all its corners are at the same point outside the view.
+// Returns a corner for a sprite that covers no pixel, because all its corners are at the same point outside the
+// view.
 Corner nowhere() { return Corner(vec4(2.0, 2.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0)); }
 
-// The part of the image plane inside the viewport that a sphere covers, with a margin of 1/64 pixel. low > high if
-// there is none. The injected fault removes 1 %.
+// Computes the bounds on the image plane of the part of a sphere inside the viewport, with a margin of 1/64 pixel.
+// low > high if there is no such part. An injected fault makes the bounds 1 % smaller.
 void image_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   vec2 x = tri_sphere_interval(sphere.x, sphere.z, sphere.w);
   vec2 y = tri_sphere_interval(sphere.y, sphere.z, sphere.w);
@@ -38,14 +40,14 @@ void image_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   high = min(end, u.plane.xy);
 }
 
-// The size in pixels of the square point that contains these bounds.
+// Returns the size in pixels of the square point that contains these bounds.
 float point_size(vec2 low, vec2 high) {
   vec2 pixels = (high - low) / u.plane.zw;
   return max(pixels.x, pixels.y);
 }
 
-// The rectangle of the paper's screen-aligned quad: the rectangle around the silhouette if it exists, or the whole
-// viewport if the sphere reaches the plane of the eye. low > high if there is none.
+// Computes the rectangle of the paper's screen-aligned quad: the rectangle around the silhouette if it exists, or
+// the whole viewport if the sphere reaches the plane of the eye. low > high if nothing is visible.
 void screen_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   image_bounds(sphere, low, high);
   if (tri_eye_plane(sphere.z, sphere.w) == 1) {
@@ -54,8 +56,8 @@ void screen_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   }
 }
 
-// A corner of a rectangle at the depth of the sphere's front. TRI_SPRITE_GROWTH: additional pixels on each side,
-// for devices with a coarse vertex grid.
+// Returns a corner of a rectangle at the depth of the sphere's front. TRI_SPRITE_GROWTH: additional pixels on each
+// side, for devices with a coarse vertex grid.
 Corner front_corner(vec4 sphere, vec2 low, vec2 high, vec2 side) {
   if (TRI_SPRITE_GROWTH > 0.0) {
     low -= TRI_SPRITE_GROWTH * u.plane.zw;
@@ -82,20 +84,20 @@ Frame sprite_frame(vec4 sphere) {
   vec3 right = normalize(cross(v, reference));
   float plane = tri_sprite_plane(d, sphere.w);
   float radius = tri_sprite_radius(d, sphere.w, plane, max(u.plane.z, u.plane.w), u.eye_rest.w);
-  if (TRI_SPRITE_GROWTH > 0.0) {  // no pixel on the sprite's plane is larger than one at this depth
+  if (TRI_SPRITE_GROWTH > 0.0) {  // pixels are at least as large here as on the plane
     radius += TRI_SPRITE_GROWTH * max(u.plane.z, u.plane.w) * max(sphere.z, 0.0);
   }
   return Frame(v * plane, radius * right, radius * cross(right, v), tri_surrounds(d2, sphere.w));
 }
 
-// The corner (±1, ±1) of the square.
+// Returns the corner (±1, ±1) of the square.
 Corner quad_corner(Frame frame, vec2 side) {
   if (frame.everywhere == 1) return corner_on_image(-u.plane.xy, u.plane.xy, side, u.eye.w);
   return corner_at(frame.centre + side.x * frame.right + side.y * frame.up);
 }
 
-// The k-th of n ≥ 4 corners of the polygon around the circle. If the sprite is the whole viewport, these are its
-// four corners, and further ones repeat the last of them.
+// Returns corner k of the polygon with n ≥ 4 corners around the circle. If the sprite is the whole viewport, the
+// first four corners are those of the viewport, and further corners repeat the last of them.
 Corner polygon_corner(Frame frame, int k, int n) {
   if (frame.everywhere == 1) {
     vec2 side = vec2(k == 0 || k >= 3 ? -1.0 : 1.0, k < 2 ? -1.0 : 1.0);

@@ -1,6 +1,6 @@
-// Shared by all passes of `tiles` (listed in tiles.glsl). Include this after keys.glsl. It contains the grid and
-// all read-only data. These are read as texels, because a software device fetches texels for all lanes at once but
-// loads from storage buffers lane by lane.
+// Declarations that all passes of `tiles` share (tiles.glsl lists the passes): the grid of tiles, and all read-only
+// data. Include this after keys.glsl. The data are read as texels, because a software device fetches texels for all
+// lanes at once but loads from storage buffers lane by lane.
 
 #define TRI_TILE 16             // pixels along the edge of a tile
 #define TRI_SMALL_EDGE 6        // largest edge in pixels of a small sphere's rectangle; llvmpipe is fastest with 6
@@ -10,7 +10,8 @@
 TRI_BINDING(13) uniform samplerBuffer camera_texels;  // spheres in camera space, by particle
 TRI_BINDING(14) uniform usamplerBuffer tile_texels;   // a header, then one Tile after the other, with two texels each
 TRI_BINDING(15) uniform usamplerBuffer entry_texels;
-TRI_BINDING(16) uniform usamplerBuffer pixel_texels;  // of small spheres: a plane of depth keys, one of particle keys
+// small spheres: a plane of depth keys, then one of particle keys
+TRI_BINDING(16) uniform usamplerBuffer pixel_texels;
 TRI_BINDING(18) uniform usamplerBuffer colour_texels;  // 1 or 4 words per particle
 #define TRI_COLOUR_WORD(n) texelFetch(colour_texels, int(n)).x
 

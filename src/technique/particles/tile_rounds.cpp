@@ -13,14 +13,14 @@
 namespace triptych::technique {
 namespace {
 
-// Upper limits for the resources that spheres need.
+// Upper bounds on the resources that spheres need.
 struct Need {
   double pixels = 0;   // number of pixels that are drawn
   double entries = 0;  // number of (tile, large sphere) pairs
   std::uint64_t large = 0;
   bool small = false;  // whether some sphere may be small
-  // The largest number of loop iterations of an invocation, over pixels of small spheres and tiles
-  // of large spheres.
+  // The largest number of loop iterations of any invocation, over the pixels of small spheres and
+  // the tiles of large spheres.
   double passes = 0;
 
   void add(const Need& more) {
@@ -83,10 +83,10 @@ class NeedBound {
     return {.pixels = pixels, .entries = columns * rows, .large = 1, .small = small};
   }
 
-  // The number of pixels on one axis between the two tangents of the sphere,
-  // (a·z ± r·√(a² + z² − r²))/(z² − r²) on the image plane, clipped to ±half. Three pixels are
-  // added for the margin and rounding, so that a small sphere gets less than `slack` too many. Not
-  // positive if the sphere is not visible.
+  // Returns the number of pixels along one axis between the two tangents of the sphere, which meet
+  // the image plane at (a·z ± r·√(a² + z² − r²))/(z² − r²), clipped to ±half. Three pixels are
+  // added for the margin and for rounding, so the result exceeds the size of a small sphere by less
+  // than `slack`. The result is not positive if the sphere is not visible.
   [[nodiscard]] double extent(double a, double z, double r, double half) const {
     const double k2 = (z - r) * (z + r);
     const double reach = r * std::sqrt(a * a + k2);
@@ -146,8 +146,8 @@ std::optional<std::string> passes_reason(const TileRounds& rounds) {
   constexpr std::uint64_t most = 65'000;
   if (rounds.passes <= most) return std::nullopt;
   return fmt::format(
-      "tiles would need {} iterations of a loop, because spheres cover so many of its tiles, and "
-      "some drivers end such long loops early: use a smaller viewport or another technique",
+      "tiles would need {} loop iterations, because the spheres cover so many tiles. Some drivers "
+      "end such long loops early: use a smaller viewport or another technique",
       rounds.passes);
 }
 

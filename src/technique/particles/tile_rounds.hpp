@@ -19,7 +19,7 @@ inline constexpr int small_edge = 6;  // TRI_SMALL_EDGE
 struct TileRound {
   std::uint32_t first = 0;
   std::uint32_t cells = 0;
-  std::uint64_t entries = 0;  // largest number of entries; 0 without large spheres
+  std::uint64_t entries = 0;  // upper bound; 0 without large spheres
 };
 
 struct TileRounds {
@@ -37,8 +37,8 @@ struct TileRounds {
   }
 };
 
-// The number of work groups of 64 invocations that process a list of at most this many particles
-// together. Each invocation works until the end of the list.
+// The number of work groups (of 64 invocations) that together process a list of up to this many
+// particles. Each invocation loops until the end of the list.
 [[nodiscard]] constexpr std::uint32_t list_groups(std::uint64_t particles) noexcept {
   constexpr std::uint64_t most = 256;
   const std::uint64_t groups = (particles + 63) / 64;
@@ -49,16 +49,17 @@ struct TileRounds {
 // the loop over a tile's entries ends before Mesa ends it (docs/accuracy.md).
 inline constexpr std::uint64_t most_large_spheres = 32000;
 
-// Divides the cells into rounds. A round draws about as many pixels as the image has, or half as
-// many as all previous rounds together, because early rounds hide spheres of later ones, and each
-// round costs a pass over all tiles. A round has at most `most_cells` cells and, unless a single
-// cell has more, `most_entries` entries.
+// Divides the cells into rounds. Early rounds hide spheres of later rounds, but each round costs a
+// pass over all tiles. A round therefore draws about as many pixels as the image has or, if that is
+// more, half as many as all previous rounds together. A round has at most `most_cells` cells and,
+// unless a single cell has more, at most `most_entries` entries.
 [[nodiscard]] TileRounds tile_rounds(const scene::ParticleScene& scene,
                                      const Arrangement& arrangement, std::uint32_t most_cells,
                                      std::uint64_t most_entries);
 
-// The reason why such a scene cannot be drawn, because an invocation loops over the tiles of up to
-// 32 spheres, and Mesa ends long loops without an error (long_rays.hpp).
+// Returns why a scene with these rounds cannot be drawn, or nullopt if it can be drawn. An
+// invocation loops over the tiles of up to 32 spheres, and Mesa ends long loops without an error
+// (long_rays.hpp).
 [[nodiscard]] std::optional<std::string> passes_reason(const TileRounds& rounds);
 
 }  // namespace triptych::technique

@@ -1,20 +1,21 @@
-// Shared by the compute passes of `tiles`. A frame processes the cells from front to back in rounds. In each round
+// Declarations that the compute passes of `tiles` share. A frame processes the cells from front to back in rounds. In
+// each round
 //   tiles_cells    decides which cells of the round are drawn,
-//   tiles_bin      finds the pixels of every particle in these cells. It draws small particles at once, with one
-//                  invocation per sphere, by an atomic maximum on each pixel's depth. It counts large particles for
-//                  each tile that they reach,
+//   tiles_bin      finds the pixels of every particle in these cells. It draws small spheres at once, with one
+//                  invocation per sphere, by an atomic maximum on each pixel's depth. It counts large spheres for each
+//                  tile that they reach,
 //   tiles_place    lists the tiles that this round draws into, and assigns positions to their entries,
 //   tiles_fill     writes the entries,
 //   tiles_resolve  draws the entries of the listed tiles, with a few invocations for each tile,
 //   tiles_settle   stores the farthest depth of each tile, which later rounds use to skip hidden spheres.
 // At the end of the frame
-//   tiles_index    finds the particle with the lowest index at each pixel's depth among the small ones,
+//   tiles_index    finds, among the small spheres at each pixel's depth, the particle with the lowest index,
 //   tiles_show     colours every pixel once, as a fragment shader on blocks of tiles that are not empty.
 // If there are few spheres, tiles_resolve and tiles_settle are not run, and tiles_show loops over the entries
 // itself. An empty tile costs nothing. No pass waits within a work group. Pixels are written as vectors, through
-// images and the rasterizer, because devices without vector loads of their own access storage buffers word by word.
-// The values that are stored for a pixel are a maximum of depth keys and a minimum of particle keys, so the image
-// does not depend on the order of processing.
+// images and the rasterizer, because devices without vector loads access storage buffers word by word. A pixel
+// stores a maximum of depth keys and a minimum of particle keys, so the image does not depend on the order of
+// processing.
 //
 // The backend defines TRI_ROUND, a uvec2 with the index of the first cell and the number of cells, and TRI_CULLING
 // (technique::Culling). Both may be run-time values.
@@ -27,7 +28,7 @@ struct Tile {
   uint farthest;
   uint flags;
   uint coming;    // value of `farthest` after this round
-  uint listed;    // the n-th tile that is drawn into in this round
+  uint listed;    // entry n: the n-th tile that this round draws into
   uint no_state[2];
 };
 
@@ -48,9 +49,9 @@ layout(std430) TRI_BINDING(11) buffer Pixels { uint pixels[]; };
 uint large_place(uint n) { return uint(kept.length()) - 1u - n; }
 uint depth_seen(ivec2 pixel) { return texelFetch(pixel_texels, pixel_index(pixel)).x; }
 
-// The rectangle of pixels (x, y, width, height) whose centres the sphere's silhouette may cover; the width is 0 if
-// there are none. It is `precise`, like front_key, because tiles_fill has room only for the entries that tiles_bin
-// counted.
+// Returns the rectangle of pixels (x, y, width, height) whose centres the sphere's silhouette may cover; the width
+// is 0 if there are no such pixels. The arithmetic is `precise`, as in front_key, because tiles_fill has room only
+// for the entries that tiles_bin counted.
 ivec4 pixel_rectangle(vec4 sphere) {
   vec2 low;
   vec2 high;
@@ -69,8 +70,8 @@ ivec4 pixel_rectangle(vec4 sphere) {
   return extent.x > 0 && extent.y > 0 ? ivec4(begin, extent) : ivec4(0);
 }
 
-// A depth key that no point of the sphere's surface exceeds. A device's depth has an error of a few 2⁻²⁴ of the
-// distance of the farthest part (tri_sphere_distance), which 2⁻¹⁶ more than covers.
+// Returns a depth key that no point of the sphere's surface exceeds. A device's depth has an error of a few 2⁻²⁴ of
+// the distance to the farthest part (tri_sphere_distance), so 2⁻¹⁶ is more than enough.
 uint front_key(vec4 sphere) {
   if (TRI_FAULT == 3) return TRI_LARGEST_KEY;  // nothing is skipped
   TRI_PRECISE float rounding = 1.5259e-5 * (abs(sphere.x) + abs(sphere.y) + abs(sphere.z) + sphere.w);
@@ -78,7 +79,7 @@ uint front_key(vec4 sphere) {
   return front > 0.0 ? depth_key(tri_depth(u.eye.w, front)) : TRI_LARGEST_KEY;
 }
 
-// The up to 2×2 tiles that a small rectangle overlaps; the same tile may occur more than once.
+// Returns the up to 2×2 tiles that a small rectangle overlaps. The same tile may occur more than once.
 ivec4 tiles_around(ivec4 rectangle) {
   ivec2 a = rectangle.xy / TRI_TILE;
   ivec2 b = (rectangle.xy + rectangle.zw - 1) / TRI_TILE;

@@ -3,9 +3,9 @@ layout(local_size_x = 64) in;
 TRI_BINDING(17) uniform samplerBuffer sphere_texels;
 layout(std430) TRI_BINDING(12) readonly buffer CellEnds { uint cell_ends[]; };
 
-// Raises the depth of the pixels that the sphere covers. Returns whether any of them shows the sphere now, or
-// might. It uses a single loop over all pixels of the rectangle, because with nested loops all lanes would wait for
-// the longest row each time.
+// Raises the depth keys of the pixels that the sphere covers. Returns whether any of them shows the sphere now, or
+// might show it. There is a single loop over all pixels of the rectangle, because with nested loops all lanes would
+// wait for the longest row each time.
 bool draw_small(vec4 sphere, ivec4 rectangle, int count) {
   bool seen = false;
   ivec2 pixel = rectangle.xy;
@@ -43,7 +43,8 @@ bool count_large(uint front, ivec4 rectangle, int count) {
   return entered;
 }
 
-// Writes only if the flag is not set yet, because threads would contend for a cache line that others read from.
+// Sets the flags of the tiles. Writes only if a flag is not set yet, because otherwise threads would contend for
+// cache lines that other threads read.
 void use_tiles(ivec4 rectangle) {
   ivec4 around = tiles_around(rectangle);
   for (int k = 0; k < 4; ++k) {
@@ -60,8 +61,8 @@ void bin(uint particle) {
   bool small = covers && is_small(rectangle);
   int pixel_count = small && front >= farthest_around(rectangle) ? rectangle.z * rectangle.w : 0;
   ivec2 tile_span = (rectangle.xy + rectangle.zw - 1) / TRI_TILE - rectangle.xy / TRI_TILE + 1;
-  // This does not depend on whether the sphere is visible, because that depends on what other invocations have
-  // drawn so far. Therefore the amount of work is repeatable.
+  // Whether the tiles are used must not depend on whether the sphere is visible, because that depends on what other
+  // invocations have drawn so far. The amount of work would then not be repeatable.
   if (pixel_count > 0) use_tiles(rectangle);
   int tile_count = covers && !small ? tile_span.x * tile_span.y : 0;
   bool seen = draw_small(sphere, rectangle, pixel_count);

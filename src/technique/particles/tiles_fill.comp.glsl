@@ -1,8 +1,8 @@
 // Adds each large sphere of the round to the tiles for which tiles_bin counted it.
 layout(local_size_x = 64) in;
 
-// An entry consists of the particle in the lower bits and, above it, one bit for each quarter of the tile that the
-// sphere may reach. The particles of one storage buffer need no more than the lower bits.
+// An entry contains the particle in its lower bits, which are enough for all particles of a storage buffer. Above
+// them, it has one bit for each quarter of the tile that the sphere may reach.
 uint entry(uint particle, ivec4 rectangle, ivec2 tile) {
   ivec2 low = rectangle.xy - TRI_TILE * tile;
   ivec2 high = low + rectangle.zw - 1;

@@ -1,5 +1,6 @@
-// 32 invocations for each listed tile: eight for each quarter of the tile, each for a column of eight pixels. They
-// find the nearest of the quarter's entries for each pixel, and then the farthest depth that the pixels show.
+// Each listed tile has 32 invocations: eight for each quarter of the tile, one for each column of eight pixels. For
+// each pixel, they find the nearest of the quarter's entries, and then the farthest depth that the tile's pixels
+// show.
 layout(local_size_x = 32) in;
 
 struct Column {  // pairs of pixels, as in large_pixels
@@ -25,9 +26,9 @@ uvec4 with_sphere(uvec4 pair, vec4 sphere, uint particle, float right, float upp
                wins_below ? below : pair.z, wins_below ? particle : pair.w);
 }
 
-// Returns the next entry that reaches this quarter, or 0 if there is none. This is a loop of its own, because if
-// lanes run in lockstep only a loop can skip anything. Its condition is at the end, because with a condition at the
-// beginning the lanes would execute one more idle iteration.
+// Returns the next entry that reaches this quarter, or 0 if there is none. This needs its own loop, because on
+// lanes that run in lockstep only a loop can skip work. Its condition is at the end, because with a condition at
+// the beginning the lanes would execute one more idle iteration.
 uint next_entry(inout uint at, uint end, uint quarter) {
   uint found = 0u;
   do {
@@ -60,7 +61,7 @@ void draw_entries(uint at, uint end, uint quarter, ivec2 pixel, inout Column col
   } while (entry != 0u);
 }
 
-// The depth key that a pixel shows, or a larger key if the pixel is outside of the image.
+// Returns the depth key that a pixel shows, or the largest key if the pixel is outside the image.
 uint shown_key(ivec2 pixel, uint large) {
   bool inside = pixel.x < u.viewport.x && pixel.y < u.viewport.y;
   uint small = (TRI_SPHERES & TRI_SMALL) != 0 ? depth_seen(pixel) : 0u;

@@ -1,4 +1,4 @@
-// Finds the nearest particle that was drawn into this pixel, small or large, and its colour.
+// Finds the nearest particle, small or large, that was drawn into this pixel, and writes its colour, id and depth.
 TRI_BINDING(19) uniform usamplerBuffer id_texels;
 layout(location = 0) out vec4 out_colour;
 layout(location = 1) out uint out_id;
@@ -10,7 +10,7 @@ struct Shown {
 
 bool is_nearer(uvec2 a, uvec2 b) { return a.x > b.x || (a.x == b.x && a.y < b.y); }
 
-// The result of tiles_bin, tiles_index and tiles_resolve.
+// Returns the result of tiles_bin, tiles_index and tiles_resolve for this pixel.
 Shown found(ivec2 pixel) {
   int place = pixel_index(pixel);
   uvec2 keys = uvec2(0u, TRI_NO_PARTICLE);
@@ -28,8 +28,9 @@ Shown found(ivec2 pixel) {
   return Shown(keys, texelFetch(camera_texels, int(particle)));
 }
 
-// Adds the tile's few entries if no earlier pass has drawn them. It tests all of them, because an entry that does
-// not reach this quarter covers no pixel here. The loop's condition is at its end, as in next_entry().
+// Adds the tile's few entries if no earlier pass has drawn them. Tests all entries, because an entry that does not
+// reach this quarter of the tile covers no pixel here anyway. The loop's condition is at its end, as in
+// next_entry().
 Shown with_entries(Shown shown, ivec2 pixel) {
   vec2 s = pixel_ray(pixel);
   uvec4 state = tile_state(tile_index(pixel / TRI_TILE));

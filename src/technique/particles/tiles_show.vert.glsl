@@ -1,5 +1,5 @@
-// One instance of four vertices per block of tiles: the rectangle around the tiles of the block that were drawn
-// into, or an empty one if there are none.
+// One instance of four vertices per block of tiles. They form the rectangle around those tiles of the block that
+// were drawn into, or an empty rectangle if there are none.
 
 void main() {
   ivec2 grid = tile_grid();
