@@ -1,12 +1,12 @@
 #pragma once
-// A replacement for std::source_location that Clang 14 can parse, because its clang-tidy checks
-// this code.
+// A replacement for std::source_location. Clang 14 does not support that class, but its clang-tidy
+// must be able to check this code.
 
 namespace triptych::core {
 
 class CodePlace {
  public:
-  // The place of the caller, when used as a default argument.
+  // Returns the source location of the caller if this call is a default argument.
   [[nodiscard]] static constexpr CodePlace current(const char* file = __builtin_FILE(),
                                                    int line = __builtin_LINE()) noexcept {
     return CodePlace(file, line);

@@ -11,8 +11,9 @@
 
 namespace triptych::core {
 
-// The result that the program returns to its caller. If several apply, the order is usage,
-// regression, cannot_judge, pass. `skip` is CTest's SKIP_RETURN_CODE.
+// The exit code of the program. If several results apply, the most severe one is returned. The
+// order of severity is usage, regression, cannot_judge, pass. `skip` is the value of CTest's
+// SKIP_RETURN_CODE.
 enum class ExitCode : int { pass = 0, regression = 1, cannot_judge = 2, usage = 3, skip = 77 };
 
 // The base of all errors of this project. what() is one line, ready to be printed.
@@ -21,7 +22,7 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A place in a text or binary file. Line and column count from 1; 0 means unknown.
+// A place in a text or binary file. Lines and columns are numbered from 1; 0 means unknown.
 struct FilePlace {
   std::string file;
   int line = 0;
@@ -47,14 +48,14 @@ class IoError : public Error {
   using Error::Error;
 };
 
-// The device or technique cannot do this. The message is the reason that is printed with the skip.
+// The device or technique does not support the request. The message is the reason that is printed
+// for the skipped configuration.
 class NotSupported : public Error {
  public:
   using Error::Error;
 };
 
-// A call of a graphics or compute API failed. what() has the form "CALL returned CODE at
-// FILE:LINE".
+// A graphics or compute API call failed. what() has the form "CALL returned CODE at FILE:LINE".
 class ApiError : public Error {
  public:
   ApiError(std::string call, std::string code, const std::string& detail = {},
@@ -67,7 +68,7 @@ class ApiError : public Error {
   std::string code_;
 };
 
-// The device is lost. The worker must be replaced before anything else runs on it.
+// The device is lost. The worker process must be replaced before anything else runs on the device.
 class DeviceLost : public ApiError {
  public:
   using ApiError::ApiError;

@@ -37,7 +37,7 @@ class Descriptor {
   int fd_;
 };
 
-// Removes a file that was not completed.
+// Removes the file when it is destroyed, unless finished() was called.
 class Unfinished {
  public:
   explicit Unfinished(std::filesystem::path file) : file_(std::move(file)) {}
@@ -53,8 +53,8 @@ class Unfinished {
   std::filesystem::path file_;
 };
 
-// Some file systems report a full disk only when a file is closed. Errors name `target`, the file
-// that the caller knows.
+// Also checks the result of close(), because some file systems report a full disk only then. Errors
+// name `target`, because the caller does not know the temporary file.
 void write_and_close(Descriptor& out, std::span<const std::byte> bytes,
                      const std::filesystem::path& target) {
   while (!bytes.empty()) {
@@ -66,7 +66,7 @@ void write_and_close(Descriptor& out, std::span<const std::byte> bytes,
   if (::close(out.release()) != 0) fail("cannot write", target, errno);
 }
 
-// Without O_NONBLOCK, opening a pipe without a writer would block.
+// Uses O_NONBLOCK, because opening a pipe that has no writer would block otherwise.
 Descriptor open_to_read(const std::filesystem::path& file, struct stat& facts) {
   Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (in.get() < 0 || ::fstat(in.get(), &facts) != 0) fail("cannot read", file, errno);
@@ -88,7 +88,8 @@ Bytes read_at_most(const std::filesystem::path& file, std::size_t most) {
   struct stat facts {};
   const Descriptor in = open_to_read(file, facts);
   refuse_more(static_cast<std::size_t>(facts.st_size));
-  // One more byte than the stated size, so that the end is detected without growing the buffer.
+  // The buffer has one more byte than the reported file size, so that the end of the file is
+  // detected without growing the buffer.
   Bytes bytes(static_cast<std::size_t>(facts.st_size) + 1, typename Bytes::value_type{});
   std::size_t filled = 0;
   for (;;) {
@@ -131,7 +132,7 @@ void write_file(std::span<const std::byte> bytes, const std::filesystem::path& f
     write_in_place(bytes, target);
     return;
   }
-  // A unique name for each writer, so that two of them cannot mix their bytes.
+  // Each writer uses a unique name, so that two writers cannot mix their bytes.
   std::filesystem::path aside;
   int fd = -1;
   for (int attempt = 0; fd < 0 && (attempt == 0 || errno == EEXIST); ++attempt) {

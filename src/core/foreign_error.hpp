@@ -1,19 +1,19 @@
 #pragma once
-// Converts exceptions of libraries to the errors of this project, with the name of the affected
-// file or place.
+// Converts exceptions that libraries throw to the error types of this project, and adds the name of
+// the affected file or the place in it.
 
 #include <string>
 #include <utility>
 
 namespace triptych::core {
 
-// Call this while an exception is being handled. An error of this project is thrown again
-// unchanged. Any other one becomes an IoError (system errors, out of memory) or an InputError that
-// begins with `about`, which names a file or a place in one. Without `about` it is regarded as a
-// fault of the program itself.
+// Must be called from a catch block. Rethrows an error of this project unchanged. Converts system
+// errors and a lack of memory to IoError, and all other exceptions to InputError. The message
+// begins with `about`, the name of a file or of a place in a file. If `about` is empty, an
+// exception that would become an InputError is reported as an internal error of Triptych instead.
 [[noreturn]] void rethrow_as_ours(const std::string& about);
 
-// Runs `action` and converts its exceptions in this way.
+// Runs `action` and converts its exceptions with rethrow_as_ours().
 template <typename Action>
 decltype(auto) naming(const std::string& about, Action&& action) {
   try {

@@ -1,5 +1,5 @@
 #pragma once
-// The image type that all parts of the program use.
+// The image type used by all parts of the program.
 
 #include <array>
 #include <cstddef>
@@ -8,10 +8,11 @@
 
 namespace triptych::core {
 
-// Linear float RGBA, premultiplied, row-major, top row first: pixel (x, y) begins at
-// 4·(y·width + x). Images of particles also have the depth (distance along the view axis in world
-// units, +inf for none) and the index of the particle in its file (no_particle for none). Both are
-// empty in other images.
+// An image with linear, premultiplied float RGBA in row-major order, top row first. Pixel (x, y)
+// begins at rgba[4·(y·width + x)]. For each pixel, images of particles also contain the depth
+// (distance along the view axis in world units) and the id (index in its file) of the visible
+// particle. They are +inf and no_particle where no particle is visible. In other images, `depth`
+// and `ids` are empty.
 struct Image {
   int width = 0;
   int height = 0;

@@ -65,15 +65,15 @@ class MemoryIn : public Imf::IStream {
   std::size_t place_ = 0;
 };
 
-// The pixels of an image in the form that OpenEXR addresses, with the corner of the data window at
-// (x, y).
+// Describes the memory of an image to OpenEXR. Pixel (0, 0) of the image is at (x, y), the corner
+// of the data window, but OpenEXR expects the address of the pixel that would be at the origin.
 class Planes {
  public:
   Planes(const Image& image, int x, int y)
       : width_(static_cast<std::size_t>(image.width)),
         corner_(static_cast<std::ptrdiff_t>(y) * image.width + x) {}
 
-  // OpenEXR uses the same untyped pointer for reading and writing.
+  // OpenEXR takes a pointer without const even if it only reads.
   [[nodiscard]] Imf::Slice slice(Imf::PixelType type, const void* first, std::size_t step) const {
     const auto base = reinterpret_cast<std::uintptr_t>(first) -
                       static_cast<std::uintptr_t>(corner_) * static_cast<std::uintptr_t>(step);
@@ -117,22 +117,23 @@ void require_consistent(const Image& image) {
 void require_channels(const Imf::ChannelList& channels) {
   for (const char* name : colour_channels) {
     if (channels.findChannel(name) == nullptr) {
-      throw std::runtime_error(fmt::format("has no channel {}; expected R, G, B and A", name));
+      throw std::runtime_error(
+          fmt::format("the channel {} is missing; expected R, G, B and A", name));
     }
   }
   for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
     if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1) {
-      throw std::runtime_error(fmt::format("channel {} is subsampled", channel.name()));
+      throw std::runtime_error(fmt::format("the channel {} is subsampled", channel.name()));
     }
   }
   const Imf::Channel* ids = channels.findChannel(id_channel);
   if (ids != nullptr && ids->type != Imf::UINT) {
-    throw std::runtime_error("channel id is not of type uint");
+    throw std::runtime_error("the channel id is not of type uint");
   }
 }
 
-// Makes an image with the size in the header. A header may claim any size, so a size that no
-// compression could store in this file is refused before memory is allocated.
+// Creates an image of the size in the header. A broken header may contain any size, so a size that
+// no compression could fit into this file is rejected before memory is allocated.
 Image allocate(const Imf::Header& header, std::size_t file_bytes) {
   constexpr std::size_t most_pixels_per_byte = 4096;
   const Imath::Box2i window = header.dataWindow();
@@ -154,11 +155,12 @@ Image allocate(const Imf::Header& header, std::size_t file_bytes) {
   return image;
 }
 
-// OpenEXR allocates the memory that an attribute claims before it checks whether the file is that
-// long. After the magic number and the version, a header is a list of attributes. Each attribute
-// has a name and a type, which end with a zero byte, its size in 32 bits, and its value; an empty
-// name ends the list. OpenEXR reads the attribute with the list of channels (a name and 16 bytes
-// for each, up to an empty name) without regard to the stated size.
+// Throws if the size of an attribute exceeds the file, because OpenEXR allocates that size before
+// it checks the length of the file. After the magic number and the version, a header is a list of
+// attributes. Each attribute has a name and a type, which end with a zero byte, its size in 32
+// bits, and its value; an empty name ends the list. The size of the channel list must also be
+// correct, because OpenEXR ignores it: OpenEXR reads a name and 16 bytes for each channel until it
+// finds an empty name.
 void require_attributes_inside(std::span<const std::byte> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::size_t place = 8;
@@ -175,9 +177,9 @@ void require_attributes_inside(std::span<const std::byte> bytes) {
     std::memcpy(&size, text.data() + place, sizeof(size));
     place += sizeof(size);
     if (size < 0 || static_cast<std::size_t>(size) > text.size() - place) {
-      throw std::runtime_error(
-          fmt::format("has an attribute of {} bytes at byte {}, which exceeds the file of {} bytes",
-                      size, place, text.size()));
+      throw std::runtime_error(fmt::format(
+          "it has an attribute of {} bytes at byte {}, which exceeds the file size of {} bytes",
+          size, place, text.size()));
     }
     const std::size_t end = place + static_cast<std::size_t>(size);
     while (channels && place < text.size() && !take_text().empty()) {
@@ -191,7 +193,8 @@ void require_attributes_inside(std::span<const std::byte> bytes) {
   }
 }
 
-// OpenEXR allocates memory for some rows of an image before its size can be queried.
+// Makes OpenEXR reject larger images. This is necessary because it allocates memory for some rows
+// before the caller can query the size of the image.
 void limit_size() {
   static const bool limited = [] {
     Imf::Header::setMaxImageSize(largest_side, largest_side);
@@ -205,7 +208,7 @@ Image decode(std::span<const std::byte> bytes) {
   require_attributes_inside(bytes);
   MemoryIn stream(bytes);
   Imf::InputFile file(stream, 0);
-  if (!file.isComplete()) throw std::runtime_error("was not written completely");
+  if (!file.isComplete()) throw std::runtime_error("the file was not written completely");
   require_channels(file.header().channels());
   Image image = allocate(file.header(), bytes.size());
   const Imath::Box2i window = file.header().dataWindow();
@@ -214,7 +217,7 @@ Image decode(std::span<const std::byte> bytes) {
   return image;
 }
 
-// OpenEXR's messages may have several lines; errors of this project have one.
+// OpenEXR's messages may have several lines, but what() of this project's errors must be one line.
 Image decode(std::span<const std::byte> bytes, const FilePlace& place) {
   try {
     return decode(bytes);

@@ -1,6 +1,6 @@
 #pragma once
-// Image files: OpenEXR for storage (32-bit floats R, G, B, A; for particles also Z and the uint32
-// id), PNG for viewing.
+// Reads and writes image files: OpenEXR for storage (the channels R, G, B and A as 32-bit floats,
+// and for particles also Z and the uint32 channel id), and PNG for viewing.
 
 #include <cstddef>
 #include <filesystem>
@@ -12,14 +12,15 @@
 
 namespace triptych::core {
 
-// Lossless (ZIP-compressed scan lines, full floats). Throws IoError if the file cannot be written.
+// Writes the image without loss, as ZIP-compressed scan lines of 32-bit floats. Throws IoError if
+// the file cannot be written.
 void write_exr(const Image& image, const std::filesystem::path& file);
 [[nodiscard]] std::vector<std::byte> encode_exr(const Image& image);
 
-// Throws IoError (missing, unreadable) or InputError (not an EXR file with R, G, B and A of the
-// same size).
+// Throws IoError if the file is missing or unreadable, and InputError if it is not an EXR file with
+// the full-resolution channels R, G, B and A.
 [[nodiscard]] Image read_exr(const std::filesystem::path& file);
-// `name` is the name of the image in errors.
+// Decodes the content of an EXR file. Error messages call the image `name`.
 [[nodiscard]] Image decode_exr(std::span<const std::byte> bytes,
                                const std::string& name = "an image");
 

@@ -13,7 +13,7 @@
 namespace triptych::core {
 namespace {
 
-// IEC 61966-2-1, rounded to 8 bits.
+// The sRGB transfer function (IEC 61966-2-1), rounded to 8 bits.
 std::uint8_t srgb8(float linear) {
   const double x = std::clamp(static_cast<double>(linear), 0.0, 1.0);
   const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
@@ -22,7 +22,7 @@ std::uint8_t srgb8(float linear) {
 
 }  // namespace
 
-// A premultiplied colour over black is the colour itself.
+// Compositing a premultiplied colour over black does not change it, so alpha is not used.
 RgbPicture to_srgb(const Image& image) {
   RgbPicture picture{image.width, image.height, {}};
   picture.rgb.resize(3 * image.pixel_count());

@@ -4,5 +4,5 @@
 #include <nlohmann/json.hpp>
 
 namespace triptych::core {
-using Json = nlohmann::json;  // keys are sorted, so equal values print the same bytes
+using Json = nlohmann::json;  // keys are sorted, so equal values are printed as identical text
 }

@@ -26,15 +26,16 @@ FilePlace place_at(const std::filesystem::path& file, std::string_view text, std
           static_cast<int>(column + 1)};
 }
 
-// The message of the JSON library without its prefix and place.
+// Returns the JSON library's message without the prefix that states the error id and the position.
 std::string bare_message(std::string_view what) {
   const auto start = what.find("syntax error");
   return std::string(start == std::string_view::npos ? what : what.substr(start));
 }
 
-// Finds where the value at a path begins by searching for its keys one after the other. This is
-// exact for files that `accept` writes. In a file that was written by hand, the result may be an
-// earlier line with the same keys; the message also contains the path.
+// Returns the offset of the value at a path, which is found by searching for the keys of the path
+// one after the other. The result is exact for files that `triptych accept` writes. In a file that
+// was written by hand, it may be an earlier place with the same keys, so the error message also
+// states the path.
 std::size_t offset_of(std::string_view text, const std::vector<std::string>& path) {
   std::size_t offset = 0;
   for (const std::string& step : path) {
@@ -44,7 +45,7 @@ std::size_t offset_of(std::string_view text, const std::vector<std::string>& pat
   return offset;
 }
 
-// The offset of the n-th occurrence (from 1) of `key` as a key.
+// Returns the offset of the n-th occurrence of `key` as an object key, counted from 1.
 std::size_t offset_of_key(std::string_view text, const std::string& key, std::size_t n) {
   const std::string quoted = Json(key).dump() + ":";
   std::size_t offset = text.find(quoted);
@@ -52,8 +53,8 @@ std::size_t offset_of_key(std::string_view text, const std::string& key, std::si
   return std::min(offset, text.size());
 }
 
-// The quoted part of a message such as "… number overflow parsing '1e999'", because the library
-// reports the number but not its place.
+// Returns the quoted part of a message such as "… number overflow parsing '1e999'". The number is
+// used to find the place of the error, because the library does not report it.
 std::string quoted_in(std::string_view what) {
   const auto begin = std::min(what.find('\''), what.size());
   const auto end = std::min(what.rfind('\''), what.size());

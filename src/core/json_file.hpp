@@ -1,6 +1,6 @@
 #pragma once
-// JSON files that people review and merge by hand. Reading reports the place of every mistake;
-// writing puts one value on each line.
+// Reads and writes JSON files that people review and merge by hand. The reader reports the place of
+// an error in the file. The writer puts one value on each line.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,8 +16,9 @@ namespace triptych::core {
 
 class JsonFile;
 
-// A value in a JsonFile, which must outlive it. Every accessor throws InputError with file, line
-// and the path inside the file if the value does not have the requested type.
+// A value in a JsonFile. The JsonFile must outlive it. If the value does not have the requested
+// type, every accessor throws an InputError that states the file, the line and the path of the
+// value in the file.
 class JsonNode {
  public:
   JsonNode(const JsonFile& file, const Json& value, std::vector<std::string> path)
@@ -43,15 +44,17 @@ class JsonNode {
 
 class JsonFile {
  public:
-  // Returns nullopt if the file does not exist. Throws InputError with line and column if it is not
-  // JSON, or if an object has the same key twice, which can happen in a careless merge.
+  // Returns nullopt if the file does not exist. Throws InputError with line and column if the file
+  // is not JSON, or if an object has the same key twice, which can be the result of a careless
+  // merge.
   [[nodiscard]] static std::optional<JsonFile> read(const std::filesystem::path& file);
-  // Uses `text` as the content of the file, which need not exist yet.
+  // Uses `text` as the content of the file. The file need not exist yet.
   JsonFile(std::filesystem::path file, std::string text);
 
   [[nodiscard]] JsonNode root() const { return {*this, value_, {}}; }
   [[nodiscard]] const Json& value() const noexcept { return value_; }
-  // Throws InputError with the line of the value at `path` (keys, or indexes in decimal).
+  // Throws InputError with the line of the value at `path`, which consists of object keys and
+  // decimal array indexes.
   [[noreturn]] void fail(const std::vector<std::string>& path, std::string_view message) const;
 
  private:
@@ -60,8 +63,8 @@ class JsonFile {
   Json value_;
 };
 
-// Writes objects and arrays down to `depth` levels with one member per line, and deeper ones on the
-// line of their member.
+// Formats a value. Objects and arrays in the first `depth` levels are written with one member per
+// line. Deeper objects and arrays are written on the line of the member that contains them.
 [[nodiscard]] std::string to_lines(const Json& value, int depth);
 
 }  // namespace triptych::core

@@ -11,7 +11,8 @@
 namespace triptych::core {
 namespace {
 
-// "\u202e", or the two halves of a character beyond the basic plane (RFC 8259, section 7).
+// Returns the JSON escape of a character, such as "\u202e". A character outside the Basic
+// Multilingual Plane is written as two escapes, a surrogate pair (RFC 8259, section 7).
 std::string escaped(std::string_view character) {
   const auto code = static_cast<std::uint32_t>(code_point(character));
   if (code < 0x10000) return fmt::format("\\u{:04x}", code);
@@ -28,7 +29,8 @@ std::string json_text(const Json& json, int indent) {
   for (std::string_view rest = text; !rest.empty();) {
     const std::string_view character = rest.substr(0, std::max<std::size_t>(utf8_length(rest), 1));
     rest.remove_prefix(character.size());
-    // Line ends are those between the values: within strings they are escaped already.
+    // Line ends are kept, because they occur only between values. Within strings, dump() has
+    // escaped them already.
     const char first = character.front();
     if (first >= 0x20 && first < 0x7F) {
       result += first;

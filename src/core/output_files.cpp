@@ -41,8 +41,8 @@ void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<Na
   for (const NamedFile& each : written) {
     for (const auto& [name, file] : taken) {
       if (each.file.empty() || file.empty() || !are_one_file(each.file, file)) continue;
-      throw InputError(fmt::format("{} {} is also the file of {}: choose another file", each.name,
-                                   each.file, name));
+      throw InputError(fmt::format("{} {} names the same file as {}; choose another file",
+                                   each.name, each.file, name));
     }
     taken.push_back(each);
   }

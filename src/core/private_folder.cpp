@@ -67,8 +67,8 @@ int open_root(const fs::path& root) {
   const struct stat status = status_of(fd.get(), root);
   if ((status.st_mode & others_write) != 0 && (status.st_mode & S_ISVTX) == 0) {
     refuse(root,
-           "other users can write to it and rename files of others in it, because it has no sticky "
-           "bit");
+           "other users can write to this folder and rename the files in it, because it has no "
+           "sticky bit");
   }
   return fd.release();
 }
@@ -117,7 +117,8 @@ std::string name_of_this_user() {
 PrivateFolder private_temporary_folder(const std::string& name) {
   std::error_code error;
   const fs::path temporary = fs::temp_directory_path(error);
-  if (error) throw IoError(fmt::format("no folder for temporary files: {}", error.message()));
+  if (error)
+    throw IoError(fmt::format("there is no folder for temporary files: {}", error.message()));
   const std::array names{name_of_this_user(), name};
   return {temporary, names};
 }

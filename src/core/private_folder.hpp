@@ -1,6 +1,6 @@
 #pragma once
-// Folders that only this user can access, for compiled code and similar files. In a folder that
-// everybody can write to, such as /tmp, another user could otherwise create a folder with the
+// Folders that only the current user can access, for compiled code and similar files. In a folder
+// that everybody can write to, such as /tmp, another user could otherwise create a folder with the
 // expected name first and fill it with malicious code.
 
 #include <filesystem>
@@ -10,12 +10,12 @@
 
 namespace triptych::core {
 
-// A folder below `root` that this user made and only this user can enter. It stays open, so that
-// files can be opened relative to it, whatever happens to its name.
+// A folder below `root` that belongs to the current user and that no other user can access. It
+// stays open, so files can still be opened relative to it if the folder is renamed.
 class PrivateFolder {
  public:
-  // Creates root and root/names[0]/names[1]/… where they are missing, with mode 0700. Throws
-  // IoError that names the folder and the reason in two cases:
+  // Creates `root` and root/names[0]/names[1]/… with mode 0700 if they are missing. Throws an
+  // IoError that states the folder and the reason in two cases:
   // - A folder below `root` is a symbolic link or not a folder, belongs to another user, or can be
   //   written by other users, who may have put something there. If others can only read it, the
   //   constructor removes their permission instead.
@@ -37,10 +37,10 @@ class PrivateFolder {
   int fd_ = -1;
 };
 
-// The folder "triptych-UID/NAME" in the system's folder for temporary files, where NAME is `name`.
-// It is for files that must outlive the process.
+// Returns the folder "triptych-UID/NAME" in the system's folder for temporary files, where UID is
+// the user id and NAME is `name`. It is used for files that must outlive the process.
 [[nodiscard]] PrivateFolder private_temporary_folder(const std::string& name);
-// The first part of that path: a name that is unique to this user.
+// Returns "triptych-UID", the first part of that path, which is unique to the current user.
 [[nodiscard]] std::string name_of_this_user();
 
 }  // namespace triptych::core

@@ -15,7 +15,7 @@ bool means_nothing(char c) {
   return letter || std::string_view("_@%+=:,./-").find(c) != std::string_view::npos;
 }
 
-// zsh replaces a word that begins with '=' by the path of a program.
+// A word that begins with '=' needs quotes, because zsh replaces it with the path of a program.
 bool needs_no_quotes(std::string_view word) {
   return !word.empty() && word.front() != '=' && std::ranges::all_of(word, means_nothing);
 }
@@ -32,8 +32,8 @@ std::string within_quotes(std::string_view word) {
   return text + "'";
 }
 
-// A printf(1) format inside double quotes, where an interactive bash would expand '!' from its
-// history.
+// Returns the word as a call of printf(1) inside double quotes. The format contains no '!', because
+// an interactive bash would replace it with an entry of its history.
 std::string within_printf(std::string_view word) {
   std::string text = "\"$(printf '";
   for (std::string_view rest = word; !rest.empty();) {
@@ -96,7 +96,7 @@ std::string visible(std::string_view character) {
 
 namespace {
 
-// Removes the first character from the text and returns it in the form for a terminal.
+// Removes the first character from the text and returns its printable form.
 std::string take_printable(std::string_view& text) {
   const std::size_t length = utf8_length(text);
   const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));

@@ -1,5 +1,6 @@
 #pragma once
-// Makes text of unknown origin safe in commands that users paste, and on terminals.
+// Makes text of unknown origin safe to use in shell commands that users paste, and to print on
+// terminals.
 
 #include <cstddef>
 #include <map>
@@ -9,29 +10,31 @@
 
 namespace triptych::core {
 
-// One word of a shell command, spelled so that every POSIX shell (dash, bash, zsh, BusyBox, ksh)
-// reads the same word, in a script and at a prompt. It is unchanged if no character in it is special
-// to a shell, otherwise it is in single quotes. A word with hidden characters (core/text.hpp) or
-// bytes that are not UTF-8 becomes "$(printf 'FORMAT')" with octal escapes, so that the command has
-// one line and shows them. Line ends at the end of such a word follow it in single quotes, because
-// $(…) drops them.
+// Quotes one word of a shell command, so that every POSIX shell (dash, bash, zsh, BusyBox, ksh)
+// reads the original word, in a script and at a prompt. A word without special characters is
+// unchanged. A word with special characters is put in single quotes. A word with hidden characters
+// (core/text.hpp) or invalid UTF-8 becomes "$(printf 'FORMAT')" with octal escapes, so that the
+// command stays on one line and the hidden characters are visible. Line ends at the end of such a
+// word are appended in single quotes, because $(…) would drop them.
 [[nodiscard]] std::string shell_quoted(std::string_view word);
-// Whether a shell accepts NAME=VALUE with this name. Other variables can only be set by `env`.
+// Whether a shell accepts the assignment NAME=VALUE for this name. A variable with another name can
+// be set only by `env`.
 [[nodiscard]] bool is_shell_name(std::string_view name);
-// The text before a command that sets these variables for it, with a space at its end:
-// "A=1 B='x y' ", or "env 'A.B=1' " if a shell does not accept one of the names. Empty for no
-// variables.
+// Returns the prefix that sets these variables for a command, such as "A=1 B='x y'", or "env
+// 'A.B=1'" if a shell does not accept one of the names. The prefix ends with a space. It is empty
+// if there are no variables.
 [[nodiscard]] std::string shell_environment(const std::map<std::string, std::string>& variables);
-// Words, each quoted, separated by spaces.
+// Quotes each word and joins the words with spaces.
 [[nodiscard]] std::string shell_command(std::span<const std::string> words);
 
-// Text for a line on a terminal: control characters become "\x1b", line ends "\n", other hidden
-// characters (core/text.hpp) "\u{202e}", and bytes that are not UTF-8 become U+FFFD. It is cut to
-// `limit` characters, the last of which is then "…".
+// Converts text for one line on a terminal. Control characters become escapes such as "\x1b", line
+// ends become "\n", other hidden characters (core/text.hpp) become escapes such as "\u{202e}", and
+// invalid UTF-8 becomes U+FFFD. Text that is longer than `limit` characters is cut, and then its
+// last character is "…".
 [[nodiscard]] std::string printable(std::string_view text, std::size_t limit = 2000);
-// The same for a text of several lines: line ends stay, and nothing is cut.
+// Converts text of several lines in the same way, but keeps its line ends and does not cut it.
 [[nodiscard]] std::string printable_lines(std::string_view text);
-// The escape of one hidden character in such a text.
+// Returns the escape that printable() writes instead of a hidden character.
 [[nodiscard]] std::string visible(std::string_view character);
 
 }  // namespace triptych::core

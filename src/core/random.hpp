@@ -1,6 +1,7 @@
 #pragma once
-// Random numbers whose sequence is the same on every machine and with every standard library. The
-// distributions of <random> are not used, because their algorithms depend on the implementation.
+// A random number generator whose sequence is the same on every machine and with every standard
+// library. The distributions of <random> are not used, because their algorithms depend on the
+// implementation.
 
 #include <cstdint>
 
@@ -19,12 +20,12 @@ class Random {
     return z ^ (z >> 31);
   }
 
-  // Uniformly distributed in [0, 1), with 53 bits.
+  // Returns a number that is uniformly distributed in [0, 1), with 53 random bits.
   [[nodiscard]] constexpr double uniform() noexcept {
     return static_cast<double>(bits() >> 11) * 0x1.0p-53;
   }
 
-  // Uniformly distributed in [lo, hi).
+  // Returns a number that is uniformly distributed in [lo, hi).
   [[nodiscard]] constexpr double uniform(double lo, double hi) noexcept {
     return lo + (hi - lo) * uniform();
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Images in the form in which they are shown.
+// 8-bit images, as they are displayed.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace triptych::core {
 
-// 8-bit sRGB, row-major, top row first.
+// An 8-bit sRGB image in row-major order, top row first.
 struct RgbPicture {
   int width = 0;
   int height = 0;
@@ -20,7 +20,7 @@ struct RgbPicture {
 // [0, 1], with NaN as magenta.
 [[nodiscard]] RgbPicture to_srgb(const Image& image);
 
-// Throws InputError if the picture is empty or lacks values.
+// Throws InputError if the picture is empty or `rgb` does not have three values for each pixel.
 [[nodiscard]] std::vector<std::byte> encode_png(const RgbPicture& picture);
 
 }  // namespace triptych::core

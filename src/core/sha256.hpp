@@ -1,6 +1,7 @@
 #pragma once
-// SHA-256 (FIPS 180-4), for formats that require it: the Content-Security-Policy of a page
-// identifies its script by this hash. For comparing contents, core/hash.hpp is faster.
+// SHA-256 (FIPS 180-4), for formats that require it. For example, the Content-Security-Policy of an
+// HTML page identifies the page's script by this hash. core/hash.hpp is faster for comparing
+// contents.
 
 #include <array>
 #include <cstdint>

@@ -7,7 +7,7 @@ namespace triptych::core {
 // content.
 class TemporaryFolder {
  public:
-  TemporaryFolder();  // throws IoError if it cannot be made
+  TemporaryFolder();  // throws IoError if the folder cannot be created
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;

@@ -15,8 +15,8 @@ bool is_continuation(unsigned char byte) {
   return byte >= 0x80 && byte <= 0xBF;
 }
 
-// Whether the second byte is valid after the first one: not an overlong encoding, not a surrogate,
-// and not beyond U+10FFFF.
+// Whether the second byte may follow the first byte. Excludes overlong encodings, surrogates, and
+// code points beyond U+10FFFF.
 bool may_follow(unsigned char first, unsigned char second) {
   if (!is_continuation(second)) return false;
   if (first == 0xE0) return second >= 0xA0;
@@ -40,13 +40,13 @@ constexpr std::array<Range, 15> hidden{{
     {0x180E, 0x180E},    // Mongolian vowel separator
     {0x200B, 0x200B},    // zero width space
     {0x200E, 0x200F},    // left-to-right and right-to-left marks
-    {0x2028, 0x202E},    // line, paragraph; embeddings and overrides of direction
-    {0x2060, 0x206F},    // word joiner, isolates of direction, deprecated ones
+    {0x2028, 0x202E},    // line and paragraph separators; bidirectional embeddings and overrides
+    {0x2060, 0x206F},    // word joiner, bidirectional isolates, deprecated characters
     {0xFEFF, 0xFEFF},    // zero width no-break space
     {0xFFF9, 0xFFFB},    // interlinear annotation
     {0xFFFE, 0xFFFF},    // noncharacters
-    {0x1BCA0, 0x1BCA3},  // shorthand controls
-    {0x1D173, 0x1D17A},  // musical controls
+    {0x1BCA0, 0x1BCA3},  // shorthand format controls
+    {0x1D173, 0x1D17A},  // musical symbol format controls
     {0xE0000, 0xE0FFF},  // tags and the supplementary variation selectors
 }};
 

@@ -1,5 +1,5 @@
 #pragma once
-// Text of unknown origin, such as names in files and messages of drivers and users.
+// Functions for text of unknown origin, such as names in files and messages from drivers and users.
 
 #include <cstddef>
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace triptych::core {
 
-// Replaces bytes that are not a character.
+// U+FFFD, which replaces bytes that are not valid UTF-8.
 inline constexpr std::string_view replacement_character = "\uFFFD";
 
-// The number of bytes of the valid UTF-8 character (Unicode 15, table 3-7) at the beginning of a
-// text; 0 if there is none.
+// Returns the length in bytes of the UTF-8 character at the beginning of `text`, or 0 if there is
+// no valid character (Unicode 15, table 3-7) at that place.
 [[nodiscard]] std::size_t utf8_length(std::string_view text);
 
 [[nodiscard]] char32_t code_point(std::string_view character);
@@ -24,12 +24,12 @@ inline constexpr std::string_view replacement_character = "\uFFFD";
 // U+200D are part of words in some scripts and are not hidden.
 [[nodiscard]] bool is_hidden(std::string_view character);
 
-// Whether the text is UTF-8 without hidden characters. Such a text can be written in a line, in JSON
-// and in XML, and is read back unchanged.
+// Whether the text is valid UTF-8 without hidden characters. Such text can be written on one line,
+// in JSON and in XML, and is read back unchanged.
 [[nodiscard]] bool is_line(std::string_view text);
 
-// The text with every word that contains a digit replaced by #, so that messages that differ only
-// in their numbers become equal.
+// Returns the text with every word that contains a digit replaced by '#', so that messages that
+// differ only in their numbers become equal.
 [[nodiscard]] std::string without_numbers(std::string_view text);
 
 }  // namespace triptych::core

@@ -20,7 +20,8 @@ std::vector<std::string> all_in(const std::vector<Beginning>& parts,
   return {all.begin(), all.end()};
 }
 
-// Converts the values to the form in which they are read back, so that seals match.
+// Converts the strings to the form in which the store returns them (valid UTF-8), so that the seals
+// match.
 std::vector<std::string> mended(std::vector<std::string> texts) {
   for (std::string& each : texts) each = core::mended_utf8(each);
   return texts;

@@ -1,7 +1,7 @@
 #pragma once
 // The planned devices and configurations of a run. They are stored before the first configuration
-// is measured, so that a reader of the store can distinguish a complete run from one that was cut
-// short or lost rows.
+// is measured, so that a reader of the store can detect that a run was interrupted or that rows are
+// missing.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -13,19 +13,19 @@
 
 namespace triptych::record {
 
-// A loader, platform, driver or device that was found to be unusable while devices were listed.
+// A loader, platform, driver or device that turned out to be unusable during device enumeration.
 struct Unusable {
-  // The failing part, such as "OpenCL platform Clover". If the process that listed devices ended,
-  // this is its API, such as "vulkan", with the part of the API in parentheses if there are
-  // several: "gl (EGL)".
+  // The unusable part, such as "OpenCL platform Clover". If the process that enumerated the devices
+  // of an API failed, this is the API, such as "vulkan". If that process enumerated only a part of
+  // the API, the part follows in parentheses, as in "gl (EGL)".
   std::string what;
   std::string reason = {};  // the message of the loader or driver
-  // The way in which the process that listed devices ended: it crashed, hung or returned garbage.
-  // The devices that it would have listed are not known.
+  // How the process that enumerated the devices failed: it crashed, hung or returned invalid data.
+  // The devices that it would have found are unknown. Empty if the process did not fail.
   std::optional<Reason> ended = {};
   bool operator==(const Unusable&) const = default;
 
-  // The API whose listing process ended.
+  // Returns the API whose devices could not be enumerated.
   [[nodiscard]] std::string api() const { return what.substr(0, what.find(' ')); }
 };
 
@@ -34,14 +34,14 @@ struct Unusable {
 struct Beginning {
   std::string host = {};
   std::string program = {};               // the version of Triptych that measured; may be unknown
-  std::vector<std::string> asked = {};    // globs over device ids; all devices if empty
-  std::vector<std::string> found = {};    // ids of all devices that were listed
+  std::vector<std::string> asked = {};    // globs that select device ids; empty: all devices
+  std::vector<std::string> found = {};    // ids of all devices that were found
   std::vector<std::string> devices = {};  // ids of the devices to be measured
   std::vector<Unusable> unusable = {};
   bool operator==(const Beginning&) const = default;
 
-  // Whether the command would have measured a device with this id, and whether it would have
-  // measured any device of this API.
+  // Whether the command requested a device with this id, and whether it requested any device of
+  // this API.
   [[nodiscard]] bool asks_for(std::string_view device) const;
   [[nodiscard]] bool asks_for_api(std::string_view api) const;
 };
@@ -51,12 +51,11 @@ void from_json(const nlohmann::json& json, Unusable& unusable);
 void to_json(nlohmann::json& json, const Beginning& beginning);
 void from_json(const nlohmann::json& json, Beginning& beginning);
 
-// Removes duplicates and sorts the parts in an order that does not depend on the order of the
-// argument.
+// Sorts the parts and removes duplicates. The result does not depend on the order of `parts`.
 [[nodiscard]] std::vector<Beginning> joined(std::vector<Beginning> parts);
 
-// devices_of: the ids of the devices that any of the parts planned to measure. found_in: the ids of
-// the devices that any of the parts found.
+// devices_of() returns the ids of all devices that any part planned to measure, and found_in() the
+// ids of all devices that any part found.
 [[nodiscard]] std::vector<std::string> devices_of(const std::vector<Beginning>& parts);
 [[nodiscard]] std::vector<std::string> found_in(const std::vector<Beginning>& parts);
 

@@ -9,13 +9,13 @@ namespace {
 using core::Json;
 constexpr const char* patches_key = "merge_patches";
 
-// The merge patch that converts `from` to `to`. It contains the values that are new or different,
-// and null for the removed ones.
+// Returns the merge patch that converts `from` to `to`. It contains the new and changed values, and
+// null for each removed key.
 Json patch(const Json& from, const Json& to) {
   Json changes = Json::object();
   for (const auto& [key, value] : to.items()) {
     const auto before = from.find(key);
-    // 1 and 1.0 are equal as numbers, but their texts differ.
+    // Types are compared too, because 1 and 1.0 are equal as numbers but are written differently.
     if (before == from.end() || before->type() != value.type() || *before != value) {
       changes[key] = value;
     }

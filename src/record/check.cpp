@@ -7,7 +7,7 @@
 namespace triptych::record {
 namespace {
 
-// The names are in the order of the enum. This is a switch, so that the compiler warns about a
+// The name of each check. This is a switch rather than a table, so that the compiler warns about a
 // check without a name.
 constexpr std::string_view checked_name(Check check) {
   switch (check) {

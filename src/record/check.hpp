@@ -1,6 +1,6 @@
 #pragma once
-// The checks by which a run can be judged. A plan lists its checks, and the judge has a function
-// for each.
+// The checks that can be applied to a run. A plan lists the checks that apply to it, and the judge
+// has a function for each check.
 
 #include <cstdint>
 #include <set>
@@ -10,23 +10,24 @@
 namespace triptych::record {
 
 enum class Check : std::uint8_t {
-  image,        // against the reference, within a derived bound
-  counters,     // Triptych's own counters, exact
-  statistics,   // the driver's pipeline statistics, exact by driver version
-  cost,         // instructions per frame, by driver version
-  code,         // the report of a GPU's compiler, exact by driver version
-  memory,       // bytes allocated on the device, exact
-  timing,       // reported; affects the verdict only on request
-  correlation,  // the cost on one device as a function of the cost on another
-  accuracy,     // orders of convergence and error against run time
-  stress        // scores of hostile scenes
+  image,        // the image, compared with the reference image within a derived bound
+  counters,     // Triptych's own counters, compared exactly
+  statistics,   // the driver's pipeline statistics, compared exactly for each driver version
+  cost,         // instructions per frame, compared for each driver version
+  code,         // the GPU compiler's report, compared exactly for each driver version
+  memory,       // bytes allocated on the device, compared exactly
+  timing,       // frame times; reported, but they affect the verdict only if the user requests it
+  correlation,  // the cost on one device as a function of the cost on another device
+  accuracy,     // orders of convergence, and the error as a function of run time
+  stress        // scores for stress scenes
 };
 [[nodiscard]] std::string_view name_of(Check check);
 [[nodiscard]] Check check(std::string_view name);  // throws InputError
 
 using Checks = std::set<Check>;
 [[nodiscard]] Checks every_check();
-// "image,counters"; empty for no checks. Throws InputError for an unknown name.
+// Convert between checks and a list of their names such as "image,counters", which is empty if
+// there are no checks. checks_of() throws InputError for an unknown name.
 [[nodiscard]] std::string text_of(const Checks& checks);
 [[nodiscard]] Checks checks_of(std::string_view text);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Faults of a device that appear while it is opened, calibrated or closed, so that they belong to
-// no configuration.
+// Faults that occur while a device is opened, calibrated or closed, so they do not belong to any
+// configuration.
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -11,13 +11,13 @@ namespace triptych::record {
 
 enum class DeviceFaultKind : std::uint8_t {
   clock_reads_zero,      // the device's timer reads 0 for work that takes time
-  clock_rate_wrong,      // a tick does not have the length that the device reports
+  clock_rate_wrong,      // the duration of a timer tick is not the one that the device reports
   clock_not_written,     // a time stamp was never written
   statistics_all_zero,   // pipeline statistics of a frame that drew something are all 0
   statistics_crash,      // the driver crashes when it reads pipeline statistics
   statistics_not_ready,  // pipeline statistics never become available
   teardown_crash,        // the worker crashes while it closes the device
-  teardown_hang,         // the worker does not end while it closes the device
+  teardown_hang,         // the worker hangs while it closes the device
   memory_grows           // memory grows with every frame
 };
 [[nodiscard]] std::string_view name_of(DeviceFaultKind kind);
@@ -25,7 +25,7 @@ enum class DeviceFaultKind : std::uint8_t {
 
 struct DeviceFault {
   DeviceFaultKind kind = DeviceFaultKind::clock_reads_zero;
-  std::string subject = {};     // an identifier: a kind of work, a statistic
+  std::string subject = {};     // an identifier, such as a kind of work or a statistic
   std::string detail = {};      // the message of the driver, the library or the exception
   std::string last_words = {};  // the worker's last output
   bool operator==(const DeviceFault&) const = default;

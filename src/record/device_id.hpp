@@ -4,12 +4,12 @@
 
 namespace triptych::record {
 
-// The id of the device with this number in the driver's list. The first device has the id `id`
-// (Device::id), the second one "<id>#2", and so on.
+// Returns the id of the device with this number in the driver's list, counted from 1. The first
+// device has the id `id`, the second device has the id "<id>#2", and so on.
 [[nodiscard]] std::string numbered_id(std::string_view id, int number);
 
-// The family of a device, derived from its id. Drivers that are the same program behind several
-// interfaces belong to one family.
+// Returns the family of a device, which is derived from its id. Drivers for different APIs that
+// share their implementation, such as lavapipe and llvmpipe, belong to one family.
 [[nodiscard]] std::string family_of(std::string_view device);
 
 }  // namespace triptych::record

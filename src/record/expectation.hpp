@@ -1,6 +1,7 @@
 #pragma once
-// The expectations of a stress case in addition to its error bound: relations between its image and
-// other images, and limits of its counters. A suite states them as data, and the judge checks them.
+// Conditions that a stress case must satisfy in addition to its error bound: relations between its
+// image and other images, and limits for its counters. A suite declares them as data, and the judge
+// checks them.
 
 #include <array>
 #include <map>
@@ -9,9 +10,10 @@
 
 namespace triptych::record {
 
-// Selects another record of the same run and device, whose configuration differs only in these
-// factors. Values are written as in the key of a configuration, which always contains data, camera
-// and technique, and any other factor only if it does not have its default value.
+// Selects another record of the same run and device. Its configuration differs only in these
+// factors, which have these values. Values are written as in the key of a configuration, which
+// always contains data, camera and technique, and any other factor only if it does not have its
+// default value.
 using Changed = std::map<std::string, std::string>;
 
 // The image equals that of another configuration.
@@ -21,9 +23,10 @@ struct SamePicture {
   bool mirrored_y = false;  // with top and bottom exchanged
   // Pixel (0, 0) equals the pixel at this position of the other image, which may be larger.
   std::array<int, 2> at{0, 0};
-  bool to_the_bit = true;  // if false, equal within the sum of both images' bounds
-  bool same_ids = true;    // if false, ids are not compared, because numbering differs
-  float depth_scale = 1;   // depths of the other image over depths of this one; a power of two
+  bool to_the_bit = true;  // if false: equal within the sum of both images' bounds
+  bool same_ids = true;    // if false: ids are not compared, because the images number particles
+                           // differently
+  float depth_scale = 1;  // depth in the other image divided by depth in this image; a power of two
 };
 
 // Every pixel has exactly this colour.
@@ -31,8 +34,8 @@ struct OneColour {
   std::array<float, 4> rgba{};
 };
 
-// The counter `counter` is at most `factor` times the counter `of` (times 1 if `of` is empty). `of`
-// is read from the same record or, if `changed` names one, from another record.
+// The counter `counter` is at most `factor` times the counter `of`, or at most `factor` if `of` is
+// empty. `of` is read from the same record, or from another record if `changed` selects one.
 struct CountAtMost {
   std::string counter;
   double factor = 0;
@@ -40,12 +43,12 @@ struct CountAtMost {
   Changed changed = {};
 };
 
-// A device may skip the case with a reason, because the case exceeds limits that devices may have.
-// A device that does not skip it has to draw it.
+// A device may skip the case, stating the reason, because the case exceeds limits that some devices
+// have. A device that does not skip the case must draw it.
 struct MayBeRefused {};
 
 struct Expectation {
-  std::string what;  // one line that states the expectation and its reason
+  std::string what;  // states the expectation and the reason for it on one line
   std::variant<SamePicture, OneColour, CountAtMost, MayBeRefused> rule;
 };
 

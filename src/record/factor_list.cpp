@@ -12,7 +12,7 @@ struct Escape {
 };
 constexpr std::array<Escape, 3> escapes{{{',', "%2C"}, {'=', "%3D"}, {'%', "%25"}}};
 
-// The escape sequence at the beginning of the text; empty if there is none.
+// Returns the escape sequence at the beginning of the text, or nullptr if there is none.
 const Escape* escape_at(std::string_view text) {
   const auto* found = std::ranges::find_if(
       escapes, [&](const Escape& each) { return text.starts_with(each.text); });

@@ -5,9 +5,9 @@
 
 namespace triptych::record {
 
-// The technique speed_of_light computes sums instead of an image, and a compile-only device draws
-// nothing. A record contains only the name of its technique, so a test compares that name with the
-// catalogue, which lists the techniques without an image.
+// Whether the record has an image. The technique speed_of_light computes sums instead of an image,
+// and a compile-only device draws nothing. A test checks that the technique's name here agrees with
+// the catalogue, which states the techniques that draw no image.
 [[nodiscard]] inline bool has_picture(const Record& record) {
   return record.technique != "speed_of_light" && record.code.empty();
 }

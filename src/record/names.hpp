@@ -24,7 +24,8 @@ template <typename Enum, std::size_t N>
   return "unknown";
 }
 
-// Throws an InputError that lists the valid names. `what` is the kind of name: "outcome", "cause".
+// Returns the value with this name. If there is none, throws an InputError that lists the valid
+// names. `what` is the kind of name in the message, such as "outcome".
 template <typename Enum, std::size_t N>
 [[nodiscard]] Enum named_in(const Names<Enum, N>& names, std::string_view what,
                             std::string_view name) {
@@ -33,7 +34,7 @@ template <typename Enum, std::size_t N>
     if (text == name) return each;
     known += fmt::format("{}{}", known.empty() ? "" : ", ", text);
   }
-  throw core::InputError(fmt::format("unknown {} '{}'; there are: {}", what, name, known));
+  throw core::InputError(fmt::format("unknown {} '{}'; expected one of {}", what, name, known));
 }
 
 }  // namespace triptych::record

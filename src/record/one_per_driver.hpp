@@ -8,9 +8,9 @@
 
 namespace triptych::record {
 
-// Returns the first device of each combination of driver version, API and processor. For OpenGL,
-// EGL and OSMesa count as one driver, because they differ only in how devices are opened and images
-// are read.
+// Returns the first device for each combination of API, device name, driver and driver version. EGL
+// and OSMesa therefore count as one OpenGL driver: they differ only in how a device is opened and
+// how an image is read.
 [[nodiscard]] inline std::vector<Device> one_per_driver(std::span<const Device> devices) {
   const auto driver_of = [](const Device& device) {
     return std::tie(device.api, device.name, device.driver, device.driver_version);

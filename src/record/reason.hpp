@@ -1,6 +1,6 @@
 #pragma once
-// The reason why a record was not measured, as data. report/words/ turns it into sentences.
-// `detail` and `last_words` quote drivers and libraries, so no code compares them.
+// The reason why a configuration was not measured, as data. report/words/ converts it to sentences.
+// `detail` and `last_words` quote messages of drivers and libraries, so no code compares them.
 
 #include <chrono>
 #include <cstdint>
@@ -16,44 +16,44 @@ namespace triptych::record {
 
 enum class Outcome : std::uint8_t {
   measured,
-  skipped,  // the device or technique does not support this
-  failed,   // an error of Triptych or of the API
-  crashed,  // the worker died
-  hung,     // the worker was stopped at its time limit
+  skipped,  // the device or technique does not support the configuration
+  failed,   // Triptych or the API reported an error
+  crashed,  // the worker process crashed or exited early
+  hung,     // the worker was killed because it exceeded its time limit
   lost      // the device was lost
 };
 [[nodiscard]] std::string_view name_of(Outcome outcome);
 [[nodiscard]] Outcome outcome(std::string_view name);  // throws InputError
 
 enum class Cause : std::uint8_t {
-  none,              // it was measured
-  same_frames,       // same frames as another configuration, from which they were copied
+  none,              // the configuration was measured
+  same_frames,       // the frames were copied from an equivalent configuration
   not_supported,     // the device, driver or technique lacks the feature in `detail`
   bad_input,         // a broken file, or factor levels that contradict each other
   no_emulator,       // instructions cannot be counted on this machine
-  not_on_processor,  // instructions can be counted only on a processor
+  not_on_processor,  // instructions can be counted only on a CPU device
   api_error,         // `subject` is the call, `code` the code that it returned
-  device_lost,       // `subject` and `code` as for api_error
+  device_lost,       // `subject` and `code` have the same meaning as for api_error
   not_drawn,         // the driver reported success, but drew nothing
-  out_of_memory,     // host memory, for the data `subject`; "limit_bytes" if there is a limit
+  out_of_memory,     // no host memory for the data `subject`; "limit_bytes" is the limit, if any
   error,             // any other exception
   signal,            // the worker was killed by the signal "signal"
   exit_code,         // the worker exited early with the code "exit_code"
-  unknown_end,       // the worker could not be killed
-  timeout,           // no answer within "limit_s"
-  bad_answer,        // the worker's answer makes no sense
-  no_greeting,       // the worker did not send its greeting
+  unknown_end,       // the worker did not exit even after it was killed
+  timeout,           // the worker did not answer within "limit_s"
+  bad_answer,        // the worker's answer was invalid
+  no_greeting,       // the worker's first message was not its greeting
   cannot_start,      // the worker's program cannot be started
-  under_way          // "times" abnormal exits happened while it was measured
+  under_way          // the program ended "times" times before this measurement finished
 };
 [[nodiscard]] std::string_view name_of(Cause cause);
 [[nodiscard]] Cause cause(std::string_view name);  // throws InputError
 
-// The activity of the worker when it failed.
+// The worker's activity when it failed.
 enum class Stage : std::uint8_t {
-  working,   // on the configuration itself
+  working,   // working on the configuration itself
   opening,   // opening the device
-  counting,  // counting the configuration's instructions under an emulator
+  counting,  // counting the configuration's instructions under the emulator
 };
 [[nodiscard]] std::string_view name_of(Stage stage);
 [[nodiscard]] Stage stage(std::string_view name);  // throws InputError
@@ -61,11 +61,12 @@ enum class Stage : std::uint8_t {
 struct Reason {
   Cause cause = Cause::none;
   Stage stage = Stage::working;
-  std::map<std::string, double> numbers = {};  // each name contains the unit
-  std::string subject = {};                    // an identifier: a call, a device, a data set
-  std::string code = {};                       // the error code of an API call
-  // The configuration was not attempted, because configurations with the same `shared_levels` ended
-  // in this way. Without levels, all configurations did.
+  std::map<std::string, double> numbers = {};  // by name; each name contains the unit
+  std::string subject = {};  // an identifier, such as a call, a device or a data set
+  std::string code = {};     // the error code of an API call
+  // The configuration was not attempted, because other configurations with the levels
+  // `shared_levels` failed in this way. If `shared_levels` is empty, the failure did not depend on
+  // any factor of the plan.
   bool not_tried = false;
   std::string shared_levels = {};  // "factor=value,…"
   std::string detail = {};         // the message of a driver, a library or an exception
@@ -73,22 +74,22 @@ struct Reason {
   bool operator==(const Reason&) const = default;
 
   [[nodiscard]] std::optional<double> number(const std::string& name) const;
-  // The time limit that a timeout exceeded.
+  // Returns the time limit that was exceeded. Empty if the cause is not a timeout.
   [[nodiscard]] std::optional<std::chrono::seconds> limit() const;
 };
 
-// Whether two reasons are of the same kind, regardless of their texts and time limits.
+// Whether two reasons are of the same kind, regardless of their messages and time limits.
 [[nodiscard]] bool is_same_kind(const Reason& a, const Reason& b);
-// A text that is equal for two reasons if and only if they are of the same kind.
+// Returns a string that is equal for two reasons if and only if they are of the same kind.
 [[nodiscard]] std::string kind_of(const Reason& reason);
 
-// Thrown when a configuration or a device was not measured and the command therefore ends.
+// Thrown if a configuration or a device was not measured and the command cannot continue.
 class NotMeasured : public core::Error {
  public:
   NotMeasured(Outcome outcome, Reason reason);
   [[nodiscard]] Outcome outcome() const noexcept { return outcome_; }
   [[nodiscard]] const Reason& reason() const noexcept { return reason_; }
-  // cannot_judge if the device does not support the request (outcome skipped), otherwise usage.
+  // Returns cannot_judge if the device does not support the request, otherwise usage.
   [[nodiscard]] core::ExitCode exit_code() const noexcept;
 
  private:
@@ -96,7 +97,7 @@ class NotMeasured : public core::Error {
   Reason reason_;
 };
 
-// The time that a configuration may take if the option --limit does not set another.
+// The time limit for a configuration, unless the option --limit sets another limit.
 inline constexpr std::chrono::seconds standard_limit{60};
 
 void to_json(nlohmann::json& json, const Reason& reason);

@@ -14,7 +14,8 @@
 namespace triptych::record {
 namespace {
 
-// Keeps a key on one line and its parts distinguishable: "; " occurs only between parts.
+// Escapes a part of a key, so that the key stays on one line and "; " occurs only between its
+// parts.
 std::string one_line(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -64,13 +65,13 @@ std::string test_id_part(std::string_view text) {
   return result;
 }
 
-// Linear interpolation between the order statistics next to share·(n−1).
+// Returns a quantile by linear interpolation between the two order statistics next to share·(n−1).
 double quantile_of_sorted(const std::vector<double>& sorted, double share) {
   const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
   const double weight = place - static_cast<double>(below);
-  // The form a + w·(b−a) would be NaN for an infinite b and w = 0.
+  // w = 0 is a special case, because 0·b is NaN for an infinite b.
   return weight == 0 ? sorted[below] : (1 - weight) * sorted[below] + weight * sorted[above];
 }
 

@@ -14,8 +14,7 @@ namespace {
 
 using core::Json;
 
-// --- writing
-// ---------------------------------------------------------------------------------------
+// --- Writing -------------------------------------------------------------------------------------
 
 Json encode(double value) {
   if (std::isfinite(value)) return value;
@@ -56,8 +55,7 @@ Json encode(const std::map<std::string, T>& values) {
   return result;
 }
 
-// --- reading
-// ---------------------------------------------------------------------------------------
+// --- Reading -------------------------------------------------------------------------------------
 
 void decode(const Json& json, double& value) {
   if (json == "nan") {
@@ -90,9 +88,9 @@ void decode(const Json& json, Executable& value) {
 template <typename T>
 requires std::is_integral_v<T>
 void decode(const Json& json, T& value) {
-  // Numbers below zero are rejected too, because every integer of a record is a count. A number
-  // that was written by this code is a signed or unsigned JSON number; one that was parsed from
-  // text is always unsigned.
+  // Negative numbers are rejected too, because every integer in a record is a count. In JSON that
+  // this code created, a count may have the signed or the unsigned number type of the JSON library.
+  // A count that was parsed from text always has the unsigned type.
   const bool natural =
       json.is_number_unsigned() || (json.is_number_integer() && json.get<std::int64_t>() >= 0);
   if (!natural ||
@@ -133,8 +131,7 @@ void read(const Json& json, const char* name, T& value) {
   }
 }
 
-// --- one list of fields per type, for both directions
-// -------------------------------------------------
+// --- One list of fields for each type, used for reading and writing ------------------------------
 
 template <typename Visit>
 void visit_fields(auto& device, Visit&& visit) requires
@@ -166,7 +163,7 @@ void visit_fields(auto& trust, Visit&& visit) requires
   visit("verdict", trust.verdict);
 }
 
-// Enumerations are not in these lists, because they are stored by name.
+// These lists do not contain the enumerations, because they are stored by name (read_name()).
 template <typename Visit>
 void visit_fields(auto& reason, Visit&& visit) requires
     std::is_same_v<std::remove_cvref_t<decltype(reason)>, Reason> {
@@ -259,7 +256,7 @@ void read_fields(const Json& json, T& value) {
   visit_fields(value, [&](const char* name, auto& field) { read(json, name, field); });
 }
 
-// Reads an enumeration by its name. If the key is absent, the variable keeps its value.
+// Reads an enumeration that is stored by name. If the key is absent, `value` is unchanged.
 template <typename Enum>
 void read_name(const Json& json, const char* name, Enum& value, Enum (*named)(std::string_view)) {
   std::string text(name_of(value));

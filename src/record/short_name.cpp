@@ -18,7 +18,8 @@ bool is_plain(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-// Distinguishes values that differ only in characters that a name cannot contain.
+// Returns a short hash that distinguishes values that differ only in characters that a name cannot
+// contain.
 std::string hash_of(std::string_view value) {
   constexpr std::size_t digits = 4;
   return "_" + core::content_hash(value).substr(0, digits);

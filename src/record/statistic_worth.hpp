@@ -1,6 +1,6 @@
 #pragma once
-// How accurately a driver counts a pipeline statistic. This is determined with scenes whose correct
-// numbers are known (measure/protocol/statistics_calibration.hpp).
+// How accurately a driver counts a pipeline statistic, which is determined by drawing scenes whose
+// correct counts are known (measure/protocol/statistics_calibration.hpp).
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -11,11 +11,11 @@ namespace triptych::record {
 
 enum class Worth : std::uint8_t {
   exact,          // the correct number in every scene
-  counts,         // always equal to Triptych's counter `counter`, another quantity
+  counts,         // always equal to Triptych's counter `counter`, which is a different quantity
   proportional,   // always "low" times the correct number
   inflated,       // between "low" and "high" times the correct number
-  differs,        // not the correct number in some scene
-  unsteady,       // not the same number when the same frame is drawn again
+  differs,        // not the correct number in at least one scene
+  unsteady,       // changes when the same frame is drawn again
   absent,         // never reported
   unknown,        // a scene could not be drawn
   not_calibrated  // no scene was drawn for it
@@ -28,16 +28,17 @@ struct StatisticWorth {
   double low = 1;   // smallest ratio of the reported to the correct number
   double high = 1;  // largest ratio
   std::string counter = {};
-  std::string detail = {};  // text that names the affected scenes
+  std::string detail = {};  // names of the affected scenes
   bool operator==(const StatisticWorth&) const = default;
 
   [[nodiscard]] bool is_exact() const { return worth == Worth::exact; }
-  // The number differs when the same frame is drawn again, so it is never compared.
+  // Whether the number changes when the same frame is drawn again. Such a statistic is never
+  // compared.
   [[nodiscard]] bool is_unsteady() const { return worth == Worth::unsteady; }
 };
 
 void to_json(nlohmann::json& json, const StatisticWorth& worth);
-// Also reads the bare name of a Worth. Throws InputError.
+// Reads an object, or a string that is the name of a Worth. Throws InputError.
 void from_json(const nlohmann::json& json, StatisticWorth& worth);
 
 }  // namespace triptych::record

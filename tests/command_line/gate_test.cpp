@@ -174,9 +174,9 @@ TEST(Gate, NoOutputReplacesAnother) {
   const std::string store = program.read("s.sqlite");
   for (const auto& [outputs, says] :
        {std::pair("--junit s.sqlite",
-                  "--junit s.sqlite is also the file of --store: choose another"),
-        {"--markdown ./s.sqlite", "--markdown ./s.sqlite is also the file of --store"},
-        {"--junit new --markdown ./new", "--markdown ./new is also the file of --junit"}}) {
+                  "--junit s.sqlite names the same file as --store; choose another"),
+        {"--markdown ./s.sqlite", "--markdown ./s.sqlite names the same file as --store"},
+        {"--junit new --markdown ./new", "--markdown ./new names the same file as --junit"}}) {
     const Result judged = program.run(judge_from("s.sqlite") + " " + outputs);
     EXPECT_EQ(judged.code, 3) << judged.output;
     EXPECT_NE(judged.output.find(says), std::string::npos) << judged.output;

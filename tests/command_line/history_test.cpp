@@ -150,7 +150,7 @@ TEST_F(History, WhatIsNoStoreOrWouldBeOverwrittenIsRefused) {
   EXPECT_EQ(program.run("history nothing.sqlite").code, 2);
   const Result over = program.run("history 1.sqlite --out 1.sqlite");
   EXPECT_EQ(over.code, 3);
-  EXPECT_THAT(over.output, HasSubstr("is also the file of STORE"));
+  EXPECT_THAT(over.output, HasSubstr("names the same file as STORE"));
   const Result none = program.run("history 1.sqlite --device 'vulkan:*'");
   EXPECT_EQ(none.code, 2) << none.output;
 }

@@ -86,11 +86,11 @@ TEST_F(ReportTest, ReplacesNeitherTheStoreNorItself) {
   const std::string store = program_.read("s.sqlite");
   const Result over_store = program_.run("report --store s.sqlite --out ./s.sqlite");
   EXPECT_EQ(over_store.code, 3);
-  EXPECT_THAT(over_store.output, HasSubstr("--out ./s.sqlite is also the file of --store"));
+  EXPECT_THAT(over_store.output, HasSubstr("--out ./s.sqlite names the same file as --store"));
   EXPECT_EQ(program_.read("s.sqlite"), store);
   const Result over_page = program_.run("report --store s.sqlite --out x --benchmark-json x");
   EXPECT_EQ(over_page.code, 3);
-  EXPECT_THAT(over_page.output, HasSubstr("--benchmark-json x is also the file of --out"));
+  EXPECT_THAT(over_page.output, HasSubstr("--benchmark-json x names the same file as --out"));
 }
 
 TEST_F(ReportTest, WritesBothFilesOrNeither) {

@@ -317,7 +317,7 @@ TEST_F(PlanTest, ChecksSayWhatIsMeasured) {
 TEST_F(PlanTest, ChecksThatAreNoneOrExcludeEachOther) {
   EXPECT_THAT(
       refusal("suite: fake\nchecks: [image, colour]\n"),
-      testing::StartsWith(at(2, 17) + "'checks': unknown check 'colour'; there are: image"));
+      testing::StartsWith(at(2, 17) + "'checks': unknown check 'colour'; expected one of image"));
   EXPECT_EQ(refusal("suite: fake\nchecks: [image, image]\n"),
             at(2, 17) + "'checks': 'image' is given twice");
   EXPECT_THAT(refusal("suite: fake\nchecks: [timing, cost]\n"),
