@@ -11,7 +11,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-// GL_CONTEXT_LOST exists since GL 4.5 and is missing in older headers.
+// GL_CONTEXT_LOST was introduced in GL 4.5, so older headers lack it.
 constexpr GLenum context_lost = 0x0507;
 
 std::string code_name(GLenum code) {
@@ -37,7 +37,7 @@ std::string code_name(GLenum code) {
 Api::Api(GLADloadfunc load) : GladGLContext{} {
   const int version = gladLoadGLContext(this, load);
   if (version < GLAD_MAKE_VERSION(3, 3)) {
-    throw core::NotSupported(fmt::format("OpenGL 3.3 is needed, but the context has {}.{}",
+    throw core::NotSupported(fmt::format("needs OpenGL 3.3, but the context provides only {}.{}",
                                          GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version)));
   }
 }
@@ -72,7 +72,7 @@ void Api::only_compile() {
 
 void Api::keep_reports() const {
   if (!messages_) return;
-  // Reports of generated code have a severity that is disabled by default.
+  // Drivers report generated code with a severity that is disabled by default.
   if (DebugMessageControl != nullptr) {
     DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
   }
@@ -91,7 +91,7 @@ void Api::begin_link(std::vector<LinkedStage> stages) const {
 }
 
 void Api::check(std::string_view call, core::CodePlace place) const {
-  // A lost context may return an error for every call, so this is queried first.
+  // After a context loss, every call may return an error, so the reset status is queried first.
   const GLenum reset = GetGraphicsResetStatus != nullptr ? GetGraphicsResetStatus() : GL_NO_ERROR;
   const GLenum error = GetError();
   if (reset == GL_NO_ERROR && error == GL_NO_ERROR && (!messages_ || messages_->lines.empty())) {

@@ -1,5 +1,5 @@
 #pragma once
-// The functions of one GL context, and the reporting of their errors.
+// The functions of one GL context, and the code that turns their errors into exceptions.
 
 #include <glad/gl.h>
 
@@ -14,26 +14,27 @@
 
 namespace triptych::gl_backend {
 
-// GL's functions as members (`gl.DrawArrays(…)`). Functions that the version and extensions of the
-// context do not have are null. Valid while the context lives; may be called only while it is
-// current.
+// GL's functions as members (`gl.DrawArrays(…)`). A function is null if neither the version nor the
+// extensions of the context provide it. Valid while the context exists; call the functions only
+// while the context is current.
 struct Api : GladGLContext {
   // Throws core::NotSupported if a function of GL 3.3 is missing.
   explicit Api(GLADloadfunc load);
 
-  // From now on check() also reports the driver's error messages. Needs KHR_debug (GL 4.3).
+  // From now on, check() also reports the driver's error messages. Needs KHR_debug (GL 4.3).
   void collect_messages();
 
-  // From now on labels are passed to the driver if it accepts them (KHR_debug).
+  // From now on, labels are passed to the driver if it supports them (KHR_debug).
   void label_all() { labelled = PushDebugGroup != nullptr && ObjectLabel != nullptr; }
 
-  // For a device that only compiles: calls that would execute throw core::NotSupported from now on,
-  // and no data are moved to the device. Objects are still created, so that programs can be linked.
+  // Prepares the context of a device that only compiles. From now on, calls that would execute
+  // something on the device throw core::NotSupported, and no data are uploaded. Objects are still
+  // created, so that programs can be linked.
   void only_compile();
   [[nodiscard]] bool executes() const { return executes_; }
 
-  // A message of the driver while it linked a program. Drivers report generated code in such
-  // messages.
+  // A driver's message from linking a program (Report), and the stages of that program. Drivers
+  // report the code that they generate in such messages.
   struct LinkedStage {
     GLenum type = 0;
     std::string name;
@@ -42,27 +43,29 @@ struct Api : GladGLContext {
     std::vector<LinkedStage> program;
     std::string text;
   };
-  // Begins to store such messages. Does nothing without collect_messages(). take_reports() returns
-  // the stored messages, oldest first, and stops storing.
+  // Starts to store the messages from linking. Does nothing without collect_messages().
+  // take_reports() returns the stored messages, oldest first, and stops storing.
   void keep_reports() const;
   [[nodiscard]] bool can_keep_reports() const { return messages_ != nullptr; }
   [[nodiscard]] std::vector<Report> take_reports() const;
-  // The following reports belong to a program with these stages.
+  // Assigns the messages that follow to a program with these stages.
   void begin_link(std::vector<LinkedStage> stages) const;
 
   // Throws core::DeviceLost or core::ApiError if any call since the last check failed. `call` names
-  // the last of these calls, or the one that matters.
+  // the last of these calls, or the most important one.
   void check(std::string_view call, core::CodePlace place = core::CodePlace::current()) const;
 
-  // Whether objects and commands are named for tools: KHR_debug exists, and names were requested.
+  // Whether objects and commands get names that debuggers and profilers display. True if the names
+  // were requested and the context has KHR_debug.
   bool labelled = false;
 
   measure::MemoryLedger held;  // memory of the textures, renderbuffers and buffers of this context
 
-  [[nodiscard]] std::string text(GLenum name) const;  // glGetString; empty for null
+  // result of glGetString; empty if that is null
+  [[nodiscard]] std::string text(GLenum name) const;
   [[nodiscard]] std::int64_t limit(GLenum name) const;
   [[nodiscard]] std::int64_t limit(GLenum name, GLuint index) const;
-  // The rasterizer rounds vertices to a grid of 2⁻ᵇ pixel; this is b.
+  // Returns b, where the rasterizer rounds vertices to a grid with a spacing of 2⁻ᵇ pixels.
   [[nodiscard]] int sub_pixel_bits() const { return static_cast<int>(limit(GL_SUBPIXEL_BITS)); }
   [[nodiscard]] bool at_least(int major, int minor) const;
 
@@ -79,8 +82,8 @@ struct Api : GladGLContext {
   bool executes_ = true;
 };
 
-// Names the calls that are made while this object lives, for tools that show the names. Does
-// nothing if names were not requested.
+// Groups the GL calls made during the lifetime of this object under a name that debuggers and
+// profilers display. Does nothing if names were not requested.
 class Label {
  public:
   Label(const Api& gl, std::string_view name) : gl_(gl.labelled ? &gl : nullptr) {

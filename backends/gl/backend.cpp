@@ -35,13 +35,13 @@ struct Opened {
   std::unique_ptr<Context> context;
 };
 
-// Opens the devices of a window system one after the other and gives each its id.
+// Opens the devices of a window system one after another, and gives each its id.
 class Walk {
  public:
   explicit Walk(const WindowSystem& system) : system_(system), candidates_(system.candidates()) {}
 
-  // The next device that can be opened; empty at the end. The reasons why others cannot be opened
-  // are added to `broken`.
+  // Returns the next device that can be opened, or nothing at the end. For every device that fails
+  // to open, adds the reason to `broken`.
   std::optional<Opened> next(bool debug, std::vector<measure::Broken>& broken) {
     while (at_ < candidates_.size()) {
       const Candidate& candidate = candidates_[at_++];
@@ -62,7 +62,8 @@ class Walk {
   }
 
  private:
-  // The default device of a platform comes first, and a second time when devices are enumerated.
+  // Returns true for the second occurrence of the platform's default device, which comes first and
+  // then again among the enumerated devices.
   bool is_repeated(const record::Device& info) {
     if (at_ == 1) {
       first_ = info;
@@ -76,11 +77,11 @@ class Walk {
   const WindowSystem& system_;
   std::vector<Candidate> candidates_;
   std::size_t at_ = 0;
-  std::optional<record::Device> first_;  // until it has appeared again
+  std::optional<record::Device> first_;  // the default device, until its second occurrence
   std::map<std::string, int> count_;     // number of devices by id
 };
 
-// The text form of a listing, which one process sends to another.
+// Lists the devices as JSON, which the child process sends to its parent.
 std::string list_as_text(const WindowSystem& system) {
   nlohmann::json devices = nlohmann::json::array();
   nlohmann::json reasons = nlohmann::json::array();
@@ -114,8 +115,8 @@ class GlBackend final : public measure::Backend {
  public:
   [[nodiscard]] std::string_view api() const override { return "gl"; }
 
-  // Each window system is listed in a separate process. A driver that crashes or hangs therefore
-  // affects nothing else, and EGL's Mesa and OSMesa are never loaded into the same process.
+  // Lists each window system in a child process. A driver that crashes or hangs therefore affects
+  // nothing else, and EGL's Mesa and OSMesa are never loaded into the same process.
   [[nodiscard]] measure::Listing list() const override {
     measure::Listing listing;
     for (const WindowSystem& system : window_systems) {
@@ -130,7 +131,7 @@ class GlBackend final : public measure::Backend {
                .reason = {},
                .ended = record::Reason{.cause = record::Cause::error, .detail = answer.failure}});
         }
-      } catch (const std::exception& error) {  // This also handles an answer that cannot be parsed.
+      } catch (const std::exception& error) {  // also catches an answer that cannot be parsed
         listing.broken.push_back(
             {.what = fmt::format("gl ({})", system.name),
              .reason = {},
@@ -146,7 +147,7 @@ class GlBackend final : public measure::Backend {
       if (!may_have(system, device_id)) continue;
       try {
         Walk walk(system);
-        // A compiler reports its generated code in debug messages.
+        // Compilers report the generated code in debug messages.
         const bool debug = debug_wanted() || measure::compile_only(device_id).has_value();
         while (auto opened = walk.next(debug, broken)) {
           if (opened->info.id != device_id) continue;
@@ -164,7 +165,8 @@ class GlBackend final : public measure::Backend {
   }
 
  private:
-  // Opening a device must not load the libraries of other window systems.
+  // Returns whether the device can belong to this window system, because opening a device must not
+  // load the libraries of other window systems.
   static bool may_have(const WindowSystem& system, std::string_view device_id) {
     const bool osmesa = device_id.find("-osmesa") != std::string_view::npos;
     return osmesa == (system.suffix == "-osmesa");

@@ -5,10 +5,10 @@
 
 namespace triptych::gl_backend {
 
-// OpenGL 3.3 core and later without a window: through EGL (surfaceless, or on an EGL device) and
-// through OSMesa, both of which are found at run time. If TRIPTYCH_GL_DEBUG=1 is set in the
-// environment, contexts are debug contexts, and every error message of the driver becomes an
-// ApiError of the call that caused it.
+// OpenGL 3.3 core and later without a window, through EGL (surfaceless or on an EGL device) and
+// through OSMesa. Both libraries are loaded at run time. If the environment variable
+// TRIPTYCH_GL_DEBUG is 1, contexts are debug contexts, and every error message from the driver
+// becomes an ApiError for the call that caused it.
 [[nodiscard]] std::unique_ptr<measure::Backend> make_backend();
 
 }  // namespace triptych::gl_backend

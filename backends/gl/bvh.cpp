@@ -1,4 +1,4 @@
-// Traces rays through a hierarchy of boxes, which compute passes build and traverse
+// Traces rays through a hierarchy of bounding boxes. Compute passes build and traverse it
 // (technique/particles/hierarchy.glsl, bvh.comp.glsl).
 #include <fmt/format.h>
 
@@ -21,9 +21,9 @@ using measure::Purpose;
 using technique::Structure;
 
 constexpr GLuint binding_traced_pixels = 11;
-constexpr GLuint first_shown_texels = 16;  // pixels, spheres, colours, ids
+constexpr GLuint first_shown_texels = 16;  // the texture units of pixels, spheres, colours and ids
 
-// The passes of the build, in the order of `build_passes`.
+// The passes that build the hierarchy, in the same order as `build_passes`.
 enum class BuildPass : std::uint8_t { keys, count, rows, totals, scatter, leaves, level };
 constexpr std::array<std::string_view, 7> build_passes{"keys",    "count",  "rows", "totals",
                                                  "scatter", "leaves", "level"};
@@ -49,7 +49,7 @@ Program tree_program(const Api& gl, const ParticleConstants& constants,
 
 Program build_program(const Api& gl, ParticleConstants constants, BuildPass pass,
                       std::vector<std::string>& sources) {
-  constants.count = false;  // there is nothing to count
+  constants.count = false;  // the passes that build the hierarchy count nothing
   const std::string main_file = fmt::format("hierarchy_{}.comp.glsl", build_passes.at(static_cast<std::size_t>(pass)));
   if (pass == BuildPass::keys) return tree_program(gl, constants, {"storage.glsl", main_file}, sources);
   if (pass == BuildPass::leaves) {
@@ -137,7 +137,7 @@ class BvhDrawing final : public Drawing {
   Program trace_;
   Program show_;
   std::string kernel_hash_;
-  std::uint32_t rounds_ = 1;  // dispatches are repeated until every beam has ended
+  std::uint32_t rounds_ = 1;  // number of dispatches after which every beam has ended
   std::optional<Counting> counting_;
 };
 
@@ -215,13 +215,13 @@ void BvhDrawing::fit(const Api& gl, bool refit) const {
   }
 }
 
-// Sends every stride-th beam.
+// Traces every stride-th beam.
 void BvhDrawing::send(const Api& gl, const Program& trace, GLuint stride, GLuint flags) const {
   run(gl, trace, (grid_.beams() + stride - 1) / stride,
       {stride, grid_.columns, grid_.beams(), flags});
 }
 
-// The camera does not move, so every frame needs as many dispatches as the first one.
+// The camera does not move, so every frame needs as many dispatches as the first frame.
 void BvhDrawing::build(const Api& gl) {
   bind_data(gl);
   sort(gl);

@@ -5,12 +5,12 @@
 namespace triptych::gl_backend {
 namespace {
 
-// The bindings of technique/particles/cull.comp.glsl, and the size of its work groups.
+// The bindings and the work-group size of technique/particles/cull.comp.glsl.
 constexpr GLuint binding_cells = 6;
 constexpr GLuint binding_commands = 7;
 constexpr GLuint cull_group_size = 64;
 
-// DrawArraysIndirectCommand in the specification.
+// DrawArraysIndirectCommand of the OpenGL specification.
 struct DrawCommand {
   GLuint vertices = 0;
   GLuint instances = 0;

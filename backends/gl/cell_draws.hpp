@@ -7,16 +7,16 @@
 
 namespace triptych::gl_backend {
 
-// One draw command for each cell, in the order of the arrangement. It draws all particles of the
-// cell, unless cull.comp.glsl has removed those of cells that are out of sight.
+// One draw command for each cell, in the order of the arrangement. A command draws all particles of
+// its cell, unless cull.comp.glsl found that the cell is out of sight.
 class CellDraws {
  public:
-  // `instanced`: each particle of a cell is an instance of four vertices; otherwise it is one
+  // `instanced`: draw each particle of a cell as an instance with four vertices, rather than as one
   // vertex.
   CellDraws(const Api& gl, std::span<const technique::Cell> cells, bool instanced);
 
-  // Binds cells and commands to bindings 6 and 7, and runs the current program, which does the
-  // culling.
+  // Binds the cells to binding 6 and the commands to binding 7, and dispatches the current program,
+  // which must be the culling program.
   void cull(const Api& gl) const;
   void draw(const Api& gl, GLenum mode) const;
   // Makes every command draw nothing, so that a frame without culling shows nothing.
@@ -28,7 +28,7 @@ class CellDraws {
   Buffer commands_;
 };
 
-// The same cells, but each with only about one of `stride` particles, evenly distributed.
+// Returns the cells with only about one in `stride` particles of each, evenly distributed.
 [[nodiscard]] std::vector<technique::Cell> thinned(std::span<const technique::Cell> cells,
                                                    int stride);
 

@@ -7,15 +7,17 @@
 
 namespace triptych::gl_backend {
 
-// The reason why shaders cannot use storage blocks, atomic counters and fences; empty if they can.
+// Returns the reason why shaders cannot use storage blocks, atomic counters and fences; empty if
+// they can.
 [[nodiscard]] std::optional<std::string> storage_unsupported(const Api& gl);
 
-// One invocation for each pixel writes into a storage buffer; for raycast and speed_of_light.
+// Runs one invocation for each pixel, which writes into a storage buffer. Used by raycast and
+// speed_of_light.
 class ComputePass final : public Pass {
  public:
   ComputePass(const Api& gl, int width, int height, int extra_work_stride);
 
-  // The reason why an image of this size cannot be computed; empty if it can.
+  // Returns the reason why an image of this size cannot be computed; empty if it can.
   [[nodiscard]] static std::optional<std::string> unsupported(const Api& gl, int width, int height);
 
   [[nodiscard]] std::vector<Stage> stages(const Api& gl, const Constants& constants) const override;

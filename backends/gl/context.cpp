@@ -10,7 +10,7 @@ void Context::load(GLADloadfunc load_function, bool debug) {
   if (debug) gl_->collect_messages();
   const char* labels = std::getenv("TRIPTYCH_LABELS");
   if (labels != nullptr && std::string_view(labels) == "1") gl_->label_all();
-  // The conventions of Vulkan: y = -1 is the first row of a target, and depth runs from 0 to 1.
+  // Uses Vulkan's conventions: y = -1 is the first row of a target, and depth runs from 0 to 1.
   if (gl_->ClipControl != nullptr) gl_->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   gl_->check("glClipControl");
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Creates and finds GL contexts without a window.
+// Finds and creates GL contexts without a window.
 
 #include <functional>
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace triptych::gl_backend {
 
-// A GL context and its functions, which may be called only while a Current object for it exists.
+// A GL context and its functions. Call them only while a Current object for the context exists.
 class Context {
  public:
   Context(const Context&) = delete;
@@ -20,13 +20,14 @@ class Context {
   [[nodiscard]] const Api& gl() const { return *gl_; }
   // Calls Api::only_compile().
   void only_compile() { gl_->only_compile(); }
-  // Whether the window system reports that the context renders on the processor.
+  // Returns whether the window system reports that the context renders on the processor.
   [[nodiscard]] virtual bool computes_on_the_processor() const = 0;
 
  protected:
   Context() = default;
-  // Called once by the maker of a context when it can be made current. Loads the functions, and
-  // sets the conventions on which all techniques rely. `debug`: see Api::collect_messages.
+  // Called once by the constructor of a derived class, as soon as the context can be made current.
+  // Loads the functions and sets the conventions on which all techniques rely. For `debug`, see
+  // Api::collect_messages.
   void load(GLADloadfunc load_function, bool debug);
 
  private:
@@ -37,10 +38,10 @@ class Context {
   std::unique_ptr<Api> gl_;
 };
 
-// Keeps a context current on this thread. EGL's Mesa and OSMesa share the variable that holds the
-// thread's current context, but neither knows of the other. Therefore each use binds and unbinds: a
-// context that was left current would be considered bound even after the other library has replaced
-// it.
+// Makes a context current on this thread for the lifetime of this object. EGL's Mesa and OSMesa
+// share the variable that holds the thread's current context, but neither notices when the other
+// changes it. A context that stayed current would count as bound even after the other library had
+// replaced it. Therefore every use binds and unbinds the context.
 class Current {
  public:
   explicit Current(Context& context) : context_(context) { context_.make_current(); }
@@ -52,7 +53,7 @@ class Current {
   Context& context_;
 };
 
-// One device that a window system offers and that is not open yet.
+// A device that a window system offers but that has not been opened yet.
 struct Candidate {
   std::string what;  // shown to users, such as "EGL surfaceless"
   // Throws core::NotSupported or core::ApiError.
@@ -61,9 +62,9 @@ struct Candidate {
 
 struct WindowSystem {
   std::string_view name;    // "EGL"
-  std::string_view suffix;  // the end of device ids: "-egl"
-  // The devices of this machine, in a fixed order; throws core::NotSupported if the library is
-  // missing. The same device may be offered twice, by platform and by enumeration.
+  std::string_view suffix;  // the suffix of device ids, such as "-egl"
+  // Lists the available devices in a fixed order. Throws core::NotSupported if the library is
+  // missing. The same device may be listed twice: by platform and by enumeration.
   std::vector<Candidate> (*candidates)();
 };
 

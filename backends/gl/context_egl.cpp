@@ -1,4 +1,4 @@
-// EGL without a window: Mesa's surfaceless platform, and EGL devices (of NVIDIA's driver and
+// EGL without a window: Mesa's surfaceless platform, and EGL devices (from NVIDIA's driver and
 // others).
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ struct Egl {
   PFNEGLDESTROYCONTEXTPROC destroy_context =
       library.get<PFNEGLDESTROYCONTEXTPROC>("eglDestroyContext");
   PFNEGLMAKECURRENTPROC make_current = library.get<PFNEGLMAKECURRENTPROC>("eglMakeCurrent");
-  // Extensions of the library itself; null if it does not have them.
+  // Functions from client extensions of the library; null if the library lacks the extension.
   PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display =
       reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
           get_proc_address("eglGetPlatformDisplayEXT"));
@@ -40,7 +40,7 @@ struct Egl {
   [[nodiscard]] bool has(EGLDisplay display, std::string_view extension) const {
     return is_among(query_string(display, EGL_EXTENSIONS), extension);
   }
-  // Whether the display belongs to a device that Mesa calls software.
+  // Returns whether the display belongs to a device that Mesa marks as software.
   [[nodiscard]] bool is_software(EGLDisplay display) const {
     EGLAttrib device = 0;
     if (query_display == nullptr || query_device_string == nullptr) return false;
@@ -77,7 +77,8 @@ class EglContext final : public Context {
   EglContext(EGLenum platform, EGLDeviceEXT device, bool debug) {
     open_display(platform, device);
     if (egl_.bind_api(EGL_OPENGL_API) == EGL_FALSE) throw egl_.error("eglBindAPI");
-    // Ask for reset notification, so that a lost context is reported. Not every driver supports it.
+    // Requests reset notification, so that a lost context is reported. Not every driver supports
+    // it.
     handle_ = create_newest(debug, true);
     if (handle_ == EGL_NO_CONTEXT) handle_ = create_newest(debug, false);
     if (handle_ == EGL_NO_CONTEXT) refuse_context();
@@ -94,13 +95,13 @@ class EglContext final : public Context {
   [[nodiscard]] bool computes_on_the_processor() const override {
     return egl_.is_software(display_);
   }
-  // The display is not terminated: it is shared with every other context on it in this process.
+  // The display is not terminated, because every other context on it in this process shares it.
   ~EglContext() override { egl_.destroy_context(display_, handle_); }
 
  private:
   [[noreturn]] void refuse_context() {
     const core::ApiError error = egl_.error("eglCreateContext");
-    // EGL returns this error if the driver does not have the version or profile.
+    // EGL returns this error if the driver does not support the version or profile.
     if (error.code() == "EGL_BAD_MATCH") throw core::NotSupported("no OpenGL 3.3 core context");
     throw error;
   }
@@ -112,12 +113,14 @@ class EglContext final : public Context {
       throw egl_.error("eglInitialize");
     }
     for (const char* needed : {"EGL_KHR_surfaceless_context", "EGL_KHR_no_config_context"}) {
-      if (!egl_.has(display_, needed)) throw core::NotSupported(fmt::format("no {}", needed));
+      if (!egl_.has(display_, needed)) {
+        throw core::NotSupported(fmt::format("the EGL display lacks {}", needed));
+      }
     }
   }
 
-  // For a request of version 3.3, Mesa creates the newest version that it has; NVIDIA's driver
-  // creates 3.3.
+  // Requests the newest version first. When asked for version 3.3, Mesa creates the newest version
+  // that it supports, but NVIDIA's driver creates 3.3.
   EGLContext create_newest(bool debug, bool robust) {
     static constexpr std::array<std::array<EGLint, 2>, 8> versions{
         {{4, 6}, {4, 5}, {4, 4}, {4, 3}, {4, 2}, {4, 1}, {4, 0}, {3, 3}}};
@@ -133,7 +136,8 @@ class EglContext final : public Context {
         EGL_CONTEXT_MAJOR_VERSION,       major,
         EGL_CONTEXT_MINOR_VERSION,       minor,
         EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
-    // Displays of EGL 1.4 (softpipe's) refuse the attribute of EGL 1.5, but all accept this one.
+    // EGL 1.4 displays (such as softpipe's) reject the debug attribute of EGL 1.5, but all displays
+    // accept this flag.
     if (debug && egl_.has(display_, "EGL_KHR_create_context")) {
       attributes.insert(attributes.end(),
                         {EGL_CONTEXT_FLAGS_KHR, EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR});
@@ -147,7 +151,7 @@ class EglContext final : public Context {
   }
 
   void make_current() override {
-    // The bound API belongs to the thread, and another library may have changed it.
+    // The bound API is a property of the thread, and another library may have changed it.
     egl_.bind_api(EGL_OPENGL_API);
     if (egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, handle_) == EGL_FALSE) {
       throw egl_.error("eglMakeCurrent");

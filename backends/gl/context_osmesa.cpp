@@ -1,5 +1,5 @@
 // OSMesa: Mesa's software renderers without a window system. Newer versions of Mesa no longer
-// contain it, so its few declarations are repeated here instead of including <GL/osmesa.h>.
+// include OSMesa, so this file repeats its few declarations instead of including <GL/osmesa.h>.
 
 #include <array>
 #include <cstdint>

@@ -25,8 +25,8 @@
 namespace triptych::gl_backend {
 namespace {
 
-// A sampler with a smaller error is as good as interpolation in the shader, whose rounding errors
-// are about 1e-6.
+// A sampler whose error is below this is as good as interpolation in the shader, whose rounding
+// errors are about 1e-6.
 constexpr double exact_filter = 1e-5;
 
 struct Entry {
@@ -108,7 +108,7 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
 
   [[nodiscard]] double filter_weight_error(const measure::VolumePath& path) const override {
     if (path.sampler != technique::Sampler::hardware) return 0;
-    // The allowed error is an upper limit, because a wrong filter must not lead to a wide bound.
+    // Limits the error to the allowed error, because a faulty filter must not widen the bound.
     return std::min(filter_error_.at(static_cast<std::size_t>(path.voxel)),
                     technique::allowed_filter_error(technique::least_weight_bits, path.voxel));
   }
@@ -129,8 +129,8 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
     return prepare_current(work);
   }
 
-  // The programs of the timed frame are linked when it is prepared. Variants that a driver makes
-  // only at the first draw are not included.
+  // Preparing the timed frame links its programs, so their code is reported. Shader variants that a
+  // driver compiles only at the first draw are not included.
   [[nodiscard]] measure::Compiled compile(const measure::Work& work) override {
     const Current current(*context_);
     const Api& gl = context_->gl();
@@ -160,7 +160,8 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
                              .make(context_->gl(), std::get<measure::ParticleWork>(work.scene)));
   }
 
-  // A volume that one texture cannot hold is drawn in parts, which samplers cannot do.
+  // A volume that does not fit into one texture is drawn in parts, which is impossible with
+  // hardware samplers.
   [[nodiscard]] bool holds_whole(const std::array<int, 3>& size, scene::VoxelFormat format) const {
     const Current current(*context_);
     return gl_backend::holds_whole(context_->gl(), size, format);
@@ -170,7 +171,7 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
   std::unique_ptr<Context> context_;
   Stamps stamps_;
   measure::Rasterizer rasterizer_;
-  // One entry per voxel format; 1, the worst possible value, if the filter cannot be probed.
+  // One error per voxel format; 1, the worst possible error, if the filter cannot be probed.
   std::uint64_t most_texels_ = 0;
   std::array<double, 4> filter_error_{1, 1, 1, 1};
 };

@@ -6,8 +6,8 @@
 
 namespace triptych::gl_backend {
 
-// Makes a device from its context. The work that it prepares must not outlive it. Throws
-// core::ApiError.
+// Creates a device from its context. The work that the device prepares must not outlive the device.
+// Throws core::ApiError.
 [[nodiscard]] std::unique_ptr<measure::Device> make_device(record::Device info,
                                                            std::unique_ptr<Context> context);
 

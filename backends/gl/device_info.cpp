@@ -16,7 +16,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-// Mesa's variables that select the driver, or change the code that it generates or its
+// Mesa's environment variables that select the driver, or that change its generated code or its
 // capabilities.
 constexpr std::array<std::string_view, 11> code_variables{"GALLIUM_DRIVER",
                                                           "GALLIUM_OVERRIDE_CPU_CAPS",
@@ -30,8 +30,8 @@ constexpr std::array<std::string_view, 11> code_variables{"GALLIUM_DRIVER",
                                                           "MESA_LOADER_DRIVER_OVERRIDE",
                                                           "TRIPTYCH_GL_DEBUG"};
 
-// Layered drivers, which forward all work to another driver. The first word of the renderer string
-// identifies them.
+// Layered drivers, which forward all work to another driver. The renderer string of each begins
+// with `start`.
 struct Layered {
   std::string_view start;
   std::string_view name;
@@ -48,8 +48,8 @@ const Layered* layered(std::string_view renderer) {
   return found == layered_drivers.end() ? nullptr : found;
 }
 
-// The driver below a layered one, which is named in parentheses: "zink (llvmpipe (LLVM 15.0.6, 256
-// bits))", "virgl (…)", "ANGLE (…)".
+// Returns the driver below a layered driver. The renderer string contains it in parentheses: "zink
+// (llvmpipe (LLVM 15.0.6, 256 bits))", "virgl (…)", "ANGLE (…)".
 std::string host_of(std::string_view renderer) {
   const std::size_t begin = renderer.find('(');
   const std::size_t end = renderer.rfind(')');
@@ -84,8 +84,8 @@ std::map<std::string, std::string> limits_of(const Api& gl) {
 
 }  // namespace
 
-// A short name, if the vendor or renderer string contains a known word; otherwise the first word of
-// the renderer string.
+// Returns a short name if the vendor or renderer string contains a known word, and otherwise the
+// first word of the renderer string.
 std::string driver_name(const std::string& vendor, const std::string& renderer) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> known{{
       {"llvmpipe", "llvmpipe"},
@@ -127,7 +127,7 @@ std::string driver_version(const std::string& version, const std::string& render
 }
 
 bool is_software(const record::Device& info) {
-  // The driver below a layered one is a part of its version.
+  // The version of a layered driver includes the name of the driver below it.
   for (const std::string_view name : {"llvmpipe", "softpipe", "LLVMPIPE", "SwiftShader"}) {
     if (info.driver == name || info.driver_version.find(name) != std::string::npos) return true;
   }
@@ -153,7 +153,8 @@ record::Device device_info(const Api& gl, std::string_view suffix) {
   if (is_software(info)) {
     info.cpu_features = measure::cpu_features();
   } else if (std::string family = measure::compiled_family(driver); !family.empty()) {
-    // The id contains the driver that the variables selected.
+    // The id already contains the driver, and the family represents the variables that selected it.
+    // Therefore the environment is cleared.
     info.id = measure::compile_only_id("gl", driver, family);
     info.compiles_for = std::move(family);
     info.name = measure::without_kernel_version(std::move(info.name));

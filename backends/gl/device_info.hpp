@@ -8,18 +8,18 @@ namespace triptych::gl_backend {
 
 struct Api;
 
-// The driver information of the current context. The id is "gl:<driver><suffix>", without a number.
-// `suffix` names the window system ("-egl"); only softpipe through EGL is called plain
-// "gl:softpipe".
+// Returns the driver information of the current context. The id is "gl:<driver><suffix>", without a
+// number. `suffix` names the window system, such as "-egl". Only the id of softpipe through EGL has
+// no suffix.
 [[nodiscard]] record::Device device_info(const Api& gl, std::string_view suffix);
 
-// The short name of a driver in device ids, from its vendor and renderer strings. A driver that is
-// layered over another one (zink, virgl, ANGLE) gets its own name.
+// Returns the short driver name for device ids, from the vendor and renderer strings. A layered
+// driver (zink, virgl, ANGLE) has its own name, not that of the driver below it.
 [[nodiscard]] std::string driver_name(const std::string& vendor, const std::string& renderer);
-// One line. For a layered driver it ends with the driver below.
+// Returns the version in one line. For a layered driver, the line ends with the driver below it.
 [[nodiscard]] std::string driver_version(const std::string& version, const std::string& renderer);
 
-// Whether the renderer runs on the processor.
+// Returns whether the renderer runs on the processor.
 [[nodiscard]] bool is_software(const record::Device& info);
 
 }  // namespace triptych::gl_backend

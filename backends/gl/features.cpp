@@ -30,7 +30,7 @@ void set_uniform(const Api& gl, const Program& program, const char* name, GLuint
   gl.Uniform2ui(gl.GetUniformLocation(program.get(), name), x, y);
 }
 
-// A buffer of this many bytes. Throws NotSupported if the driver has no memory for it.
+// Allocates a buffer of this many bytes. Throws NotSupported if the driver cannot allocate it.
 Buffer room(const Api& gl, GLenum target, std::uint64_t bytes) {
   Buffer buffer(gl);
   gl.BindBuffer(target, buffer.get());
@@ -77,8 +77,8 @@ ProbedFeature probe_groups(const Api& gl) {
                         fmt::format("{} x 2 x 2 groups", most));
 }
 
-// One buffer in which the same kernel writes at the beginning and beyond `offset`: an offset that
-// loses its upper bits would overwrite the beginning.
+// Runs the same kernel at the beginning of a buffer and at `offset`. If the driver dropped the
+// upper bits of the offset, the second run would overwrite the beginning.
 ProbedFeature probe_offset(const Api& gl, std::uint64_t offset) {
   constexpr std::size_t count = 65536;
   constexpr std::uint64_t bytes = count * sizeof(GLuint);
@@ -101,8 +101,7 @@ ProbedFeature probe_offset(const Api& gl, std::uint64_t offset) {
   return judged_feature(right, 2 * count, fmt::format("offset of {} bytes", offset));
 }
 
-// ---- Textures
-// -------------------------------------------------------------------------------------
+// Textures
 
 constexpr GLuint image_edge = 16;
 constexpr float border_value = 1;
@@ -111,7 +110,8 @@ float texel_value(GLuint x, GLuint y, GLuint level) {
   return 2.0F + static_cast<float>(x + image_edge * y + 1000 * level);
 }
 
-// The texel along one axis for a coordinate outside of an image of `size`; `size` for the border.
+// Returns the texel along one axis for coordinate `at`, which may lie outside of an image of `size`
+// texels. Returns `size` for the border.
 GLuint addressed(int at, GLuint size, GLint mode) {
   const int texels = static_cast<int>(size);
   if (mode == GL_CLAMP_TO_BORDER) return at < 0 || at >= texels ? size : static_cast<GLuint>(at);
@@ -120,7 +120,7 @@ GLuint addressed(int at, GLuint size, GLint mode) {
   return static_cast<GLuint>(within < texels ? within : period - 1 - within);
 }
 
-// A texture with four mip levels, in which no two texels are equal.
+// Creates a texture with four mip levels, in which no two texels are equal.
 Texture levels_texture(const Api& gl, GLint mode) {
   Texture texture(gl);
   gl.ActiveTexture(GL_TEXTURE0);
@@ -196,8 +196,7 @@ ProbedFeature probe_wide_image(const Api& gl) {
                         fmt::format("{} x 2 texels", width));
 }
 
-// ---- Draws
-// ----------------------------------------------------------------------------------------
+// Draws
 
 struct PointGrid {
   GLuint width;
@@ -211,8 +210,9 @@ Buffer filled(const Api& gl, GLenum target, std::span<const GLuint> words) {
   return buffer;
 }
 
-// Draws one point on each of the first `count` pixels. Each draw computes its pixel from its
-// number. `instances` numbers are read once for each instance.
+// Draws one point on each of the first `count` pixels, and checks every pixel. The shader computes
+// the pixel from the vertex number plus the instance number. The instance numbers are read from a
+// vertex attribute that advances once per instance; its buffer has `instances` elements.
 template <class Draw>
 ProbedFeature probe_points(const Api& gl, PointGrid grid, GLuint count, std::size_t instances,
                            std::string size, const Draw& draw) {
@@ -252,7 +252,7 @@ ProbedFeature probe_points(const Api& gl, PointGrid grid, GLuint count, std::siz
 ProbedFeature probe_indirect_draws(const Api& gl) {
   if (gl.VERSION_4_3 == 0) throw core::NotSupported("needs OpenGL 4.3");
   constexpr GLuint count = 100'000;
-  Words commands;  // vertices, instances, first vertex, first instance
+  Words commands;  // vertex count, instance count, first vertex, first instance
   for (GLuint i = 0; i < count; ++i) commands.insert(commands.end(), {1, 1, 0, i});
   return probe_points(gl, {512, 196}, count, count, fmt::format("{} draws", count), [&] {
     const Buffer buffer = filled(gl, GL_DRAW_INDIRECT_BUFFER, commands);
@@ -268,7 +268,7 @@ ProbedFeature probe_instances(const Api& gl) {
                       [&] { gl.DrawArraysInstanced(GL_POINTS, 0, 1, count); });
 }
 
-// The indices are 1000 too large, and the draw adds a base vertex of -1000.
+// Draws with indices that are 1000 too large and a base vertex of -1000.
 ProbedFeature probe_base_vertex(const Api& gl) {
   constexpr GLuint count = 100'000;
   constexpr GLint base = -1000;

@@ -6,7 +6,7 @@
 
 namespace triptych::gl_backend {
 
-// The probes, which refer to the context.
+// Returns the feature probes. They keep a reference to the context.
 [[nodiscard]] std::vector<measure::FeatureProbe> feature_probes(Context& context);
 
 }  // namespace triptych::gl_backend

@@ -21,8 +21,8 @@ constexpr GLuint binding_probe = 4;
 constexpr int probe_group_size = 64;
 
 // The size is a power of two, so that dividing a position by it is exact and only the filter's
-// error is measured. It is larger than the tiles into which renderers cut volumes, because errors
-// may occur at the seams of these tiles (softpipe).
+// error is measured. The volume is larger than the tiles into which renderers such as softpipe
+// divide volumes, so that errors at the seams of these tiles are found.
 constexpr int edge = 64;
 constexpr int point_count = 512 * probe_group_size;
 using Point = std::array<float, 4>;  // position in voxels, and the value sampled there
@@ -52,7 +52,7 @@ double bit(const scene::VoxelGrid& grid, int x, int y, int z) {
   const auto inside = [](int i) { return static_cast<std::size_t>(std::clamp(i, 0, edge - 1)); };
   const std::size_t index = inside(x) + edge * (inside(y) + edge * inside(z));
   const std::size_t last = (index + 1) * scene::bytes_of(grid.format) - 1;
-  return grid.data[last] != std::byte{0} ? 1 : 0;  // the top byte of a float's 1 is not zero
+  return grid.data[last] != std::byte{0} ? 1 : 0;  // the top byte of the float 1.0 is not zero
 }
 
 double interpolated(const scene::VoxelGrid& grid, const Point& point) {

@@ -4,10 +4,10 @@
 
 namespace triptych::gl_backend {
 
-// The largest error of the device's linear sampler for this format, as a share of the difference
-// between neighbouring voxels. It fetches from a volume of random zeros and ones as raycast does,
-// and compares with interpolation in double precision. It needs what ComputePass::unsupported asks
-// for, and a current context.
+// Returns the largest error of the device's linear sampler for this format, as a fraction of the
+// difference between neighbouring voxels. The probe samples a volume of random zeros and ones in
+// the same way as raycast, and compares the samples with interpolation in double precision. It has
+// the same requirements as ComputePass::unsupported, and needs a current context.
 [[nodiscard]] double probe_filter(const Api& gl, scene::VoxelFormat format);
 
 }  // namespace triptych::gl_backend

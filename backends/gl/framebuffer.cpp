@@ -12,7 +12,7 @@ namespace triptych::gl_backend {
 
 namespace {
 
-// The bytes of a pixel, for the formats that are drawn to.
+// Returns the size of a pixel in bytes, for the formats of render targets.
 std::uint64_t bytes_of(GLenum format) {
   switch (format) {
     case GL_RGBA32F:

@@ -3,7 +3,7 @@
 
 namespace triptych::gl_backend {
 
-// Makes a renderbuffer of this format and size.
+// Creates a renderbuffer of this format and size.
 [[nodiscard]] Renderbuffer pixels(const Api& gl, GLenum format, int width, int height);
 
 // Throws core::ApiError if the bound framebuffer is not complete.

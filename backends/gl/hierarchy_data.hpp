@@ -8,8 +8,8 @@
 
 namespace triptych::gl_backend {
 
-// A buffer texture of the format GL_R32UI or GL_RGBA32F over the buffer. Throws core::NotSupported
-// if the buffer has more texels than the device allows.
+// Creates a buffer texture with the format GL_R32UI or GL_RGBA32F on top of the buffer. Throws
+// core::NotSupported if the buffer has more texels than the device allows.
 [[nodiscard]] Texture texels_of(const Api& gl, const Buffer& buffer, std::size_t words, GLenum format);
 
 // The buffers that the passes of technique/particles/hierarchy.glsl write and read.
@@ -17,9 +17,9 @@ class HierarchyData {
  public:
   HierarchyData(const Api& gl, const technique::Hierarchy& hierarchy, std::uint32_t beams);
 
-  // Storage blocks 7…10 and 12, texture units 13…15.
+  // Binds storage blocks 7…10 and 12, and texture units 13…15.
   void bind(const Api& gl) const;
-  // Whether every beam has come to an end (bvh.comp.glsl, TRI_STEP).
+  // Returns whether every beam has ended (bvh.comp.glsl, TRI_STEP).
   [[nodiscard]] bool all_ended(const Api& gl) const;
 
  private:

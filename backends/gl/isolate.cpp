@@ -30,10 +30,11 @@ bool write_all(int fd, std::string_view text) {
   return true;
 }
 
-// Runs in the child process. It ends with _exit, because it must not run the exit handlers of the
-// parent.
+// Runs in the child process. Leaves it with _exit, because the child must not run the parent's exit
+// handlers.
 [[noreturn]] void answer(const std::function<std::string()>& ask, int fd) {
-  // The parent reports a crash. Handlers that it may have installed would report it a second time.
+  // The parent reports a crash of the child. Inherited signal handlers would report it a second
+  // time.
   for (const int fatal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}) std::signal(fatal, SIG_DFL);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
@@ -48,7 +49,7 @@ bool write_all(int fd, std::string_view text) {
   _exit(exit_exception);
 }
 
-// Reads to the end of the stream; false if `limit` passes before that.
+// Reads until the end of the stream. Returns false if `limit` passes first.
 bool read_all(int fd, std::chrono::milliseconds limit, std::string& text) {
   const auto end = std::chrono::steady_clock::now() + limit;
   std::array<char, 4096> part{};
@@ -94,7 +95,7 @@ Answer ask_in_child(const std::function<std::string()>& ask, std::chrono::millis
   close(ends[1]);
   if (child < 0) {
     close(ends[0]);
-    return {{}, fmt::format("no child process: {}", std::strerror(fork_error))};
+    return {{}, fmt::format("cannot create a child process: {}", std::strerror(fork_error))};
   }
   std::string text;
   const bool in_time = read_all(ends[0], limit, text);

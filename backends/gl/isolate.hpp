@@ -8,12 +8,12 @@ namespace triptych::gl_backend {
 struct Answer {
   std::string text;  // the text that the child returned
   std::string
-      failure;  // the reason if there is no text: "crashed: Segmentation fault"; otherwise empty
+      failure;  // why there is no text, such as "crashed: Segmentation fault"; otherwise empty
 };
 
-// Runs `ask` in a child of this process, so that a library that it loads can neither crash the
-// caller nor stay loaded in it. A child that has not finished after `limit` is killed. Nothing that
-// the child does makes this throw.
+// Runs `ask` in a child process, so that a library that `ask` loads can neither crash the caller
+// nor stay loaded in it. Kills the child if it has not finished after `limit`. Nothing that the
+// child does makes this function throw.
 [[nodiscard]] Answer ask_in_child(const std::function<std::string()>& ask,
                                   std::chrono::milliseconds limit);
 

@@ -7,14 +7,15 @@
 
 namespace triptych::gl_backend {
 
-// The number of pixels to add to the size of a point on this device.
+// Returns the number of pixels by which points must be enlarged on this device.
 [[nodiscard]] double point_margin(const Api& gl);
 
-// The largest point that the device draws, in pixels.
+// Returns the size of the largest point that the device can draw, in pixels.
 [[nodiscard]] double largest_point(const Api& gl);
 
-// The cells of the arrangement with empty cells wherever no sphere may need a larger point. The
-// second draw of `point` uses these, because the camera does not move.
+// Returns the cells of the arrangement, but without the particles of cells in which every sphere
+// fits into the largest point. The second draw of `point` uses these cells. They stay valid because
+// the camera does not move.
 [[nodiscard]] std::vector<technique::Cell> cells_with_large_points(
     const Api& gl, const scene::ParticleScene& scene, const technique::Arrangement& arrangement);
 

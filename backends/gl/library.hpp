@@ -4,20 +4,20 @@
 
 namespace triptych::gl_backend {
 
-// A shared library that is found at run time. It is never unloaded, because drivers keep threads
-// and exit handlers.
+// A shared library that is loaded at run time. It is never unloaded, because drivers leave threads
+// and exit handlers behind.
 class Library {
  public:
-  // Opens the first of `names` that exists; otherwise throws core::NotSupported with the reason of
-  // the loader.
+  // Opens the first of `names` that exists. If none exists, throws core::NotSupported with the
+  // loader's error message.
   explicit Library(std::initializer_list<const char*> names);
 
-  // The function `name`; null if the library does not have it.
+  // Returns the function `name`, or null if the library does not contain it.
   template <class Function>
   [[nodiscard]] Function find(const char* name) const {
     return reinterpret_cast<Function>(symbol(name));
   }
-  // The same for a function that must exist; throws core::NotSupported otherwise.
+  // Returns the function `name`. Throws core::NotSupported if the library does not contain it.
   template <class Function>
   [[nodiscard]] Function get(const char* name) const {
     return reinterpret_cast<Function>(required(name));

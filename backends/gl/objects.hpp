@@ -1,6 +1,6 @@
 #pragma once
-// One move-only owner for each kind of GL object. All are created and destroyed while their context
-// is current.
+// One move-only owner type for each kind of GL object. Create and destroy the owners while their
+// context is current.
 
 #include <utility>
 
@@ -9,7 +9,8 @@
 
 namespace triptych::gl_backend {
 
-// An object that glGen… creates and glDelete… deletes. Both functions take a count and names.
+// An object that glGen… creates and glDelete… deletes. Both functions take a count and an array of
+// names.
 template <auto Generate, auto Delete>
 class Object {
  public:
@@ -48,7 +49,7 @@ using Framebuffer = Object<&GladGLContext::GenFramebuffers, &GladGLContext::Dele
 using VertexArray = Object<&GladGLContext::GenVertexArrays, &GladGLContext::DeleteVertexArrays>;
 using Query = Object<&GladGLContext::GenQueries, &GladGLContext::DeleteQueries>;
 
-// An object that has its own call for creation and is deleted individually: shader, program, fence.
+// A shader, program or fence: an object with its own creation call that is deleted individually.
 template <class Name, auto Delete>
 class Made {
  public:

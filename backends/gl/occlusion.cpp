@@ -9,7 +9,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-// The bindings of technique/particles/occlusion.glsl; this backend chooses the texture unit.
+// The bindings of technique/particles/occlusion.glsl. The texture unit is chosen here.
 constexpr GLuint binding_before = 8;
 constexpr GLuint binding_now = 9;
 constexpr GLuint binding_farthest = 10;

@@ -8,21 +8,22 @@
 
 namespace triptych::gl_backend {
 
-// The data that the two passes of occlusion culling keep (technique/particles/occlusion.glsl): the
-// cells that the last frame showed, and the farthest depth in each block of pixels.
+// The data that the two passes of occlusion culling use (technique/particles/occlusion.glsl): the
+// cells that were visible in the previous frame, and the farthest depth in each block of pixels.
 class Occlusion {
  public:
   Occlusion(const Api& gl, const measure::ParticleWork& work, std::size_t cells);
 
-  // Call before the first draw of a frame: what the previous frame showed becomes "before".
+  // Call before the first draw of a frame. What was visible in the previous frame becomes the
+  // "before" state.
   void start_frame(const Api& gl);
-  // Call between the two draws: computes the farthest depths of the image so far.
+  // Call between the two draws. Computes the farthest depths of the image drawn so far.
   void find_farthest(const Api& gl, GLuint depth_texture) const;
   [[nodiscard]] const std::string& source() const { return source_; }
 
  private:
   std::array<GLuint, 2> blocks_;
-  std::array<Buffer, 2> visible_;  // visible cells of the last frame, and of this one
+  std::array<Buffer, 2> visible_;  // visible cells of the previous frame and of this frame
   Buffer farthest_;
   std::string source_;
   Program program_;

@@ -9,8 +9,8 @@
 namespace triptych::gl_backend {
 namespace {
 
-// The driver's own functions. They are global, because GL's functions are plain pointers, which
-// cannot hold them.
+// The driver's own functions. They are global variables, because the replacements are plain
+// function pointers, which cannot carry state.
 PFNGLBUFFERDATAPROC buffer_data = nullptr;
 PFNGLTEXIMAGE1DPROC tex_image_1d = nullptr;
 PFNGLTEXIMAGE2DPROC tex_image_2d = nullptr;
@@ -42,7 +42,7 @@ void ignore(Function& function) {
   if (function != nullptr) function = &Ignored<Function>::call;
 }
 
-// These replacements allocate, but copy no data.
+// These replacements allocate memory but copy no data.
 void GLAD_API_PTR make_buffer(GLenum target, GLsizeiptr size, const void* /*data*/, GLenum usage) {
   buffer_data(target, size, nullptr, usage);
 }

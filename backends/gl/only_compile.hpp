@@ -1,12 +1,13 @@
 #pragma once
-// Guards for a device that only compiles.
+// Guards for devices that only compile.
 
 #include <glad/gl.h>
 
 namespace triptych::gl_backend {
 
-// Replaces functions of the context. Those that execute or read back throw core::NotSupported, and
-// those that move data move nothing. At most one context of a process can be guarded.
+// Replaces functions of the context. Functions that execute work or read results throw
+// core::NotSupported, and functions that upload data allocate memory without copying. At most one
+// context per process can be guarded.
 void forbid_execution(GladGLContext& gl);
 
 }  // namespace triptych::gl_backend

@@ -22,8 +22,9 @@ constexpr GLuint binding_ids = 5;
 // Writes the part of a buffer that begins at byte `begin`.
 using Fill = std::function<void(std::size_t begin, std::span<std::byte> out)>;
 
-// Fills a buffer through a small piece of memory, in multiples of 16 bytes, so that the host has no
-// copy of the whole. The buffer is never empty, because a block needs one even if nothing is read.
+// Fills a buffer piece by piece through a small staging array, in multiples of 16 bytes, so that
+// the host never holds a copy of the whole buffer. The buffer is never empty, because a storage
+// block must be backed by a buffer even if the shader does not read it.
 Buffer filled_buffer(const Api& gl, std::size_t size, const Fill& fill) {
   constexpr std::size_t most_at_once = std::size_t{4} << 20U;
   Buffer buffer(gl);
@@ -49,7 +50,7 @@ Buffer property_buffer(const Api& gl, const technique::Arrangement& arrangement,
       [&](std::size_t begin, std::span<std::byte> out) { arrangement.copy(property, begin, out); });
 }
 
-// A buffer with the numbers 0, 1, 2…
+// Creates a buffer with the numbers 0, 1, 2…
 Buffer number_buffer(const Api& gl, std::size_t count) {
   return filled_buffer(gl, count * sizeof(GLuint), [](std::size_t begin, std::span<std::byte> out) {
     std::vector<GLuint> numbers(out.size() / sizeof(GLuint));

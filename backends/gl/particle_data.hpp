@@ -8,22 +8,22 @@
 
 namespace triptych::gl_backend {
 
-// The data on the device that the shared sources for particles (technique/particles) read.
+// The data on the device that the shared particle shaders read (technique/particles).
 class ParticleData {
  public:
   ParticleData(const Api& gl, const measure::ParticleWork& work,
                const technique::Arrangement& arrangement);
 
-  // Binds the data to bindings 0, 1 and 3…5 of the shared sources, and to the vertex attributes
-  // 0…2. Attribute 3 advances with the instance and is its number including the base, for devices
-  // whose shaders do not know the base.
+  // Binds the data to bindings 0, 1 and 3…5 of the shared shaders, and to the vertex attributes
+  // 0…2. Attribute 3 advances once per instance and contains the instance number including the base
+  // instance, for devices whose shaders cannot read the base instance.
   void bind(const Api& gl) const;
 
   [[nodiscard]] const Buffer& spheres() const noexcept { return spheres_; }
   [[nodiscard]] const Buffer& colours() const noexcept { return colours_; }
   [[nodiscard]] const Buffer& ids() const noexcept { return ids_; }
 
-  // From now on, frames are seen from the camera of this scene.
+  // From now on, draws frames with the camera of this scene.
   void look_from(const Api& gl, const measure::ParticleWork& work,
                  const technique::Arrangement& arrangement) const;
 
@@ -45,7 +45,7 @@ class ParticleCounters {
   explicit ParticleCounters(const Api& gl);
   // Sets all counters to zero and binds them to binding 2.
   void start(const Api& gl) const;
-  // The counters of all rows. The device must have finished counting.
+  // Returns the counters of all rows. The device must have finished counting.
   [[nodiscard]] std::vector<std::uint32_t> read(const Api& gl) const;
 
  private:

@@ -7,13 +7,13 @@
 
 namespace triptych::gl_backend {
 
-// The reason why these particles and this image exceed the limits that every particle technique
-// needs; empty if they do not. `storage`: the particles are read from storage blocks.
+// Returns the reason why these particles and this image exceed a limit that applies to every
+// particle technique; empty if they do not. `storage`: the particles are read from storage blocks.
 [[nodiscard]] std::optional<std::string> particles_unsupported(const Api& gl,
                                                                const measure::ParticleWork& work,
                                                                bool storage);
 
-// Whether the device has tessellation shaders.
+// Returns whether the device supports tessellation shaders.
 [[nodiscard]] inline bool has_tessellation(const Api& gl) {
   return gl.VERSION_4_0 != 0 || gl.ARB_tessellation_shader != 0;
 }

@@ -14,7 +14,7 @@ std::string_view depth_promise(const ParticleConstants& constants) {
              : "#define TRI_DEPTH_PROMISE depth_less\n";
 }
 
-// Before GLSL 4.10, variables between stages are matched by their names.
+// Before GLSL 4.10, variables between stages are matched by name instead of by location.
 std::string constant_lines(const Api& gl, const ParticleConstants& constants) {
   return fmt::format(
       "#extension GL_ARB_conservative_depth : enable\n"

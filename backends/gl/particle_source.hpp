@@ -8,7 +8,7 @@
 
 namespace triptych::gl_backend {
 
-// The compile-time constants of the shared sources for particles (technique/particles).
+// The compile-time constants of the shared particle shaders (technique/particles).
 struct ParticleConstants {
   scene::ColourKind colour = scene::ColourKind::rgba8;
   bool transfer_at_pixel = false;
@@ -19,8 +19,9 @@ struct ParticleConstants {
 };
 [[nodiscard]] ParticleConstants particle_constants(const measure::ParticleWork& work);
 
-// One stage of a program: its files from technique/particles, of which the last has main(). They
-// follow the files that every stage gets. `defines` are complete lines.
+// One stage of a program. Its source code consists of the files that every stage includes, followed
+// by `files` from technique/particles, the last of which contains main(). `defines` are complete
+// lines.
 struct ParticleStage {
   GLenum type = GL_VERTEX_SHADER;
   std::vector<std::string_view> files;

@@ -38,15 +38,15 @@ void ParticleTarget::bind(const Api& gl) const {
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
   gl.Viewport(0, 0, width_, height_);
   gl.Enable(GL_DEPTH_TEST);
-  // Of two equal depths, the one drawn first is kept.
+  // If two depths are equal, the sphere drawn first wins.
   GLenum passes = GL_GREATER;
   if (fault_ == ParticleFault::unresolved_ties) passes = GL_GEQUAL;
   if (fault_ == ParticleFault::reversed_depth) passes = GL_LESS;
   gl.DepthFunc(passes);
 }
 
-// A frame never leaves this depth in any pixel: it clears the depth to another value and then draws
-// its own depths.
+// Fills the depth buffer with a value that no frame leaves in any pixel: a frame clears the depth
+// to another value and then draws its own depths.
 void ParticleTarget::poison(const Api& gl) const {
   bind(gl);
   constexpr GLuint id = core::Image::no_particle - 1;

@@ -7,16 +7,17 @@
 
 namespace triptych::gl_backend {
 
-// The target for drawing particles: colour, ids and reversed depth.
+// The render target for particles: colour, ids and reversed depth.
 class ParticleTarget {
  public:
   ParticleTarget(const Api& gl, int width, int height, technique::ParticleFault fault);
 
-  // Makes it the current target and sets the depth test for it.
+  // Makes this target current, and sets the depth test for it.
   void bind(const Api& gl) const;
-  // Overwrites every attachment: colour with NaN.
+  // Overwrites every attachment; colour becomes NaN.
   void poison(const Api& gl) const;
-  // Sets the background, no particle, and a depth that everything passes.
+  // Clears colour to the background, ids to "no particle", and depth to a value against which every
+  // particle passes.
   void clear(const Api& gl, const std::array<float, 4>& background) const;
   // `near` is the scale of the depth buffer: Z = near/z.
   [[nodiscard]] core::Image read(const Api& gl, double near) const;
@@ -32,7 +33,7 @@ class ParticleTarget {
   Framebuffer framebuffer_;
 };
 
-// Converts to Z where there is a particle, and to +infinity where there is none.
+// Converts depth to Z where there is a particle, and to +infinity where there is none.
 void to_distances(core::Image& image, double near);
 
 }  // namespace triptych::gl_backend

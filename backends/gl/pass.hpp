@@ -1,5 +1,5 @@
 #pragma once
-// How a volume technique runs its program, and where its image is stored. Only this differs between
+// How a volume technique runs its program, and where it stores its image. Only this differs between
 // raycast and raycast_fragment.
 
 #include <memory>
@@ -22,20 +22,21 @@ class Pass {
   Pass& operator=(const Pass&) = delete;
   virtual ~Pass() = default;
 
-  // The stages of the program around the shared raycasting source.
+  // Returns the stages of the program that contain the shared raycasting source code.
   [[nodiscard]] virtual std::vector<Stage> stages(const Api& gl,
                                                   const Constants& constants) const = 0;
-  // The pipeline statistics of the stages that it uses.
+  // Returns the pipeline statistics of the stages that the pass uses.
   [[nodiscard]] virtual std::span<const Statistic> statistics() const = 0;
   // Overwrites the image with NaN.
   virtual void poison(const Api& gl) = 0;
-  // If a dump was requested, writes a separate program that draws the frame (standalone.hpp).
+  // If a dump was requested, writes a standalone program that draws the frame (standalone.hpp).
   virtual void dump(const measure::VolumeWork& /*work*/, const std::string& /*source*/) const {}
-  // Makes its target the current one; called before the clock starts.
+  // Makes the render target of this pass current. Called before the clock starts.
   virtual void bind(const Api& gl) = 0;
-  // The timed calls: those that draw the image and, except when counting, the injected extra work.
+  // Makes the timed calls, which draw the image and, except when counting, do the injected extra
+  // work.
   virtual void submit(const Api& gl, measure::Purpose purpose) = 0;
-  // The image. The device must have finished it.
+  // Reads the image. The device must have finished drawing it.
   [[nodiscard]] virtual core::Image read(const Api& gl) const = 0;
 };
 

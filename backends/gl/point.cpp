@@ -1,5 +1,5 @@
-// Draws point sprites. Spheres larger than the device's largest point are drawn as screen-aligned
-// quads in a second draw.
+// Draws point sprites. A second draw draws the spheres that exceed the device's largest point as
+// screen-aligned quads.
 #include <fmt/format.h>
 
 #include "backends/gl/large_points.hpp"

@@ -1,4 +1,5 @@
-// Polygons whose number of corners depends on the projected radius, made by a tessellation shader.
+// Draws polygons whose number of corners depends on the projected radius. A tessellation shader
+// generates them.
 #include "backends/gl/sprites.hpp"
 #include "backends/gl/techniques.hpp"
 

@@ -21,7 +21,7 @@ class DrawingPrepared final : public measure::Prepared, public measure::TracesPi
       const Current current(context_);
       owned_.reset();
     } catch (const core::Error&) {
-      // The context is lost, and its objects with it, so there is nothing to delete.
+      // The context is lost together with its objects, so there is nothing to delete.
       static_cast<void>(owned_.release());
     }
   }
@@ -73,7 +73,7 @@ class DrawingPrepared final : public measure::Prepared, public measure::TracesPi
   }
 
  private:
-  // Everything that is on the device.
+  // All objects that exist on the device.
   struct Owned {
     Owned(const Api& gl, Stamps stamps, std::unique_ptr<Drawing> its_drawing)
         : drawing(std::move(its_drawing)),

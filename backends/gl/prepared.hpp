@@ -1,5 +1,5 @@
 #pragma once
-// The common parts of both suites' techniques: frames that consist of drawing calls.
+// What the techniques of both suites have in common: frames that consist of drawing calls.
 
 #include <memory>
 #include <span>
@@ -13,8 +13,8 @@
 
 namespace triptych::gl_backend {
 
-// A technique with its scene on the device: the data are uploaded and the programs are linked. Its
-// context must be current when it is created, used and destroyed.
+// A technique with its scene on the device, after its data were uploaded and its programs linked.
+// Its context must be current when the object is created, used and destroyed.
 class Drawing {
  public:
   Drawing() = default;
@@ -22,18 +22,18 @@ class Drawing {
   Drawing& operator=(const Drawing&) = delete;
   virtual ~Drawing() = default;
 
-  // The statistics of the stages that it uses.
+  // Returns the pipeline statistics of the stages that the technique uses.
   [[nodiscard]] virtual std::span<const Statistic> statistics() const = 0;
   // Overwrites all results of a frame, as measure::Prepared::poison() describes.
   virtual void poison(const Api& gl) = 0;
-  // Everything that a frame needs before its clock starts: GL state and, for a counting frame, the
-  // counting build.
+  // Sets up everything that a frame needs before its clock starts: the GL state and, for a counting
+  // frame, the program that counts.
   virtual void bind(const Api& gl, measure::Purpose purpose) = 0;
-  // The calls that are timed.
+  // Makes the calls that are timed.
   virtual void submit(const Api& gl, measure::Purpose purpose) = 0;
-  // Called after a frame that counted. The device has finished the frame.
+  // Returns the counters. Called after a counting frame that the device has finished.
   [[nodiscard]] virtual record::Counts counters(const Api& gl) const = 0;
-  // The image. The device has finished it.
+  // Reads the image. The device has finished drawing it.
   [[nodiscard]] virtual core::Image read(const Api& gl) const = 0;
   [[nodiscard]] virtual std::string kernel_hash() const = 0;
 
@@ -43,11 +43,11 @@ class Drawing {
   }
 };
 
-// The context must be current here and outlive the result.
+// `context` must be current during this call and must outlive the result.
 [[nodiscard]] std::unique_ptr<measure::Prepared> make_prepared(Context& context, Stamps stamps,
                                                                std::unique_ptr<Drawing> drawing);
 
-// The hash of a driver version and of the sources that the driver compiles.
+// Returns the hash of the driver version and of the source code that the driver compiles.
 [[nodiscard]] std::string hash_of(const Api& gl, std::span<const std::string> sources);
 
 }  // namespace triptych::gl_backend

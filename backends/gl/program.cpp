@@ -14,8 +14,8 @@
 namespace triptych::gl_backend {
 namespace {
 
-// The extension that provides a stage. NVIDIA's compiler takes every source that names
-// GL_ARB_compute_shader for a compute shader.
+// Returns the extension that provides a stage. Other stages must not mention GL_ARB_compute_shader,
+// because NVIDIA's compiler treats every source that mentions it as a compute shader.
 std::string_view stage_extension(GLenum type) {
   switch (type) {
     case GL_COMPUTE_SHADER:
@@ -28,7 +28,7 @@ std::string_view stage_extension(GLenum type) {
   }
 }
 
-// Below GLSL 4.30, everything that the shared source needs comes from extensions.
+// Before GLSL 4.30, everything that the shared source needs comes from extensions.
 std::string version_lines(const Api& gl, GLenum type) {
   if (gl.at_least(4, 5)) return "#version 450 core\n";
   if (gl.at_least(4, 3)) return "#version 430 core\n";
@@ -39,7 +39,7 @@ std::string version_lines(const Api& gl, GLenum type) {
       "#extension GL_ARB_shader_image_load_store : enable\n"
       "#extension GL_ARB_gpu_shader5 : enable\n";
   lines += stage_extension(type);
-  // Without GLSL 4.00 or the extension, this qualifier does not exist.
+  // This qualifier exists only since GLSL 4.00 or with the extension.
   if (gl.ARB_gpu_shader5 == 0) lines += "#define precise\n";
   return lines;
 }
@@ -59,7 +59,7 @@ std::string constant_lines(const Constants& constants) {
       constants.trace ? "#define TRI_TRACE 1\n" : "");
 }
 
-// The name of the stage in messages.
+// Returns the stage name for messages.
 std::string_view stage_name(GLenum type) {
   switch (type) {
     case GL_VERTEX_SHADER:
@@ -77,7 +77,7 @@ std::string_view stage_name(GLenum type) {
   }
 }
 
-// The ending of file names by which glslang recognizes stages.
+// Returns the file-name extension by which glslang recognizes the stage.
 std::string_view extension_of(GLenum type) {
   switch (type) {
     case GL_VERTEX_SHADER:
@@ -95,7 +95,8 @@ std::string_view extension_of(GLenum type) {
   }
 }
 
-// The log of a shader or of a program; the functions to read them differ only in their names.
+// Returns the log of a shader or a program. The functions that read the two logs have different
+// names but the same parameters.
 template <class GetSize, class GetLog>
 std::string log_of(GLuint name, GetSize get_size, GetLog get_log) {
   GLint size = 0;
@@ -104,7 +105,7 @@ std::string log_of(GLuint name, GetSize get_size, GetLog get_log) {
   std::string log(static_cast<std::size_t>(size), '\0');
   GLsizei length = 0;
   get_log(name, size, &length, log.data());
-  // Some drivers return a length of -1, or none at all.
+  // Some drivers return a length of -1, or do not write the length.
   log.resize(length > 0 && length <= size ? static_cast<std::size_t>(length) : log.find('\0'));
   return log;
 }

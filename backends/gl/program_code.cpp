@@ -12,7 +12,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-// radeonsi names the stage at the end of its line of statistics: "… (PS, W64)".
+// radeonsi names the stage at the end of a line of statistics: "… (PS, W64)".
 constexpr std::array<std::pair<std::string_view, GLenum>, 6> stage_codes{{
     {"(VS", GL_VERTEX_SHADER},
     {"(TCS", GL_TESS_CONTROL_SHADER},
@@ -22,7 +22,7 @@ constexpr std::array<std::pair<std::string_view, GLenum>, 6> stage_codes{{
     {"(CS", GL_COMPUTE_SHADER},
 }};
 
-// The name of the shader that a line of statistics describes.
+// Returns the name of the shader that a line of statistics describes.
 std::string shader_of(const Api::Report& report) {
   const std::size_t at = report.text.rfind('(');
   const std::string_view code =
@@ -37,7 +37,7 @@ std::string shader_of(const Api::Report& report) {
 }
 
 // Parses radeonsi's "Shader Stats: SGPRS: 32 VGPRS: 16 …" and Intel's "FS SIMD16 shader: 55 inst,
-// …". Other messages have no such statistics.
+// …". Returns an empty map for any other message.
 std::map<std::string, double> statistics_of(const std::string& text) {
   if (text.starts_with("Shader Stats:")) return measure::parse_statistics(text);
   if (const std::size_t at = text.find(" shader: "); at != std::string::npos) {

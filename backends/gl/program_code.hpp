@@ -1,6 +1,6 @@
 #pragma once
-// Drivers report the code of the programs that they link in messages of KHR_debug. Mesa's shader-db
-// reads the same messages.
+// Drivers report the generated code of programs that they link through KHR_debug messages. Mesa's
+// shader-db reads the same messages.
 
 #include <span>
 
@@ -9,7 +9,7 @@
 
 namespace triptych::gl_backend {
 
-// Throws core::NotSupported if the messages report nothing.
+// Throws core::NotSupported if no message contains statistics.
 [[nodiscard]] measure::Compiled code_of(std::span<const Api::Report> reports);
 
 }  // namespace triptych::gl_backend

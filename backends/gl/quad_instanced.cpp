@@ -1,5 +1,5 @@
-// Ray-aligned quads, one instance for each particle, which the vertex shader computes from storage
-// blocks.
+// Draws ray-aligned quads, one instance per particle. The vertex shader computes the corners from
+// the particle data in storage blocks.
 #include "backends/gl/sprites.hpp"
 #include "backends/gl/techniques.hpp"
 

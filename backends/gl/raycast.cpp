@@ -1,4 +1,4 @@
-// One ray per invocation of a compute shader.
+// Traces one ray per invocation of a compute shader.
 #include "backends/gl/compute_pass.hpp"
 #include "backends/gl/techniques.hpp"
 #include "backends/gl/volume_parts.hpp"

@@ -1,4 +1,4 @@
-// One ray for each fragment of a triangle that covers a floating-point render target.
+// Traces one ray per fragment of a triangle that covers a floating-point render target.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-// RGBA32F pixels to draw into.
+// The RGBA32F render target.
 class Target {
  public:
   Target(const Api& gl, int width, int height)
@@ -68,8 +68,8 @@ class FragmentPass final : public Pass {
     gl.Viewport(0, 0, width_, height_);
   }
 
-  // This is drawn after the image and not before it, because a driver may skip drawing that is
-  // covered later.
+  // The extra work is drawn after the image, because a driver may skip drawing that is covered
+  // later.
   void submit(const Api& gl, measure::Purpose purpose) override {
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     if (extra_tiles_.empty() || purpose == measure::Purpose::counters) return;
@@ -94,7 +94,7 @@ class FragmentPass final : public Pass {
   int width_;
   int height_;
   std::vector<technique::ExtraTile> extra_tiles_;
-  VertexArray no_vertices_;  // the core profile draws nothing without a vertex array object
+  VertexArray no_vertices_;  // the core profile draws nothing unless a vertex array object is bound
   Target target_;
 };
 

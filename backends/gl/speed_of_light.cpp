@@ -1,5 +1,5 @@
-// The fetches and look-ups of raycast alone: the same pass with a constant that leaves out the
-// rest.
+// Does only the fetches and table look-ups of raycast: the same pass with a compile-time constant
+// that removes the rest.
 #include "backends/gl/compute_pass.hpp"
 #include "backends/gl/techniques.hpp"
 #include "backends/gl/volume_prepared.hpp"

@@ -1,4 +1,4 @@
-// The device features and limits that sprites need.
+// Checks the device features and limits that sprites require.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 namespace triptych::gl_backend {
 namespace {
 
-// The number of blocks from which a stage reads or in which it counts: storage.glsl has three, and
-// the counters are one.
+// The limit on the storage blocks of a stage. A stage uses up to four: the three of storage.glsl,
+// and one for the counters.
 struct StageBlocks {
   GLenum type;
   GLenum limit;
@@ -57,10 +57,10 @@ std::optional<std::string> sprites_unsupported(const Api& gl, const measure::Par
                                                const Sprites& sprites) {
   if (auto reason = particles_unsupported(gl, work, reads_storage(sprites))) return reason;
   if (gl.VERSION_4_5 == 0 && gl.ARB_clip_control == 0) {
-    return "depth from 0 to 1 needs OpenGL 4.5 or GL_ARB_clip_control";
+    return "a depth range from 0 to 1 needs OpenGL 4.5 or GL_ARB_clip_control";
   }
   if (gl.VERSION_4_3 == 0 && (gl.ARB_multi_draw_indirect == 0 || gl.ARB_base_instance == 0)) {
-    return "a draw per cell needs OpenGL 4.3 or GL_ARB_multi_draw_indirect and "
+    return "one draw call per cell needs OpenGL 4.3 or GL_ARB_multi_draw_indirect and "
            "GL_ARB_base_instance";
   }
   if (work.options.conservative_depth && gl.VERSION_4_2 == 0 && gl.ARB_conservative_depth == 0) {

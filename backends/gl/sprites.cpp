@@ -44,17 +44,17 @@ std::vector<Statistic> statistics_of(const Sprites& sprites, Culling culling) {
   return told;
 }
 
-// The programs of all draws, for timing or for counting.
+// The programs of all draws, either for timing or for counting.
 struct Programs {
   struct Draw {
-    std::array<Program, 2> cull;  // before the first and the second draw
+    std::array<Program, 2> cull;  // culling before the first draw and before the second draw
     Program sprites;
   };
   std::vector<Draw> draws;
   std::vector<std::string> sources;
 };
 
-// The values of TRI_OCCLUSION in cull.glsl, one for each culling pass of a frame.
+// Returns the values of TRI_OCCLUSION in cull.glsl, one for each culling pass of a frame.
 std::vector<int> passes_of(Culling culling) {
   if (culling == Culling::none) return {};
   if (culling == Culling::frustum) return {0};
@@ -71,11 +71,11 @@ ParticleStage cull_stage(bool instanced, int pass) {
       fmt::format("#define TRI_INSTANCED {:d}\n#define TRI_OCCLUSION {}\n", int{instanced}, pass)};
 }
 
-// With occlusion culling, a second draw follows the first, for the cells that came into sight. A
-// sphere of the second draw is therefore drawn after the cells of the first draw, although it may
-// come before them in the arrangement. Because the camera does not move, what was hidden stays
-// hidden, and the second draw is empty. If it were not empty, only the order of exactly equal
-// depths in different cells could differ.
+// With occlusion culling, a second draw follows the first and draws the cells that came into sight.
+// A sphere of the second draw is therefore drawn after the cells of the first draw, although it may
+// precede them in the arrangement. Because the camera does not move, what was hidden stays hidden,
+// so the second draw is empty. Even if it were not empty, the order would matter only for exactly
+// equal depths in different cells.
 class SpriteDrawing final : public Drawing {
  public:
   SpriteDrawing(const Api& gl, const measure::ParticleWork& work, const Sprites& sprites,
@@ -141,7 +141,8 @@ class SpriteDrawing final : public Drawing {
       occlusion_->find_farthest(gl, target_.depth_texture());
       draw(gl, programs, draws_, 1);
     }
-    // Drawn after the image, when no fragment passes the depth test any more. It is never counted.
+    // The extra work is drawn after the image, when its fragments no longer pass the depth test. It
+    // is never counted.
     if (!counting && !extra_.empty()) draw(gl, programs, extra_, 0);
   }
 
@@ -159,7 +160,8 @@ class SpriteDrawing final : public Drawing {
     ParticleCounters counters;
   };
 
-  // Draws a frame that is not shown, so that every other frame has a previous one.
+  // Draws a frame from the previous camera, which is not shown, so that the first measured frame
+  // also has a previous frame.
   void draw_before(const Api& gl, const measure::ParticleWork& work,
                    const technique::Arrangement& arrangement) {
     if (work.camera_before) data_.look_from(gl, work.before(), arrangement);
@@ -168,9 +170,9 @@ class SpriteDrawing final : public Drawing {
     if (work.camera_before) data_.look_from(gl, work, arrangement);
   }
 
-  // The hidden cells depend on the previous frames. The first frame after a jump draws everything
-  // that is visible, the second one knows which cells that hides, and all later ones are like the
-  // second.
+  // The set of hidden cells depends on the previous frames. The first frame after a jump of the
+  // camera draws everything that is visible. The second frame knows which cells are hidden, and all
+  // later frames are like the second.
   void settle(const Api& gl) {
     prepare_state(gl);
     for (int frame = 0; frame < 2; ++frame) submit(gl, Purpose::statistics);
@@ -193,7 +195,8 @@ class SpriteDrawing final : public Drawing {
     };
     for (const SpriteDraw& draw : sprites_) {
       Programs::Draw made;
-      // Only the culling of the first draw counts, because the others test the same cells.
+      // Only the culling of the first draw counts, because the culling passes of other draws test
+      // the same cells.
       ParticleConstants culling = constants;
       culling.count = constants.count && programs.draws.empty();
       for (const int pass : passes_of(options_.culling)) {
@@ -207,7 +210,7 @@ class SpriteDrawing final : public Drawing {
     return programs;
   }
 
-  // `pass`: 0, or 1 for the cells that occlusion culling finds visible after the first pass.
+  // `pass` is 0, or 1 for the cells that occlusion culling finds visible after the first pass.
   void draw(const Api& gl, const Programs& programs, const std::vector<CellDraws>& draws,
             std::size_t pass) const {
     if (options_.culling != Culling::none) {
@@ -216,8 +219,8 @@ class SpriteDrawing final : public Drawing {
         gl.UseProgram(programs.draws[i].cull[pass].get());
         draws[i].cull(gl);
       }
-      // The commands are drawn next. What was visible is read by the next culling pass, possibly in
-      // the next frame.
+      // The draw that follows reads the commands, and the next culling pass, possibly in the next
+      // frame, reads which cells were visible.
       gl.MemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     }
     const Label label(gl, "draw sprites");

@@ -16,22 +16,23 @@ namespace triptych::gl_backend {
 // A way to turn particles into sprites.
 struct SpriteDraw {
   GLenum mode = GL_POINTS;
-  // True: a particle is an instance of four vertices; false: a particle is one vertex.
+  // Whether a particle is an instance of four vertices (true) or a single vertex (false).
   bool instanced = false;
-  bool large_only = false;  // for cells that may contain spheres larger than the largest point
+  // draws only cells that may contain spheres larger than the largest point
+  bool large_only = false;
   std::vector<ParticleStage> stages;  // the stages before the fragment stage
 };
 using Sprites = std::vector<SpriteDraw>;
 
 // Stages that several techniques use.
 [[nodiscard]] ParticleStage attribute_stage();
-// A vertex stage that finds its particle by the number of the instance.
+// Returns a vertex stage that finds its particle by the instance number.
 [[nodiscard]] ParticleStage instance_stage(const Api& gl, std::string_view file);
-// One patch for each particle, one quad for each particle.
+// tessellated() draws one patch per particle.
 [[nodiscard]] Sprites tessellated(std::string_view define);
 [[nodiscard]] Sprites from_geometry_stage(bool screen_aligned);
 
-// The reason why these stages cannot draw the work on this device; empty if they can.
+// Returns the reason why these stages cannot draw the work on this device; empty if they can.
 [[nodiscard]] std::optional<std::string> sprites_unsupported(const Api& gl,
                                                              const measure::ParticleWork& work,
                                                              const Sprites& sprites);
@@ -39,7 +40,7 @@ using Sprites = std::vector<SpriteDraw>;
                                                     const measure::ParticleWork& work,
                                                     const Sprites& sprites);
 
-// A technique whose sprites depend only on the context.
+// Creates a technique whose sprites depend only on the context.
 template <Sprites (*describe)(const Api& gl)>
 [[nodiscard]] ParticleTechnique sprite_technique() {
   return {[](const Api& gl, const measure::ParticleWork& work) {

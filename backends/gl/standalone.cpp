@@ -19,7 +19,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-// The internal format and the type of the texels, as named in the C API.
+// Returns the names of the internal format and of the texel type in the C API.
 std::array<std::string, 2> c_format(scene::VoxelFormat format) {
   switch (format) {
     case scene::VoxelFormat::u8:

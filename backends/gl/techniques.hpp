@@ -1,6 +1,6 @@
 #pragma once
-// The techniques of the catalogue for this API. Each is implemented in the file that has its name.
-// All functions are called while the context is current.
+// The catalogue's techniques for OpenGL. Each is implemented in the file with its name. All
+// functions must be called while the context is current.
 
 #include <memory>
 #include <optional>
@@ -15,7 +15,8 @@
 namespace triptych::gl_backend {
 
 struct VolumeTechnique {
-  // The requirements of this technique in addition to volume_unsupported().
+  // Returns why this technique cannot draw the work, in addition to the reasons of
+  // volume_unsupported().
   std::optional<std::string> (*unsupported)(const Api& gl, const measure::VolumeWork& work);
   std::unique_ptr<measure::Prepared> (*prepare)(Context& context, Stamps stamps,
                                                 const measure::VolumeWork& work);

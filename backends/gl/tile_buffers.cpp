@@ -63,7 +63,8 @@ std::size_t colour_words(scene::ColourKind colour) {
   return colour == scene::ColourKind::rgba32 ? 4 : 1;
 }
 
-// Pairs of pixels, one above the other. Almost empty if no large spheres are resolved.
+// Creates a texture in which each texel stores two pixels, one above the other. It has a single
+// texel if no large spheres are resolved.
 Texture pair_texture(const Api& gl, int width, int height, bool any) {
   const GLsizei columns = any ? width : 1;
   const GLsizei rows = any ? (height + 1) / 2 : 1;
@@ -98,8 +99,8 @@ std::optional<std::string> TileBuffers::unsupported(const Api& gl,
         "{}x{} pixels need a storage block of {} bytes, but GL_MAX_SHADER_STORAGE_BLOCK_SIZE is {}",
         scene.width, scene.height, static_cast<std::int64_t>(planes * word) * pixels, most);
   }
-  // The largest number of entries that a single cell can need, which it does if each of its spheres
-  // is in every tile.
+  // The largest number of entries that one cell can need: it needs them if each of its spheres
+  // overlaps every tile.
   const std::int64_t tiles = std::int64_t{parts(scene.width, technique::tile_edge)} *
                              parts(scene.height, technique::tile_edge);
   const auto crowd = std::min<std::int64_t>(4 * technique::particles_per_cell,
@@ -226,7 +227,7 @@ void TileBuffers::clear(const Api& gl) const {
 
 void TileBuffers::start_round(const Api& gl) const {
   gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  copy(gl, zeros_, tile_states_, word, 5 * word);  // after the count of small spheres
+  copy(gl, zeros_, tile_states_, word, 5 * word);  // skips the count of small spheres
 }
 
 }  // namespace triptych::gl_backend

@@ -14,38 +14,41 @@
 
 namespace triptych::gl_backend {
 
-// The data that the passes of tiles.glsl exchange.
+// The buffers through which the passes of tiles.glsl exchange data.
 class TileBuffers {
  public:
-  // The number of entries that a round should not exceed; they take 64 MiB.
+  // The number of entries that a round should not exceed. They need 64 MiB.
   static constexpr std::uint64_t wanted_entries = std::uint64_t{1} << 24U;
   enum class Cells : std::uint8_t { all, thinned };
 
-  // The reason why an image of this size, or one of its cells, exceeds the device's limits; empty
-  // if it does not.
+  // Returns the reason why an image of this size, or one of its cells, exceeds the device's limits;
+  // empty if neither does.
   [[nodiscard]] static std::optional<std::string> unsupported(const Api& gl,
                                                               const scene::ParticleScene& scene);
 
-  // If extra_work_stride is not 0, there are also thinned cells, and space for all particles twice.
-  // Throws core::NotSupported if a buffer has more texels than the device can address.
+  // If extra_work_stride is not 0, also creates the thinned cells, and allocates space for twice as
+  // many particles. Throws core::NotSupported if a buffer has more texels than the device can
+  // address.
   TileBuffers(const Api& gl, const scene::ParticleScene& scene,
               const technique::Arrangement& arrangement, const technique::TileRounds& rounds,
               const ParticleData& data, int extra_work_stride);
 
-  // Binds bindings 6…20 of the shared sources.
+  // Binds the buffers to bindings 6…20 of the shared shaders.
   void bind(const Api& gl) const;
   void choose(const Api& gl, Cells cells) const;
-  // Overwrites all data that a frame writes before it reads them.
+  // Overwrites all data that a frame writes before reading.
   void poison(const Api& gl) const;
-  // Empties tiles and lists, and also pixels if any round draws into them.
+  // Clears the tiles and lists. Also clears the pixels if any round draws into them.
   void clear(const Api& gl) const;
-  // Begins a round without large spheres, without entries, and without tiles that are drawn into.
+  // Begins a round with no large spheres, no entries, and no tiles to draw into.
   void start_round(const Api& gl) const;
 
-  // The number of work groups: one for 64 tiles, and one for each tile that the round draws into.
+  // The numbers of work groups: groups_for_tiles() has one group per 64 tiles, and
+  // dispatch_listed() one group per tile that the round draws into.
   [[nodiscard]] GLuint groups_for_tiles() const;
   void dispatch_listed(const Api& gl) const;
-  // The number of blocks of TRI_BLOCK × TRI_BLOCK tiles, which are drawn together.
+  // Returns the number of blocks of TRI_BLOCK × TRI_BLOCK tiles. The tiles of a block are drawn
+  // together.
   [[nodiscard]] GLuint blocks() const;
 
  private:
@@ -72,8 +75,8 @@ class TileBuffers {
   Buffer cell_ends_;
   Texture large_pixels_;
   std::vector<Texels> texels_;
-  Buffer zeros_;         // the initial values of tiles and of a plane of depths
-  Buffer no_particles_;  // the initial values of a plane of particle keys
+  Buffer zeros_;         // the initial contents of the tiles and of one plane of depths
+  Buffer no_particles_;  // the initial contents of one plane of particle keys
 };
 
 }  // namespace triptych::gl_backend

@@ -1,5 +1,5 @@
-// Spheres are sorted into tiles in compute shaders, and the nearest hit of each pixel is shaded
-// once (technique/particles/tiles.glsl describes the passes).
+// Sorts spheres into tiles in compute shaders, and shades the nearest hit of each pixel once
+// (technique/particles/tiles.glsl describes the passes).
 #include <fmt/format.h>
 
 #include <array>
@@ -32,7 +32,7 @@ struct Programs {
   std::vector<std::string> sources;
 };
 
-// GL counts image units separately, and there are only a few of them.
+// Image units are numbered separately from other units in GL, and there are only a few of them.
 std::string tile_defines(Culling culling, int spheres) {
   return fmt::format("#define TRI_SPHERES {}\n#define TRI_CULLING {}\n#define TRI_LARGE_PIXELS 0\n",
                      spheres, static_cast<int>(culling));
@@ -150,7 +150,7 @@ class TilesDrawing final : public Drawing {
     return rounds;
   }
 
-  // The results are read as texels, images or from storage buffers.
+  // Later passes read the results as texels, as images or from storage buffers.
   static void finish(const Api& gl) {
     gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                      GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
@@ -180,8 +180,8 @@ class TilesDrawing final : public Drawing {
   }
 
   // Computes the depth of every pixel in all rounds. The injected extra work sorts a part of each
-  // round's particles a second time, before the tiles are resolved, because resolved tiles would
-  // reject them.
+  // round's particles a second time. It does so before the tiles are resolved, because resolved
+  // tiles would reject the particles.
   void draw_depths(const Api& gl, const Programs& programs, bool extra) const {
     buffers_.clear(gl);
     for (const technique::TileRound& round : rounds_.rounds) {
@@ -198,8 +198,8 @@ class TilesDrawing final : public Drawing {
     }
   }
 
-  // Draws the round's large spheres, unless the last pass does that, and records which parts are
-  // hidden.
+  // Draws the round's large spheres, unless the final pass draws them, and records which parts of
+  // the image are hidden.
   void resolve_tiles(const Api& gl, const Programs& programs,
                      const technique::TileRound& round) const {
     run(gl, programs, place, buffers_.groups_for_tiles());

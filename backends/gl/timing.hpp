@@ -14,7 +14,7 @@ struct Elapsed {
   std::optional<double> device_ns;
 };
 
-// When the device takes its time stamps:
+// When the device takes its timestamps:
 enum class Stamps : std::uint8_t {
   in_stream,  // immediately before and after the work, as on GPUs
   finished    // the second one after the work has finished: software renderers run compute work and
@@ -26,8 +26,8 @@ class Stopwatch {
  public:
   Stopwatch(const Api& gl, Stamps stamps);
 
-  // `submit` makes the GL calls that are timed. The wall clock runs from before them until the
-  // device has signalled a fence after them; the wait for it does not spin.
+  // `submit` makes the GL calls that are timed. The wall clock runs from just before these calls
+  // until the device has signalled a fence that follows them. Waiting for the fence does not spin.
   template <class Submit>
   [[nodiscard]] Elapsed time(Submit&& submit) {
     start();
@@ -41,13 +41,14 @@ class Stopwatch {
 
   const Api* gl_;
   Stamps stamps_;
-  bool offered_ = false;  // the device has a clock
+  bool offered_ = false;  // whether the device has a clock
   Query begin_;
   Query end_;
   double started_ns_ = 0;
 };
 
-// Waits until the device has done everything submitted. Throws core::ApiError, core::DeviceLost.
+// Waits until the device has finished all submitted work. Throws core::ApiError or
+// core::DeviceLost.
 void wait_for_device(const Api& gl);
 
 struct Statistic {
@@ -55,8 +56,8 @@ struct Statistic {
   std::string_view name;  // the name in record::Counts
 };
 
-// The driver's pipeline statistics for some calls and the stages that they use. A statistic that
-// the driver cannot count is absent.
+// Measures the driver's pipeline statistics for some calls and the stages that they use. A
+// statistic that the driver cannot count is omitted.
 class Statistics {
  public:
   Statistics(const Api& gl, std::span<const Statistic> wanted);

@@ -46,7 +46,7 @@ Texture transfer_texture(const Api& gl, const scene::TransferFunction& function)
   return texture;
 }
 
-// The cells of the whole volume, or space for those of its parts.
+// Creates the buffer for the cells of the whole volume, or the space for those of one part.
 Buffer cell_buffer(const Api& gl, const measure::VolumeWork& work,
                    const std::vector<technique::Part>& parts) {
   const scene::VoxelGrid& grid = *work.scene.grid;
@@ -74,9 +74,10 @@ Texture texture_of(const Api& gl, const scene::VoxelGrid& grid, bool linear, int
   return texture;
 }
 
-// If the volume is drawn in parts, there is space for the parameters of a part at the end.
+// Creates the parameter buffer. If the volume is drawn in parts, the buffer has space for a part's
+// parameters at the end.
 Buffer parameter_buffer(const Api& gl, const measure::VolumeWork& work, bool in_parts) {
-  // The shader reads a texel of an image as a fraction of the format's largest value.
+  // The shader reads texels as fractions of the largest value that the format can store.
   const double stored_maximum =
       is_packed(work) ? 1 : scene::largest_stored(work.scene.grid->format);
   std::vector<std::byte> bytes =
@@ -167,8 +168,8 @@ void fill_buffer(const Api& gl, const Buffer& buffer, std::size_t size, const Fi
   gl.check("glBufferSubData");
 }
 
-// If nothing is skipped, there is only one word for bricks, because the kernel is the same and
-// never reads it.
+// If no bricks are skipped, the buffer of bricks has a single word. The kernel is the same in both
+// cases, but never reads that word.
 VolumeData::VolumeData(const Api& gl, const measure::VolumeWork& work,
                        const std::vector<technique::Part>& parts)
     : quadrature_(quadrature_buffer(gl, work.scene)),

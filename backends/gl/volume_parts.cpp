@@ -20,7 +20,7 @@ bool holds(const Api& gl, const std::array<int, 3>& size, scene::VoxelFormat for
   return accepted != 0;
 }
 
-// The limits on the memory for the voxels on a device.
+// Returns how much memory the device's limits leave for voxels, and the name of the limit.
 technique::Room room_of(const Api& gl, const measure::VolumeWork& work) {
   const scene::VoxelGrid& grid = *work.scene.grid;
   if (is_packed(work)) {

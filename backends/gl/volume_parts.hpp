@@ -1,5 +1,5 @@
 #pragma once
-// A volume that is on the device one part at a time (technique/volume/parts.hpp).
+// A volume whose voxels are on the device one part at a time (technique/volume/parts.hpp).
 
 #include <memory>
 #include <span>
@@ -12,15 +12,15 @@
 
 namespace triptych::gl_backend {
 
-// These are for the technique raycast.
+// Cuts the volume into parts for the technique.
 [[nodiscard]] technique::Cut cut_of(const Api& gl, std::string_view technique,
                                     const measure::VolumeWork& work);
 
-// Whether one texture can hold a volume.
+// Returns whether one texture can hold the volume.
 [[nodiscard]] bool holds_whole(const Api& gl, const std::array<int, 3>& size,
                                scene::VoxelFormat format);
 
-// Moves part after part to where the shader reads it.
+// Uploads one part after another to where the shader reads it.
 class VolumeParts {
  public:
   // `map` is the result of technique::brick_map.
@@ -28,8 +28,8 @@ class VolumeParts {
               const std::vector<technique::Part>& parts, std::span<const std::int32_t> map);
 
   [[nodiscard]] int count() const noexcept { return static_cast<int>(passes_.size()); }
-  // Moves the parameters of the n-th part after the others and, if voxels are read, its voxels:
-  // into the bound texture, or as cells.
+  // Uploads the n-th part: its parameters, to the end of `parameters`, and, if the shader reads its
+  // voxels, also the voxels, either into the bound texture or as cells.
   void move(const Api& gl, int n, const Buffer& parameters, const Buffer* cells) const;
 
  private:
@@ -38,7 +38,7 @@ class VolumeParts {
   std::shared_ptr<const scene::VoxelGrid> grid_;
   technique::Layers layers_;
   std::vector<technique::PartPass> passes_;
-  std::size_t place_;  // the offset of a part's parameters within the parameters
+  std::size_t place_;  // the offset of a part's parameters in the parameter buffer
   measure::MemoryLedger::Entry moved_;
 };
 

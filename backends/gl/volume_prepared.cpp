@@ -29,13 +29,13 @@ std::size_t counters_size(std::size_t pixels) {
   return sizeof(GLuint) * technique::raycast_counter_stride * pixels;
 }
 
-// The build that counts, which is made when it is first needed.
+// The program that counts, created when it is first needed.
 struct Counting {
   Program program;
   Buffer counters;
 };
 
-// Sums the counters of all pixels in 64 bits.
+// Sums the counters of all pixels in 64-bit integers.
 record::Counts sum_counters(const Api& gl, const Buffer& counters, std::size_t pixels) {
   std::vector<GLuint> values(pixels * technique::raycast_counter_stride);
   gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -127,7 +127,7 @@ class VolumeDrawing final : public Drawing {
     gl.BindBuffer(GL_COPY_READ_BUFFER, counting_->counters.get());
     gl.GetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(counters_size(pixels_)),
                         static_cast<GLsizeiptr>(records.size() * sizeof(GLuint)), records.data());
-    counting_.reset();  // this build's buffer does not contain counters
+    counting_.reset();  // the buffer of the timed program has no counters
     return technique::read_ray_trace(records);
   }
 
@@ -158,13 +158,13 @@ std::optional<std::string> texture_reason(const Api& gl, const scene::VoxelGrid&
   }
   if (!in_parts && !holds_whole(gl, grid.size, grid.format)) {
     return fmt::format(
-        "the driver refuses a texture of {}x{}x{} {} ({} bytes), according to GL_PROXY_TEXTURE_3D",
+        "the driver rejects a texture of {}x{}x{} {} ({} bytes), according to GL_PROXY_TEXTURE_3D",
         nx, ny, nz, scene::name_of(grid.format), grid.data.size());
   }
   return std::nullopt;
 }
 
-// The reason why the volume fits neither as a whole nor in parts.
+// Returns the reason why the volume fits neither as a whole nor in parts.
 std::optional<std::string> voxels_reason(const Api& gl, const measure::VolumeWork& work,
                                          const technique::RaycastBuffers& buffers,
                                          const technique::Cut& cut) {
@@ -203,7 +203,8 @@ Constants constants_of(const measure::VolumeWork& work) {
 std::optional<std::string> volume_unsupported(const Api& gl, std::string_view technique,
                                               const measure::VolumeWork& work) {
   if (auto reason = storage_unsupported(gl)) return reason;
-  // Doubles exist since GL 4.0, but below 4.3 the sources are compiled as GLSL 3.30 (program.cpp).
+  // Doubles were introduced in GL 4.0, but below 4.3 the sources are compiled as GLSL 3.30
+  // (program.cpp).
   if (work.options.precision == technique::Precision::fp64 && gl.VERSION_4_3 == 0) {
     return "precision fp64 needs OpenGL 4.3";
   }

@@ -10,17 +10,17 @@
 
 namespace triptych::gl_backend {
 
-// The constants of every volume technique are made here.
+// Returns the compile-time constants of every volume technique.
 [[nodiscard]] Constants constants_of(const measure::VolumeWork& work);
 
-// The reason why this volume and image exceed the limits that every volume technique needs (storage
-// blocks, sizes of textures and buffers); empty if they do not.
+// Returns the reason why this volume and image exceed a limit that applies to every volume
+// technique (storage blocks, sizes of textures and buffers); empty if they do not.
 [[nodiscard]] std::optional<std::string> volume_unsupported(const Api& gl,
                                                             std::string_view technique,
                                                             const measure::VolumeWork& work);
 
-// A volume technique with its scene: the data are uploaded and the program is linked. The context
-// must be current when it is made and must outlive it.
+// Prepares a volume technique with its scene: uploads the data and links the program. The context
+// must be current during this call and must outlive the result.
 [[nodiscard]] std::unique_ptr<measure::Prepared> prepare_volume(Context& context, Stamps stamps,
                                                                 const measure::VolumeWork& work,
                                                                 const Constants& constants,

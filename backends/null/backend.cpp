@@ -13,7 +13,7 @@ namespace {
 
 class NullBackend final : public measure::Backend {
  public:
-  // `error`: why the script in the environment cannot be used; empty if it can.
+  // `error` is the reason why the script in the environment cannot be used; empty if it can.
   NullBackend(std::shared_ptr<const Script> script, std::string error)
       : script_(std::move(script)), error_(std::move(error)) {}
 

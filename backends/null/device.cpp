@@ -22,12 +22,13 @@
 namespace triptych::null_backend {
 namespace {
 
-// Scripted frames do not last longer for a larger image, so calibrating a clock would go on to the
-// largest one that a device can have, and take seconds to read it.
+// The calibration of a clock draws ever larger images until a frame takes long enough. Scripted
+// frames do not take longer for larger images, so it would go on to the largest image that a device
+// supports, which takes seconds to read.
 constexpr int largest_image = 2048;
 
-// A nearly normal distribution with mean 0 and variance 1 from twelve uniform numbers. It needs no
-// function whose bits may differ.
+// Returns a nearly normally distributed number with mean 0 and variance 1, computed from twelve
+// uniform numbers. It uses no function whose result may differ between platforms.
 double normal(core::Random& random) {
   double sum = -6;
   for (int i = 0; i < 12; ++i) sum += random.uniform();
@@ -122,7 +123,8 @@ class NullPrepared final : public measure::Prepared {
     return image;
   }
 
-  // A failure that happens once applies to all frames of one preparation.
+  // If the script makes the failure happen once, it affects all frames until the work is prepared
+  // again.
   [[nodiscard]] core::Image drawn_image() {
     core::Image image = picture(*script_, work_, subject_);
     failure_ = image_failure(*script_, subject_);
@@ -139,8 +141,8 @@ class NullPrepared final : public measure::Prepared {
   std::string subject_;
   double device_factor_;
   int frames_ = 0;
-  bool overwritten_ = false;  // poison() was called at least once
-  bool drawn_ = false;        // a frame was drawn since then
+  bool overwritten_ = false;  // whether poison() was called
+  bool drawn_ = false;        // whether a frame was drawn since then
   std::optional<core::Image> image_;
   std::optional<FailureKind> failure_;
 };
@@ -166,14 +168,15 @@ class NullDevice final : public measure::Device {
     const int side = std::visit(
         [](const auto& each) { return std::max(each.scene.width, each.scene.height); }, work.scene);
     if (side > largest_image) {
-      return fmt::format("the image is {} pixels wide or high, but at most {} are supported here",
-                         side, largest_image);
+      return fmt::format(
+          "the image is {} pixels wide or high, but the null backend supports at most {}", side,
+          largest_image);
     }
     return std::nullopt;
   }
 
   measure::VolumePath default_path(const measure::VolumeKind& volume) const override {
-    // As on other devices, samples and cells of one scene may have different paths.
+    // As on other devices, the samplers of samples and of cells may differ.
     return {.voxel = volume.native,
             .sampler =
                 volume.filter_suffices ? technique::Sampler::manual : technique::Sampler::packed};
@@ -198,7 +201,7 @@ class NullDevice final : public measure::Device {
   std::shared_ptr<const Script> script_;
   record::Device info_;
   double factor_;
-  std::map<std::string, std::size_t> prepares_;  // number of preparations of each work
+  std::map<std::string, std::size_t> prepares_;  // how often each work was prepared
 };
 
 }  // namespace

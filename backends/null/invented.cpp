@@ -62,7 +62,7 @@ record::Counts counters_of(const ParticleWork& work) {
           {"visible_ids", std::min(particles, pixels)}};
 }
 
-// The invocations of one compute pass, or of the fragment stage.
+// Returns the number of invocations of the compute pass or of the fragment stage.
 std::uint64_t invocations_of(const VolumeWork& work) {
   return static_cast<std::uint64_t>(pixels_of(work.scene));
 }
@@ -79,7 +79,7 @@ int stride_of(const ParticleWork& work) {
   return work.options.extra_work_stride;
 }
 
-// Everything that determines an image, without the way in which it is computed.
+// The keys contain everything that determines an image, but not how the image is computed.
 std::string camera_key(const scene::Camera& c) {
   return fmt::format("{} {} {} {} {} {} {} {}", c.eye.x, c.eye.y, c.eye.z, c.forward.x, c.forward.y,
                      c.forward.z, c.up.x, c.fov_y_deg);
@@ -117,8 +117,8 @@ core::Image slopes(int width, int height, const std::string& key, double fault) 
   return image;
 }
 
-// One particle after the other, with every tenth pixel empty. An injected fault also changes ids
-// and depth.
+// Adds a different particle to each pixel, and leaves every tenth pixel empty. An injected fault
+// also changes ids and depths.
 void add_particles(core::Image& image, std::uint32_t fault) {
   for (std::size_t i = 0; i < image.pixel_count(); ++i) {
     const bool empty = i % 10 == 0;

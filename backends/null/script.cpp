@@ -58,7 +58,8 @@ bool is_of_image(FailureKind kind) {
          kind == FailureKind::stale_image;
 }
 
-// Only one of several processes creates the file.
+// Returns whether the failure happens. With `once`, it happens in the one process that creates the
+// file.
 bool happens(const Failure& failure) {
   if (failure.once.empty()) return true;
   const int file = ::open(failure.once.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
@@ -84,10 +85,10 @@ Failure parse_failure(const Json& json) {
     } else if (key == "once") {
       failure.once = text(value, key);
     } else if (key != "kind") {
-      refuse(key, "no such key in a failure (there are: kind, at, frame, only, once)");
+      refuse(key, "one of the keys kind, at, frame, only, once in a failure");
     }
   }
-  if (of_image && failure.at != Place::image) refuse("at", "\"image\" for a failure of the image");
+  if (of_image && failure.at != Place::image) refuse("at", "\"image\" for a failure of images");
   return failure;
 }
 
@@ -98,7 +99,7 @@ std::vector<double> parse_factors(const std::string& key, const Json& value) {
   return factors;
 }
 
-// Returns false if there is no such key.
+// Returns false if no numeric key has this name.
 bool parse_number(const std::string& key, const Json& value, Script& script) {
   const std::array<std::pair<std::string_view, double Script::*>, 7> numbers{{
       {"base_ns", &Script::base_ns},
@@ -139,12 +140,12 @@ void parse_key(const std::string& key, const Json& value, Script& script) {
   } else if (key == "sleep") {
     script.sleep = flag(value, key);
   } else if (key == "images") {
-    if (!value.is_object()) refuse(key, "an object, glob to EXR file");
+    if (!value.is_object()) refuse(key, "an object that maps globs to EXR files");
     for (const auto& [glob, file] : value.items()) {
       script.images.emplace_back(glob, text(file, key));
     }
   } else if (key == "factors") {
-    if (!value.is_object()) refuse(key, "an object, glob to a factor on time");
+    if (!value.is_object()) refuse(key, "an object that maps globs to factors on time");
     for (const auto& [glob, factor] : value.items()) {
       script.factors.emplace_back(glob, number(factor, key, 0));
     }
@@ -152,7 +153,7 @@ void parse_key(const std::string& key, const Json& value, Script& script) {
     if (!value.is_array()) refuse(key, "a list");
     for (const Json& each : value) script.failures.push_back(parse_failure(each));
   } else {
-    refuse(key, "no such key; backends/null/backend.hpp lists them");
+    refuse(key, "a key that is listed in backends/null/backend.hpp");
   }
 }
 
@@ -173,14 +174,14 @@ void play(FailureKind kind) {
     case FailureKind::api_error:
       throw core::ApiError("null_frame", "NULL_ERROR", "scripted");
     case FailureKind::not_supported:
-      throw core::NotSupported("the script says that this is not supported");
+      throw core::NotSupported("the script declares this as unsupported");
     case FailureKind::garbage:
       static_cast<void>(::write(4, "garbage", 7));  // measure/system/process.hpp
       break;
     case FailureKind::wrong_image:
     case FailureKind::nan_image:
     case FailureKind::stale_image:
-      break;  // concerns the image: image_failure()
+      break;  // image_failure() handles the failures that affect the image
   }
 }
 

@@ -1,4 +1,4 @@
-// Traces rays through a hierarchy of boxes, which kernels build and traverse
+// Traces rays through a hierarchy of bounding boxes. Kernels build and traverse it
 // (particle_hierarchy.cl, particle_rays.cl).
 #include <array>
 #include <string_view>
@@ -79,7 +79,7 @@ class BvhFrames final : public measure::Prepared {
   cl::Buffer tree_order_;
   cl::Buffer sorted_;
   cl::Buffer scratch_;
-  cl::Buffer depths_;  // reversed, 0 for none
+  cl::Buffer depths_;  // reversed depths; 0 where there is no particle
   cl::Buffer winners_;
   cl::Buffer image_;
   cl::Buffer ids_;
@@ -153,14 +153,14 @@ void BvhFrames::add_fit(const RayPrograms& programs, bool moved, std::vector<Lau
   }
 }
 
-// Launches every stride-th tile.
+// Traces every stride-th tile.
 Launch BvhFrames::trace(const RayPrograms& programs, cl_uint stride) const {
   return make_launch(programs.rays, "trace_tiles", cl::NDRange((tiles_ + stride - 1) / stride),
                      cl::NDRange(1), data_.parameters, vector_of(hierarchy_.parameters().shape),
                      stride, boxes_, tree_spheres_, tree_order_, depths_, winners_, counters_);
 }
 
-// `again`: 0, or the stride of an injected slowdown.
+// `again` is 0, or the stride of an injected slowdown.
 std::vector<Launch> BvhFrames::picture(const RayPrograms& programs, cl_uint again) const {
   std::vector<Launch> launches;
   if (options_.structure == Structure::rebuilt) add_sort(programs, launches);

@@ -1,10 +1,10 @@
-// Quadrature cells, one ray per work item. The algorithm is that of
-// src/technique/volume/raycast/raycast_cells.glsl, which contains the explanations.
+// Quadrature cells, with one ray per work item. The algorithm is explained in
+// src/technique/volume/raycast/raycast_cells.glsl.
 //
 // Compile-time constants: TRI_SHADING, TRI_COUNT, and those of volume.cl.
 
 typedef struct {
-  float3 p0;         // where the ray enters, relative to the first voxel's centre
+  float3 p0;         // where the ray enters, relative to the centre of the first voxel
   float3 g;          // one step, in voxels
   float3 inverse_g;
   int3 forward;      // 1 if the ray runs towards higher indices, else 0
@@ -31,7 +31,7 @@ TRI_FN float least(float3 v) {
   return two < v.z ? two : v.z;
 }
 
-// 1 where `a` is not after t, else 0.
+// Returns, for each component, 1 if `a` is not after t, and 0 otherwise.
 TRI_FN int3 not_after(float3 a, float t) { return -(a <= (float3)(t)); }
 
 TRI_FN int3 cell_behind(const Way* way, int3 planes, float3 at) {
@@ -45,10 +45,11 @@ TRI_FN int3 cell_behind(const Way* way, int3 planes, float3 at) {
   return crossed * (planes - 1 + way->forward) + (1 - crossed) * cell;
 }
 
-// c.x + c.y·s + c.z·s² + c.w·s³
+// Evaluates c.x + c.y·s + c.z·s² + c.w·s³.
 TRI_FN float cubic(float4 c, float s) { return c.x + s * (c.y + s * (c.z + s * c.w)); }
 
-// The position among the transfer function's entries along the ray's way through a cell.
+// Returns the position in the transfer function's table as a cubic polynomial along the ray's path
+// through a cell.
 TRI_FN float4 cubic_of_cell(__constant Parameters* u, TRI_VOLUME volume, int3 cell, float3 a, float3 b) {
 #if TRI_FAULT == FAULT_HALF_VOXEL_SHIFT
   a.x += 0.5f;
@@ -56,7 +57,7 @@ TRI_FN float4 cubic_of_cell(__constant Parameters* u, TRI_VOLUME volume, int3 ce
 #if TRI_FAULT == FAULT_COARSE_FILTER
   a = floor(a * 256.0f + 0.5f) / 256.0f;
 #endif
-  // Among the voxels with their border, the cell begins at its index plus one.
+  // In the voxel buffer with its border, a cell begins at its index plus one.
   int row = u->volume_size.x + 2;
   int slice = row * (u->volume_size.y + 2);
 #if TRI_FAULT == FAULT_FLIPPED_AXIS
@@ -73,8 +74,9 @@ TRI_FN float4 cubic_of_cell(__constant Parameters* u, TRI_VOLUME volume, int3 ce
                                  TRI_LOAD2(first + slice + row * far_row));
   float4 v0 = (float4)(convert_float4(low).xz, convert_float4(high).xz);
   float4 v1 = (float4)(convert_float4(low).yw, convert_float4(high).yw);
-  float4 x0 = v0 + a.x * (v1 - v0);  // along x: constant terms for the four edges, …
-  float4 x1 = b.x * (v1 - v0);       // … and those in s
+  // interpolation along x on the four edges: the constant terms, …
+  float4 x0 = v0 + a.x * (v1 - v0);
+  float4 x1 = b.x * (v1 - v0);       // … and the terms that are linear in s
   float2 rise0 = x0.yw - x0.xz;
   float2 rise1 = x1.yw - x1.xz;
   float2 y0 = x0.xz + a.y * rise0;
@@ -89,14 +91,15 @@ TRI_FN float4 cubic_of_cell(__constant Parameters* u, TRI_VOLUME volume, int3 ce
   return c;
 }
 
-// technique::kink_table.
+// Reads a row of technique::kink_table.
 TRI_FN float4 kink_row(__global const float4* kinks, float i) {
   return kinks[(int)(i > 0.0f ? (i < 256.0f ? i : 256.0f) : 0.0f)];
 }
 
 TRI_FN float table_end(float position) { return position > 0.0f ? (position < 255.0f ? position : 255.0f) : 0.0f; }
 
-// Whether any value on the way has opacity, decided by the cubic's Bernstein coefficients.
+// Returns whether any position along the path has opacity, judging by the Bernstein coefficients of
+// the cubic.
 TRI_FN int shows(__global const float4* kinks, float4 c) {
   float b1 = c.x + c.y / 3.0f;
   float b2 = c.x + (2.0f * c.y + c.z) / 3.0f;
@@ -140,7 +143,7 @@ TRI_FN float4 transfer(__constant float4* table, float position) {
   return table[below] + (place - (float)below) * (table[below + 1] - table[below]);
 }
 
-// −log2(1 − alpha); an opacity of 1 counts as 8192.
+// Returns −log2(1 − alpha). An opacity of 1 gives 8192.
 TRI_FN float extinction(float alpha) { return alpha < 1.0f ? 0.0f - tri_log2_1m(alpha) : 8192.0f; }
 
 TRI_FN void add_piece(Gathered* gathered, float4 a, float4 b, float length) {
@@ -159,7 +162,7 @@ TRI_FN void add_piece(Gathered* gathered, float4 a, float4 b, float length) {
   gathered->transmittance -= weight;
 }
 
-// Data that is the same for all cells.
+// The data that are the same for all cells.
 typedef struct {
   __constant Parameters* u;
   TRI_VOLUME volume;
@@ -187,7 +190,7 @@ TRI_FN void add_part(const Surroundings* in, Gathered* gathered, Counts* counts,
   add_piece(gathered, a, b, in->step_voxels * (end - begin) * (next - s));
 }
 
-// Adds a cell between the times `begin` and `end`.
+// Adds the part of a cell between `begin` and `end`.
 TRI_FN void add_cell(const Surroundings* in, const Way* way, int3 cell, float begin, float end,
                      Gathered* gathered, Counts* counts) {
   if (!(end > begin)) return;
@@ -220,7 +223,7 @@ TRI_FN void add_cell(const Surroundings* in, const Way* way, int3 cell, float be
   }
 }
 
-// Whether the cell's brick is visible, and the planes up to which that holds.
+// Returns whether the cell's brick is visible, and the planes within which this remains true.
 TRI_FN int look_around(__constant Parameters* u, __global const int* brick_map, const Way* way,
                        int3 cell, int3* planes) {
   int edge = u->brick_grid.w;
@@ -272,7 +275,7 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
   int3 cell = (int3)((int)tri_floor(way.p0.x), (int)tri_floor(way.p0.y), (int)tri_floor(way.p0.z));
   cell = clamp(cell, (int3)(-1), u->volume_size.xyz - 1);
   float begin = 0.0f;
-  float seen = u->brick_grid.w > 0 ? 0.0f : 3.0e38f;  // up to here all bricks are visible
+  float seen = u->brick_grid.w > 0 ? 0.0f : 3.0e38f;  // up to here, all bricks are visible
   float end = ray.steps;
 #if TRI_PARTS
   __global Pause* own =

@@ -34,7 +34,8 @@ const std::map<std::string_view, decltype(&prepare_tiles)> particle_techniques{
 Session open_session(const Found& found) {
   return checked([&] {
     const cl::Context context(found.device);
-    // PoCL's compiler vectorises the loops inside a work item; others vectorise across work items.
+    // PoCL's compiler vectorises the loops inside a work item; other compilers vectorise across
+    // work items.
     const bool vectorises_loops = found.info.driver == "pocl" && !found.info.cpu_features.empty();
     return Session{.device = found.device,
                    .context = context,
@@ -66,7 +67,7 @@ class Device final : public measure::Device, public measure::ProbesFeatures {
   }
 
  private:
-  // The error that the probe measured.
+  // Returns the error that the probe measured.
   [[nodiscard]] double sampler_error(scene::VoxelFormat format) const;
   [[nodiscard]] std::optional<std::string> half_defect(scene::VoxelFormat format) const;
   [[nodiscard]] std::optional<std::string> image_defect(const scene::VoxelGrid& grid) const;
@@ -82,7 +83,7 @@ class Device final : public measure::Device, public measure::ProbesFeatures {
   VolumeCache volumes_;
 };
 
-// PoCL 3.1 lists images of half floats, but cannot read values from them without cl_khr_fp16.
+// PoCL 3.1 claims to support images of half floats, but cannot read them without cl_khr_fp16.
 std::optional<std::string> Device::half_defect(scene::VoxelFormat format) const {
   if (format != scene::VoxelFormat::f16 || !session_.queue.executes()) return std::nullopt;
   const double error = sampler_error(format);
@@ -94,7 +95,7 @@ std::optional<std::string> Device::half_defect(scene::VoxelFormat format) const 
       error, allowed);
 }
 
-// The reason why the hardware sampler cannot be used for the grid.
+// Returns the reason why the hardware sampler cannot be used for the grid.
 std::optional<std::string> Device::image_defect(const scene::VoxelGrid& grid) const {
   return checked([&]() -> std::optional<std::string> {
     const cl::Device& device = session_.device;
@@ -120,7 +121,7 @@ std::optional<std::string> Device::image_defect(const scene::VoxelGrid& grid) co
   });
 }
 
-// The reason why one of the buffers does not fit.
+// Returns the reason why one of the buffers does not fit into memory.
 std::optional<std::string> Device::size_defect(std::string_view technique,
                                                const measure::VolumeWork& work) const {
   const technique::Cut cut = cut_of(session_, technique, work);
@@ -128,7 +129,7 @@ std::optional<std::string> Device::size_defect(std::string_view technique,
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(work.scene.width) * static_cast<std::uint64_t>(work.scene.height);
   if (pixels * technique::raycast_counter_stride > most_indices) {
-    return fmt::format("the image has {} pixels, but the kernel's index can count only {}", pixels,
+    return fmt::format("the image has {} pixels, but the kernel can index at most {}", pixels,
                        most_indices / technique::raycast_counter_stride);
   }
   technique::RaycastBuffers buffers = technique::raycast_buffers(work.scene, work.options);
@@ -175,11 +176,11 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
   return size_defect(work.technique, *volume);
 }
 
-// The voxels are read from a buffer, with interpolation in the kernel, unless the sampler is exact.
-// On PoCL 3.1 that is also nine times faster than the sampler (speed_of_light: 405 against 44
-// million samples a second on two cores). The format is that of the volume: u8, u16 and f32 take
-// the same time there as long as they fit into the caches (409, 413 and 446 million samples a
-// second at 128³), and smaller formats fit for larger volumes.
+// Unless the hardware sampler is exact, voxels are read from a buffer and interpolated in the
+// kernel. On PoCL 3.1 that is also nine times faster than the sampler (speed_of_light: 405 versus
+// 44 million samples per second on two cores). The voxel format is the volume's own: u8, u16 and
+// f32 are equally fast there as long as the volume fits into the caches (409, 413 and 446 million
+// samples per second at 128³), and larger volumes fit in smaller formats.
 measure::VolumePath Device::default_path(const measure::VolumeKind& volume) const {
   const scene::VoxelFormat native = volume.native;
   const measure::VolumePath hardware{native, Sampler::hardware};
@@ -192,13 +193,13 @@ measure::VolumePath Device::default_path(const measure::VolumeKind& volume) cons
 
 double Device::filter_weight_error(const measure::VolumePath& path) const {
   if (path.sampler != Sampler::hardware) return 0;
-  // The allowed error is an upper limit, because a wrong filter must not lead to a wide bound.
+  // Limits the error to the allowed error, because a faulty filter must not widen the bound.
   return std::min(sampler_error(path.voxel),
                   technique::allowed_filter_error(technique::least_weight_bits, path.voxel));
 }
 
 double Device::sampler_error(scene::VoxelFormat format) const {
-  // The worst possible error, because nothing can be sampled.
+  // Nothing can be sampled, so this returns the worst possible error.
   if (!session_.queue.executes()) return 1;
   const auto known = filter_errors_.find(format);
   if (known != filter_errors_.end()) return known->second;
@@ -208,8 +209,8 @@ double Device::sampler_error(scene::VoxelFormat format) const {
 std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
   if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
   if (const auto* particles = std::get_if<measure::ParticleWork>(&work.scene)) {
-    // Frees the cached volume, such as the one for calibrating statistics, because its memory does
-    // not belong to the frame.
+    // Frees the cached volume, for example the one for calibrating statistics, because its memory
+    // is not part of this frame.
     volumes_ = {};
     return particle_techniques.at(work.technique)(session_, programs_, *particles);
   }

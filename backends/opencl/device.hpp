@@ -6,7 +6,7 @@
 
 namespace triptych::opencl_backend {
 
-// Makes a context and a queue for the device. Throws core::ApiError.
+// Creates a context and a queue for the device. Throws core::ApiError.
 [[nodiscard]] std::unique_ptr<measure::Device> open_device(Found found);
 
 }  // namespace triptych::opencl_backend

@@ -16,7 +16,7 @@
 namespace triptych::opencl_backend {
 namespace {
 
-// The variables with which these drivers choose devices, threads and generated code.
+// The environment variables by which these drivers select devices, threads and generated code.
 constexpr auto variables = std::to_array<std::string_view>(
     {"GALLIUM_DRIVER", "GALLIUM_OVERRIDE_CPU_CAPS", "GALLIVM_PERF", "LP_NATIVE_VECTOR_WIDTH",
      "LP_NUM_THREADS", "POCL_AFFINITY", "POCL_BITCODE_FINALIZER", "POCL_CPU_LOCAL_MEM_SIZE",
@@ -27,8 +27,8 @@ constexpr auto variables = std::to_array<std::string_view>(
 
 std::map<std::string, std::string> environment() {
   auto set = measure::set_variables(variables);
-  // A worker is started with this variable set to 1, but the device is the same as in a listing
-  // outside of a worker, so the variable is left out.
+  // Workers are started with this variable set to 1. It is left out, because the device is the same
+  // as the one listed outside of a worker.
   if (const auto found = set.find("POCL_PTHREAD_MIN_WGS");
       found != set.end() && found->second == "1") {
     set.erase(found);
@@ -36,7 +36,7 @@ std::map<std::string, std::string> environment() {
   return set;
 }
 
-// Strings of the API may end in a NUL or in blanks, and some contain line breaks.
+// Strings from the API may end in a NUL or in spaces, and some contain line breaks.
 std::string one_line(std::string text) {
   for (char& c : text) {
     if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = ' ';
@@ -61,13 +61,13 @@ std::map<std::string, std::string> limits_of(const cl::Device& device) {
 #undef TRI_LIMIT
 }
 
-// Layered drivers, which forward all work to another driver. That driver determines the results as
-// much as they do.
+// Returns whether this is a layered driver, which forwards all work to another driver. The results
+// depend on both drivers.
 bool is_layered(std::string_view driver) {
   return driver == "rusticl" || driver == "clvk" || driver == "clon12";
 }
 
-// An example is "22.3.6 on llvmpipe (LLVM 15.0.6, 256 bits)".
+// Returns the driver version, for example "22.3.6 on llvmpipe (LLVM 15.0.6, 256 bits)".
 std::string version_of(const cl::Device& device, const std::string& driver) {
   std::string version = one_line(device.getInfo<CL_DRIVER_VERSION>());
   if (is_layered(driver)) version += " on " + one_line(device.getInfo<CL_DEVICE_NAME>());
@@ -90,7 +90,8 @@ record::Device describe(const cl::Device& device, const std::string& driver) {
   });
 }
 
-// The id of a device that only compiles contains the family that the variables selected.
+// For a device that only compiles, sets the id to one that contains the GPU family selected by the
+// environment variables.
 void only_compile(const std::string& driver, record::Device& info) {
   if (!info.cpu_features.empty()) return;
   std::string family = measure::compiled_family(driver);
@@ -102,7 +103,7 @@ void only_compile(const std::string& driver, record::Device& info) {
   info.environment.clear();
 }
 
-// The reason why the device cannot be used; empty if it can.
+// Returns the reason why the device cannot be used; empty if it can.
 std::string defect_of(const cl::Device& device) {
   return checked([&]() -> std::string {
     if (device.getInfo<CL_DEVICE_AVAILABLE>() == CL_FALSE) return "CL_DEVICE_AVAILABLE is false";
@@ -149,8 +150,7 @@ void add_platform(Search& search, const cl::Platform& platform, std::map<std::st
     const std::string driver = driver_of(name);
     for (const cl::Device& device : devices) add_device(search, device, driver, seen);
   } catch (const cl::Error& error) {
-    // A platform that is switched off, or has no hardware, returns this code instead of an empty
-    // list.
+    // A platform that is disabled or has no hardware returns this code instead of an empty list.
     search.broken.push_back(
         {"OpenCL platform " + name,
          error.err() == CL_DEVICE_NOT_FOUND

@@ -18,11 +18,11 @@ struct Search {
   std::vector<measure::Broken> broken;
 };
 
-// Never throws because of a driver: a platform or device that fails is listed in `broken`.
+// Never throws because of a driver. A platform or device that fails is listed in `broken`.
 [[nodiscard]] Search find_devices();
 
-// "pocl" for "Portable Computing Language"; for an unknown platform, its name in lower-case letters
-// and digits.
+// Returns "pocl" for "Portable Computing Language", and similar short names for other known
+// platforms. For an unknown platform, returns the lower-case letters and digits of its name.
 [[nodiscard]] std::string driver_of(std::string_view platform_name);
 
 }  // namespace triptych::opencl_backend

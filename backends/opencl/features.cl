@@ -6,16 +6,16 @@ __kernel void write_groups(__global uint* numbers) {
   numbers[group] = group + 1;
 }
 
-// Writes first + factor·i, beginning with the element `begin`.
+// Writes first + factor·i to element `begin` + i.
 __kernel void write_line(__global uint* numbers, ulong begin, uint first, uint factor) {
   ulong i = get_global_id(0);
   numbers[begin + i] = first + factor * (uint)i;
 }
 
-// Writes the global number, which begins with the offset of the launch.
+// Writes each global id to its own element. Global ids begin with the offset of the launch.
 __kernel void write_numbers(__global uint* numbers) { numbers[get_global_id(0)] = (uint)get_global_id(0); }
 
-// Adds in the storage type, so that the sum wraps.
+// Adds in the storage type, so that sums wrap around.
 __kernel void add_bytes(__global uchar* bytes) {
   size_t i = get_global_id(0);
   bytes[i] = (uchar)(bytes[i] + (uchar)i);
@@ -25,7 +25,7 @@ __kernel void add_shorts(__global ushort* shorts) {
   shorts[i] = (ushort)(shorts[i] + (ushort)(3 * i));
 }
 
-// Samples a square image of `edge` texels from one image before it to two images after it.
+// Samples a square image of `edge` texels at coordinates from -1 to 3, in units of the image size.
 #define SAMPLE(name, mode)                                                                              \
   __constant sampler_t name##_sampler = CLK_NORMALIZED_COORDS_TRUE | mode | CLK_FILTER_NEAREST;          \
   __kernel void name(__read_only image2d_t texels, __global float* values, int edge) {                  \

@@ -18,7 +18,7 @@ using measure::count_right;
 using measure::judged_feature;
 using measure::ProbedFeature;
 
-// The objects that a probe needs.
+// The objects that feature probes use.
 struct Bench {
   const Session& session;
   Programs& programs;
@@ -63,8 +63,8 @@ ProbedFeature probe_groups(const Bench& bench) {
                         fmt::format("{} x 2 x 2 groups", across));
 }
 
-// One buffer in which the same kernel writes at the beginning and beyond `offset`: an index that
-// loses its upper bits would overwrite the beginning.
+// Runs the same kernel at the beginning of a buffer and at `offset`. If the driver dropped the
+// upper bits of an index, the second run would overwrite the beginning.
 ProbedFeature probe_offset(const Bench& bench, std::uint64_t offset) {
   constexpr std::size_t count = 65536;
   constexpr std::uint64_t bytes = count * sizeof(cl_uint);
@@ -127,9 +127,10 @@ ProbedFeature probe_launch_offset(const Bench& bench) {
       fmt::format("offset of {}", begin));
 }
 
-// After clFinish every command has completed, and its event must have the status CL_COMPLETE. A
-// driver that completes events late does so by a race, so there are several rounds. Their commands
-// last some milliseconds, so that the last one has not yet ended when clFinish is called.
+// Checks that every command is complete after clFinish, which means that its event has the status
+// CL_COMPLETE. In drivers that complete events late, this is a race, so the probe runs several
+// rounds. Each command takes some milliseconds, so that the last command is still running when
+// clFinish is called.
 ProbedFeature probe_event_status(const Bench& bench) {
   constexpr std::size_t numbers = std::size_t{1} << 22U;
   constexpr std::size_t commands = 4;
@@ -158,8 +159,7 @@ ProbedFeature probe_event_status(const Bench& bench) {
                         fmt::format("events of {} commands after clFinish", commands * rounds));
 }
 
-// ---- Images
-// ---------------------------------------------------------------------------------------
+// Images
 
 cl::Image2D float_image(const Bench& bench, std::size_t width, std::size_t height,
                         std::vector<float>& texels) {
@@ -176,7 +176,8 @@ cl::Image2D float_image(const Bench& bench, std::size_t width, std::size_t heigh
 
 constexpr std::size_t image_edge = 16;
 
-// The texel along one axis for a coordinate outside of the image; `image_edge` for the border.
+// Returns the texel along one axis for coordinate `at`, which may lie outside of the image. Returns
+// `image_edge` for the border.
 std::size_t addressed(int at, std::string_view kernel) {
   constexpr int size = static_cast<int>(image_edge);
   if (kernel == "sample_border")
@@ -186,7 +187,7 @@ std::size_t addressed(int at, std::string_view kernel) {
   return static_cast<std::size_t>(within < size ? within : period - 1 - within);
 }
 
-// The border of an image with a single channel is 0.
+// The border of a single-channel image is 0.
 ProbedFeature probe_addressing(const Bench& bench, const char* kernel) {
   constexpr std::size_t side = 4 * image_edge;
   constexpr std::size_t count = side * side;

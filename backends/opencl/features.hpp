@@ -6,7 +6,7 @@
 
 namespace triptych::opencl_backend {
 
-// The probes, which refer to the session and its programs.
+// Returns the feature probes. They keep references to the session and to its programs.
 [[nodiscard]] std::vector<measure::FeatureProbe> feature_probes(const Session& session,
                                                                 Programs& programs);
 

@@ -1,4 +1,4 @@
-// Samples the volume at places.xyz, in voxels, and writes the value to places.w.
+// Samples the volume at places.xyz (in voxels), and writes the sampled value to places.w.
 __kernel void filter_probe(__constant Parameters* u, TRI_VOLUME volume, __global float4* places) {
   int i = (int)get_global_id(0);
   Positions p;

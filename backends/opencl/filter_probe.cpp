@@ -18,7 +18,7 @@ constexpr int edge = 8;  // voxels
 constexpr std::size_t place_count = 8192;
 constexpr std::size_t voxel_count = std::size_t{edge} * edge * edge;
 using Bits = std::array<bool, voxel_count>;
-using Place = std::array<float, 4>;  // position in voxels, and a value
+using Place = std::array<float, 4>;  // position in voxels, and the value sampled there
 
 Bits random_bits() {
   core::Random random(1);
@@ -38,7 +38,8 @@ std::vector<Place> random_places() {
   return places;
 }
 
-// Voxels of 0 and of the largest value of the format. Sampled values are divided by it.
+// Creates a volume whose voxels are either 0 or the largest value of the format. Sampled values are
+// divided by that value.
 template <typename T>
 scene::VoxelGrid make_pattern(const Bits& bits, scene::VoxelFormat format, T largest) {
   scene::VoxelGrid grid{.format = format, .size = {edge, edge, edge}};

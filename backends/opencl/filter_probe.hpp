@@ -5,9 +5,10 @@
 
 namespace triptych::opencl_backend {
 
-// The largest error of the device's trilinear sampler at seeded random positions, as a share of the
-// difference between neighbouring voxels, which here is the whole range of the format. Throws
-// core::NotSupported if the device has no image format for these voxels.
+// Returns the largest error of the device's trilinear sampler at seeded random positions, as a
+// fraction of the difference between neighbouring voxels. In this probe, that difference is the
+// whole range of the format. Throws core::NotSupported if the device has no image format for these
+// voxels.
 [[nodiscard]] double probe_filter(const Session& session, Programs& programs,
                                   scene::VoxelFormat format);
 

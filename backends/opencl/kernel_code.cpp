@@ -26,7 +26,7 @@ std::vector<std::string> kernels_of(const cl::Program& program) {
   return kernels;
 }
 
-// Values that every OpenCL driver reports, in bytes or work items.
+// Returns the figures that every OpenCL driver reports for a kernel, in bytes or work items.
 std::map<std::string, double> work_group_info(const Session& session, const cl::Kernel& kernel) {
   const auto number = [](auto value) { return static_cast<double>(value); };
   const cl::Device& device = session.device;
@@ -41,7 +41,7 @@ std::map<std::string, double> work_group_info(const Session& session, const cl::
 }
 
 // Parses NVIDIA's build log with -cl-nv-verbose: "… Used 32 registers, 8 bytes stack frame, …".
-// Other logs have no such lines.
+// Logs of other drivers add nothing.
 void add_logged(const std::string& log, const std::string& kernel,
                 std::map<std::string, double>& statistics) {
   const std::size_t at = log.find("'" + kernel + "'");

@@ -5,7 +5,7 @@
 namespace triptych::opencl_backend {
 namespace {
 
-// `events` gets one for each launch.
+// Fills `events` with one event per launch.
 void enqueue_all(const Session& session, const std::vector<Launch>& launches,
                  std::vector<cl::Event>& events, core::CodePlace place) {
   events.resize(launches.size());
@@ -22,7 +22,7 @@ void enqueue_all(const Session& session, const std::vector<Launch>& launches,
   }
 }
 
-// `launches`: null if the events do not belong to plain launches.
+// `launches` is null if the events do not belong to kernel launches alone.
 void check_all(const std::vector<cl::Event>& events, const std::vector<Launch>* launches,
                core::CodePlace place) {
   for (std::size_t at = 0; at < events.size(); ++at) {
@@ -40,7 +40,7 @@ std::size_t round_up(std::size_t n, std::size_t multiple) {
 }
 
 cl::Buffer upload_bytes(const Session& session, std::span<const std::byte> bytes) {
-  constexpr std::size_t smallest = 16;  // OpenCL does not allow an empty buffer
+  constexpr std::size_t smallest = 16;  // OpenCL does not allow empty buffers
   const cl::Buffer buffer =
       make_buffer(session, CL_MEM_READ_ONLY, std::max(bytes.size(), smallest));
   if (!bytes.empty()) {

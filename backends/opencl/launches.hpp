@@ -1,5 +1,5 @@
 #pragma once
-// Kernel launches with their arguments and sizes, and the time that a sequence of them takes.
+// Kernel launches with their arguments and sizes, and the time that a sequence of launches takes.
 
 #include <fmt/format.h>
 
@@ -14,15 +14,15 @@
 
 namespace triptych::opencl_backend {
 
-// A kernel does not retain its arguments, so they must outlive it.
+// A kernel does not retain its arguments, so the arguments must outlive the launch.
 struct Launch {
   cl::Kernel kernel;
   std::string name;
   cl::NDRange global;
-  cl::NDRange local;  // cl::NullRange: the driver's choice
+  cl::NDRange local;  // cl::NullRange lets the driver choose
 };
 
-// The name of a kernel, and the line of code that asks for it.
+// The name of a kernel, and the source location where it is requested.
 struct KernelName {
   KernelName(const char* its_name, core::CodePlace its_place = core::CodePlace::current())
       : name(its_name), place(its_place) {}
@@ -47,26 +47,27 @@ template <typename... Arguments>
 
 [[nodiscard]] std::size_t round_up(std::size_t n, std::size_t multiple);
 
-// A read-only buffer with a copy of `bytes`; it has 16 bytes if `bytes` is empty.
+// Creates a read-only buffer with a copy of `bytes`. The buffer has 16 bytes if `bytes` is empty.
 [[nodiscard]] cl::Buffer upload_bytes(const Session& session, std::span<const std::byte> bytes);
 
-// Runs launches that are not timed, in their order, and waits for them. Throws core::ApiError,
-// core::DeviceLost, also if one of the launches ended abnormally, which clFinish does not report.
+// Runs launches that are not timed, in the given order, and waits for them. Throws core::ApiError
+// or core::DeviceLost, also if a launch ended abnormally, which clFinish does not report.
 void run_checked(const Session& session, const std::vector<Launch>& launches,
                  core::CodePlace place = core::CodePlace::current());
 
-// The commands of the last frame, which is the frame that is timed.
+// The commands of the most recent frame.
 class FrameRun {
  public:
-  // Runs the launches in their order and waits without spinning. The launches have to exist until
-  // check(). The frame has its wall time and, for Purpose::timing, the device's: from the beginning
-  // of the first command to the end of the last one. The time between commands is included, as it
-  // is for the other APIs. Throws core::ApiError, core::DeviceLost.
+  // Runs the launches in the given order and waits without spinning. The launches must exist until
+  // check() is called. Returns the wall time of the frame and, for Purpose::timing, also the device
+  // time, from the beginning of the first command to the end of the last one. As for the other
+  // APIs, device time includes the time between commands. Throws core::ApiError or
+  // core::DeviceLost.
   [[nodiscard]] measure::Frame draw(const Session& session, const std::vector<Launch>& launches,
                                     measure::Purpose purpose,
                                     core::CodePlace place = core::CodePlace::current());
-  // The same for commands that are not plain launches: `enqueue` gets the list of events to fill,
-  // one for each command, and waits until the queue has finished.
+  // Draws a frame that consists of other commands than kernel launches alone. `enqueue` receives a
+  // list to fill with one event per command, and must wait until the queue has finished.
   template <typename Enqueue>
   [[nodiscard]] measure::Frame draw(measure::Purpose purpose, const Enqueue& enqueue) {
     launches_ = nullptr;
@@ -79,16 +80,16 @@ class FrameRun {
     return frame;
   }
 
-  // Throws if a command of the last frame ended abnormally, which clFinish does not report. Call it
-  // before the frame's result is read: the status of an event costs instructions in the driver that
-  // must not be counted as the frame's.
+  // Throws if a command of the most recent frame ended abnormally, which clFinish does not report.
+  // Call this before reading the frame's result, but not while counting the frame's instructions,
+  // because querying the status of an event executes instructions in the driver.
   void check(core::CodePlace place = core::CodePlace::current()) const;
 
  private:
   [[nodiscard]] std::optional<double> device_ns() const;  // nullopt if the device reports no time
 
   std::vector<cl::Event> events_;
-  const std::vector<Launch>* launches_ = nullptr;  // null: other commands
+  const std::vector<Launch>* launches_ = nullptr;  // null if the frame consists of other commands
 };
 
 }  // namespace triptych::opencl_backend

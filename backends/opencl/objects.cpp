@@ -82,7 +82,7 @@ constexpr std::array codes{
 };
 #undef TRI_CODE
 
-// After a fault in a kernel, the queue of a GPU answers every call with one of the last two codes.
+// After a fault in a kernel, the queue of a GPU returns one of the last two codes for every call.
 bool means_lost(cl_int code) {
   return code == CL_DEVICE_NOT_AVAILABLE || code == CL_INVALID_COMMAND_QUEUE ||
          code == CL_OUT_OF_RESOURCES;
@@ -97,7 +97,8 @@ std::string code_name(cl_int code) {
 
 namespace {
 
-// The entry lives as long as the driver keeps the object, to which others may hold references.
+// The entry exists as long as the driver keeps the object, because other owners may hold references
+// to it.
 void enter(cl::Memory& object, measure::MemoryLedger::Entry entry) {
   auto held = std::make_unique<measure::MemoryLedger::Entry>(std::move(entry));
   object.setDestructorCallback(
@@ -144,8 +145,8 @@ void check_executed(const cl::Event& event, const std::string& call, const std::
   };
   cl_int status = read();
   if (status > CL_COMPLETE) {
-    // Some drivers complete events a little after clFinish has returned. The feature `event-status`
-    // reports it.
+    // Some drivers complete events shortly after clFinish has returned. The feature probe
+    // `event-status` reports such drivers.
     if (const cl_int code = ::clWaitForEvents(1, &event());
         code != CL_SUCCESS && code != CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST) {
       throw_api_error(cl::Error(code, "clWaitForEvents"), place, detail);
@@ -170,7 +171,7 @@ void write_buffer(const Session& session, const cl::Buffer& to, std::size_t offs
   if (measure::dump_folder())
     measure::write_dump("buffer", "bin", std::span(static_cast<const std::byte*>(from), bytes),
                         fmt::format("bytes {} to {} of a buffer", offset, offset + bytes));
-  if (!session.queue.executes()) return;  // the event would stay empty
+  if (!session.queue.executes()) return;  // otherwise the event would never be set
   cl::Event event;
   checked(
       [&] { session.queue.enqueueWriteBuffer(to, CL_TRUE, offset, bytes, from, nullptr, &event); },

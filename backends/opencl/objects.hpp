@@ -1,7 +1,7 @@
 #pragma once
-// OpenCL objects are those of Khronos' C++ bindings, which count references through the API. Their
-// exceptions contain neither the name of the error code nor the place of the call; checked() adds
-// both.
+// OpenCL objects are those of Khronos' C++ bindings, which count references through the API.
+// Exceptions of these bindings contain neither the name of the error code nor the source location
+// of the call; checked() adds both.
 
 #define CL_HPP_ENABLE_EXCEPTIONS
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120
@@ -19,10 +19,12 @@
 
 namespace triptych::opencl_backend {
 
-// "CL_OUT_OF_RESOURCES" for −5; "error −1234" for a code without a name here.
+// Returns "CL_OUT_OF_RESOURCES" for −5, for example, and "error −1234" for a code without a known
+// name.
 [[nodiscard]] std::string code_name(cl_int code);
 
-// Throws core::DeviceLost for the codes by which drivers report that, otherwise core::ApiError.
+// Throws core::DeviceLost for the error codes by which drivers report a lost device, and
+// core::ApiError otherwise.
 [[noreturn]] void throw_api_error(const cl::Error& error, core::CodePlace place,
                                   const std::string& detail = {});
 
@@ -36,9 +38,9 @@ decltype(auto) checked(Call&& call, core::CodePlace place = core::CodePlace::cur
   }
 }
 
-// A command queue. On a device that only compiles, commands that execute or read back throw
-// core::NotSupported, and commands that move data to the device do nothing. All commands of this
-// backend go through it; they have the names of cl::CommandQueue.
+// A command queue. On a device that only compiles, commands that execute work or read results throw
+// core::NotSupported, and commands that upload data do nothing. The backend enqueues all commands
+// through this class, whose functions have the same names as those of cl::CommandQueue.
 class Queue {
  public:
   Queue(cl::CommandQueue queue, bool executes = true)  // NOLINT: implicit
@@ -91,17 +93,17 @@ class Queue {
   bool executes_;
 };
 
-// A device that is open, with everything that calls need.
+// An open device, with all objects that API calls need.
 struct Session {
   cl::Device device;
   cl::Context context;
   Queue queue;  // an in-order queue with profiling
-  // The number of samples in a batch of the kernels (volume.cl).
+  // The batch size of the kernels, in samples (volume.cl).
   int batch = 1;
   measure::MemoryLedger held = {};  // memory of the objects that make_buffer and make_image created
 };
 
-// Both record the new object in the ledger of the session. They throw core::ApiError.
+// Both functions record the new object in the session's ledger. They throw core::ApiError.
 [[nodiscard]] cl::Buffer make_buffer(const Session& session, cl_mem_flags flags, std::size_t bytes,
                                      core::CodePlace place = core::CodePlace::current());
 [[nodiscard]] cl::Image3D make_image(const Session& session, const cl::ImageFormat& format,
@@ -109,12 +111,12 @@ struct Session {
                                      core::CodePlace place = core::CodePlace::current());
 
 // Throws core::ApiError or core::DeviceLost if the command of an event ended abnormally, or has not
-// ended although its queue was waited for. `call` is the call that enqueued it, `detail` more about
-// it.
+// ended although the queue was waited for. `call` is the API call that enqueued the command, and
+// `detail` describes the command.
 void check_executed(const cl::Event& event, const std::string& call, const std::string& detail = {},
                     core::CodePlace place = core::CodePlace::current());
 
-// Blocking commands whose events are checked. They throw core::ApiError, core::DeviceLost.
+// Blocking commands whose events are checked. They throw core::ApiError or core::DeviceLost.
 void write_buffer(const Session& session, const cl::Buffer& to, std::size_t offset,
                   std::size_t bytes, const void* from,
                   core::CodePlace place = core::CodePlace::current());
@@ -124,7 +126,7 @@ void write_image(const Session& session, const cl::Image& to,
                  const std::array<cl::size_type, 3>& origin,
                  const std::array<cl::size_type, 3>& region, const void* from,
                  core::CodePlace place = core::CodePlace::current());
-// Waits until it is done.
+// Fills the buffer, and waits until that is done.
 void fill_buffer(const Session& session, const cl::Buffer& to, cl_uint word, std::size_t bytes,
                  core::CodePlace place = core::CodePlace::current());
 

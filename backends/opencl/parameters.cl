@@ -1,4 +1,4 @@
-// Has the layout of technique::RaycastParameters (raycast_parameters.hpp), which explains each field.
+// Mirrors technique::RaycastParameters (raycast_parameters.hpp), which explains each field.
 typedef struct {
   real4 eye;
   real4 ray_centre;

@@ -1,9 +1,10 @@
-// Sorts the particles of the listed cells into bins, in the order of the arrangement. A bin is a tile of the image
-// or, for particles that reach more than TRI_MOST_TILES tiles, a coarse tile of 8×8 tiles; the coarse bins follow
-// the fine ones. Each of `chunks` work items takes a run of the listed cells and counts for itself, so that no
-// atomics are needed and the order is kept.
+// Sorts the particles of the listed cells into bins, in the order of the arrangement. A bin is a
+// tile of the image or, for particles that overlap more than TRI_MOST_TILES tiles, a coarse tile of
+// 8×8 tiles. The coarse bins follow the fine ones. Each of `chunks` work items processes a range of
+// the listed cells and has its own counts, so that no atomics are needed and the order is
+// preserved.
 
-// Counts the bins of one particle, or writes it into them.
+// Counts the bins that one particle overlaps, or writes the particle into them.
 TRI_FN void into_bins(uint first, uint last, int across, int down, bool fill, uint particle,
                       __global uint* restrict cursors, __global const uint* restrict begins,
                       __global uint* restrict entries) {
@@ -31,7 +32,8 @@ TRI_FN void into_bins(uint first, uint last, int across, int down, bool fill, ui
   }
 }
 
-// The number of particles that are transformed together. A compiler vectorises loops over arrays of this length.
+// The number of particles that are transformed together. Compilers vectorise loops over arrays of
+// this length.
 #define TRI_BATCH 16
 
 typedef struct {
@@ -41,10 +43,11 @@ typedef struct {
   float r[TRI_BATCH];
   uint first[TRI_BATCH];  // rectangle of pixels
   uint last[TRI_BATCH];
-  int corners[TRI_BATCH];  // of the sprite
+  int corners[TRI_BATCH];  // corners of the sprite
 } Batch;
 
-// Loads n spheres in world space. If the batch is not full, the last one is repeated.
+// Loads n spheres in world space. If n is less than TRI_BATCH, the last sphere fills the rest of
+// the batch.
 TRI_FN void load_batch(__global const float* restrict spheres, uint n, Batch* batch) {
   for (uint k = 0; k < TRI_BATCH; ++k) {
     float4 sphere = vload4(min(k, n - 1), spheres);
@@ -84,7 +87,7 @@ TRI_FN void find_rectangles(const Particles* u, Batch* batch) {
   }
 }
 #elif TRI_STORED
-// Finds the rectangles of n particles, beginning with `first`.
+// Computes the rectangles of n particles, beginning with particle `first`.
 TRI_FN void find_rectangles(const Particles* u, __global const float* restrict stored, uint first,
                             uint n, Batch* batch) {
   for (uint k = 0; k < n; ++k) {
@@ -104,13 +107,14 @@ TRI_FN void find_rectangles(const Particles* u, Batch* batch) {
 }
 #endif
 
-// A sprite must have corners. Without sprites, a rectangle must not be empty.
+// Returns whether the particle is drawn: a sprite must have corners and, without sprites, the
+// rectangle must not be empty.
 TRI_FN bool is_sprite(uint first, uint last, int corners) {
   return TRI_SPRITE == 0 ? !is_empty(first, last) : corners > 0;
 }
 
-// Writes the particles of the listed cells in camera space, their rectangles, and for each chunk the number of its
-// entries in each bin.
+// Writes the listed cells' particles in camera space and their rectangles, and for each chunk the
+// number of its entries in each bin.
 __kernel void count_bins(__global const Particles* restrict parameters,
                          __global const float* restrict spheres,
                          __global const Cell* restrict cells, __global const uint* restrict list,

@@ -1,4 +1,4 @@
-// Makes an ordered list of the visible cells, with the test of cull.comp.glsl.
+// Makes an ordered list of the visible cells, with the same test as cull.comp.glsl.
 
 TRI_FN bool beyond(float nx, float ny, float nz, const float* lo, const float* hi) {
   float lx = nx * lo[0], hx = nx * hi[0];
@@ -18,7 +18,8 @@ TRI_FN bool outside_view(const Particles* u, const __global Cell* cell) {
     lo[k] = cell->lo[k] - eye[k] - rounding;
     hi[k] = cell->hi[k] - eye[k] + rounding;
   }
-  // One pixel beyond the outermost ones, so that the margin of a sprite is never cut.
+  // The view is extended by one pixel on each side, so that the margin of a sprite is never cut
+  // off.
   float edge_x = u->forward.w * u->plane.x + u->plane.z;
   float edge_y = u->forward.w * u->plane.y + u->plane.w;
   float3 f = u->forward.xyz;
@@ -33,14 +34,14 @@ TRI_FN bool outside_view(const Particles* u, const __global Cell* cell) {
          beyond(yf.x - y.x, yf.y - y.y, yf.z - y.z, lo, hi);
 }
 
-// The state of a cell in this frame.
+// The state of a cell in the current frame.
 #define TRI_NOT_DRAWN 0u
 #define TRI_DRAWN_FIRST 1u
-#define TRI_DRAWN_LATER 2u  // became visible since the last frame
+#define TRI_DRAWN_LATER 2u  // became visible since the previous frame
 #define TRI_TO_BE_TESTED 3u
 
-// One work item per cell. `culling` is 0 if nothing outside the view is left out. shown[cell] is 1 if the cell was
-// visible in the last frame.
+// Runs one work item per cell. If `culling` is 0, cells outside of the view are drawn as well.
+// shown[cell] is 1 if the cell was visible in the previous frame.
 __kernel void cull_cells(__global const Particles* parameters, __global const Cell* cells,
                          uint culling, __global const uint* shown, __global uint* states,
                          __global uint* counters) {
@@ -57,8 +58,9 @@ __kernel void cull_cells(__global const Particles* parameters, __global const Ce
 #endif
 }
 
-// The position of the box on the screen: its nearest distance along the view axis, and its first and last pixel,
-// extended by one on each side for rounding. False if a part of it is not in front of the eye.
+// Computes the position of the box on the screen: its smallest distance along the view axis, and
+// its first and last pixel, extended by one pixel on each side for round-off. Returns false if a
+// part of the box is not in front of the eye.
 TRI_FN bool box_on_screen(const Particles* u, const __global Cell* cell, float* nearest,
                           int4* pixels) {
   float size = 0.0f;
@@ -85,8 +87,9 @@ TRI_FN bool box_on_screen(const Particles* u, const __global Cell* cell, float* 
   return true;
 }
 
-// Whether everything that the box may show lies strictly behind the farthest depth of every tile that it reaches.
-// `farthest` contains a reversed depth for each tile, and 0 if a pixel of it shows nothing.
+// Returns whether everything in the box lies strictly behind the farthest depth of every tile that
+// the box overlaps. `farthest` contains one reversed depth per tile; it is 0 if any of the tile's
+// pixels is empty.
 TRI_FN bool occluded(const Particles* u, const __global Cell* cell,
                      __global const float* restrict farthest) {
   float nearest;
@@ -106,8 +109,8 @@ TRI_FN bool occluded(const Particles* u, const __global Cell* cell,
   return true;
 }
 
-// One work item per cell, after the first pass: decides which of the cells in the view are visible, and which of
-// these must still be drawn.
+// Runs one work item per cell after the first pass. Finds out which cells in the view are visible,
+// and which of these still have to be drawn.
 __kernel void test_cells(__global const Particles* parameters, __global const Cell* cells,
                          __global const float* restrict farthest, __global uint* shown,
                          __global uint* states, __global uint* counters) {
@@ -125,8 +128,8 @@ __kernel void test_cells(__global const Particles* parameters, __global const Ce
 #endif
 }
 
-// One work item. list[0] is the number of cells that follow in their order: every stride-th of those with this
-// state.
+// Runs a single work item. Writes every stride-th of the cells that have this state, in order,
+// beginning at list[1]. list[0] is their number.
 __kernel void list_cells(__global const Particles* parameters, __global const uint* states,
                          uint state, uint stride, __global uint* list) {
   uint seen = 0;

@@ -11,12 +11,13 @@
 namespace triptych::opencl_backend {
 namespace {
 
-// Uploads through a small piece of memory, because a driver may copy a buffer that is mapped as a
-// whole.
+// Uploads through a small staging array, because a driver may copy the whole buffer when it is
+// mapped as a whole.
 cl::Buffer upload_property(const Session& session, const technique::Arrangement& arrangement,
                            technique::Property property) {
-  constexpr std::size_t smallest = 16;  // OpenCL does not allow an empty buffer
-  constexpr std::size_t most_at_once = std::size_t{4} << 20U;  // whole elements of any property
+  constexpr std::size_t smallest = 16;  // OpenCL does not allow empty buffers
+  // a multiple of the element size of every property
+  constexpr std::size_t most_at_once = std::size_t{4} << 20U;
   const std::size_t size = arrangement.bytes(property);
   const cl::Buffer buffer = make_buffer(session, CL_MEM_READ_ONLY, std::max(size, smallest));
   std::vector<std::byte> memory(std::min(size, most_at_once));

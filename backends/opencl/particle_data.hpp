@@ -1,5 +1,5 @@
 #pragma once
-// Particles on the device, in the order of the arrangement.
+// The data of particles on the device, in the order of the arrangement.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,17 +14,16 @@ struct ParticleData {
   std::size_t cell_count = 0;
   cl::Buffer parameters;  // technique::ParticleParameters
   cl::Buffer spheres;     // float4
-  cl::Buffer colours;     // one or four words for each particle, depending on the kind
+  cl::Buffer colours;     // one or four words per particle, depending on the kind of colour
   cl::Buffer ids;
   cl::Buffer cells;  // technique::Cell
   cl::Buffer table;  // the table of the transfer function
 };
 
-// From now on, frames are seen from the camera of this scene. The upload has finished when this
-// returns.
+// From now on, draws frames with the camera of this scene. Returns when the upload has finished.
 void look_from(const Session& session, const ParticleData& data, const measure::ParticleWork& work);
 
-// Arranges the particles and uploads them. The upload has finished when this returns.
+// Arranges the particles and uploads them. Returns when the upload has finished.
 [[nodiscard]] ParticleData upload(const Session& session, const measure::ParticleWork& work);
 
 }  // namespace triptych::opencl_backend

@@ -1,12 +1,13 @@
-// The passes that make vertices, for techniques that have a stage of their own for that. Each pass goes through the
-// listed cells in the way that binning does. Binning and the tiles then read what it wrote.
+// The passes that compute vertices, for techniques that have separate stages for this on other
+// APIs. Each pass goes through the listed cells in the same way as binning. The binning and tile
+// passes then read the vertices.
 
 TRI_FN float4 in_camera_space(const Particles* u, float4 s) {
   return (float4)(camera_x(u, s.x, s.y, s.z), camera_y(u, s.x, s.y, s.z), camera_z(u, s.x, s.y, s.z), s.w);
 }
 
-// A corner in clip space, with reversed depth: z is `near` everywhere, except for a sprite that covers the whole
-// viewport.
+// Returns a corner in clip space, with reversed depth: z is `near` everywhere, except for a sprite
+// that covers the whole viewport.
 TRI_FN float4 clip_corner(const Particles* u, float3 place, float z) {
   return (float4)(place.x / u->plane.x, (0.0f - place.y) / u->plane.y, z, place.z);
 }
@@ -14,7 +15,7 @@ TRI_FN float4 clip_corner(const Particles* u, float3 place, float z) {
 TRI_FN float4 viewport_corner(float across, float down) { return (float4)(across, 0.0f - down, 1.0f, 1.0f); }
 
 #if TRI_SPRITE == TRI_EXPANDED_QUAD
-// A geometry stage: one point in, four vertices out.
+// Corresponds to a geometry stage: reads one point and writes four vertices.
 __kernel void expand_sprites(__global const Particles* restrict parameters,
                              __global const float* restrict spheres,
                              __global const Cell* restrict cells, __global const uint* restrict list,
@@ -41,11 +42,11 @@ __kernel void expand_sprites(__global const Particles* restrict parameters,
 #endif
 
 #if TRI_SPRITE == TRI_EVALUATED_QUAD
-// A patch as the control stage writes it: the centre, whether it is the whole viewport, and the vectors to the
-// right and up of the sprite.
+// The number of words of a patch as written by the control stage: the centre, a flag for a sprite
+// that covers the whole viewport, and the vectors to the right and to the top of the sprite.
 #define TRI_PATCH_WORDS 12
 
-// A control stage: one patch for each sphere.
+// Corresponds to a tessellation control stage: writes one patch per sphere.
 __kernel void control_patches(__global const Particles* restrict parameters,
                               __global const float* restrict spheres,
                               __global const Cell* restrict cells, __global const uint* restrict list,
@@ -71,7 +72,8 @@ __kernel void control_patches(__global const Particles* restrict parameters,
 __constant float2 domain_of_quad[4] = {(float2)(0.0f, 0.0f), (float2)(1.0f, 0.0f), (float2)(1.0f, 1.0f),
                                        (float2)(0.0f, 1.0f)};
 
-// An evaluation stage: a vertex for each domain coordinate of each patch.
+// Corresponds to a tessellation evaluation stage: writes one vertex for each domain coordinate of
+// each patch.
 __kernel void evaluate_patches(__global const Particles* restrict parameters,
                                __global const Cell* restrict cells, __global const uint* restrict list,
                                __global const float* restrict patches, __global float* restrict stored) {
@@ -95,8 +97,9 @@ __kernel void evaluate_patches(__global const Particles* restrict parameters,
 #endif
 
 #if TRI_SPRITE == TRI_POINT
-// A vertex stage for points: the position of the square's centre on the image, and its size in pixels. A square
-// larger than TRI_LARGEST_POINT is drawn as a screen-aligned quad, as on the other APIs.
+// Corresponds to a vertex stage for points: writes the position of the square's centre on the
+// image, and its size in pixels. A square larger than TRI_LARGEST_POINT is drawn as a
+// screen-aligned quad, as on the other APIs.
 __kernel void project_points(__global const Particles* restrict parameters,
                              __global const float* restrict spheres,
                              __global const Cell* restrict cells, __global const uint* restrict list,

@@ -8,7 +8,7 @@
 namespace triptych::opencl_backend {
 namespace {
 
-// The names are in the order of the kernels' counters (particles.cl).
+// The names of the kernels' counters (particles.cl), in the same order.
 constexpr std::array<std::string_view, 7> counter_names{"sprites",     "vertices",
                                                         "fragments",   "fragments_discarded",
                                                         "bin_entries", "particles_submitted",
@@ -38,7 +38,7 @@ ParticleFrames::ParticleFrames(const Session& session, Programs& programs,
   });
 }
 
-// The frame is drawn by a separate pass, because more cells may be visible from that camera.
+// Draws this frame in a separate pass, because more cells may be visible from that camera.
 void ParticleFrames::draw_before(const ParticlePrograms& programs,
                                  const measure::ParticleWork& work) {
   look_from(session_, stages_.data(), work.before());
@@ -53,12 +53,12 @@ measure::Frame ParticleFrames::frame(measure::Purpose purpose) {
     if (counts) prepare_counting();
     measure::Frame frame = run_.draw(session_, counts ? counting_ : timed_, purpose);
     if (counts) frame.counts = read_counters();
-    return frame;  // OpenCL has no pipeline statistics: they stay absent
+    return frame;  // OpenCL has no pipeline statistics, so none are reported
   });
 }
 
-// The hidden cells depend on the previous frames. The counted frame is the second one after a fresh
-// start, because all later frames are like it.
+// The set of hidden cells depends on the previous frames. The counted frame is the second frame
+// after a reset, because all later frames are like it.
 void ParticleFrames::prepare_counting() {
   if (counting_.empty()) {
     ParticleConstants constants = constants_;

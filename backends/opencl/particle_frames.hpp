@@ -12,7 +12,8 @@
 
 namespace triptych::opencl_backend {
 
-// The image that shading has left on the device. `depths` are reversed; 0 means none.
+// The image that shading has left on the device. `depths` are reversed; 0 means that there is no
+// particle.
 struct ShadedPicture {
   int width = 0;
   int height = 0;
@@ -25,8 +26,8 @@ struct ShadedPicture {
 
 class ParticleFrames final : public measure::Prepared {
  public:
-  // Compiles the timed build and uploads everything. The counting build is made when it is first
-  // needed. `programs` must outlive this object.
+  // Compiles the timed build and uploads everything. The counting build is compiled when it is
+  // first needed. `programs` must outlive this object.
   ParticleFrames(const Session& session, Programs& programs, const measure::ParticleWork& work,
                  Sprite sprite);
 

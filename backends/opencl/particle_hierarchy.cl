@@ -1,12 +1,13 @@
-// Builds the hierarchy of technique/particles/hierarchy.glsl with the same passes, which give the same tree.
-// `shape` contains the number of particles, of levels, of particles in a leaf, and of leaves that have one more.
+// Builds the hierarchy of technique/particles/hierarchy.glsl with the same passes, which produce
+// the same tree. `shape` contains the number of particles, of levels, of particles in a leaf, and
+// of leaves that contain one more particle.
 #define TRI_DIGITS 256u
 
-// The index at which the k-th of `parts` runs of n things begins.
+// Returns the index at which the k-th of `parts` runs of n elements begins.
 TRI_FN uint run_begin(uint n, uint parts, uint k) { return n / parts * k + min(k, n % parts); }
 TRI_FN uint leaf_begin(uint4 shape, uint leaf) { return shape.z * leaf + min(leaf, shape.w); }
 
-// The box around a sphere; the injected fault halves its radius.
+// Returns the box around a sphere. The injected fault halves the radius.
 TRI_FN float8 sphere_box(float4 s) {
   float r = TRI_SMALL_BOX ? 0.5f * s.w : s.w;
   return (float8)(tri_box_low(s.x, r), tri_box_low(s.y, r), tri_box_low(s.z, r), 0.0f,
@@ -16,7 +17,8 @@ TRI_FN float8 union_of(float8 a, float8 b) {
   return (float8)(a.lo < b.lo ? a.lo : b.lo, a.hi > b.hi ? a.hi : b.hi);
 }
 
-// One work item for each particle. `origin`: the beginning of the curve's grid, and cells per unit.
+// Runs one work item per particle. `origin` is the origin of the curve's grid, and the number of
+// cells per unit.
 __kernel void find_places(float4 origin, uint4 shape, __global const float* restrict spheres,
                           __global uint2* restrict sorted) {
   uint i = (uint)get_global_id(0);
@@ -27,8 +29,8 @@ __kernel void find_places(float4 origin, uint4 shape, __global const float* rest
   sorted[i] = (uint2)((uint)place, i);
 }
 
-// One work item for each run of particles counts how many of them have each digit (the eight bits from `shift` on).
-// `from` is the index at which the list begins.
+// Runs one work item per run of particles, which counts how many of them have each digit (the eight
+// bits that begin at bit `shift`). `from` is the index at which the list begins.
 __kernel void count_digits(uint4 shape, uint shift, uint from, __global const uint2* restrict sorted,
                            __global uint* restrict scratch) {
   uint run = (uint)get_global_id(0);
@@ -42,7 +44,7 @@ __kernel void count_digits(uint4 shape, uint shift, uint from, __global const ui
   for (uint digit = 0; digit < TRI_DIGITS; ++digit) scratch[digit * runs + run] = counts[digit];
 }
 
-// One work item computes where the particles of each run with each digit go.
+// Runs a single work item, which computes where the particles of each run with each digit go.
 __kernel void place_digits(uint runs, __global uint* restrict scratch) {
   uint sum = 0;
   for (uint at = 0; at < TRI_DIGITS * runs; ++at) {
@@ -52,7 +54,7 @@ __kernel void place_digits(uint runs, __global uint* restrict scratch) {
   }
 }
 
-// One work item for each run moves its particles to their places in the other list.
+// Runs one work item per run, which moves its particles to their places in the other list.
 __kernel void move_to_places(uint4 shape, uint shift, uint from, __global uint2* restrict sorted,
                              __global const uint* restrict scratch) {
   uint run = (uint)get_global_id(0);
@@ -67,7 +69,8 @@ __kernel void move_to_places(uint4 shape, uint shift, uint from, __global uint2*
   }
 }
 
-// One work item for each leaf. `moved` is 1 if the order already exists and only the spheres have moved.
+// Runs one work item per leaf. `moved` is 1 if the order already exists and only the spheres have
+// moved.
 __kernel void fit_leaves(uint4 shape, uint moved, __global const float* restrict spheres,
                          __global const uint2* restrict sorted, __global float* restrict boxes,
                          __global float* restrict tree_spheres, __global uint* restrict tree_order) {
@@ -86,7 +89,8 @@ __kernel void fit_leaves(uint4 shape, uint moved, __global const float* restrict
   vstore8(box, leaves + leaf, boxes);
 }
 
-// One work item for each node of a level. The number of nodes equals the number of the first of them.
+// Runs one work item per node of a level. The first node of a level has the same number as the
+// level has nodes.
 __kernel void fit_level(uint first, __global float* restrict boxes) {
   uint n = (uint)get_global_id(0);
   if (n >= first) return;

@@ -29,7 +29,8 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
                                              technique::SpriteRasterizer::in_tiles)) {
     return defect;
   }
-  // The longest side: pixel rectangles have 16 bits for a coordinate.
+  // The largest width and height of an image, because pixel rectangles store each coordinate in 16
+  // bits.
   constexpr int most_pixels = 32768;
   if (work.scene.width > most_pixels || work.scene.height > most_pixels) {
     return fmt::format("the image has {}x{} pixels, but this rasterizer supports at most {}x{}",
@@ -56,9 +57,10 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
         "is {}",
         count, pixels, largest, most);
   }
-  // The passes of quad_tess store most words for each particle, 28: the sphere in world and in
-  // camera space, the rectangle, the colour and the id. For each pixel they store the image, the id
-  // and, for each pass, depths, winners and numbers of entries.
+  // quad_tess stores the most words per particle in its passes, 28. Every technique also stores for
+  // each particle the sphere in world and in camera space, the rectangle, the colour and the id.
+  // For each pixel, it stores the image, the id and, for each pass, the depth and the winner. Each
+  // pass also has a table of entry counts.
   const std::uint64_t passes = work.options.extra_work_stride > 0 ? 2 : 1;
   const std::uint64_t all =
       (16 + 16 + 8 + 16 + 4 + 4 * 28) * count + 20 * pixels + passes * (8 * pixels + table);

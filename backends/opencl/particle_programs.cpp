@@ -18,9 +18,10 @@ struct Part {
   std::string options;
 };
 
-// The options -cl-fast-relaxed-math and -cl-mad-enable are never used, because bits must be the
-// same in every run and on every device. `faults`: the injected faults that this program
-// implements; others are injected elsewhere.
+// Returns the options that all three programs share. The options -cl-fast-relaxed-math and
+// -cl-mad-enable are never used, because results must be bit-identical in every run and on every
+// device. `faults` lists the injected faults that this program implements. Other faults are
+// injected elsewhere.
 std::string common_options(const ParticleConstants& constants,
                            std::initializer_list<ParticleFault> faults) {
   const bool injected = std::ranges::find(faults, constants.fault) != faults.end();
@@ -51,7 +52,7 @@ Part sprites_part(const ParticleConstants& constants) {
 }
 
 Part shading_part(ParticleConstants constants) {
-  constants.count = false;  // this program has nothing to count
+  constants.count = false;  // this program counts nothing
   return {program_source({"sphere_math.h", "particles.cl", "particle_shade.cl"}),
           fmt::format("{} -DTRI_COLOUR={} -DTRI_TRANSFER_AT_PIXEL={:d} -DTRI_RAY_AT_VERTEX={:d}{}",
                       common_options(constants, {}), static_cast<int>(constants.colour),
@@ -81,7 +82,7 @@ ParticleConstants constants_of(const measure::ParticleWork& work, Sprite sprite)
           .transfer_at_pixel = no_vertices || options.transfer == technique::ComputedAt::pixel ||
                                work.scene.particles->colour != scene::ColourKind::intensity,
           .ray_at_vertex = options.ray == technique::ComputedAt::vertex,
-          // Without a depth unit, tiles always reject early.
+          // Without a depth unit, the tiles always reject early.
           .conservative_depth = no_vertices || options.conservative_depth,
           .fault = options.fault};
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The device code of the particle techniques. It is divided into three programs, so that a program
-// is not compiled again for an option that it does not use.
+// The device code of the particle techniques. It is split into three programs, so that a program is
+// not compiled again for an option that it does not use.
 
 #include <cstdint>
 #include <string>
@@ -10,20 +10,20 @@
 
 namespace triptych::opencl_backend {
 
-// How the pixels of a particle are found (TRI_SPRITE of particle_sprite.cl).
+// How to find the pixels of a particle (TRI_SPRITE in particle_sprite.cl).
 enum class Sprite : std::uint8_t {
-  rectangle,  // none: the pixels around the silhouette
+  rectangle,  // no sprite: the pixels around the silhouette
   screen_quad,
   ray_quad,
   polygon,
   adaptive_polygon,
-  // Vertices that separate passes compute (particle_expand.cl):
-  expanded_quad,   // a geometry stage's
-  evaluated_quad,  // those of tessellation stages
+  // Sprites whose vertices are computed in separate passes (particle_expand.cl):
+  expanded_quad,   // by the counterpart of a geometry stage
+  evaluated_quad,  // by the counterparts of tessellation stages
   point
 };
-// The number of words that these passes store for each particle: the patch and its vertices, or a
-// point.
+// Returns the number of words that these separate passes store per particle: the patch and its
+// vertices, or a point.
 [[nodiscard]] constexpr std::size_t stored_words(Sprite sprite) {
   if (sprite == Sprite::point) return 8;
   return sprite == Sprite::expanded_quad || sprite == Sprite::evaluated_quad ? 16 : 0;
@@ -32,32 +32,32 @@ enum class Sprite : std::uint8_t {
   return sprite == Sprite::evaluated_quad ? 12 : 0;
 }
 
-// The compile-time constants of particles.cl and the files that follow it. A build that neither
-// counts nor injects a fault contains no code for that.
+// The compile-time constants of particles.cl and of the files that follow it. A build that does not
+// count contains no code for counting, and a build without a fault no code for faults.
 struct ParticleConstants {
   Sprite sprite = Sprite::rectangle;
   scene::ColourKind colour = scene::ColourKind::rgba8;
   bool transfer_at_pixel = true;
   bool ray_at_vertex = false;
   bool conservative_depth = false;
-  bool traced = false;  // shading reads spheres in world space
+  bool traced = false;  // shading reads the spheres in world space
   technique::ParticleFault fault = technique::ParticleFault::none;
   bool count = false;
 };
 
-// Constants of the timed build.
+// Returns the constants of the timed build.
 [[nodiscard]] ParticleConstants constants_of(const measure::ParticleWork& work, Sprite sprite);
 
-// The edge of a tile in pixels, and of a coarse tile in tiles. A particle that covers more than
-// `most_tiles` tiles is put into coarse tiles.
+// The edge of a tile in pixels, and the edge of a coarse tile in tiles. A particle that covers more
+// than `most_tiles` tiles is sorted into coarse tiles.
 inline constexpr int tile_edge = 16;
 inline constexpr int coarse_edge = 8;
 inline constexpr int most_tiles = 16;
-inline constexpr int scan_items = 64;  // work group of place_bins
+inline constexpr int scan_items = 64;  // work-group size of place_bins
 
 struct ParticlePrograms {
   cl::Program cells;    // cull_cells, test_cells, list_cells, place_chunks, place_bins
-  cl::Program sprites;  // count_bins, fill_bins, draw_tiles, those of particle_expand.cl
+  cl::Program sprites;  // count_bins, fill_bins, draw_tiles, and the kernels of particle_expand.cl
   cl::Program shading;  // colour_sprites, shade
 };
 
@@ -71,7 +71,7 @@ struct RayPrograms {
 [[nodiscard]] RayPrograms ray_programs(Programs& programs, const ParticleConstants& constants);
 [[nodiscard]] std::string ray_hash(const ParticleConstants& constants);
 
-// The content hash of the three programs, including their options.
+// Returns the content hash of the three programs, including their options.
 [[nodiscard]] std::string particle_hash(const ParticleConstants& constants);
 
 }  // namespace triptych::opencl_backend

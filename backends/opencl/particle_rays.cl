@@ -1,20 +1,21 @@
-// One work item for each tile descends the hierarchy with the beam of all its rays, the nearer child first, and
-// draws each sphere whose box the beam crosses and that may be visible. bvh.comp.glsl does this for beams of 4×2
-// pixels and explains how the traversal goes back up.
+// Runs one work item per tile. It descends the hierarchy with the beam of all rays of the tile,
+// nearer child first, and draws each sphere that may be visible and whose box intersects the beam.
+// bvh.comp.glsl does this for beams of 4×2 pixels, and explains how the traversal goes back up.
 
-// Normals of eight planes: the sides of the beam (left, right, lower, upper), each with the beam on its positive
-// side; the view axis backwards and forwards; and two planes outside of which there is nothing.
+// The normals of eight planes: the sides of the beam (left, right, lower, upper), each with the
+// beam on its positive side; the view axis backwards and forwards; and two unused planes that never
+// exclude anything.
 typedef struct {
   float8 x;
   float8 y;
   float8 z;
-  float4 eye_low;   // the eye, moved by its rounding error to one side
-  float4 eye_high;  // and to the other
+  float4 eye_low;   // the eye minus its rounding error
+  float4 eye_high;  // the eye plus its rounding error
   float slack_share;
 } Beam;
 
 TRI_FN Beam open_beam(const Particles* u, const Tile* tile) {
-  // The sides are 1/64 pixel outside of the outermost rays, which is the margin of sprites.
+  // The sides lie 1/64 pixel outside of the outermost rays, like the margin of sprites.
   float low_x = tile->column[0] - 0.015625f * u->plane.z;
   float high_x = tile->column[tile->last_x] + 0.015625f * u->plane.z;
   float low_y = tile->row[tile->last_y] - 0.015625f * u->plane.w;
@@ -38,8 +39,9 @@ TRI_FN Beam open_beam(const Particles* u, const Tile* tile) {
 
 TRI_FN float8 greater_of(float8 a, float8 b) { return a > b ? a : b; }
 
-// Whether the beam crosses the box (lower corner, upper corner) and something in it may be visible. `nearest` is
-// the smallest distance of the box along the view axis. bvh.comp.glsl derives the effects of rounding.
+// Returns whether the beam intersects the box (lower corner, upper corner) and something in it may
+// be visible. `nearest` is the smallest distance of the box along the view axis. bvh.comp.glsl
+// derives the effects of rounding.
 TRI_FN bool may_show(const Beam* beam, const Tile* tile, float8 box, float* nearest) {
   float4 lo = box.lo - beam->eye_high;
   float4 hi = box.hi - beam->eye_low;
@@ -113,7 +115,7 @@ TRI_FN void trace_tile(const Particles* u, uint4 shape, __global const float* re
       }
     }
     if (!descends) {
-      uint up = popcount((trail ^ (trail + 1)) >> 1);  // the ones at the end of the trail
+      uint up = popcount((trail ^ (trail + 1)) >> 1);  // number of ones at the end of the trail
       node >>= up;
       trail = trail >> up | 1;
       node = node > 1 ? node ^ 1 : 0;
@@ -121,7 +123,7 @@ TRI_FN void trace_tile(const Particles* u, uint4 shape, __global const float* re
   }
 }
 
-// One work item for each tile. Only every stride-th tile is drawn.
+// Runs one work item per tile. Draws only every stride-th tile.
 __kernel void trace_tiles(__global const Particles* restrict parameters, uint4 shape, uint stride,
                           __global const float* restrict boxes,
                           __global const float* restrict tree_spheres,

@@ -1,7 +1,7 @@
 // Rectangles of pixels, and the rectangle around a sphere's silhouette.
 
-// A rectangle of pixels is stored in two words, with x in the lower half and y in the upper: its first and its last
-// corner, both inside.
+// A rectangle of pixels is stored in two words: its first and its last pixel, both inside. The
+// lower half of a word is x and the upper half is y.
 #define TRI_EMPTY_FIRST 0x00000001u
 #define TRI_EMPTY_LAST 0u
 TRI_FN bool is_empty(uint first, uint last) {
@@ -11,9 +11,9 @@ TRI_FN uint packed(int x, int y) { return (uint)x | (uint)y << 16; }
 TRI_FN int unpacked_x(uint corner) { return (int)(corner & 0xFFFFu); }
 TRI_FN int unpacked_y(uint corner) { return (int)(corner >> 16); }
 
-// The pixels whose centres lie in [low, high] on one axis of the image plane, as first and last index from its
-// lower edge; first > last if there is none. The plane has `n` pixels of size `pixel` and the half extent
-// `half_extent`.
+// Returns the first and the last pixel whose centres lie in [low, high] on one axis of the image
+// plane, counted from the lower edge of the plane; first > last if there are none. The plane has
+// `n` pixels of size `pixel` and extends from -half_extent to half_extent.
 TRI_FN int first_pixel(float low, float half_extent, float pixel, int n) {
   float at = (low + half_extent) / pixel - 0.5f;
   at = at > 0.0f ? at : 0.0f;
@@ -27,7 +27,8 @@ TRI_FN int last_pixel(float high, float half_extent, float pixel, int n) {
   return (int)tri_floor(at);
 }
 
-// The interval that a sphere covers along one axis, with a margin of 1/64 pixel. The injected fault removes 1 %.
+// Returns the interval that a sphere covers along one axis, with a margin of 1/64 pixel. The
+// injected fault removes 1 %.
 TRI_FN float2 covered(float a, float z, float r, float pixel, float scale) {
   float2 bounds = tri_sphere_interval(a, z, r);
   float low = bounds.x - 0.015625f * pixel;

@@ -1,6 +1,7 @@
-// Computes where the entries of each bin begin, from their numbers.
+// Computes where the entries of each bin begin, from the number of entries of each bin.
 
-// One work item per bin: counts become positions within the bin, and totals[bin] its length.
+// Runs one work item per bin. Replaces counts by positions within the bin, and writes the length of
+// the bin to totals[bin].
 __kernel void place_chunks(uint bins, uint chunks, __global uint* restrict counts,
                            __global uint* restrict totals, __global uint* restrict counters) {
   uint bin = (uint)get_global_id(0);
@@ -18,9 +19,10 @@ __kernel void place_chunks(uint bins, uint chunks, __global uint* restrict count
 #endif
 }
 
-// One work group. begins[bin] is the position where a bin's entries begin, and begins[bins] their number. The first
-// item processes the last range of bins, so that it needs the results of all others. If the barrier is missing,
-// this is detected even if items run one after the other.
+// Runs one work group. begins[bin] is the position where the entries of a bin begin, and
+// begins[bins] is the number of entries. The first work item processes the last range of bins, so
+// that it needs the results of all other work items. Therefore a missing barrier is detected even
+// if work items run one after another.
 __kernel void place_bins(uint bins, __global const uint* restrict totals,
                          __global uint* restrict begins) {
   __local uint sums[TRI_SCAN_ITEMS];
@@ -29,7 +31,7 @@ __kernel void place_bins(uint bins, __global const uint* restrict totals,
   uint from = min(item * stretch, bins);
   uint to = min(from + stretch, bins);
 #if TRI_MISSING_BARRIER
-  // Results of the last frame must not hide a missing barrier.
+  // Results of the previous frame must not hide a missing barrier.
   if (item == TRI_SCAN_ITEMS - 1) {
     for (uint other = 0; other < item; ++other) sums[other] = 0;
   }

@@ -1,6 +1,7 @@
-// The colours of the particles, and of the pixels that show them.
+// Computes the colours of the particles, and of the pixels that show them.
 
-// Linear between the centres of entries, constant outside.
+// Looks up the transfer function: linear between the centres of table entries, constant beyond
+// them.
 TRI_FN float4 transfer_colour(__global const float4* table, float intensity) {
   float position = tri_table_position(intensity);
   int lower = min((int)position, 254);
@@ -23,7 +24,7 @@ TRI_FN float4 stored_colour(__global const uint* colours, uint particle) {
 #endif
 
 #if TRI_COLOUR == 2
-// One work item for each chunk evaluates the transfer function once for each sprite.
+// Runs one work item per chunk, which evaluates the transfer function once for each sprite.
 __kernel void colour_sprites(__global const Cell* restrict cells,
                              __global const uint* restrict list,
                              __global const float* restrict intensities,
@@ -42,8 +43,8 @@ __kernel void colour_sprites(__global const Cell* restrict cells,
 }
 #endif
 
-// One work item for each row of pixels. `camera`: the spheres in camera space; with TRI_TRACED they are in world
-// space.
+// Runs one work item per row of pixels. `camera` contains the spheres in camera space or, with
+// TRI_TRACED, in world space.
 __kernel void shade(__global const Particles* restrict parameters,
                     __global const float* restrict camera, __global const uint* restrict ids,
                     __global const uint* restrict colours, __global const float4* restrict table,

@@ -1,17 +1,18 @@
-// Makes sprites as sprite.glsl does: the frame at the centre, from it the corners in clip space, which are then
-// clipped and projected to the grid of the rasterizer. Depth does not matter here: with an infinite far plane, z is
-// `near` at every corner, and w is the distance along the view axis.
+// Generates sprites like sprite.glsl: first the frame at the centre, then the corners in clip
+// space, which are clipped and projected to the grid of the rasterizer. Depth does not matter here:
+// with an infinite far plane, z is `near` at every corner, and w is the distance along the view
+// axis.
 
 #define TRI_SCREEN_QUAD 1
 #define TRI_RAY_QUAD 2
 #define TRI_POLYGON 3
 #define TRI_ADAPTIVE_POLYGON 4
-// Sprites whose vertices were written by passes of their own (particle_expand.cl).
+// Sprites whose vertices are written by separate passes (particle_expand.cl).
 #define TRI_EXPANDED_QUAD 5
 #define TRI_EVALUATED_QUAD 6
 #define TRI_POINT 7
 #define TRI_STORED (TRI_SPRITE >= TRI_EXPANDED_QUAD)
-#define TRI_LARGEST_POINT 255.0f  // pixels; what Mesa's software devices draw
+#define TRI_LARGEST_POINT 255.0f  // in pixels: the largest point of Mesa's software devices
 
 #if TRI_SPRITE == TRI_POLYGON
 #define TRI_SPRITE_CORNERS 32
@@ -20,13 +21,13 @@
 #else
 #define TRI_SPRITE_CORNERS 4
 #endif
-// Each of the five planes may add a corner.
+// Each of the five clipping planes may add a corner.
 #define TRI_MOST_CORNERS (TRI_SPRITE_CORNERS + 5)
-// Positions on the grid have this many bits below the pixel, as on the other APIs.
+// The number of fractional bits of a position on the grid, as on the other APIs.
 #define TRI_SUBPIXEL_BITS 8
 #define TRI_SUBPIXELS (1 << TRI_SUBPIXEL_BITS)
 
-// Clip space. Rows are counted from the top, so y points down.
+// The outline of a sprite in clip space. Rows are counted from the top, so y points down.
 typedef struct {
   int n;
   float x[TRI_MOST_CORNERS];
@@ -34,8 +35,8 @@ typedef struct {
   float w[TRI_MOST_CORNERS];
 } Outline;
 
-// The rays of one triangle: the position on the image plane at the first corner of the image, and its change per
-// 1/256 pixel to the right and down.
+// The rays of one triangle: the position on the image plane for the first corner of the image, and
+// how much it changes per 1/256 pixel to the right and down.
 typedef struct {
   float2 right;
   float2 down;
@@ -51,8 +52,8 @@ typedef struct {
 #endif
 } Polygon;
 
-// The frame in which a ray-aligned sprite lies: perpendicular to the ray to the centre, just in front of the
-// sphere.
+// The coordinate frame in which a ray-aligned sprite lies, perpendicular to the ray through the
+// centre and just in front of the sphere.
 typedef struct {
   float3 centre;
   float3 right;  // its length is the radius of the sprite
@@ -92,7 +93,7 @@ TRI_FN void add_corner(const Particles* u, float3 place, Outline* outline) {
   outline->w[k] = place.z;
 }
 
-// Adds the rectangle between two positions on the image plane.
+// Adds the rectangle with these two opposite corners on the image plane.
 TRI_FN void add_rectangle(const Particles* u, float2 low, float2 high, Outline* outline) {
   add_corner(u, (float3)(low.x, low.y, 1.0f), outline);
   add_corner(u, (float3)(high.x, low.y, 1.0f), outline);
@@ -100,13 +101,15 @@ TRI_FN void add_rectangle(const Particles* u, float2 low, float2 high, Outline* 
   add_corner(u, (float3)(low.x, high.y, 1.0f), outline);
 }
 
-// Screen-aligned: the rectangle around the silhouette, within the viewport. Without a sprite there are no corners.
+// Makes a screen-aligned sprite: the rectangle around the silhouette, clipped to the viewport. Adds
+// no corners if nothing is visible.
 TRI_FN void screen_outline(const Particles* u, float4 sphere, Outline* outline) {
   float2 x = covered(sphere.x, sphere.z, sphere.w, u->plane.z, u->eye_rest.w);
   float2 y = covered(sphere.y, sphere.z, sphere.w, u->plane.w, u->eye_rest.w);
   float2 low = (float2)(max(x.x, 0.0f - u->plane.x), max(y.x, 0.0f - u->plane.y));
   float2 high = (float2)(min(x.y, u->plane.x), min(y.y, u->plane.y));
-  // As in the paper, the sprite of a sphere that reaches the plane of the eye covers the whole viewport.
+  // As in the paper, the sprite of a sphere that intersects the plane of the eye covers the whole
+  // viewport.
   if (tri_eye_plane(sphere.z, sphere.w) == 1) {
     high = (float2)(u->plane.x, u->plane.y);
     low = -high;
@@ -125,8 +128,8 @@ TRI_FN int sprite_corners(const Particles* u, float4 sphere) {
 #endif
 }
 
-// Returns whether planes may cut the sprite. A sprite that covers the whole viewport is drawn at w = 1, which
-// `near` may exceed.
+// Makes a ray-aligned sprite. Returns false if clipping planes must not cut it: a sprite that
+// covers the whole viewport is drawn at w = 1, and `near` may be larger than that.
 TRI_FN bool ray_outline(const Particles* u, float4 sphere, Outline* outline) {
   Frame frame = sprite_frame(u, sphere);
   if (frame.everywhere == 1) {
@@ -153,8 +156,9 @@ TRI_FN bool ray_outline(const Particles* u, float4 sphere, Outline* outline) {
   return true;
 }
 
-// How far a corner is inside of one of the clipping planes: in front of the eye by `near`, and within a guard band
-// of this many viewports on each side, within which positions fit the grid.
+// Returns how far a corner lies inside one of the clipping planes. The planes are the near plane
+// and the four sides of a guard band, which extends this many viewports to each side, so that
+// positions fit the grid.
 #define TRI_GUARD_BAND 4.0f
 TRI_FN float within(const Outline* outline, int k, int plane, float near) {
   float side = TRI_GUARD_BAND * outline->w[k];
@@ -175,7 +179,7 @@ TRI_FN bool needs_clipping(const Outline* outline, float near) {
   return outside;
 }
 
-// The algorithm of Sutherland and Hodgman (1974).
+// Clips with the algorithm of Sutherland and Hodgman (1974).
 TRI_FN void clip_outline(Outline* outline, float near) {
   for (int plane = 0; plane < 5; ++plane) {
     Outline from = *outline;
@@ -201,13 +205,14 @@ TRI_FN void clip_outline(Outline* outline, float near) {
   }
 }
 
-// Rays that are interpolated between corners. With perspective, (x, y, z)/w is linear on the screen, and z is w, so
-// that the position on the image plane is linear too: one plane for each triangle of the fan. The ray of a corner
-// is that of the corner after snapping to the grid, so that what is interpolated between corners is the ray of the
-// pixel itself. With the corner before snapping it would be off by up to 1/256 pixel.
+// Rays that are interpolated between corners. In perspective, (x, y, z)/w is linear on the screen,
+// and z is w, so the position on the image plane is linear too. It is described by one plane for
+// each triangle of the fan. A corner's ray passes through its position after snapping to the grid,
+// so that interpolation yields the exact ray of each pixel. With the unsnapped position, rays would
+// be off by up to 1/256 pixel.
 #if TRI_RAY_AT_VERTEX
-// a·b − c·d, exact except for the rounding of the result: long, thin triangles have small areas, which are
-// differences of large products.
+// Returns a·b − c·d, exact except for the rounding of the result. This matters because the small
+// areas of long, thin triangles are differences of large products.
 TRI_FN float difference_of_products(float a, float b, float c, float d) {
   float first = a * b;
   float second = c * d;
@@ -233,8 +238,8 @@ TRI_FN RayPlane fit_rays(const Particles* u, const Polygon* polygon, int b, int 
   return rays;
 }
 
-// The triangle of the fan that contains a position on the grid. On a diagonal either one can be used, because their
-// planes meet there.
+// Returns the triangle of the fan that contains a position on the grid. On a diagonal, either
+// neighbour can be used, because their planes meet there.
 TRI_FN int fan_triangle(const Polygon* polygon, float right, float down) {
   float from_x = right - (float)polygon->x[0];
   float from_y = down - (float)polygon->y[0];
@@ -250,7 +255,7 @@ TRI_FN int fan_triangle(const Polygon* polygon, float right, float down) {
 }
 #endif
 
-// Converts from clip space to the grid.
+// Converts the outline from clip space to the grid.
 TRI_FN void snap_outline(const Particles* u, const Outline* outline, Polygon* polygon) {
   float across = (float)(u->viewport.x * (TRI_SUBPIXELS / 2));
   float down = (float)(u->viewport.y * (TRI_SUBPIXELS / 2));
@@ -267,8 +272,8 @@ TRI_FN void snap_outline(const Particles* u, const Outline* outline, Polygon* po
 }
 
 #if TRI_SPRITE == TRI_POINT
-// The square around the centre, with both on the grid. Returns the number of vertices with which the sphere was
-// drawn.
+// Makes the square around the centre, with centre and size rounded to the grid. Returns the number
+// of vertices with which the sphere was drawn.
 TRI_FN int stored_polygon(const Particles* u, __global const float* stored, size_t particle,
                           Polygon* polygon) {
   float4 point = vload4(2 * particle, stored);
@@ -297,7 +302,8 @@ TRI_FN int stored_polygon(const Particles* u, __global const float* stored, size
   return 1;
 }
 #elif TRI_STORED
-// Assembles the polygon from its four vertices in clip space. Near is where z exceeds w.
+// Assembles the polygon from its four vertices in clip space. A vertex lies in front of the near
+// plane if z exceeds w.
 TRI_FN int stored_polygon(const Particles* u, __global const float* stored, size_t particle,
                           Polygon* polygon) {
   Outline outline;
@@ -315,7 +321,7 @@ TRI_FN int stored_polygon(const Particles* u, __global const float* stored, size
   return 4;
 }
 #else
-// Makes the sprite on the grid. Returns the number of its corners before clipping, which is 0 if there is no
+// Makes the sprite on the grid. Returns the number of its corners before clipping; 0 if there is no
 // sprite.
 TRI_FN int make_polygon(const Particles* u, float4 sphere, Polygon* polygon) {
   Outline outline;
@@ -336,14 +342,14 @@ TRI_FN int make_polygon(const Particles* u, float4 sphere, Polygon* polygon) {
 }
 #endif
 
-// The first pixel whose centre does not come before this position on the grid.
+// Returns the first pixel whose centre is not before this position on the grid.
 TRI_FN int pixel_from(int place) {
   return (place - TRI_SUBPIXELS / 2 + TRI_SUBPIXELS - 1) >> TRI_SUBPIXEL_BITS;
 }
 
-// The pixels of row y that the polygon covers, as the first one and the one after the last. The left and upper
-// edges count as inside, the right and lower edges do not. With this fill rule of the other APIs, the triangles of
-// one sprite cover each of its pixels once.
+// Returns the pixels of row y that the polygon covers, as the first pixel and the one after the
+// last. Left and upper edges are inside; right and lower edges are not. This is the fill rule of
+// the other APIs, with which the triangles of a sprite cover each of its pixels exactly once.
 TRI_FN int2 covered_row(const Polygon* polygon, int y) {
   int at = y * TRI_SUBPIXELS + TRI_SUBPIXELS / 2;
   int first = INT_MAX;
@@ -367,7 +373,7 @@ TRI_FN int2 covered_row(const Polygon* polygon, int y) {
   return (int2)(first, last);
 }
 
-// The rectangle of pixels that contains the polygon, within the viewport.
+// Computes the rectangle of pixels that contains the polygon, clipped to the viewport.
 TRI_FN void polygon_rectangle(const Particles* u, const Polygon* polygon, uint* first, uint* last) {
   int x0 = INT_MAX, y0 = INT_MAX, x1 = INT_MIN, y1 = INT_MIN;
   for (int k = 0; k < polygon->n; ++k) {

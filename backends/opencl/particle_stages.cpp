@@ -13,7 +13,7 @@ namespace triptych::opencl_backend {
 namespace {
 
 constexpr std::size_t group = 64;
-// Values of particle_cull.cl.
+// Cell states of particle_cull.cl.
 constexpr cl_uint drawn_first = 1;
 constexpr cl_uint drawn_later = 2;
 
@@ -57,7 +57,7 @@ ParticleStages::ParticleStages(const Session& session, ParticleData data,
 }
 
 cl::Buffer ParticleStages::make_buffer(std::size_t words) const {
-  constexpr std::size_t fewest = 4;  // OpenCL does not allow an empty buffer
+  constexpr std::size_t fewest = 4;  // OpenCL does not allow empty buffers
   return checked([&] {
     return opencl_backend::make_buffer(session_, CL_MEM_READ_WRITE,
                                        std::max(words, fewest) * sizeof(cl_uint));
@@ -81,8 +81,8 @@ Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride)
             .entries = make_buffer(0),
             .depths = make_buffer(pixels_),
             .winners = make_buffer(pixels_)};
-  // The buffers are large enough for all visible cells, whatever the stride is, because later
-  // passes draw fewer cells, and different ones.
+  // The buffers are made large enough for all visible cells regardless of the stride, because later
+  // passes draw fewer cells, but not always the same ones.
   Pass whole = pass;
   whole.stride = 1;
   std::vector<Launch> launches{cull(programs)};
@@ -110,7 +110,8 @@ void ParticleStages::poison(const Pass& pass) const {
   for (const cl::Buffer* each : {&image_, &ids_, &pass.depths, &camera_}) {
     fill(*each, measure::poison_word);
   }
-  // Numbers by which kernels count or index. If one of them is 0, nothing is drawn.
+  // Kernels count or index with these numbers. They are set to 0 instead, which makes the kernels
+  // draw nothing.
   for (const cl::Buffer* each : {&pass.list, &pass.begins, &pass.totals, &rectangles_}) {
     fill(*each, 0);
   }

@@ -19,8 +19,8 @@
 
 namespace triptych::opencl_backend {
 
-// The counters have one row for each work item. The names are in the order of the kernels'
-// constants.
+// The counters have one row for each work item, with one column for each of the kernels'
+// TRI_COUNT_… constants.
 inline constexpr std::size_t particle_counter_stride = 8;
 
 // Sorts the listed cells into bins and draws the bins.
@@ -31,7 +31,7 @@ struct Pass {
   cl::Buffer totals;
   cl::Buffer begins;
   cl::Buffer entries;
-  cl::Buffer depths;  // reversed, 0 for none
+  cl::Buffer depths;  // reversed depths; 0 where there is no particle
   cl::Buffer winners;
 };
 
@@ -40,18 +40,19 @@ class ParticleStages {
   ParticleStages(const Session& session, ParticleData data, const measure::ParticleWork& work,
                  const ParticleConstants& constants);
 
-  // Makes a pass with space for all entries that its bins will ever have. The camera does not move,
-  // so one round of binning shows how many that are. Throws core::NotSupported if they need more
-  // than a buffer may have.
+  // Creates a pass with space for all entries that its bins can ever have. Because the camera does
+  // not move, a single round of binning determines that number. Throws core::NotSupported if the
+  // entries need more memory than a buffer may have.
   [[nodiscard]] Pass make_pass(const ParticlePrograms& programs, cl_uint stride);
-  // The launches of a frame.
+  // Returns the launches of a frame.
   [[nodiscard]] std::vector<Launch> picture(const ParticlePrograms& programs,
                                             const Pass& pass) const;
-  // The launches that draw the cells of a pass again.
+  // Returns the launches that draw the cells of a pass a second time.
   [[nodiscard]] std::vector<Launch> again(const ParticlePrograms& programs, const Pass& pass) const;
-  // Overwrites the outputs of the frames of a pass: the image, and the data that kernels exchange.
+  // Overwrites everything that the frames of a pass write: the image, and the data that kernels
+  // exchange.
   void poison(const Pass& pass) const;
-  // Resets the record of hidden cells, so that all cells count as visible.
+  // Clears the record of hidden cells, so that all cells count as visible.
   void forget_hidden() const;
 
   [[nodiscard]] const ParticleData& data() const { return data_; }
@@ -91,8 +92,8 @@ class ParticleStages {
   cl::Buffer rectangles_;      // the rectangles of pixels that sprites cover
   cl::Buffer sprite_colours_;  // used if the transfer function is evaluated for each sprite
   cl::Buffer cosines_;         // used if rays are computed for each sprite
-  cl::Buffer shown_;           // 1 for each cell that was visible in the last frame
-  cl::Buffer states_;          // the state of each cell in this frame
+  cl::Buffer shown_;           // 1 for each cell that was visible in the previous frame
+  cl::Buffer states_;          // the state of each cell in the current frame
   cl::Buffer farthest_;        // the farthest depth of each tile
   cl::Buffer image_;
   cl::Buffer ids_;

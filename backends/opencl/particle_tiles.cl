@@ -1,25 +1,26 @@
-// One work item for each tile draws its entries into its own pixels. The nearest surface is visible; if depths are
-// equal, the particle that comes first in the arrangement.
+// Runs one work item per tile, which draws the tile's entries into the tile's pixels. The nearest
+// surface is visible. If depths are equal, the particle that comes first in the arrangement wins.
 
-// The number of pixels that are tested together. Pixels outside of a row's range are masked. Pixels beyond the tile
-// are in the margin at the end of every row.
+// The number of pixels that are tested together. Pixels outside of a row's range are masked. Every
+// row is stored with a margin at its end, for the pixels beyond the tile.
 #define TRI_LANES 8
 #define TRI_STRIDE (TRI_TILE + TRI_LANES)
-// The number of entries after which the farthest depth of the tile is computed again.
+// The number of entries after which the farthest depth of the tile is recomputed.
 #define TRI_LOOK_EVERY 8
 
 typedef struct {
-  float depth[TRI_TILE * TRI_STRIDE];  // reversed; 0 if there is nothing
+  float depth[TRI_TILE * TRI_STRIDE];  // reversed depth; 0 if nothing was drawn
   uint winner[TRI_TILE * TRI_STRIDE];
 #if TRI_RAY_AT_VERTEX
-  float cosine[TRI_TILE * TRI_STRIDE];  // for shading, the cosine of the ray that hit
+  float cosine[TRI_TILE * TRI_STRIDE];  // for shading: the cosine of the ray that hit the sphere
 #endif
-  float column[TRI_STRIDE];            // for rays: sx of each column of pixels,
-  float row[TRI_TILE];                 // and sy of each row
-  int x, y;                            // first pixel
-  int last_x, last_y;                  // last pixel within the image, relative to the first
-  float farthest;  // no pixel keeps a surface farther than this along the view axis
-  int drawn;       // entries since the farthest depth was computed
+  float column[TRI_STRIDE];            // for rays: sx of each column of pixels
+  float row[TRI_TILE];                 // and sy of each row of pixels
+  int x, y;                            // the tile's first pixel
+  // the tile's last pixel within the image, relative to the first
+  int last_x, last_y;
+  float farthest;  // no visible surface in the tile is farther away than this along the view axis
+  int drawn;       // number of entries drawn since then
 } Tile;
 
 #if TRI_REVERSED_DEPTH
@@ -48,7 +49,7 @@ TRI_FN void open_tile(const Particles* u, int x, int y, Tile* tile) {
   for (int k = 0; k < TRI_TILE * TRI_STRIDE; ++k) tile->winner[k] = TRI_NONE;
 }
 
-// The smallest reversed depth of the tile's pixels.
+// Returns the smallest reversed depth of the tile's pixels.
 TRI_FN float lowest_depth(const Tile* tile) {
   float lowest[TRI_LANES];
   for (int k = 0; k < TRI_LANES; ++k) lowest[k] = 1.0f;
@@ -70,8 +71,9 @@ TRI_FN void look_for_farthest(float near, Tile* tile) {
   tile->drawn = 0;
 }
 
-// Whether no surface of the sphere can be visible in the tile: its front is farther away than everything that is
-// stored, by more than the rounding of distances (24·2⁻²⁴ of |c| + r, where |c| is at most the sum here).
+// Returns whether no part of the sphere can be visible in the tile, because the front of the sphere
+// is farther away than everything that is stored. The distances must differ by more than their
+// rounding errors (24·2⁻²⁴ of |c| + r, where |c| is at most the sum used here).
 TRI_FN bool hidden(const Tile* tile, float4 c) {
 #if TRI_REVERSED_DEPTH || !TRI_CONSERVATIVE_DEPTH
   return false;
@@ -83,8 +85,8 @@ TRI_FN bool hidden(const Tile* tile, float4 c) {
 #endif
 }
 
-// The rays of TRI_LANES pixels of row y, relative to the tile's first; for sprites that interpolate rays, their
-// own.
+// Loads the rays of TRI_LANES pixels of row y (relative to the tile's first row). Sprites that
+// interpolate rays supply their own.
 TRI_FN void load_rays(const Tile* tile, const Polygon* polygon, int x, int y, float* sx,
                       float* sy) {
 #if TRI_RAY_AT_VERTEX
@@ -102,12 +104,12 @@ TRI_FN void load_rays(const Tile* tile, const Polygon* polygon, int x, int y, fl
 #endif
 }
 
-// Tests pixels x0…x1 of row y (relative to the tile's first) with a sphere in camera space.
+// Tests pixels x0…x1 of row y (relative to the tile's first pixel) with a sphere in camera space.
 TRI_FN void draw_row(float near, int x0, int x1, int y, float4 c, uint particle,
                      const Polygon* polygon, Tile* tile, uint* kept) {
   for (int x = x0; x <= x1; x += TRI_LANES) {
     int at = y * TRI_STRIDE + x;
-    // Copies, so that the compiler sees that they do not overlap.
+    // Local copies, so that the compiler can see that the arrays do not overlap.
     float sx[TRI_LANES];
     float sy[TRI_LANES];
     float depths[TRI_LANES];
@@ -173,7 +175,7 @@ TRI_FN void draw_entry(const Particles* u, __global const float* restrict camera
   if (++tile->drawn >= TRI_LOOK_EVERY) look_for_farthest(u->eye.w, tile);
 }
 
-// Loads what an earlier pass of the frame has left in the tile.
+// Loads what an earlier pass of the frame left in the tile.
 TRI_FN void load_tile(const Particles* u, __global const float* restrict depths,
                       __global const uint* restrict winners,
                       __global const float* restrict cosines, Tile* tile) {
@@ -207,8 +209,8 @@ TRI_FN void store_tile(const Particles* u, const Tile* tile, __global float* res
   }
 }
 
-// `later`: 1 in a pass that adds to what an earlier one has drawn. farthest[tile]: the smallest reversed depth in
-// it.
+// `later` is 1 in a pass that adds to the result of an earlier pass. Writes the smallest reversed
+// depth of each tile to farthest[tile].
 __kernel void draw_tiles(__global const Particles* restrict parameters,
                          __global const float* restrict camera,
                          __global const uint* restrict rectangles,

@@ -22,10 +22,11 @@ typedef struct {
   uint count;
 } Cell;
 
-// Compile-time constants: TRI_COUNT (0 or 1), TRI_FAULT (technique::ParticleFault), TRI_TILE and TRI_TILE_SHIFT
-// (the edge of a tile in pixels). For bins and tiles: TRI_SPRITE (how the pixels of a particle are found, see
-// particle_sprite.cl), TRI_CONSERVATIVE_DEPTH, TRI_RAY_AT_VERTEX (0 or 1). For shading: TRI_COLOUR (0 rgba8, 1
-// rgba32, 2 intensity), TRI_TRANSFER_AT_PIXEL, TRI_RAY_AT_VERTEX.
+// Compile-time constants of all programs: TRI_COUNT (0 or 1), TRI_FAULT (technique::ParticleFault),
+// TRI_TILE and TRI_TILE_SHIFT (the edge of a tile in pixels, and its binary logarithm). For bins
+// and tiles: TRI_SPRITE (how to find the pixels of a particle, see particle_sprite.cl),
+// TRI_CONSERVATIVE_DEPTH, TRI_RAY_AT_VERTEX (0 or 1). For shading: TRI_COLOUR (0 rgba8, 1 rgba32, 2
+// intensity), TRI_TRANSFER_AT_PIXEL, TRI_RAY_AT_VERTEX.
 #define TRI_UNRESOLVED_TIES (TRI_FAULT == 2)
 #define TRI_REVERSED_DEPTH (TRI_FAULT == 3)
 #define TRI_WRONG_SENSE (TRI_FAULT == 4)
@@ -35,7 +36,8 @@ typedef struct {
 
 #define TRI_NONE 0xFFFFFFFFu
 
-// Rows of 8 counters. No two work items share a row, and the host adds them.
+// Columns of the counters, which have rows of 8. No two work items share a row, and the host adds
+// the rows.
 #define TRI_COUNT_SPRITES 0
 #define TRI_COUNT_VERTICES 1
 #define TRI_COUNT_FRAGMENTS 2
@@ -43,12 +45,12 @@ typedef struct {
 #define TRI_COUNT_BIN_ENTRIES 4
 #define TRI_COUNT_SUBMITTED 5
 #define TRI_COUNT_CELLS_CULLED 6
-// Techniques that trace rays have no sprites. Their counters use the same columns.
+// Techniques that trace rays have no sprites, and use the same columns for their own counters.
 #define TRI_COUNT_NODES 0
 #define TRI_COUNT_BOXES 1
 #define TRI_COUNT_INTERSECTIONS 2
 
-// The components of a point's position in camera space.
+// These functions return the components of a point's position in camera space.
 TRI_FN float camera_x(const Particles* u, float x, float y, float z) {
   return tri_along_axis(x, y, z, u->eye.x, u->eye.y, u->eye.z, u->eye_rest.x, u->eye_rest.y,
                         u->eye_rest.z, u->right.x, u->right.y, u->right.z, u->right_rest.x,
@@ -65,7 +67,8 @@ TRI_FN float camera_z(const Particles* u, float x, float y, float z) {
                         u->forward_rest.x, u->forward_rest.y, u->forward_rest.z);
 }
 
-// The point at which the ray through the centre of a pixel meets the image plane. The first row is the top one.
+// These functions return the point where the ray through a pixel centre intersects the image plane.
+// The first row is the top row.
 TRI_FN float pixel_ray_x(const Particles* u, int x) {
   return ((float)x + 0.5f) * u->plane.z - u->plane.x;
 }
@@ -73,7 +76,7 @@ TRI_FN float pixel_ray_y(const Particles* u, int y) {
   return u->plane.y - ((float)y + 0.5f) * u->plane.w;
 }
 
-// The run of listed cells that belongs to this work item.
+// Returns the beginning of the range of listed cells that belongs to this work item.
 TRI_FN uint chunk_begin(uint listed, uint chunk, uint chunks) {
   return (uint)((ulong)listed * chunk / chunks);
 }

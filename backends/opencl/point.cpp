@@ -1,4 +1,4 @@
-// Draws squares around projected centres. Spheres larger than the largest square are drawn on
+// Draws squares around the projected centres. Spheres that exceed the largest square are drawn as
 // screen-aligned quads.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"

@@ -1,4 +1,4 @@
-// Ray-aligned polygons with 4 to 16 corners, depending on the projected radius.
+// Draws ray-aligned polygons with 4 to 16 corners, depending on the projected radius.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"
 

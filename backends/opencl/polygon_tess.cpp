@@ -1,4 +1,4 @@
-// Ray-aligned polygons with a given number of corners.
+// Draws ray-aligned polygons with a given number of corners.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"
 

@@ -1,10 +1,11 @@
-// Quadrature preintegrated: one step along which the value is linear from front to back
-// (portable/volume_preintegration.h, technique::preintegrated_pairs). The algorithm is that of
-// src/technique/volume/raycast/preintegrated.glsl.
+// The quadrature `preintegrated`: one step along which the value changes linearly from front to
+// back (portable/volume_preintegration.h, technique::preintegrated_pairs). The algorithm is the
+// same as in src/technique/volume/raycast/preintegrated.glsl.
 #if TRI_PRECISION == 32
 
-// Composites a piece of the step behind `gathered`, which is premultiplied colour and opacity. `depth` is the
-// piece's optical depth in powers of two; a0 … a2 are its colour over the share of that depth passed.
+// Composites a piece of the step behind `gathered`, which is premultiplied colour and opacity.
+// `depth` is the optical depth of the piece in powers of two. a0 … a2 are the coefficients of its
+// colour as a function of the fraction of that depth that has been passed.
 TRI_FN float4 with_piece(float4 gathered, float depth, float3 a0, float3 a1, float3 a2) {
   float opacity = tri_1m_exp2(-depth);
   float z = 0.3465735903f * depth;
@@ -18,8 +19,8 @@ TRI_FN float4 with_piece(float4 gathered, float depth, float3 a0, float3 a1, flo
   return depth > 0.0f ? gathered + weight * (float4)(colour, 1.0f) : gathered;
 }
 
-// The same for the piece from position a to b among the entries, within the cell that begins with entry `cell`.
-// Beyond the first and the last entry the function is constant.
+// Composites the piece between positions a and b in the table, both within the cell that begins
+// with entry `cell`. The function is constant before the first entry and after the last.
 TRI_FN float4 with_part_of_cell(__constant float4* table, float4 gathered, int cell, float a, float b,
                                 float length) {
   float4 lower = table[cell > 0 ? cell : 0];
@@ -39,8 +40,9 @@ TRI_FN bool are_too_deep(__global const float4* pairs, int first, int last, floa
   return abs(last - first) > 1 && per_cell * pairs[3 * (256 * first + last)].x > TRI_DEEPEST_CHUNK;
 }
 
-// The entry up to which cells that are too deep are processed at once: as many as would not be too deep if all were
-// equal, and half of them until they are not, but at least one cell.
+// Returns the entry up to which cells that are too deep are processed at once. Starts with as many
+// cells as would not be too deep if all cells were equal, then halves their number until they are
+// not too deep, but processes at least one cell.
 TRI_FN int end_of_chunk(__global const float4* pairs, int first, int last, float per_cell) {
   int direction = last > first ? 1 : -1;
   float share = TRI_DEEPEST_CHUNK / (per_cell * pairs[3 * (256 * first + last)].x);
@@ -49,10 +51,10 @@ TRI_FN int end_of_chunk(__global const float4* pairs, int first, int last, float
   return first + direction * taken;
 }
 
-// Premultiplied colour and opacity of a step of `length` voxels.
+// Returns the premultiplied colour and opacity of a step of `length` voxels.
 TRI_FN float4 preintegrated(__constant float4* table, __global const float4* pairs, float front,
                             float back, float length) {
-  // NaN counts as the lowest value, as for the midpoint rule.
+  // NaN counts as the lowest value, as in the midpoint rule.
   float from = front * 256.0f - 0.5f;
   float to = back * 256.0f - 0.5f;
   from = from > -0.75f ? (from < 255.75f ? from : 255.75f) : -0.75f;
@@ -64,7 +66,8 @@ TRI_FN float4 preintegrated(__constant float4* table, __global const float4* pai
     return with_part_of_cell(table, gathered, first_cell, from, to, length);
   }
   bool rising = last_cell > first_cell;
-  int first = rising ? first_cell + 1 : first_cell;  // number of entries that are passed
+  // first of the table entries that the step passes
+  int first = rising ? first_cell + 1 : first_cell;
   int last = rising ? last_cell : last_cell + 1;
   float per_cell = length / fabs(to - from);
   gathered = with_part_of_cell(table, gathered, first_cell, from, (float)first,

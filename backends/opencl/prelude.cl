@@ -1,6 +1,6 @@
 // Makes volume_math.h valid OpenCL C. The preludes for GLSL and C++ are in src/technique/portable/.
 
-// a·b+c is rounded twice, as on every other backend.
+// Disables fused multiply-add: a·b+c is rounded twice, as on every other backend.
 #pragma OPENCL FP_CONTRACT OFF
 
 #if TRI_PRECISION == 64
@@ -12,7 +12,7 @@ typedef double4 real4;
 #define TRI_REAL2(v) convert_double2(v)
 #define TRI_REAL3(v) convert_double3(v)
 #define TRI_REAL4(v) convert_double4(v)
-// Entries of the table and pixels are floats in either precision.
+// Table entries and pixels are floats in either precision.
 #define TRI_ENTRY(v) convert_double4(v)
 #define TRI_FLOAT4(v) convert_float4(v)
 #define TRI_HIGH_WORD(x) ((int)(as_long(x) >> 32))
@@ -31,8 +31,8 @@ typedef float4 real4;
 #define TRI_FLOAT4(v) (v)
 #endif
 
-// Always inlined, because a call in a loop keeps PoCL's compiler from vectorising it, and it inlines nothing by
-// itself.
+// Functions are always inlined. PoCL's compiler inlines nothing by itself, and a call in a loop
+// would prevent it from vectorising the loop.
 #define TRI_FN static inline __attribute__((always_inline))
 #define TRI_FLOAT2 float2
 #define TRI_MAKE_FLOAT2(x, y) ((float2)((x), (y)))
@@ -48,7 +48,7 @@ typedef float4 real4;
 #define TRI_RATIO(a, b) ((real)(a) / (real)(b))
 #define TRI_PRECISE
 
-// For |x| < 2³¹, with conversions, because PoCL's floor() and ceil() are calls.
+// Defined for |x| < 2³¹. Uses conversions, because floor() and ceil() are calls in PoCL.
 TRI_FN real tri_floor(real x) {
   real whole = (real)(int)x;
   return whole > x ? whole - 1.0f : whole;

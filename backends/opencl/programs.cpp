@@ -32,8 +32,8 @@ std::string_view voxel_type(scene::VoxelFormat format) {
 }  // namespace
 
 std::string Constants::options() const {
-  // The options -cl-fast-relaxed-math and -cl-mad-enable are never used, because bits must be the
-  // same in every run and on every device.
+  // The options -cl-fast-relaxed-math and -cl-mad-enable are never used, because results must be
+  // bit-identical in every run and on every device.
   return fmt::format(
       "-cl-std=CL1.2 -DTRI_MANUAL_SAMPLER={:d} -DTRI_VOXEL={} -DTRI_SHADING={:d} -DTRI_COUNT={:d} "
       "-DTRI_SPEED_OF_LIGHT={:d} -DTRI_FAULT={} -DTRI_BATCH={} "

@@ -1,5 +1,5 @@
 #pragma once
-// Device code, which is compiled at run time, once for each set of options.
+// Device code, compiled at run time once for each set of options.
 
 #include <map>
 #include <string>
@@ -13,31 +13,33 @@
 namespace triptych::opencl_backend {
 
 // The compile-time constants of volume.cl and raycast.cl. A build that does not count, shade or
-// inject a fault contains no code for that.
+// inject a fault contains no code for these purposes.
 struct Constants {
   technique::Sampler sampler = technique::Sampler::manual;
   scene::VoxelFormat voxel = scene::VoxelFormat::f32;
   bool shading = false;
   bool count = false;
-  bool trace = false;  // with `count`: the history of one pixel (technique/volume/ray_trace.hpp)
+  // only with `count`: records the history of one pixel (technique/volume/ray_trace.hpp)
+  bool trace = false;
   bool speed_of_light = false;
   int preintegrated = 0;  // technique::preintegration_form
-  bool cells = false;     // the technique has its own source
+  bool cells = false;     // the technique has its own source code
   bool leaps = false;     // technique::Skip::distance
   bool adapt = false;
-  bool parts = false;  // the volume is drawn one technique::Part at a time
+  bool parts = false;  // draws the volume one technique::Part at a time
   technique::Precision precision = technique::Precision::fp32;
   technique::Fault fault = technique::Fault::none;
   int batch = 1;
 
-  [[nodiscard]] std::string options() const;  // the options in the form that the compiler takes
+  [[nodiscard]] std::string options() const;  // the options as passed to the compiler
 };
 
-// The beginning of every program (the prelude, volume_math.h), followed by the given files: those
-// of this folder, or otherwise shared ones (technique::source).
+// Returns the prelude and volume_math.h, with which every program begins, followed by the given
+// files. A file is looked up in this folder and otherwise among the shared files
+// (technique::source).
 [[nodiscard]] std::string program_source(const std::vector<std::string_view>& files);
 
-// Compiles for the session's device. Throws core::ApiError with the compiler's log.
+// Compiles a program for the session's device. Throws core::ApiError with the compiler's log.
 [[nodiscard]] cl::Program build(const Session& session, const std::string& source,
                                 const std::string& options);
 
@@ -47,22 +49,22 @@ struct CapturedProgram {
                         // if it was not captured
 };
 
-// Programs that have been compiled, by source and options.
+// The compiled programs, by source and options.
 class Programs {
  public:
   explicit Programs(const Session& session) : session_(session) {}
   [[nodiscard]] cl::Program get(const std::string& source, const std::string& options);
-  // The content hash of source and options.
+  // Returns the content hash of the source and the options.
   [[nodiscard]] static std::string hash(const std::string& source, const std::string& options);
 
-  // From now on, the programs that are requested are recorded once each, except those that count.
-  // end_capture() returns them in that order.
+  // From now on, records each requested program once, except programs that count. end_capture()
+  // returns the programs in the order in which they were requested.
   void start_capture();
   [[nodiscard]] std::vector<CapturedProgram> end_capture();
 
  private:
   const Session& session_;
-  std::map<std::string, CapturedProgram> built_;  // the key is the hash
+  std::map<std::string, CapturedProgram> built_;  // by hash
   bool captures_ = false;
   std::vector<std::string> captured_;  // hashes
 };

@@ -1,5 +1,5 @@
-// Ray-aligned quads. OpenCL has no rasterizer stages, so several techniques that draw such quads
-// use this implementation.
+// Draws ray-aligned quads. OpenCL has no rasterizer stages, so several techniques that draw such
+// quads share this implementation.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"
 

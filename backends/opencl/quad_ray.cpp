@@ -1,5 +1,5 @@
-// Ray-aligned quads whose vertices a separate pass writes, as a geometry shader does on the other
-// APIs.
+// Draws ray-aligned quads whose vertices are written by a separate pass. On the other APIs, a
+// geometry shader generates them.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"
 

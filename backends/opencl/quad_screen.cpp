@@ -1,4 +1,5 @@
-// Screen-aligned quads around the silhouettes, which other APIs make in a geometry shader.
+// Draws screen-aligned quads around the silhouettes. On the other APIs, a geometry shader generates
+// them.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"
 

@@ -1,5 +1,5 @@
-// Ray-aligned quads, evaluated from the domain coordinates of patches, as tessellation shaders do
-// on the other APIs.
+// Draws ray-aligned quads that are evaluated at the domain coordinates of patches. On the other
+// APIs, tessellation shaders do that.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"
 

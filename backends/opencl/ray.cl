@@ -1,12 +1,14 @@
 // Rays, and the runs of samples along them that lie in visible bricks.
 //
-// Skip bricks walks from brick to brick. Skip distance (TRI_LEAPS) leaps over whole cubes of bricks that are all
-// visible or all invisible. A sample within rounding of a face may be assigned to either side. That does not matter
-// for the image, because invisible bricks add nothing to it: it has the same bits with leaps, with a walk, and
-// without bricks.
+// Brick skipping (skip=bricks) walks from brick to brick. Distance skipping (skip=distance,
+// TRI_LEAPS) leaps over whole cubes of bricks that are all visible or all invisible. Because of
+// rounding, a sample close to a face may be assigned to either side. That does not affect the
+// image, because invisible bricks add nothing to it: the images with leaps, with a walk and without
+// bricks are bit-identical.
 //
-// brick_map is that of technique::brick_map. For leaps, n > 0 means that all bricks fewer than n away (the largest
-// distance along any axis) are visible, and n < 0 that all bricks fewer than −n away are invisible.
+// brick_map is the result of technique::brick_map. For leaps, n > 0 means that all bricks fewer
+// than n bricks away (the largest distance along any axis) are visible, and n < 0 means that all
+// bricks fewer than −n bricks away are invisible.
 
 typedef struct {
   real3 p0;    // where the ray enters the box, in voxels
@@ -23,7 +25,8 @@ TRI_FN Ray make_ray(__constant Parameters* u, int2 pixel) {
   real3 d = u->ray_centre.xyz + ndc.x * u->ray_right.xyz - ndc.y * u->ray_up.xyz;
   d = d / sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
   real3 v = d * u->inverse_spacing.xyz;
-  // The ray begins on a plane between eye and box if the eye is far away, else at the eye.
+  // If the eye is far away, the ray begins on a plane between the eye and the box; otherwise it
+  // begins at the eye.
   real3 origin = u->eye.xyz + (u->value_map.z * (ndc.x * u->ray_right.xyz - ndc.y * u->ray_up.xyz)) *
                                    u->inverse_spacing.xyz;
   real2 x = tri_slab(origin.x, v.x, (real)u->volume_size.x);
@@ -44,22 +47,23 @@ TRI_FN int cell_is_here(__constant Parameters* u, int cell) {
   return cell >= u->part.x && cell < u->part.y;
 }
 
-// Whether the voxels around the ray, `along` steps from its beginning, belong to this part: those of the cell that
-// fetch() reads.
+// Returns whether this part contains the voxels around the ray, `along` steps from the ray's
+// beginning: those of the cell that fetch() reads.
 TRI_FN int is_here(__constant Parameters* u, const Ray* ray, real along) {
   real z = ray->p0.z + along * ray->g.z;
   return cell_is_here(u, (int)clamp_coordinate(z + 0.5f, (real)u->volume_size.z));
 }
 #endif
 
-// Whether there is anything to skip. Leaps see at once that a volume is full.
+// Returns whether there is anything to skip. With leaps, the first entry of the map is enough to
+// recognize a volume without empty bricks.
 TRI_FN int skips(__constant Parameters* u, __global const int* brick_map) {
   int4 grid = u->brick_grid;
   int full = max(grid.x, max(grid.y, grid.z));  // what the map contains for a volume without empty bricks
   return TRI_LEAPS == 1 ? grid.w > 0 && brick_map[0] < full : grid.w > 0;
 }
 
-// The counts of a counting build along a ray; other builds drop them.
+// The counts along a ray in a counting build. Other builds discard them.
 typedef struct {
   uint samples;
   uint nonzero;
@@ -87,15 +91,15 @@ typedef struct {
 
 #if !TRI_LEAPS
 
-// A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed from the brick's
-// index and not accumulated, so that they do not drift.
+// A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed
+// from the index of the brick instead of being accumulated, so that they do not drift.
 typedef struct {
   int3 brick;
   int3 direction;  // −1 or +1 per axis
   real3 inverse_g;
   real leave;  // where the ray leaves the brick, in steps
-  int axis;     // the face's axis
-  int outside;  // rounding led out of the grid: the rest of the ray counts as visible
+  int axis;     // the axis of the face where the ray leaves the brick
+  int outside;  // round-off led out of the grid, so the rest of the ray counts as visible
   int merged;   // whether the samples of the last run are to be merged
 } Walk;
 
@@ -130,10 +134,10 @@ TRI_FN void next_brick(__constant Parameters* u, Walk* walk, const Ray* ray) {
   aim(u, walk, ray);
 }
 
-// The technique::BrickKind of the walk's brick.
+// The technique::BrickKind of the brick that the walk has reached.
 #define KIND_INVISIBLE 0
 #define KIND_SAMPLED 1
-#define KIND_MERGED 2  // and above
+#define KIND_MERGED 2  // this and all larger numbers
 TRI_FN int kind(__constant Parameters* u, __global const int* brick_map, const Walk* walk) {
   if (walk->outside) return KIND_SAMPLED;
   int index = walk->brick.x +
@@ -141,15 +145,17 @@ TRI_FN int kind(__constant Parameters* u, __global const int* brick_map, const W
   return brick_map[index];
 }
 
-// The first sample at or after `limit` that lies beyond the brick. A sample within rounding of the face may be
-// assigned to either side, because the brick's border of one voxel covers half a voxel of error.
+// Returns the first sample that is beyond the brick, but at most `limit`. A sample close to the
+// face may be assigned to either side, because the brick's border of one voxel allows for an error
+// of half a voxel.
 TRI_FN int samples_before(const Walk* walk, int limit) {
   if (walk->outside || !(walk->leave < (real)limit)) return limit;
   return clamp((int)tri_ceil(walk->leave - 0.5f), 0, limit);
 }
 
-// Narrows [begin, end) to the next run of visible bricks of one kind at or after begin; empty at the end of the
-// ray. A brick of kind KIND_MERGED itself is a run of its own.
+// Narrows [begin, end) to the next run at or after `begin` of samples in visible bricks of the same
+// kind. The result is empty at the end of the ray. A brick of kind KIND_MERGED is always a run of
+// its own.
 TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_map, Walk* walk,
                      const Ray* ray, int begin, int end, Counts* counts) {
   int here = kind(u, brick_map, walk);
@@ -174,15 +180,16 @@ TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_map, Wa
 
 #else
 
-// The data of a ray that leaps need.
+// The data of a ray that leaps use.
 typedef struct {
   real3 p0;  // where the ray enters, relative to where the bricks begin (technique::BrickLayout::of_cells)
   real3 inverse_g;
-  real edge;  // of a brick, in voxels
+  real edge;  // edge of a brick, in voxels
   real inverse_edge;
 } Walk;
 
-// A ray that runs along a face takes 10²⁰ steps to the next one, which means never, without a division by zero.
+// Returns 1/g. For a ray parallel to a face, returns ±10²⁰ instead of dividing by zero, so that the
+// ray never reaches the next face.
 TRI_FN real inverse_step(real g) {
   return 1.0f / (fabs(g) > 1.0e-20f ? g : 1.0e-20f);
 }
@@ -202,14 +209,16 @@ TRI_FN int brick_at(real p, real inverse_edge, int bricks) {
   return brick < 0 ? 0 : (brick < bricks ? brick : bricks - 1);
 }
 
-// Where a ray leaves the bricks fewer than `reach` away from `brick` along one axis, in steps.
+// Returns where a ray leaves the bricks fewer than `reach` bricks away from `brick` along one axis,
+// in steps.
 TRI_FN real crossing(real p0, real inverse_g, real edge, int brick, int reach) {
   int face = inverse_g < 0.0f ? brick - reach + 1 : brick + reach;
   return ((real)face * edge - p0) * inverse_g;
 }
 
-// The first sample after the i-th one that lies beyond the cube of bricks of the same kind, and at most `end`. Each
-// leap starts from its sample's own position, so nothing drifts.
+// Returns the first sample after sample i that is beyond the cube of bricks of the same kind, but
+// at most `end`. Each leap starts from the position of its sample, so rounding errors do not
+// accumulate.
 TRI_FN int leap(__constant Parameters* u, __global const int* brick_map, const Walk* walk,
                 const Ray* ray, int i, int end, int* visible) {
   real along = (real)i + 0.5f;
@@ -231,7 +240,8 @@ TRI_FN int leap(__constant Parameters* u, __global const int* brick_map, const W
   return next < end ? next : end;
 }
 
-// Narrows [begin, end) to the next run of visible bricks at or after begin; empty at the end of the ray.
+// Narrows [begin, end) to the next run of visible bricks at or after `begin`. The result is empty
+// at the end of the ray.
 TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_map, Walk* walk,
                      const Ray* ray, int begin, int end, Counts* counts) {
   int visible = 0;
@@ -243,7 +253,7 @@ TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_map, Wa
     counts->bricks_skipped += !visible;
   }
   if (!visible) return (int2)(end, end);
-  // Continues to the next invisible brick, so that no count depends on the batch.
+  // Extends the run to the next invisible brick, so that no count depends on the batch size.
   while (visible && stop < end) {
     int beyond = leap(u, brick_map, walk, ray, stop, end, &visible);
     counts->bricks_visited += visible;

@@ -1,17 +1,19 @@
-// Front-to-back raycasting, one ray per work item. The algorithm is that of
-// src/technique/volume/raycast/raycast.glsl. Positions are in voxels, lengths along the ray in steps: sample i is
-// at p0 + (i+½)·g.
+// Front-to-back raycasting, with one ray per work item. The algorithm is the same as in
+// src/technique/volume/raycast/raycast.glsl. Positions are in voxels, lengths along the ray in
+// steps: sample i is at p0 + (i+½)·g.
 //
-// A batch is fetched and classified as a whole and composited sample by sample. A ray may therefore fetch a few
-// samples beyond its end, but what is composited and counted is the same for every size of the batch.
+// A batch of samples is fetched and classified as a whole, and then composited sample by sample. A
+// ray may therefore fetch a few samples beyond its end, but the composited and counted samples do
+// not depend on the batch size.
 //
 // Compile-time constants: TRI_SHADING, TRI_COUNT, TRI_SPEED_OF_LIGHT, TRI_PREINTEGRATED
 // (technique::preintegration_form), TRI_LEAPS, TRI_ADAPT, and those of volume.cl.
 //
-// With TRI_PARTS a pass processes what lies in the part of the volume that the device stores, and continues rays
-// where the previous pass stopped.
+// With TRI_PARTS, a pass processes only the part of the volume that the device stores, and
+// continues rays where the previous pass stopped.
 
-// Colours and opacities per voxel length of n values, linear between the table's 256 entries.
+// Computes the colours, and the opacities per voxel length, of n values. They are linear between
+// the 256 entries of the table.
 TRI_FN void classify(__constant float4* table, const real* value, int n, real4* colour,
                      real* alpha) {
   int entry[TRI_BATCH];
@@ -30,7 +32,8 @@ TRI_FN void classify(__constant float4* table, const real* value, int n, real4* 
   }
 }
 
-// Composites the first n samples, beginning with the i-th; returns 1 if the ray ends among them.
+// Composites the first n samples of a batch that begins with sample i. Returns 1 if the ray ends
+// among them.
 TRI_FN int composite(__constant Parameters* u, TRI_VOLUME volume, const Ray* ray, int i, int n,
 #if TRI_TRACE
                      const real* value,
@@ -83,7 +86,7 @@ TRI_FN int composite(__constant Parameters* u, TRI_VOLUME volume, const Ray* ray
   return 0;
 }
 
-// Processes n samples from the i-th on; returns 1 if the ray ends among them.
+// Processes n samples beginning with sample i. Returns 1 if the ray ends among them.
 TRI_FN int take_batch(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       const Ray* ray, int i, int n, Gathered* gathered, Counts* counts) {
   int lanes = TRI_WHOLE_VECTORS(n);
@@ -113,9 +116,9 @@ TRI_FN int take_batch(__constant Parameters* u, TRI_VOLUME volume, __constant fl
 }
 
 #if TRI_ADAPT
-// Processes the samples from the i-th on and before `stop` as one sample in the middle of their way
-// (technique::brick_kinds), but not before the first of them, which may be the ray's last and partial sample.
-// Returns 1 if the ray ends there.
+// Processes the samples from i up to but not including `stop` as one sample in the middle of their
+// path (technique::brick_kinds). The sample is not placed before the position of sample i, which
+// may be the last, partial sample of the ray. Returns 1 if the ray ends there.
 TRI_FN int take_merged(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                        const Ray* ray, int i, int stop, Gathered* gathered, Counts* counts) {
   real begin = (real)i;
@@ -152,10 +155,10 @@ TRI_FN int take_merged(__constant Parameters* u, TRI_VOLUME volume, __constant f
 #endif
 
 #if TRI_PREINTEGRATED
-// Steps per batch. One more value than steps is fetched.
+// The number of steps per batch. A batch fetches one more value than it has steps.
 #define TRI_STEPS_PER_BATCH (TRI_BATCH > 1 ? TRI_BATCH - 1 : 1)
 
-// Processes n steps from the i-th on; returns 1 if the ray ends among them.
+// Processes n steps beginning with step i. Returns 1 if the ray ends among them.
 TRI_FN int take_steps(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       __global const float4* pairs, const Ray* ray, int i, int n,
                       Gathered* gathered, Counts* counts) {
@@ -213,12 +216,13 @@ typedef struct {
   Counts counts;
   Walk walk;
   int i;     // the next sample
-  int stop;  // the end of its run
+  int stop;  // the end of its run of samples
   int ended;
 } Pause;
 #define TRI_PAUSES , __global Pause* pauses
 
-// Whether the position at i lies in the part: a sample, a step, or the middle of a run to be merged.
+// Returns whether the next position lies in the part. It is a sample, a step, or the middle of a
+// run to be merged.
 TRI_FN int next_is_here(__constant Parameters* u, const Ray* ray, const Walk* walk, int i, int stop) {
   real along = (real)i + (TRI_PREINTEGRATED ? 0.0f : 0.5f);
 #if TRI_ADAPT
@@ -228,7 +232,7 @@ TRI_FN int next_is_here(__constant Parameters* u, const Ray* ray, const Walk* wa
   return is_here(u, ray, along);
 }
 
-// The number of the n samples from the i-th on that lie in the part.
+// Returns how many of the n samples that begin with sample i lie in the part.
 TRI_FN int samples_here(__constant Parameters* u, const Ray* ray, int i, int n) {
   real place = TRI_PREINTEGRATED ? 0.0f : 0.5f;
   while (n > 0 && !is_here(u, ray, (real)(i + n - 1) + place)) --n;
@@ -238,8 +242,8 @@ TRI_FN int samples_here(__constant Parameters* u, const Ray* ray, int i, int n) 
 #define TRI_PAUSES
 #endif
 
-// The image is premultiplied RGBA, top row first. Column x of the grid is image column tri_drawn_column(x): x
-// itself for the image, and others beside it for injected extra work.
+// Writes the image as premultiplied RGBA, top row first. Column x of the grid draws image column
+// tri_drawn_column(x): x itself for the image, and a neighbouring column for injected extra work.
 __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       __global const int* brick_map, __global float4* image,
                       __global uint* counters, __global const float4* pairs TRI_PAUSES) {
@@ -266,7 +270,7 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
 #if TRI_PARTS
   __global Pause* own =
       pauses + tri_output_place(x, y, u->viewport.x, u->viewport.y, u->viewport.w, (int)get_global_size(0));
-  int begun = 0;  // the end of the run that was begun
+  int begun = 0;  // the end of the run that has begun
   if (u->pass.x > 0) {
     Pause pause = *own;
     gathered = pause.gathered;

@@ -1,4 +1,4 @@
-// Front-to-back raycasting, one ray per work item.
+// Front-to-back raycasting, with one ray per work item.
 #include "backends/opencl/techniques.hpp"
 #include "backends/opencl/volume_frames.hpp"
 

@@ -1,4 +1,5 @@
-// Headlight shading (scene::Shading) of a colour at p; d is the world direction of the ray.
+// Applies headlight shading (scene::Shading) to the colour at p. `d` is the direction of the ray in
+// world space.
 TRI_FN real4 shade(__constant Parameters* u, TRI_VOLUME volume, real4 colour, real3 p,
                     real3 d) {
   Positions at;

@@ -1,5 +1,5 @@
-// Does only the fetches and table look-ups of raycast: the same kernel is compiled so that it sums
-// what it reads.
+// Does only the fetches and table look-ups of raycast: the same kernel, compiled to sum what it
+// reads.
 #include "backends/opencl/techniques.hpp"
 #include "backends/opencl/volume_frames.hpp"
 

@@ -1,5 +1,4 @@
-// Spheres are sorted into tiles, and each pixel finds the nearest one in its tile. There are no
-// sprites.
+// Sorts spheres into tiles. Each pixel finds the nearest sphere in its tile. There are no sprites.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"
 

@@ -1,14 +1,16 @@
-// The history of one pixel, in the build that is made for it (technique/volume/ray_trace.hpp).
+// Records the history of one pixel, in a build made for this purpose
+// (technique/volume/ray_trace.hpp).
 #define TRI_TRACED_SAMPLE 1u
 #define TRI_TRACED_STEP 2u
 
-// The place of the pixel's records; null for all other pixels.
+// Returns where the records of the pixel are written; null for every pixel but the traced one.
 TRI_FN __global uint* traced_records(__global uint* counters, int pixel) {
   uint place = counters[8 * pixel + 7];
   return place == 0xFFFFFFFFu ? 0 : counters + place;
 }
 
-// `values`: at the beginning of a step and at its end, or twice that of a sample.
+// `values` are the values at the beginning and at the end of a step. For a sample, both are its
+// value.
 TRI_FN void trace(const Ray* ray, uint kind, real3 place, real2 values, real4 colour,
                   real length, real opacity, const Gathered* gathered) {
   __global uint* records = ray->trace;

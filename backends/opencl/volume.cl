@@ -1,15 +1,15 @@
 // Fetches normalised values from the volume, for up to TRI_BATCH positions at a time.
 //
-// Work is arranged in plain loops over small arrays, with one simple step per loop. A compiler for processors turns
-// each into vector instructions, 16 samples wide if the machine has them. With TRI_BATCH 1, which GPUs use, nothing
-// remains of the loops.
+// The work is arranged as plain loops over small arrays, with one simple operation per loop. A
+// compiler for processors turns each loop into vector instructions, up to 16 samples wide. With
+// TRI_BATCH 1, which GPUs use, nothing remains of the loops.
 //
-// Compile-time constants: TRI_MANUAL_SAMPLER, TRI_VOXEL (the stored type), TRI_FAULT, TRI_BATCH, TRI_PARTS
-// (technique::Part).
+// Compile-time constants: TRI_MANUAL_SAMPLER, TRI_VOXEL (the stored type), TRI_FAULT, TRI_BATCH,
+// TRI_PARTS (technique::Part).
 
-// Room for a batch, and for the six neighbours that shading reads.
+// Room for one batch, or for the six neighbours that shading reads.
 #define TRI_LANES (TRI_BATCH > 8 ? TRI_BATCH : 8)
-// Rounds up to whole vectors. Results beyond n are not used.
+// Rounds n up to whole vectors. Results beyond n are not used.
 #define TRI_WHOLE_VECTORS(n) (TRI_BATCH > 1 ? (((n) + 7) & ~7) : (n))
 
 #define FAULT_HALF_VOXEL_SHIFT 1
@@ -19,16 +19,17 @@
 #define FAULT_COARSE_FILTER 5
 
 #if TRI_MANUAL_SAMPLER
-// Voxels with a border of one copy of the outermost layer on every side, so that the eight neighbours of a position
-// are four pairs at fixed distances.
+// The voxels, with a border on every side that repeats the outermost layer once. The eight
+// neighbours of a position are therefore four pairs at fixed distances.
 #define TRI_VOLUME __global const TRI_VOXEL*
 #define TRI_FOUR_(type) type##4
 #define TRI_FOUR(type) TRI_FOUR_(type)
 #if TRI_HALVES
 #define TRI_VOXEL4 float4
 #define TRI_LOAD2(v) load_halves(v)
-// Half floats that are not negative and not subnormal: their bits are those of a float that is 2¹¹² times as small.
-// PoCL's vload_half has a branch for each voxel, and the kernel with it takes 1.5 times as many instructions.
+// Converts half floats that are neither negative nor subnormal: shifted, their bits are those of a
+// float that is smaller by a factor of 2¹¹². PoCL's vload_half branches for each voxel, and a
+// kernel that uses it executes 1.5 times as many instructions.
 TRI_FN float2 load_halves(__global const ushort* v) {
   return as_float2(convert_uint2(vload2(0, v)) << 13) * 0x1p112f;
 }
@@ -42,7 +43,7 @@ __constant sampler_t linear_sampler =
     CLK_NORMALIZED_COORDS_FALSE | CLK_ADDRESS_CLAMP_TO_EDGE | CLK_FILTER_LINEAR;
 #endif
 
-// Positions in voxels, with voxel centres at i+½.
+// Positions in voxels. Voxel centres are at i+½.
 typedef struct {
   real x[TRI_LANES];
   real y[TRI_LANES];
@@ -62,7 +63,7 @@ TRI_FN real rounded_weight(real f) {
 }
 
 #if TRI_MANUAL_SAMPLER
-// Trilinear interpolation of the eight voxels that begin at `v`.
+// Interpolates trilinearly between the eight voxels that begin at `v`.
 TRI_FN real trilinear(TRI_VOLUME v, int row, int slice, real fx, real fy, real fz) {
   TRI_VOXEL4 near_pairs = (TRI_VOXEL4)(TRI_LOAD2(v), TRI_LOAD2(v + row));
   TRI_VOXEL4 far_pairs = (TRI_VOXEL4)(TRI_LOAD2(v + slice), TRI_LOAD2(v + slice + row));
@@ -74,8 +75,8 @@ TRI_FN real trilinear(TRI_VOLUME v, int row, int slice, real fx, real fy, real f
 }
 #endif
 
-// The layer of a cell along z, if the device stores it. Cells of other parts may be requested, but the result is
-// not used.
+// Returns where the device stores the cell's layer along z. If another part contains the cell, the
+// result is clamped, and what is read there is not used.
 TRI_FN int held_layer(__constant Parameters* u, int cell) {
 #if TRI_PARTS
   return clamp(cell - u->part.z, 0, u->part.w - 1);
@@ -84,7 +85,7 @@ TRI_FN int held_layer(__constant Parameters* u, int cell) {
 #endif
 }
 
-// Normalised values at the first n positions.
+// Fetches the normalised values at the first n positions.
 TRI_FN void fetch(__constant Parameters* u, TRI_VOLUME volume, Positions* p, int n, real* value) {
 #if TRI_FAULT == FAULT_HALF_VOXEL_SHIFT
   for (int k = 0; k < n; ++k) p->x[k] += 0.5f;
@@ -95,7 +96,8 @@ TRI_FN void fetch(__constant Parameters* u, TRI_VOLUME volume, Positions* p, int
   real scale = u->value_map.x;
   real offset = u->value_map.y;
 #if TRI_MANUAL_SAMPLER
-  // Inside the border q = p + ½ is not negative, so truncation is floor. Clamping q clamps to the edge.
+  // Because of the border, q = p + ½ is not negative, so truncation equals floor. Clamping q clamps
+  // to the edge.
   real sx = (real)u->volume_size.x;
   real sy = (real)u->volume_size.y;
   real sz = (real)u->volume_size.z;

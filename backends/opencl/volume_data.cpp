@@ -31,8 +31,8 @@ cl_channel_type channel_type(scene::VoxelFormat voxel) {
   return CL_FLOAT;
 }
 
-// The k-th slice of the volume with its border: slice k − 1 of the grid (clamped), with a border
-// around it.
+// Returns the k-th slice of the volume with its border: slice k − 1 of the grid (clamped),
+// surrounded by a border.
 void copy_bordered_slice(const scene::VoxelGrid& grid, int k, std::vector<std::byte>& slice) {
   const std::size_t bytes = scene::bytes_of(grid.format);
   const auto [nx, ny, nz] = grid.size;
@@ -56,7 +56,7 @@ cl::Buffer upload_buffer(const Session& session, const scene::VoxelGrid& grid) {
   return buffer;
 }
 
-// Each voxel becomes the first of four channels.
+// Stores each voxel as the first of four channels.
 std::vector<std::byte> as_rgba(std::span<const std::byte> voxels, std::size_t bytes) {
   std::vector<std::byte> result(4 * voxels.size());
   for (std::size_t at = 0; at < voxels.size(); at += bytes) {
@@ -164,7 +164,7 @@ const VolumeCache::Entry& VolumeCache::get(const Session& session, const scene::
     return entry_;
   }
   key_.clear();
-  entry_ = {};  // frees the old volume before the new one is made
+  entry_ = {};  // frees the old volume before the new one is allocated
   const auto room = [&] {
     return checked([&]() -> cl::Memory {
       return make_buffer(session, CL_MEM_READ_ONLY, bordered_layers(grid).bytes_of(held_cells));

@@ -1,5 +1,5 @@
 #pragma once
-// A volume on the device, in the layout that the sampler needs, and its bricks.
+// A volume and its bricks on the device, in the layout that the sampler requires.
 
 #include <cstdint>
 #include <memory>
@@ -14,32 +14,33 @@
 
 namespace triptych::opencl_backend {
 
-// The format of a 3D image with one channel for these voxels: CL_R, otherwise CL_INTENSITY or
-// CL_LUMINANCE, otherwise CL_RGBA; nullopt if the device has none of them.
+// Returns the format of a single-channel 3D image for these voxels. Prefers CL_R, then
+// CL_INTENSITY, CL_LUMINANCE and CL_RGBA. Returns nullopt if the device supports none of them.
 [[nodiscard]] std::optional<cl::ImageFormat> image_format(const Session& session,
                                                           scene::VoxelFormat voxel);
 
-// The buffer that the manual sampler reads: the volume with a border on every side that repeats its
-// outermost layer. Cell c is between slices c and c + 1 of it.
+// Returns the layers of the buffer that the manual sampler reads. The buffer contains the volume
+// with a border on every side that repeats the outermost layer. Cell c lies between slices c and c
+// + 1 of the buffer.
 [[nodiscard]] technique::Layers bordered_layers(const scene::VoxelGrid& grid);
-// Fills the beginning of such a buffer with this many cells, beginning with `first`. Throws
-// cl::Error.
+// Writes `cells` cells, beginning with cell `first` of the volume, to the beginning of such a
+// buffer. Throws cl::Error.
 void write_layers(const Session& session, const cl::Buffer& buffer, const scene::VoxelGrid& grid,
                   int first, int cells);
 
-// The stored number that the kernel sees as 1 (technique::raycast_parameters).
+// Returns the stored number that the kernel reads as 1 (technique::raycast_parameters).
 [[nodiscard]] double stored_maximum(scene::VoxelFormat voxel, technique::Sampler sampler);
 
-// The bytes that upload() writes to the device.
+// Returns the bytes that upload() writes to the device.
 [[nodiscard]] std::vector<std::byte> uploaded_voxels(const Session& session,
                                                      const scene::VoxelGrid& grid,
                                                      technique::Sampler sampler);
-// A cl::Buffer for Sampler::manual, a cl::Image3D for Sampler::hardware. The upload has finished
-// when this returns.
+// Uploads the volume, and returns a cl::Buffer for Sampler::manual or a cl::Image3D for
+// Sampler::hardware. Returns when the upload has finished.
 [[nodiscard]] cl::Memory upload(const Session& session, const scene::VoxelGrid& grid,
                                 technique::Sampler sampler);
 
-// The volume that was drawn last, because neighbouring configurations of a plan share it.
+// Caches the most recently drawn volume, because neighbouring configurations of a plan share it.
 class VolumeCache {
  public:
   struct Entry {
@@ -47,8 +48,8 @@ class VolumeCache {
     technique::BrickLayout layout;
     technique::BrickRanges ranges;
   };
-  // Valid until the next call. With `held_cells`, it is a buffer for that many cells with undefined
-  // content.
+  // The result is valid until the next call. If `held_cells` is not 0, the volume is a buffer for
+  // that many cells with undefined content.
   [[nodiscard]] const Entry& get(const Session& session, const scene::VoxelGrid& grid,
                                  technique::Sampler sampler, const technique::BrickLayout& layout,
                                  int held_cells);

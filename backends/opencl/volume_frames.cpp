@@ -30,8 +30,8 @@ std::vector<std::string_view> source_files(const Constants& constants) {
   return files;
 }
 
-// The number of pixels of a work group: wide enough for a GPU's waves, and without influence on a
-// processor.
+// The size of a work group in pixels. It is large enough for a GPU's waves, and makes no difference
+// on a processor.
 constexpr std::size_t group_width = 16;
 constexpr std::size_t group_height = 4;
 
@@ -131,7 +131,7 @@ measure::Frame VolumeFrames::frame(measure::Purpose purpose) {
         parts_ ? run_.draw(purpose, [&](auto& events) { parts_->run(launches.front(), events); })
                : run_.draw(session_, launches, purpose);
     if (counts) frame.counts = read_counters();
-    return frame;  // OpenCL has no pipeline statistics: they stay absent
+    return frame;  // OpenCL has no pipeline statistics, so none are reported
   });
 }
 

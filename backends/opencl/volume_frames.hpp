@@ -1,5 +1,5 @@
 #pragma once
-// Frames of the volume techniques: one kernel over all pixels.
+// Frames of the volume techniques, which run one kernel for all pixels.
 
 #include <array>
 #include <optional>
@@ -17,12 +17,12 @@
 
 namespace triptych::opencl_backend {
 
-// The constants of the timed build for this work.
+// Returns the constants of the timed build for this work.
 [[nodiscard]] Constants constants_of(const Session& session, const measure::VolumeWork& work);
 
 class VolumeFrames final : public measure::Prepared, public measure::TracesPixel {
  public:
-  // Compiles the timed and the counting build and uploads everything.
+  // Compiles the timed build and the counting build, and uploads everything.
   VolumeFrames(const Session& session, Programs& programs, VolumeCache& volumes,
                const measure::VolumeWork& work, Constants constants);
 
@@ -51,8 +51,8 @@ class VolumeFrames final : public measure::Prepared, public measure::TracesPixel
   cl::Buffer quadrature_;
   cl::Buffer image_;
   cl::Buffer counters_;
-  cl::Buffer pauses_;                 // the states of rays between two parts
-  std::optional<VolumeParts> parts_;  // for a volume that does not fit the device as a whole
+  cl::Buffer pauses_;                 // the states of the rays between two parts
+  std::optional<VolumeParts> parts_;  // for a volume that does not fit on the device as a whole
   std::vector<Launch> timed_;         // one launch, with the injected extra work if there is any
   std::vector<Launch> counting_;      // one launch, for the image only
   FrameRun run_;

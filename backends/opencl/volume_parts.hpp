@@ -1,5 +1,5 @@
 #pragma once
-// A volume that is on the device one part at a time (technique/volume/parts.hpp).
+// A volume whose voxels are on the device one part at a time (technique/volume/parts.hpp).
 
 #include <cstdint>
 #include <limits>
@@ -15,23 +15,23 @@
 
 namespace triptych::opencl_backend {
 
-// Kernels index voxels and counters by signed 32-bit numbers.
+// Kernels index voxels and counters with signed 32-bit integers.
 inline constexpr std::uint64_t most_indices = std::numeric_limits<std::int32_t>::max();
 
 [[nodiscard]] technique::Cut cut_of(const Session& session, std::string_view technique,
                                     const measure::VolumeWork& work);
 
-// The passes of a frame, each after the voxels and parameters that it reads.
+// The passes of a frame. Before each pass, the voxels and parameters that it reads are uploaded.
 class VolumeParts {
  public:
-  // `map` is the result of technique::brick_map. `parameters` must have room for
+  // `map` is the result of technique::brick_map. `parameters` must have room for a
   // technique::PartParameters at the end.
   VolumeParts(const Session& session, const measure::VolumeWork& work,
               std::span<const technique::Part> parts, std::span<const std::int32_t> map,
               const cl::Buffer& voxels, const cl::Buffer& parameters);
 
-  // Like opencl_backend::run with one launch. `events` gets those of the frame's first command and
-  // of each launch.
+  // Runs the launch once per part, like opencl_backend::run with one launch. Fills `events` with
+  // the event of the frame's first command and with those of the launches.
   void run(const Launch& launch, std::vector<cl::Event>& events) const;
 
  private:
@@ -40,7 +40,7 @@ class VolumeParts {
   std::vector<technique::PartPass> passes_;
   cl::Buffer voxels_;
   cl::Buffer parameters_;
-  std::size_t place_;  // the offset of a part's parameters within the parameters
+  std::size_t place_;  // the offset of a part's parameters in the parameter buffer
   measure::MemoryLedger::Entry moved_;
 };
 

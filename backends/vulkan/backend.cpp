@@ -47,7 +47,7 @@ class Backend final : public measure::Backend {
       return translated(
           [&] { return std::make_unique<Device>(std::move(instance), std::move(each)); });
     }
-    throw core::NotSupported(fmt::format("there is no Vulkan device '{}'", device_id));
+    throw core::NotSupported(fmt::format("no Vulkan device '{}'", device_id));
   }
 };
 

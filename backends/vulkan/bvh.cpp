@@ -1,4 +1,4 @@
-// Traces rays through a hierarchy of boxes, which compute passes build and traverse
+// Traces rays through a hierarchy of bounding boxes. Compute passes build and traverse it
 // (technique/particles/hierarchy.glsl, bvh.comp.glsl).
 #include "backends/vulkan/hierarchy_tracer.hpp"
 #include "backends/vulkan/techniques.hpp"

@@ -8,7 +8,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-constexpr std::uint32_t cull_group_size = 64;  // cull.comp.glsl
+constexpr std::uint32_t cull_group_size = 64;  // as in cull.comp.glsl
 
 std::vector<CullPass> passes_of(technique::Culling culling) {
   using enum technique::Culling;
@@ -28,7 +28,7 @@ std::string code_name(CullPass pass, bool instanced, bool counting) {
 
 std::optional<std::string> cannot_cull(const Gpu& gpu, bool instanced) {
   if (instanced && gpu.features.drawIndirectFirstInstance == VK_FALSE) {
-    return "the device lacks drawIndirectFirstInstance, which culling of instances needs";
+    return "the device lacks drawIndirectFirstInstance, which instance culling requires";
   }
   return std::nullopt;
 }
@@ -50,7 +50,8 @@ CellCulling::CellCulling(const Gpu& gpu, const Layout& layout, std::uint32_t cel
   }
 }
 
-// Commands that draw nothing; other values would make the device draw without end.
+// Overwrites the commands so that they draw nothing. With other values, the device might draw
+// almost endlessly.
 void CellCulling::poison() const {
   if (builds_.empty()) return;
   run_once(gpu_, [&](const vk::raii::CommandBuffer& commands) {

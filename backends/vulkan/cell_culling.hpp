@@ -9,15 +9,16 @@ namespace triptych::vulkan_backend {
 
 inline constexpr std::uint32_t commands_binding = first_free_binding;
 
-// The criterion by which a culling pass selects cells: `view` selects those in the view; the other
-// two are for the two passes of occlusion culling, which also use the visibility in the last frame
-// and the result of the first pass (technique/particles/cull.glsl: TRI_OCCLUSION).
+// The criterion by which a culling pass selects cells. `view` selects the cells inside the view.
+// The other two criteria are used by the two passes of occlusion culling, and also depend on the
+// visibility in the previous frame and on the result of the first pass
+// (technique/particles/cull.glsl: TRI_OCCLUSION).
 enum class CullPass : std::uint8_t { view, seen_before, seen_now };
 
-// The pass that removes cells outside the view, and the draws of those that remain.
+// The pass that removes cells outside the view, and the draws of the remaining cells.
 class CellCulling {
  public:
-  // `instanced`: each particle of a cell is an instance of four vertices; otherwise it is one
+  // `instanced`: draw each particle of a cell as an instance with four vertices, rather than as one
   // vertex. `layout` contains particle_bindings() and commands_binding.
   CellCulling(const Gpu& gpu, const Layout& layout, std::uint32_t cells, bool instanced,
               technique::Culling culling, const Specialization& constants);
@@ -42,7 +43,7 @@ class CellCulling {
   std::vector<Build> builds_;
 };
 
-// The reason why the device cannot draw the commands of CellCulling; nullopt if it can.
+// Returns the reason why the device cannot draw the commands of CellCulling; nullopt if it can.
 [[nodiscard]] std::optional<std::string> cannot_cull(const Gpu& gpu, bool instanced);
 
 }  // namespace triptych::vulkan_backend

@@ -7,9 +7,9 @@
 namespace triptych::vulkan_backend {
 
 // The state that occlusion culling keeps from frame to frame, and the farthest depth of each block
-// of pixels. The camera of a prepared scene does not move. So from the second frame on, the first
-// pass draws everything that is visible and the second pass nothing, and the order of drawing is
-// that of the arrangement.
+// of pixels. The camera of a prepared scene does not move. Therefore, from the second frame on, the
+// first pass draws everything that is visible and the second pass draws nothing, so particles are
+// drawn in the order of the arrangement.
 class CellOcclusion {
  public:
   // `layout` contains the bindings of occlusion_bindings().
@@ -17,7 +17,7 @@ class CellOcclusion {
                 const Specialization& constants);
 
   void bind(vk::DescriptorSet set) const;
-  // The cells that were visible in this frame become those that were visible before.
+  // Stores the cells that were visible in this frame as those that were visible before.
   void start_frame(const vk::raii::CommandBuffer& commands) const;
   // `depth` must be in the layout eTransferSrcOptimal. The descriptor set must be bound for
   // compute.

@@ -1,15 +1,15 @@
 #pragma once
-// Drawing into a single colour image.
+// Draws into a single colour image.
 
 #include "backends/vulkan/memory.hpp"
 
 namespace triptych::vulkan_backend {
 
-// The pipeline statistics that are meaningful for such a draw.
+// Returns the pipeline statistics that are meaningful for such a draw.
 [[nodiscard]] vk::QueryPipelineStatisticFlags draw_statistics();
 
-// `begins`: the pass begins with zeros (eClear) or with undefined content (eDontCare). Afterwards
-// the target is ready to be copied from.
+// `begins` defines whether the pass begins with zeros (eClear) or with undefined content
+// (eDontCare). At the end of the pass, the target is ready to be copied from.
 [[nodiscard]] vk::raii::RenderPass colour_pass(const Gpu& gpu, vk::Format format,
                                                vk::AttachmentLoadOp begins);
 
@@ -17,8 +17,8 @@ namespace triptych::vulkan_backend {
                                                        const vk::raii::RenderPass& pass,
                                                        const Image& target);
 
-// Fills the only target of the framebuffer, which has this format, with NaN. Fresh memory may
-// contain an image that was right before.
+// Fills the only target of the framebuffer, which has this format, with NaN, because newly
+// allocated memory may contain a correct image from an earlier run.
 void mark_unwritten(const Gpu& gpu, vk::Format format, const vk::raii::Framebuffer& framebuffer,
                     vk::Extent3D extent);
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::string_view shader = "raycast.comp";
 
-// The number of work groups along one side of the image: each one of raycast.comp draws a tile of
-// 8×8 pixels.
+// Returns the number of work groups along one side of the image. Each work group of raycast.comp
+// draws a tile of 8×8 pixels.
 std::uint32_t tiles(int pixels) {
   return (static_cast<std::uint32_t>(pixels) + 7) / 8;
 }
@@ -109,7 +109,7 @@ measure::Frame ComputeFrames::frame(measure::Purpose purpose) {
   });
 }
 
-// Moves each part and draws it. The device's clock does not include the moving, so no device time
+// Uploads and draws one part after another. Timestamps do not cover the uploads, so no device time
 // is reported.
 measure::Frame ComputeFrames::submit_parts(measure::Purpose purpose) {
   measure::Frame frame;

@@ -8,7 +8,7 @@
 
 namespace triptych::vulkan_backend {
 
-// A volume technique in a compute kernel, with one invocation for each pixel.
+// A volume technique that runs as a compute kernel, with one invocation per pixel.
 class ComputeFrames final : public measure::Prepared, public measure::TracesPixel {
  public:
   ComputeFrames(const Gpu& gpu, const Instance& instance, const measure::VolumeWork& work,

@@ -40,8 +40,8 @@ vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets,
       {.type = vk::DescriptorType::eUniformTexelBuffer, .descriptorCount = texel_buffers * sets},
       {.type = vk::DescriptorType::eAccelerationStructureKHR, .descriptorCount = structures * sets},
   }};
-  // Vulkan does not allow a pool size of 0 for a kind of descriptor. Layouts with acceleration
-  // structures always have texel buffers.
+  // Vulkan does not allow pool sizes of 0. Layouts with acceleration structures always have texel
+  // buffers as well.
   const std::uint32_t kinds = structures > 0 ? 6 : (texel_buffers > 0 ? 5 : 3);
   return {gpu.device, vk::DescriptorPoolCreateInfo{
                           .maxSets = sets, .poolSizeCount = kinds, .pPoolSizes = sizes.data()}};

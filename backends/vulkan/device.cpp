@@ -27,7 +27,7 @@ using Prepare = std::unique_ptr<measure::Prepared> (*)(const Gpu&, const Instanc
 
 struct Entry {
   std::string_view technique;
-  // The order is that of measure::Work.
+  // The alternatives have the same order as those of measure::Work.
   std::variant<Prepare<measure::VolumeWork>, Prepare<measure::ParticleWork>> prepare;
   Needs needs;
 };
@@ -40,10 +40,11 @@ const Entry* find_entry(std::string_view technique) {
   return found != entries.end() ? found : nullptr;
 }
 
-// A filter with a smaller error is as good as interpolation in single precision.
+// A filter whose error is below this is as good as interpolation in single precision.
 constexpr double exact_filter = 1e-5;
 
-// One error for each VoxelFormat; nullopt if the device cannot sample the format, or only compiles.
+// Returns the error of each VoxelFormat; nullopt if the device cannot sample the format, or if it
+// only compiles.
 std::array<std::optional<double>, 4> probe_filters(const Gpu& gpu) {
   if (!gpu.executes) return {};
   return {probe_filter(gpu, scene::VoxelFormat::u8), probe_filter(gpu, scene::VoxelFormat::u16),
@@ -69,7 +70,7 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
     const Entry* entry = find_entry(work.technique);
     if (entry == nullptr) return fmt::format("Vulkan has no technique '{}'", work.technique);
     if (entry->prepare.index() != work.scene.index()) {
-      return fmt::format("the technique {} draws scenes of another suite", work.technique);
+      return fmt::format("technique {} belongs to another suite than the scene", work.technique);
     }
     if (auto reason = feature_reason(gpu_, entry->needs)) return reason;
     if (const auto* volume = std::get_if<measure::VolumeWork>(&work.scene)) {
@@ -84,10 +85,10 @@ std::optional<double> Device::hardware_error(scene::VoxelFormat format) const {
   return filter_errors_.at(static_cast<std::size_t>(format));
 }
 
-// An exact filter is faster than eight fetches and their arithmetic on all devices with hardware
-// for it. Among exact ones, R32F is the fastest on CPU devices, and no slower elsewhere as long as
-// it fits into the caches. A volume that the device cannot hold as one image is drawn in parts,
-// which samplers cannot do.
+// On all devices with filtering hardware, an exact filter is faster than eight fetches and their
+// arithmetic. Of the formats with an exact filter, R32F is the fastest on CPU devices, and no
+// slower than others elsewhere as long as the volume fits into the caches. A volume that the device
+// cannot store as one image is drawn in parts, which is impossible with hardware samplers.
 measure::VolumePath Device::default_path(const measure::VolumeKind& volume) const {
   const scene::VoxelFormat native = volume.native;
   if (gpu_.is_cpu() && volume.may_be_packed() &&
@@ -107,7 +108,7 @@ measure::VolumePath Device::default_path(const measure::VolumeKind& volume) cons
 double Device::filter_weight_error(const measure::VolumePath& path) const {
   if (path.sampler != technique::Sampler::hardware) return 0;
   const std::optional<double> error = hardware_error(path.voxel);
-  // The allowed error is an upper limit, because a wrong filter must not lead to a wide bound.
+  // Limits the error to the allowed error, because a faulty filter must not widen the bound.
   if (error) return std::min(*error, allowed_filter_error(gpu_, path.voxel));
   throw core::NotSupported(fmt::format("cannot filter images of format {} linearly",
                                        vk::to_string(texture_format(path.voxel))));
@@ -133,7 +134,7 @@ std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
   });
 }
 
-// Preparing builds all pipelines of the timed frame; nothing is drawn with them.
+// Preparing builds all pipelines of the timed frame. Nothing is drawn with them.
 measure::Compiled Device::compile(const measure::Work& work) {
   if (!gpu_.reports_code) {
     throw core::NotSupported(

@@ -12,10 +12,10 @@
 
 namespace triptych::vulkan_backend {
 
-// A physical device that is open.
+// An open physical device.
 class Device final : public measure::Device, public measure::ProbesFeatures {
  public:
-  // Probes the texture filter of every voxel format. Throws core::NotSupported, core::ApiError.
+  // Probes the texture filter of every voxel format. Throws core::NotSupported or core::ApiError.
   Device(std::unique_ptr<const Instance> instance, Candidate candidate);
 
   [[nodiscard]] const record::Device& info() const override { return info_; }

@@ -15,8 +15,8 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-// Layers may change the image. TRIPTYCH_LAYER is the variable of Triptych's own test layer
-// (tests/layer).
+// The environment variables that change generated code or images. Layers may change the image, so
+// their variables are included. TRIPTYCH_LAYER belongs to Triptych's own test layer (tests/layer).
 constexpr std::array<std::string_view, 11> code_variables{"LP_NUM_THREADS",
                                                           "LP_NATIVE_VECTOR_WIDTH",
                                                           "GALLIVM_PERF",
@@ -34,7 +34,8 @@ std::string version_text(std::uint32_t version) {
                      VK_API_VERSION_PATCH(version));
 }
 
-// Lower-case letters, digits and dashes, for drivers without a short name of their own.
+// Converts the name of a driver without a known short name to lower-case letters, digits and
+// dashes.
 std::string slug(std::string_view text) {
   std::string result;
   for (const char each : text) {
@@ -72,15 +73,16 @@ std::string short_name(vk::DriverId driver, std::string_view driver_name) {
   return found != names.end() ? std::string(found->second) : slug(driver_name);
 }
 
-// Layered drivers, which forward all work to another driver. That driver determines the image as
-// much as they do.
+// Returns whether this is a layered driver, which forwards all work to another driver. The image
+// depends on both drivers.
 bool is_layered(vk::DriverId driver) {
   using enum vk::DriverId;
   return driver == eMesaVenus || driver == eMesaDozen || driver == eMoltenvk;
 }
 
-// The device below a layered driver, which is named in parentheses: "Virtio-GPU Venus (llvmpipe
-// (LLVM 15.0.6, 256 bits))", "Microsoft Direct3D12 (NVIDIA …)". For MoltenVK it is the whole name.
+// Returns the device below a layered driver. The name contains it in parentheses: "Virtio-GPU Venus
+// (llvmpipe (LLVM 15.0.6, 256 bits))", "Microsoft Direct3D12 (NVIDIA …)". For MoltenVK, it is the
+// whole name.
 std::string host_of(std::string_view device_name) {
   const std::size_t begin = device_name.find('(');
   const std::size_t end = device_name.rfind(')');
@@ -146,12 +148,13 @@ bool tells_driver(const vk::raii::PhysicalDevice& device, std::uint32_t api_vers
 }
 
 // The id of a device that only compiles contains the values of the environment variables that
-// selected it, except for the driver's folder, which does not change the generated code.
+// selected the device. The driver's folder is not part of the id, because it does not change the
+// generated code.
 void compile_only_for(const std::string& family, std::string_view driver, record::Device& info) {
   info.compiles_for = family;
   info.id = measure::compile_only_id("vulkan", driver, family);
   info.environment.clear();
-  info.limits.erase("timestampPeriod");  // a stub has no clock
+  info.limits.erase("timestampPeriod");  // a device without hardware has no clock
 }
 
 Candidate candidate(vk::raii::PhysicalDevice device) {
@@ -172,7 +175,8 @@ Candidate candidate(vk::raii::PhysicalDevice device) {
   }
   if (properties.apiVersion < VK_API_VERSION_1_1) {
     return {std::move(device), std::move(info),
-            fmt::format("Vulkan {}; 1.1 is needed", version_text(properties.apiVersion))};
+            fmt::format("supports only Vulkan {}, but 1.1 is needed",
+                        version_text(properties.apiVersion))};
   }
   if (tells_driver(device, properties.apiVersion)) {
     const auto driver =

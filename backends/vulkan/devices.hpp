@@ -12,11 +12,12 @@ namespace triptych::vulkan_backend {
 struct Candidate {
   vk::raii::PhysicalDevice physical;
   record::Device info;
-  std::string reason;  // the reason why it cannot be used; empty if it can
+  std::string reason;  // why the device cannot be used; empty if it can
 };
 
-// All physical devices in the order of the loader, with ids "vulkan:<driver>". If a driver lists
-// several devices, the second one is "#2", and so on. Throws core::ApiError.
+// Returns all physical devices in the loader's order, with ids of the form "vulkan:<driver>". If a
+// driver lists several devices, the id of the second one ends with "#2", and so on. Throws
+// core::ApiError.
 [[nodiscard]] std::vector<Candidate> candidates(std::vector<vk::raii::PhysicalDevice> devices);
 
 }  // namespace triptych::vulkan_backend

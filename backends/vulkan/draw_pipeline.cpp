@@ -5,7 +5,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-// Keeps the modules and constants to which the stages point.
+// Owns the shader modules and the constants to which the stages point.
 class Stages {
  public:
   Stages(const Gpu& gpu, const std::vector<DrawStage>& stages, const Specialization& constants)
@@ -44,7 +44,8 @@ vk::PipelineDepthStencilStateCreateInfo depth_state(std::optional<vk::CompareOp>
           .depthCompareOp = compare.value_or(vk::CompareOp::eAlways)};
 }
 
-// The complete key. Everything that is not part of the key is the same for every pipeline.
+// Returns the complete key. Every property that is not part of the key is the same for all
+// pipelines.
 std::string key_of(const DrawState& state, const Layout& layout, const Specialization& constants) {
   std::vector<std::string_view> codes;
   std::string text;

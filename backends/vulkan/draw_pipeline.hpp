@@ -1,6 +1,6 @@
 #pragma once
-// Graphics pipelines as the techniques need them: one viewport, a scissor that is set at draw time,
-// no face culling, one sample per pixel.
+// The graphics pipelines of the techniques: one viewport, a scissor that is set at draw time, no
+// face culling, one sample per pixel.
 
 #include <optional>
 #include <string_view>
@@ -22,13 +22,13 @@ struct DrawState {
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
   std::uint32_t patch_points = 1;  // control points of a patch, for ePatchList
   std::uint32_t colour_targets = 1;
-  std::optional<vk::CompareOp> depth;  // depth is tested and written if this is given
+  std::optional<vk::CompareOp> depth;  // if this is set, depth is tested and written
   vk::Extent3D extent;
-  std::vector<vk::Format> formats;  // formats of the attachments of the render pass, in its order
+  std::vector<vk::Format> formats;  // formats of the render pass attachments, in the same order
 };
 
-// All stages get the same specialization constants. The Gpu owns the pipeline (Pipelines); it is
-// created if there is none of this kind yet.
+// Returns a pipeline whose stages all have the same specialization constants. The Gpu owns the
+// pipeline (Pipelines) and creates it unless the same pipeline already exists.
 [[nodiscard]] vk::Pipeline draw_pipeline(const Gpu& gpu, const Layout& layout,
                                          const vk::raii::RenderPass& pass, const DrawState& state,
                                          const Specialization& constants);

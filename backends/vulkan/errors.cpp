@@ -8,7 +8,7 @@
 namespace triptych::vulkan_backend {
 
 void rethrow(const vk::SystemError& error, core::CodePlace place, const std::string& detail) {
-  // The errors of Vulkan-Hpp have the form "vk::Queue::submit: ErrorDeviceLost".
+  // Vulkan-Hpp's error messages have the form "vk::Queue::submit: ErrorDeviceLost".
   const std::string_view text = error.what();
   const std::string call(text.substr(0, text.find(": ")));
   const auto result = static_cast<vk::Result>(error.code().value());

@@ -7,12 +7,12 @@
 
 namespace triptych::vulkan_backend {
 
-// Throws core::DeviceLost or core::ApiError with the call and the code of `error`.
+// Throws core::DeviceLost or core::ApiError with the API call and the code of `error`.
 [[noreturn]] void rethrow(const vk::SystemError& error, core::CodePlace place,
                           const std::string& detail = {});
 
-// Runs `work` and converts Vulkan's errors to core::ApiError or core::DeviceLost. Every function of
-// the backend's interface is wrapped in it.
+// Runs `work`, and converts errors from Vulkan to core::ApiError or core::DeviceLost. Every
+// function of the backend's interface is wrapped in this function.
 template <class Work>
 decltype(auto) translated(Work&& work, core::CodePlace place = core::CodePlace::current()) {
   try {

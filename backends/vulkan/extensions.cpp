@@ -23,7 +23,7 @@ bool offers(const std::set<std::string, std::less<>>& offered,
   return std::ranges::all_of(wanted, [&](const char* name) { return offered.contains(name); });
 }
 
-// Each entry includes the extensions that it depends on in Vulkan 1.1.
+// Each list includes the extensions on which its first extension depends in Vulkan 1.1.
 constexpr std::array structure_names{
     VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
     VK_KHR_BUFFER_DEVICE_ADDRESS_EXTENSION_NAME, VK_EXT_DESCRIPTOR_INDEXING_EXTENSION_NAME};

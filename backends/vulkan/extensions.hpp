@@ -5,8 +5,8 @@
 
 namespace triptych::vulkan_backend {
 
-// The names and features of the extensions with which a device is opened, for techniques that need
-// more than Vulkan 1.1. The chain of features points into this object.
+// The names and features of the extensions to enable when a device is opened, for techniques that
+// need more than Vulkan 1.1. The feature chain points into this object.
 class ExtensionRequest {
  public:
   explicit ExtensionRequest(const vk::raii::PhysicalDevice& physical);
@@ -15,7 +15,8 @@ class ExtensionRequest {
 
   [[nodiscard]] const Extensions& extensions() const noexcept { return extensions_; }
   [[nodiscard]] const std::vector<const char*>& names() const noexcept { return names_; }
-  // For pNext of vk::DeviceCreateInfo; null if no extension is requested.
+  // Returns the feature chain for the pNext member of vk::DeviceCreateInfo; null if no extension is
+  // requested.
   [[nodiscard]] void* features() const noexcept { return chain_; }
 
  private:

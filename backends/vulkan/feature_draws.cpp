@@ -1,4 +1,4 @@
-// The feature probes that draw: points whose number decides their pixel.
+// The feature probes that draw points. The number of a point determines its pixel.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,8 @@ struct PointGrid {
   std::uint32_t height;
 };
 
-// Draws a point on each of the first `count` pixels, by commands that number them.
+// Draws a point on each of the first `count` pixels. `draw` records the commands that number the
+// points.
 template <class Draw>
 measure::ProbedFeature probe_points(const Gpu& gpu, PointGrid grid, std::uint32_t count,
                                     std::string size, const Draw& draw) {
@@ -98,7 +99,7 @@ measure::ProbedFeature probe_instances(const Gpu& gpu) {
                       });
 }
 
-// The indices are 1000 too large, and the draw adds a vertex offset of -1000.
+// Draws with indices that are 1000 too large and a vertex offset of -1000.
 measure::ProbedFeature probe_base_vertex(const Gpu& gpu) {
   constexpr std::uint32_t count = 100'000;
   constexpr std::int32_t base = -1000;

@@ -1,5 +1,5 @@
 #pragma once
-// The common parts of the feature probes.
+// What the feature probes have in common.
 
 #include <array>
 #include <cstdint>
@@ -23,7 +23,7 @@ struct NoConstants {
   std::int32_t unused = 0;
 };
 
-// A kernel without specialization constants whose last binding is the buffer of its results.
+// A kernel without specialization constants. Its last binding is the buffer for its results.
 class Kernel {
  public:
   Kernel(const Gpu& gpu, std::string_view shader, const std::vector<vk::DescriptorType>& bindings,
@@ -114,7 +114,7 @@ template <class Value>
   return values;
 }
 
-// Probes that draw (feature_draws.cpp).
+// The probes that draw (feature_draws.cpp).
 [[nodiscard]] measure::ProbedFeature probe_indirect_draws(const Gpu& gpu);
 [[nodiscard]] measure::ProbedFeature probe_instances(const Gpu& gpu);
 [[nodiscard]] measure::ProbedFeature probe_base_vertex(const Gpu& gpu);

@@ -46,7 +46,7 @@ ProbedFeature probe_push_constants(const Gpu& gpu) {
                         fmt::format("{} bytes", sizeof words));
 }
 
-// Copies words from anywhere in a buffer.
+// Reads words from any position in a buffer.
 Words read_words(const Gpu& gpu, const Buffer& from, vk::DeviceSize offset, std::size_t count) {
   const Buffer near(gpu, count * sizeof(std::uint32_t), storage_usage, Place::device);
   run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
@@ -72,8 +72,8 @@ std::uint64_t largest_allocation(const Gpu& gpu) {
   return std::min(gpu.most_allocated > 0 ? gpu.most_allocated : heap, heap);
 }
 
-// One buffer in which the same kernel writes at the beginning and beyond `offset`: an offset that
-// loses its upper bits would overwrite the beginning.
+// Runs the same kernel at the beginning of a buffer and at `offset`. If the driver dropped the
+// upper bits of the offset, the second run would overwrite the beginning.
 ProbedFeature probe_offset(const Gpu& gpu, std::uint64_t offset) {
   constexpr std::size_t count = 65536;
   constexpr std::uint64_t bytes = count * sizeof(std::uint32_t);
@@ -128,7 +128,7 @@ ProbedFeature probe_subgroups(const Gpu& gpu) {
           .get<vk::PhysicalDeviceSubgroupProperties>();
   if (!(subgroups.supportedOperations & vk::SubgroupFeatureFlagBits::eArithmetic) ||
       !(subgroups.supportedStages & vk::ShaderStageFlagBits::eCompute)) {
-    throw core::NotSupported("kernels have no arithmetic subgroup operations");
+    throw core::NotSupported("compute shaders do not support subgroup arithmetic");
   }
   constexpr std::uint32_t groups = 256;
   constexpr std::size_t count = std::size_t{64} * groups;
@@ -149,8 +149,7 @@ ProbedFeature probe_subgroups(const Gpu& gpu) {
   return judged_feature(right, count, fmt::format("subgroups of {}", subgroups.subgroupSize));
 }
 
-// ---- Images
-// ---------------------------------------------------------------------------------------
+// Images
 
 Image float_image(const Gpu& gpu, std::uint32_t width, std::uint32_t height,
                   const std::vector<float>& texels) {
@@ -176,7 +175,8 @@ float texel_value(std::uint32_t x, std::uint32_t y) {
   return 2.0F + static_cast<float>(x + image_edge * y);
 }
 
-// The texel along one axis for a coordinate outside of the image; `image_edge` for the border.
+// Returns the texel along one axis for coordinate `at`, which may lie outside of the image. Returns
+// `image_edge` for the border.
 std::uint32_t addressed(int at, vk::SamplerAddressMode mode) {
   constexpr int size = static_cast<int>(image_edge);
   if (mode == vk::SamplerAddressMode::eClampToBorder) {

@@ -6,7 +6,7 @@
 
 namespace triptych::vulkan_backend {
 
-// The probes, which refer to the Gpu.
+// Returns the feature probes. They keep a reference to the Gpu.
 [[nodiscard]] std::vector<measure::FeatureProbe> feature_probes(const Gpu& gpu);
 
 }  // namespace triptych::vulkan_backend

@@ -19,14 +19,14 @@ namespace {
 
 constexpr int edge = 8;  // voxels
 constexpr std::size_t places = 8192;
-constexpr std::uint32_t group_size = 64;  // the work-group size in filter_probe.comp
-using Sample = std::array<float, 4>;      // position in voxels, value
+constexpr std::uint32_t group_size = 64;  // as in filter_probe.comp
+using Sample = std::array<float, 4>;      // position in voxels, and the value sampled there
 
 vk::FormatFeatureFlags features(const Gpu& gpu, scene::VoxelFormat format) {
   return gpu.physical.getFormatProperties(texture_format(format)).optimalTilingFeatures;
 }
 
-// Each voxel has either the value 0 or the value 1 of the format's range.
+// Creates a volume whose voxels are either the lowest or the highest value of the format.
 scene::VoxelGrid random_voxels(scene::VoxelFormat format) {
   scene::VoxelGrid grid{.format = format, .size = {edge, edge, edge}};
   grid.data.resize(std::size_t{edge} * edge * edge * scene::bytes_of(format));
@@ -90,7 +90,7 @@ double trilinear(const scene::VoxelGrid& grid, const Sample& place) {
   return value;
 }
 
-// Fills in the values that the device samples.
+// Samples the volume on the device, and fills in the sampled values.
 void sample_on_device(const Gpu& gpu, const Image& volume, std::vector<Sample>& samples) {
   const auto bytes = std::as_writable_bytes(std::span(samples));
   using enum vk::DescriptorType;

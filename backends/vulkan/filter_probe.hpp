@@ -6,16 +6,17 @@
 
 namespace triptych::vulkan_backend {
 
-// Whether images of this format can be sampled with linear filtering.
+// Return whether the device can sample images of this format, or sample them with linear filtering.
 [[nodiscard]] bool can_sample(const Gpu& gpu, scene::VoxelFormat format);
 [[nodiscard]] bool can_filter(const Gpu& gpu, scene::VoxelFormat format);
 
-// The largest error of the device's trilinear filter at some thousand random positions among random
-// black and white voxels. It is compared with double precision and given as a share of the
-// difference of the voxels. Empty if the format cannot be filtered.
+// Returns the largest error of the device's trilinear filter, found at several thousand random
+// positions in a volume of random black and white voxels. The error is measured against double
+// precision, and is a fraction of the difference between black and white. Empty if the format
+// cannot be filtered.
 [[nodiscard]] std::optional<double> probe_filter(const Gpu& gpu, scene::VoxelFormat format);
 
-// technique::allowed_filter_error for the precision of the weights that the device reports.
+// Returns technique::allowed_filter_error for the weight precision that the device reports.
 [[nodiscard]] double allowed_filter_error(const Gpu& gpu, scene::VoxelFormat format);
 
 }  // namespace triptych::vulkan_backend

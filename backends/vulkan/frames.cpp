@@ -16,7 +16,7 @@ struct Statistic {
   std::string_view name;  // the name in record::Counts
 };
 
-// The statistics in the order of their bits, in which a query returns them.
+// The statistics in bit order, which is also the order in which a query returns them.
 constexpr std::array<Statistic, 11> statistics_in_order{{
     {vk::QueryPipelineStatisticFlagBits::eInputAssemblyVertices, "input_assembly_vertices"},
     {vk::QueryPipelineStatisticFlagBits::eInputAssemblyPrimitives, "input_assembly_primitives"},
@@ -34,8 +34,8 @@ constexpr std::array<Statistic, 11> statistics_in_order{{
 }};
 
 constexpr std::uint32_t timestamps = 2;
-// The device overwrites this value. A clock never reads it by chance, because the bits beyond the
-// width of a counter are 0.
+// The device overwrites this tick count. A clock never returns it by chance, because the bits
+// beyond the width of its counter are 0.
 constexpr std::uint64_t unwritten_ticks = 0xFEEDFACE0BADF00D;
 
 }  // namespace
@@ -56,8 +56,8 @@ void Frames::record_counters(const Recording& counting) {
 }
 
 Frames::Recorded Frames::record(const Recording& work, vk::QueryType type, bool queried) const {
-  // Commands that are never submitted are not recorded, and no query is created on a device that
-  // only compiles.
+  // On a device that only compiles, nothing is submitted, so no commands are recorded and no
+  // queries are created.
   if (!gpu_.executes) return {.commands = nullptr, .queries = nullptr};
   Recorded recorded{.commands = make_commands(gpu_), .queries = nullptr};
   const bool timing = type == vk::QueryType::eTimestamp;
@@ -113,8 +113,8 @@ std::optional<double> Frames::device_ns() const {
       sizeof ticks, ticks.data(), sizeof ticks[0],
       VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
   if (result != VK_SUCCESS) return std::nullopt;
-  // If the clock was not written, the time of the frame is NaN. The calibration of clocks reports
-  // such a clock.
+  // If the device did not write the timestamps, the frame time is NaN. The calibration of clocks
+  // reports such a clock.
   if (ticks[0] == unwritten_ticks || ticks[1] == unwritten_ticks) {
     return std::numeric_limits<double>::quiet_NaN();
   }
@@ -124,7 +124,8 @@ std::optional<double> Frames::device_ns() const {
   return static_cast<double>(elapsed) * static_cast<double>(gpu_.properties.limits.timestampPeriod);
 }
 
-// Read exactly once after each reset, because lavapipe adds to the value again at a second read.
+// Reads the query exactly once after each reset, because lavapipe adds the counts again at a second
+// read.
 record::Counts Frames::statistics() const {
   record::Counts counts;
   if (!statistic_flags_) return counts;

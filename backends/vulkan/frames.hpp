@@ -7,24 +7,24 @@
 
 namespace triptych::vulkan_backend {
 
-// The work of a technique, which is recorded once for each purpose and submitted repeatedly.
+// The commands of a technique, recorded once for each purpose and submitted repeatedly.
 class Frames {
  public:
-  // `statistics` are the pipeline statistics that are meaningful for this kind of work. The
-  // constructor makes both recordings.
+  // `statistics` are the pipeline statistics that are meaningful for this kind of work. Records the
+  // commands of `timed` twice: for timing and for the driver's statistics.
   Frames(const Gpu& gpu, vk::QueryPipelineStatisticFlags statistics, const Recording& timed);
 
   [[nodiscard]] bool can_count() const noexcept { return counters_.has_value(); }
   void record_counters(const Recording& counting);
 
-  // Submits the recording for this purpose and fills in times and statistics. The caller reads the
-  // counters, which its counting build has written.
+  // Submits the commands for this purpose, and fills in times and statistics. The caller reads the
+  // counters that the counting build has written.
   [[nodiscard]] measure::Frame submit(measure::Purpose purpose) const;
 
  private:
   struct Recorded {
     vk::raii::CommandBuffer commands;
-    vk::raii::QueryPool queries;  // null if nothing is queried
+    vk::raii::QueryPool queries;  // null if there is nothing to query
   };
   [[nodiscard]] Recorded record(const Recording& work, vk::QueryType type, bool queried) const;
   [[nodiscard]] std::optional<double> device_ns() const;

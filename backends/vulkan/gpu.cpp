@@ -16,7 +16,8 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-// The first family that computes and, if there is one, draws as well.
+// Returns the first queue family that supports compute and graphics or, if there is none, the first
+// that supports compute.
 std::uint32_t choose_family(const std::vector<vk::QueueFamilyProperties>& families,
                             const char* device_name) {
   constexpr auto both = vk::QueueFlagBits::eCompute | vk::QueueFlagBits::eGraphics;
@@ -29,8 +30,8 @@ std::uint32_t choose_family(const std::vector<vk::QueueFamilyProperties>& famili
   throw core::NotSupported(fmt::format("{} has no compute queue", device_name));
 }
 
-// Whether the driver reports its compiled code. The feature must be queried as well, because a
-// driver may list the extension and not have the feature.
+// Returns whether the driver reports its compiled code. This queries the feature in addition to the
+// extension, because a driver may list the extension without supporting the feature.
 bool reports_code(const vk::raii::PhysicalDevice& physical) {
   const auto extensions = physical.enumerateDeviceExtensionProperties();
   const bool listed = std::ranges::any_of(extensions, [](const vk::ExtensionProperties& each) {
@@ -44,8 +45,8 @@ bool reports_code(const vk::raii::PhysicalDevice& physical) {
              .pipelineExecutableInfo == VK_TRUE;
 }
 
-// A GPU that is not present has heaps of 0 bytes. They are given a size, so that its pipelines can
-// be compiled. Nothing is ever written to the heaps.
+// The memory heaps of a GPU that is not present have 0 bytes. They are given a size, so that
+// pipelines can be compiled for it. Nothing is ever written to these heaps.
 vk::PhysicalDeviceMemoryProperties memory_of(const vk::raii::PhysicalDevice& physical,
                                              bool executes) {
   vk::PhysicalDeviceMemoryProperties memory = physical.getMemoryProperties();

@@ -22,7 +22,7 @@ constexpr std::uint32_t box_texels_binding = 13;
 constexpr std::uint32_t tree_sphere_texels_binding = 14;
 constexpr std::uint32_t tree_order_texels_binding = 15;
 
-// The order is that of `build_passes`.
+// The passes that build the hierarchy, in the same order as `build_passes`.
 enum class BuildPass : std::uint8_t { keys, count, rows, totals, scatter, leaves, level };
 constexpr std::array<std::string_view, 7> build_passes{
     "hierarchy_keys.comp.spv",    "hierarchy_count.comp.spv",   "hierarchy_rows.comp.spv",
@@ -103,7 +103,7 @@ class HierarchyTracer final : public Tracer {
   std::vector<vk::Pipeline> build_;
   vk::Pipeline timed_;
   vk::Pipeline counting_;
-  std::uint32_t rounds_ = 1;  // dispatches are repeated until every beam has ended
+  std::uint32_t rounds_ = 1;  // number of dispatches after which every beam has ended
 };
 
 std::vector<vk::DescriptorSetLayoutBinding> HierarchyTracer::bindings() const {
@@ -167,7 +167,7 @@ void HierarchyTracer::fit(const vk::raii::CommandBuffer& commands, const Layout&
   }
 }
 
-// Sends every stride-th beam.
+// Traces every stride-th beam.
 void HierarchyTracer::send(const vk::raii::CommandBuffer& commands, const Layout& layout,
                            vk::Pipeline pipeline, std::uint32_t stride, std::uint32_t flags) const {
   run(commands, layout, pipeline, (grid_.beams() + stride - 1) / stride,
@@ -183,7 +183,7 @@ bool HierarchyTracer::all_ended() const {
   return true;
 }
 
-// The camera does not move, so every frame needs as many dispatches as the first one.
+// The camera does not move, so every frame needs as many dispatches as the first frame.
 void HierarchyTracer::prepare(const Layout& layout, vk::DescriptorSet set) {
   for (const std::string_view pass : build_passes) {
     build_.push_back(compute_pipeline(gpu_, layout, spirv(pass), constants_));

@@ -1,6 +1,6 @@
 #pragma once
-// The hierarchy of technique/particles/hierarchy.glsl, which compute passes build, and one pass
-// traverses.
+// The hierarchy of technique/particles/hierarchy.glsl. Several compute passes build it, and one
+// pass traverses it.
 
 #include <memory>
 

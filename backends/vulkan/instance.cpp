@@ -23,7 +23,7 @@ vk::raii::Context load() {
     return vk::raii::Context();
   } catch (const vk::SystemError&) {
     throw;
-  } catch (const std::runtime_error& error) {  // thrown by Vulkan-Hpp if dlopen fails
+  } catch (const std::runtime_error& error) {  // Vulkan-Hpp throws this if dlopen fails
     throw core::ApiError("dlopen(libvulkan)", "not found", error.what());
   }
 }

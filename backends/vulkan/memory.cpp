@@ -21,12 +21,14 @@ vk::DeviceSize heap_size(const Gpu& gpu, std::uint32_t type) {
   return gpu.memory.memoryHeaps[gpu.memory.memoryTypes[type].heapIndex].size;
 }
 
-// Never uses a heap that is too small, such as one of 0 bytes, whatever its flags are.
+// Chooses a memory type. Never uses a heap that is too small, such as a heap of 0 bytes, whatever
+// its flags are.
 std::uint32_t memory_type(const Gpu& gpu, const vk::MemoryRequirements& needed, Place place) {
   if (!gpu.executes) return 0;  // without a GPU, RADV lists no memory types and uses the first
   using enum vk::MemoryPropertyFlagBits;
   const vk::MemoryPropertyFlags host = eHostVisible | eHostCoherent;
-  // The types in order of preference. The specification guarantees the last one of each.
+  // The property flags in order of preference. The specification guarantees that a type with the
+  // last flags exists.
   std::array<vk::MemoryPropertyFlags, 2> wishes{};
   if (place == Place::device) wishes = {eDeviceLocal, {}};
   if (place == Place::upload) wishes = {host, host};
@@ -55,7 +57,7 @@ vk::raii::DeviceMemory allocate(const Gpu& gpu, const vk::MemoryRequirements& ne
                                                .allocationSize = needed.size,
                                                .memoryTypeIndex = type}};
   } catch (const vk::SystemError& error) {
-    // Larger allocations may succeed, but a device need not allow them.
+    // Larger allocations may succeed, but devices may refuse them.
     if (needed.size > gpu.most_allocated) {
       throw core::NotSupported(
           fmt::format("needs {} bytes in one allocation, which the device refused; "
@@ -70,14 +72,14 @@ vk::raii::DeviceMemory allocate(const Gpu& gpu, const vk::MemoryRequirements& ne
 
 constexpr std::uint32_t unwritten = measure::poison_word;
 
-// A buffer for `size` bytes from the device.
+// Creates a buffer that receives `size` bytes from the device.
 Buffer read_back_buffer(const Gpu& gpu, std::size_t size) {
   Buffer buffer(gpu, size, vk::BufferUsageFlagBits::eTransferDst, Place::read_back);
   std::memset(buffer.mapped().data(), static_cast<int>(unwritten & 0xFFU), size);
   return buffer;
 }
 
-// Makes transfer writes visible to the host after the fence of the submission is signalled.
+// Makes transfer writes visible to the host as soon as the fence of the submission is signalled.
 void release_to_host(const vk::raii::CommandBuffer& commands) {
   const vk::MemoryBarrier barrier{.srcAccessMask = vk::AccessFlagBits::eTransferWrite,
                                   .dstAccessMask = vk::AccessFlagBits::eHostRead};
@@ -130,7 +132,8 @@ Image::Image(const Gpu& gpu, vk::ImageType type, vk::Format format, vk::Extent3D
       memory_(nullptr),
       image_(translated(
           [&] {
-            // RADV of Mesa 22.3 crashes in vkCreateImage without a GPU. No pipeline needs one.
+            // RADV of Mesa 22.3 crashes in vkCreateImage if there is no GPU. Compiling pipelines
+            // needs no image.
             if (!gpu.executes) return vk::raii::Image(nullptr);
             return vk::raii::Image(gpu.device, vk::ImageCreateInfo{.imageType = type,
                                                                    .format = format,
@@ -148,7 +151,7 @@ Image::Image(const Gpu& gpu, vk::ImageType type, vk::Format format, vk::Extent3D
   name_object(gpu, vk::ObjectType::eImage,
               reinterpret_cast<std::uint64_t>(static_cast<VkImage>(*image_)), "image", code_place);
   image_.bindMemory(*memory_, 0);
-  // The three image types and their plain view types have the same numbers.
+  // The enumerators of the three image types and of their plain view types have the same values.
   view_ = {gpu.device, vk::ImageViewCreateInfo{.image = *image_,
                                                .viewType = static_cast<vk::ImageViewType>(type),
                                                .format = format,

@@ -1,4 +1,4 @@
-// Ray-aligned quads, made by mesh shaders for the cells that task shaders do not cull
+// Draws ray-aligned quads. Mesh shaders generate them for the cells that task shaders do not cull
 // (technique/particles/mesh.task.glsl, mesh.mesh.glsl).
 #include <fmt/format.h>
 
@@ -9,7 +9,8 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-constexpr std::uint32_t mesh_vertices = 128;  // the sizes of a mesh group in mesh.mesh.glsl
+// the sizes of a mesh work group, as in mesh.mesh.glsl
+constexpr std::uint32_t mesh_vertices = 128;
 constexpr std::uint32_t mesh_primitives = 64;
 constexpr std::uint32_t mesh_invocations = 32;
 constexpr std::uint32_t cells_per_task_group = 32;
@@ -45,11 +46,11 @@ void check_mesh_limits(const Gpu& gpu, std::size_t cells) {
   const Extensions& has = gpu.extensions;
   if (has.mesh_vertices < mesh_vertices || has.mesh_primitives < mesh_primitives ||
       has.mesh_invocations < mesh_invocations) {
-    throw core::NotSupported(
-        fmt::format("a mesh group makes {} vertices and {} primitives with {} invocations, but the "
-                    "device supports {}, {} and {}",
-                    mesh_vertices, mesh_primitives, mesh_invocations, has.mesh_vertices,
-                    has.mesh_primitives, has.mesh_invocations));
+    throw core::NotSupported(fmt::format(
+        "a mesh work group generates {} vertices and {} primitives with {} invocations, but the "
+        "device supports {}, {} and {}",
+        mesh_vertices, mesh_primitives, mesh_invocations, has.mesh_vertices, has.mesh_primitives,
+        has.mesh_invocations));
   }
   const std::size_t groups = (cells + cells_per_task_group - 1) / cells_per_task_group;
   if (groups > has.task_groups) {

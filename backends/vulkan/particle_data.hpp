@@ -1,5 +1,5 @@
 #pragma once
-// The data that every particle technique needs on the device: the arrangement, its parameters and
+// The data that every particle technique needs on the device: the arrangement, the parameters and
 // the counters.
 
 #include <cstdint>
@@ -26,32 +26,33 @@ enum ParticleBinding : std::uint32_t {
   first_free_binding = 7  // a technique's own bindings begin here
 };
 
-// Specialization constants in the order of their numbers in shaders/particle_prelude.glsl.
+// The specialization constants, in the order of their ids in shaders/particle_prelude.glsl.
 struct ParticleConstants {
   std::int32_t colour = 0;
   std::int32_t transfer_at_pixel = 0;
   std::int32_t ray_at_vertex = 0;
   std::int32_t fault = 0;
-  float largest_point = 1;  // pixels
+  float largest_point = 1;  // in pixels
   float point_margin = 0;
   float sprite_growth = 0;
 };
 [[nodiscard]] ParticleConstants particle_constants(const Gpu& gpu,
                                                    const measure::ParticleWork& work);
 
-// The number of pixels to add to the size of a point on this device.
+// Returns the number of pixels by which points must be enlarged on this device.
 [[nodiscard]] float point_margin(const Gpu& gpu);
-// The largest square that a point can replace. With the margin, it is the largest point.
+// Returns the size of the largest square that a point can replace. That square plus the margin is
+// the largest point.
 [[nodiscard]] float largest_point(const Gpu& gpu);
 
-// The format of a particle's colour for the vertex fetch.
+// Returns the vertex attribute format of a particle's colour.
 [[nodiscard]] vk::Format colour_format(scene::ColourKind kind);
 [[nodiscard]] std::uint32_t colour_bytes(scene::ColourKind kind);
 
-// How shaders read particles: as attributes of vertices, or from storage buffers.
+// How shaders read particles: as vertex attributes, or from storage buffers.
 enum class Fetch : std::uint8_t { attributes, by_index };
 
-// Buffers in device memory. They do not refer to data of the host.
+// Buffers in device memory. They do not refer to host memory.
 class ParticleData {
  public:
   ParticleData(const Gpu& gpu, const measure::ParticleWork& work,
@@ -63,16 +64,16 @@ class ParticleData {
   [[nodiscard]] const Buffer& colours() const noexcept { return colours_; }
   [[nodiscard]] const Buffer& ids() const noexcept { return ids_; }
 
-  // Binds everything below first_free_binding. The particles are bound only if they are fetched by
+  // Binds all bindings below first_free_binding. Particles are bound only if they are fetched by
   // index, because a vertex buffer may be larger than a storage buffer.
   void bind(vk::DescriptorSet set, Fetch fetch) const;
 
-  // From now on, frames are seen from the camera of this scene.
+  // From now on, draws frames with the camera of this scene.
   void look_from(const measure::ParticleWork& work) const;
 
   void poison_counters() const;
   void clear_counters(const vk::raii::CommandBuffer& commands) const;
-  // The results of a counting frame, which the device must have finished.
+  // Returns the counts of a counting frame. The device must have finished that frame.
   [[nodiscard]] record::Counts counts(technique::Method method, technique::Culling culling,
                                       const core::Image& picture) const;
 
@@ -89,7 +90,7 @@ class ParticleData {
   Buffer cell_boxes_;
 };
 
-// The bindings that ParticleData::bind writes.
+// Returns the bindings that ParticleData::bind writes.
 [[nodiscard]] std::vector<vk::DescriptorSetLayoutBinding> particle_bindings();
 [[nodiscard]] vk::DescriptorSetLayoutBinding storage_binding(std::uint32_t number,
                                                              vk::ShaderStageFlags stages);

@@ -20,7 +20,8 @@ std::uint64_t particle_bytes(const scene::ParticleSet& set) {
 
 std::optional<std::string> storage_reason(const Gpu& gpu, const scene::ParticleSet& set,
                                           const technique::Technique& drawn) {
-  constexpr std::uint32_t buffers = 12;  // the largest number that a technique binds
+  // the largest number of storage buffers that a technique binds
+  constexpr std::uint32_t buffers = 12;
   const vk::PhysicalDeviceLimits& limits = gpu.properties.limits;
   if (limits.maxPerStageDescriptorStorageBuffers < buffers) {
     return fmt::format("needs {} storage buffers; maxPerStageDescriptorStorageBuffers = {}",
@@ -34,7 +35,8 @@ std::optional<std::string> storage_reason(const Gpu& gpu, const scene::ParticleS
   return std::nullopt;
 }
 
-// The longest of the outline's four edges has a quarter of the corners, rounded up.
+// The corners are distributed over the four edges of the patch outline. The longest edge gets a
+// quarter of them, rounded up.
 std::optional<std::string> corners_reason(const Gpu& gpu, int corners) {
   const std::uint32_t most = 4 * gpu.properties.limits.maxTessellationGenerationLevel;
   if (static_cast<std::uint32_t>(corners) <= most) return std::nullopt;
@@ -48,7 +50,7 @@ std::optional<std::string> feature_reason(const Gpu& gpu, Needs needs) {
   if (needs == Needs::nothing) return std::nullopt;
   if (!gpu.draws) return "the device has no graphics queue";
   if (gpu.features.fragmentStoresAndAtomics == VK_FALSE) {
-    return "the device lacks fragmentStoresAndAtomics, which counting needs";
+    return "the device lacks fragmentStoresAndAtomics, which counting requires";
   }
   if (needs == Needs::geometry && gpu.features.geometryShader == VK_FALSE) {
     return "the device lacks geometryShader";
@@ -96,7 +98,7 @@ std::optional<std::string> memory_reason(const Gpu& gpu, std::uint64_t needed) {
     const vk::MemoryHeap& each = gpu.memory.memoryHeaps[heap];
     if (each.flags & vk::MemoryHeapFlagBits::eDeviceLocal) largest = std::max(largest, each.size);
   }
-  // If all heaps that are marked as device-local are empty, the other heaps are used.
+  // If all heaps that are marked as device-local are empty, uses the other heaps.
   for (std::uint32_t heap = 0; heap < gpu.memory.memoryHeapCount && largest == 0; ++heap) {
     largest = gpu.memory.memoryHeaps[heap].size;
   }
@@ -117,7 +119,7 @@ std::optional<std::string> particle_reason(const Gpu& gpu, const measure::Partic
     if (auto reason = corners_reason(gpu, work.options.corners)) return reason;
   }
   if (needs != Needs::nothing && gpu.features.vertexPipelineStoresAndAtomics == VK_FALSE) {
-    return "the device lacks vertexPipelineStoresAndAtomics, which counting needs";
+    return "the device lacks vertexPipelineStoresAndAtomics, which counting requires";
   }
   if (auto reason = ParticleTarget::format_reason(gpu)) return reason;
   if (work.options.culling != technique::Culling::none) {

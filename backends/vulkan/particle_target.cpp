@@ -125,8 +125,8 @@ void ParticleTarget::begin(const vk::raii::CommandBuffer& commands, bool continu
   commands.setScissor(0, everything);
 }
 
-// A frame never leaves this depth in any pixel: it clears the depth to another value and then draws
-// its own depths.
+// Fills the depth buffer with a value that no frame leaves in any pixel: a frame clears the depth
+// to another value and then draws its own depths.
 void ParticleTarget::poison(const Gpu& gpu) const {
   constexpr float none = std::numeric_limits<float>::quiet_NaN();
   const std::array<vk::ClearValue, 3> values{

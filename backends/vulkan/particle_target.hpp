@@ -10,36 +10,38 @@
 
 namespace triptych::vulkan_backend {
 
-// Depth is reversed: the nearest surface has the greatest value. Of two equal depths, the one drawn
-// first is kept.
+// Returns the depth test. Depth is reversed: the nearest surface has the greatest value. If two
+// depths are equal, the sphere drawn first wins.
 [[nodiscard]] vk::CompareOp depth_compare(technique::ParticleFault fault);
 
-// Converts depth as it was drawn, near/Z, into the distance along the view axis; +inf if there is
-// no particle.
+// Converts drawn depths, which are near/Z, to distances along the view axis; +inf if there is no
+// particle.
 void resolve_depth(core::Image& image, double near);
 
-// The target for drawing sprites: colour, ids and reversed depth.
+// The render target for sprites: colour, ids and reversed depth.
 class ParticleTarget {
  public:
-  // `cleared_depth`: 0, which is the farthest depth, or 1 if the pass keeps the farthest depth.
+  // `cleared_depth` is 0, the farthest depth, or 1 if the depth test keeps the farthest depth.
   ParticleTarget(const Gpu& gpu, const scene::ParticleScene& scene, float cleared_depth);
 
   [[nodiscard]] vk::Extent3D extent() const noexcept { return colour_.extent(); }
   [[nodiscard]] const Image& depth() const noexcept { return depth_; }
-  // Pipelines that were made for one of the two passes can be used with the other.
+  // Pipelines that were created for one of the two passes can also be used in the other.
   [[nodiscard]] const vk::raii::RenderPass& pass() const noexcept { return clearing_; }
 
-  // Leaves all three attachments ready to be copied from. A continued pass keeps their contents.
+  // Begins a pass, which leaves all three attachments ready to be copied from. A continued pass
+  // keeps their contents.
   void begin(const vk::raii::CommandBuffer& commands, bool continued) const;
 
-  // Overwrites every attachment: colour with NaN.
+  // Overwrites every attachment; colour becomes NaN.
   void poison(const Gpu& gpu) const;
   [[nodiscard]] core::Image read(const Gpu& gpu) const;
 
   static constexpr std::uint32_t colour_targets = 2;
-  // The formats of the attachments of the passes.
+  // Returns the formats of the attachments of the passes.
   [[nodiscard]] static std::vector<vk::Format> formats();
-  // The reason why the device cannot draw to it. Only the depth format is optional in Vulkan.
+  // Returns the reason why the device cannot draw to the target. Only the depth format is optional
+  // in Vulkan.
   [[nodiscard]] static std::optional<std::string> format_reason(const Gpu& gpu);
 
  private:

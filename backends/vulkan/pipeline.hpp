@@ -1,5 +1,5 @@
 #pragma once
-// Device code: SPIR-V that is built with the program and specialised when a technique is prepared.
+// Device code: SPIR-V that is embedded in the program and specialised when a technique is prepared.
 
 #include <array>
 #include <bit>
@@ -15,10 +15,10 @@
 
 namespace triptych::vulkan_backend {
 
-// Specialization constants: word n has constant_id n.
+// Specialization constants. Word n has the constant_id n.
 class Specialization {
  public:
-  // Constants from a structure of four-byte scalars.
+  // Reads the constants from a structure of four-byte scalars.
   template <class Constants>
   explicit Specialization(const Constants& constants) {
     const auto words =
@@ -29,7 +29,7 @@ class Specialization {
       entries_.push_back({.constantID = i, .offset = 4 * i, .size = 4});
     }
   }
-  // Valid as long as this object exists.
+  // The result is valid as long as this object exists.
   [[nodiscard]] vk::SpecializationInfo info() const;
   [[nodiscard]] std::span<const std::int32_t> words() const noexcept { return words_; }
 
@@ -38,7 +38,7 @@ class Specialization {
   std::vector<vk::SpecializationMapEntry> entries_;
 };
 
-// The constants of the volume techniques, in the order of their numbers in shaders/prelude.glsl.
+// The constants of the volume techniques, in the order of their ids in shaders/prelude.glsl.
 struct Constants {
   std::int32_t manual_sampler = 1;
   std::int32_t shading = 0;
@@ -52,14 +52,15 @@ struct Constants {
 };
 static_assert(sizeof(Constants) == 9 * 4);
 
-// The embedded SPIR-V, by the name of its file: "raycast.comp.spv".
+// Returns the embedded SPIR-V with this file name, such as "raycast.comp.spv".
 [[nodiscard]] std::string_view spirv(std::string_view name);
-// Returns the name of its file without the ending: "raycast.comp".
+// Returns the file name of the shader without its ".spv" extension: "raycast.comp".
 [[nodiscard]] std::string shader_name(std::string_view code);
-// A module, from the bytes of a SPIR-V file.
+// Creates a module from the contents of a SPIR-V file.
 [[nodiscard]] vk::raii::ShaderModule make_shader(const Gpu& gpu, std::string_view code);
 
-// The Gpu owns the pipeline (Pipelines); it is created if there is none of this kind yet.
+// Returns the pipeline for this code. The Gpu owns the pipeline (Pipelines) and creates it unless
+// the same pipeline already exists.
 [[nodiscard]] vk::Pipeline compute_pipeline(const Gpu& gpu, const Layout& layout,
                                             std::string_view code, const Specialization& constants);
 [[nodiscard]] inline vk::Pipeline compute_pipeline(const Gpu& gpu, const Layout& layout,
@@ -68,12 +69,12 @@ static_assert(sizeof(Constants) == 9 * 4);
   return compute_pipeline(gpu, layout, code, Specialization(constants));
 }
 
-// If device code is to be dumped, writes the SPIR-V of one stage with its constants and the time
-// for creating its pipeline, which began at `begin`.
+// If a dump was requested, writes the SPIR-V of one stage with its constants and the time that it
+// took to create its pipeline, which began at `begin`.
 void dump_shader(vk::ShaderStageFlagBits stage, std::string_view code,
                  const Specialization& constants, std::chrono::steady_clock::time_point begin);
 
-// The content hash of the SPIR-V and the constants.
+// Returns the content hash of the SPIR-V and the constants.
 [[nodiscard]] std::string code_hash(std::string_view code, const Constants& constants);
 [[nodiscard]] std::string code_hash(std::span<const std::string_view> codes,
                                     const Specialization& constants);

@@ -33,14 +33,15 @@ std::map<std::string, double> statistics_of(const Gpu& gpu,
   return statistics;
 }
 
-// Drivers also return their intermediate languages. The disassembly comes last and has that name.
+// Drivers also return intermediate languages. The disassembly comes last, and its name says so.
 bool is_disassembly(const vk::PipelineExecutableInternalRepresentationKHR& each) {
   const std::string_view name = each.name.data();
   return each.isText == VK_TRUE && (name.find("ssembly") != std::string_view::npos ||
                                     name.find("SASS") != std::string_view::npos);
 }
 
-// Called twice: for the sizes, then for the texts. Vulkan-Hpp does only the first.
+// The function is called twice: for the sizes, then for the contents. Vulkan-Hpp makes only the
+// first call.
 std::string assembly_of(const Gpu& gpu, const vk::PipelineExecutableInfoKHR& which) {
   auto representations = gpu.device.getPipelineExecutableInternalRepresentationsKHR(which);
   std::vector<std::string> texts(representations.size());
@@ -63,8 +64,8 @@ std::string assembly_of(const Gpu& gpu, const vk::PipelineExecutableInfoKHR& whi
   return assembly;
 }
 
-// The shaders in an executable: drivers merge stages, and the first of the executables is then that
-// of the whole pipeline.
+// Returns the names of the shaders in an executable. If a driver merges stages, its first
+// executable represents the whole pipeline.
 std::string name_of(const Pipelines::Captured& captured,
                     const vk::PipelineExecutablePropertiesKHR& executable) {
   std::string name;

@@ -1,5 +1,5 @@
 #pragma once
-// Reads a driver's report about pipelines (VK_KHR_pipeline_executable_properties).
+// Reads what a driver reports about compiled pipelines (VK_KHR_pipeline_executable_properties).
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace triptych::vulkan_backend {
 
-// The pipelines must have been created during a capture. Throws vk::SystemError, and
+// Returns the code of pipelines that were created during a capture. Throws vk::SystemError, and
 // core::NotSupported if the driver reports nothing about any of them.
 [[nodiscard]] measure::Compiled code_of(const Gpu& gpu,
                                         const std::vector<Pipelines::Captured>& pipelines);

@@ -9,7 +9,7 @@ vk::Pipeline Pipelines::get(const std::string& key, const StageNames& stages, co
   const vk::PipelineCreateFlags flags =
       captures_ ? eCaptureStatisticsKHR | eCaptureInternalRepresentationsKHR
                 : vk::PipelineCreateFlags{};
-  // A pipeline that was made without the flags reports nothing.
+  // Drivers report nothing about a pipeline that was created without the flags.
   const std::string full_key = captures_ ? "captured; " + key : key;
   auto made = made_.find(full_key);
   if (made == made_.end()) made = made_.emplace(full_key, make(flags)).first;

@@ -9,20 +9,20 @@
 
 namespace triptych::vulkan_backend {
 
-// The name of each shader of a pipeline, by its stage: "sphere.frag" for a fragment shader.
+// The shader names of a pipeline by stage, such as "sphere.frag" for the fragment shader.
 using StageNames = std::vector<std::pair<vk::ShaderStageFlagBits, std::string>>;
 
-// The pipelines of an open device. Each is built once for all work that is prepared on the device.
-// A VkPipelineCache would leave that decision to the driver, and lavapipe stores nothing in one, so
-// that building pipelines would take most of the time of a short frame.
+// The pipelines of an open device. Each pipeline is built once, and is used for all work that is
+// prepared on the device. With a VkPipelineCache, the driver would decide what to cache. lavapipe
+// caches nothing, so building pipelines would take most of the time of a short frame.
 class Pipelines {
  public:
-  // Builds a pipeline with these flags.
+  // Builds a pipeline with the given flags.
   using Make = std::function<vk::raii::Pipeline(vk::PipelineCreateFlags)>;
 
-  // The pipeline that was made for this key before; otherwise the result of `make`, which then
-  // lives as long as the device. The key must contain all properties of the pipeline, including its
-  // layout: a pipeline can be used with every layout that has the same definition.
+  // Returns the pipeline that was created earlier for this key, or otherwise the result of `make`,
+  // which then exists as long as the device. The key must contain all properties of the pipeline,
+  // including its layout. A pipeline can be used with every layout that has the same definition.
   [[nodiscard]] vk::Pipeline get(const std::string& key, const StageNames& stages,
                                  const Make& make);
 
@@ -31,10 +31,10 @@ class Pipelines {
     vk::Pipeline pipeline;
     bool operator==(const Captured&) const = default;
   };
-  // From now on, pipelines are created so that the driver reports their compiled code, and every
-  // requested pipeline is recorded once.
+  // From now on, creates pipelines so that the driver reports their compiled code, and records
+  // every requested pipeline once.
   void start_capture();
-  // Ends this, and returns the recorded pipelines in the order of the requests.
+  // Ends the capture, and returns the recorded pipelines in the order in which they were requested.
   [[nodiscard]] std::vector<Captured> end_capture();
 
  private:

@@ -1,5 +1,5 @@
-// Point sprites. Spheres that are larger than the device's largest point are drawn as
-// screen-aligned quads in a second draw.
+// Draws point sprites. A second draw draws the spheres that exceed the device's largest point as
+// screen-aligned quads.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,11 +13,11 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-// Whether a sphere may need a larger point than `largest` pixels. Its silhouette extends by the
-// angle α = asin(r/d) around its centre at the angle φ from the view axis. On the image plane, an
-// interval from φ − α to φ + α has the width tan(φ+α) − tan(φ−α) = sin 2α/(cos(φ+α)·cos(φ−α)). A
-// pixel covers an angle of at least its size on the image plane times the squared cosine of its
-// angle to the view axis.
+// Returns whether a sphere may need a point that is larger than `largest` pixels. Its silhouette
+// extends by the angle α = asin(r/d) around its centre, which is at the angle φ from the view axis.
+// On the image plane, the interval from φ − α to φ + α has the width
+// tan(φ+α) − tan(φ−α) = sin 2α/(cos(φ+α)·cos(φ−α)). A pixel covers an angle of at least its size on
+// the image plane times the squared cosine of its angle from the view axis.
 bool may_be_large(const scene::ParticleScene& scene, const std::array<float, 4>& sphere,
                   double largest) {
   const scene::Camera& camera = scene.camera;
@@ -32,12 +32,12 @@ bool may_be_large(const scene::ParticleScene& scene, const std::array<float, 4>&
   if (phi - alpha > corner + 0.01) return false;  // outside the view
   const double far = std::cos(phi + alpha);
   const double wide = std::sin(2 * alpha) / (far * std::cos(phi - alpha));
-  constexpr double safety = 0.98;  // allows for margins and for rounding to float
+  constexpr double safety = 0.98;  // allows for margins and for round-off in floats
   return phi + alpha > 1.5 || wide / pixel > safety * largest - 1;
 }
 
-// Runs of particles that contain all large ones. Runs that are close to each other are joined,
-// because a draw costs more than some vertices.
+// Returns runs of particles that contain all large ones. Runs that are close to each other are
+// joined, because a draw call costs more than a few vertices.
 std::vector<ParticleRun> large_runs(const scene::ParticleScene& scene,
                                     const technique::Arrangement& arrangement, double largest) {
   std::vector<ParticleRun> runs;

@@ -1,5 +1,5 @@
-// Ray-aligned polygons with 4 to 16 corners, depending on the projected radius; made by
-// tessellation.
+// Draws ray-aligned polygons with 4 to 16 corners, depending on the projected radius. A
+// tessellation shader generates them.
 #include "backends/vulkan/sprite_frames.hpp"
 #include "backends/vulkan/techniques.hpp"
 

@@ -1,4 +1,5 @@
-// Ray-aligned quads that the vertex shader makes from storage buffers, one instance each.
+// Draws ray-aligned quads, one instance per particle. The vertex shader computes the corners from
+// storage buffers.
 #include "backends/vulkan/sprite_frames.hpp"
 #include "backends/vulkan/techniques.hpp"
 

@@ -23,7 +23,7 @@ constexpr std::array<RayStage, 5> ray_stages{
      {eAnyHitKHR, "ray_pipeline.rahit.spv", "ray_pipeline_counting.rahit.spv"},
      {eClosestHitKHR, "ray_pipeline.rchit.spv", "ray_pipeline_counting.rchit.spv"}}};
 
-// The groups of the pipeline, each with one record in the shader binding table.
+// The shader groups of the pipeline. Each has one record in the shader binding table.
 enum RayGroup : std::uint8_t { raygen_group, miss_group, hit_group, ray_groups };
 
 vk::raii::Pipeline make_ray_pipeline(const Gpu& gpu, const Layout& layout,
@@ -65,8 +65,8 @@ vk::raii::Pipeline make_ray_pipeline(const Gpu& gpu, const Layout& layout,
               .layout = *layout.pipeline}};
 }
 
-// A pipeline with its shader binding table. The table has one record per group, each at the
-// alignment that the device requires.
+// A pipeline with its shader binding table. The table has one record per group, with the alignment
+// that the device requires.
 class RayPipeline {
  public:
   RayPipeline(const Gpu& gpu, const Layout& layout, const Specialization& constants, bool counting)
@@ -120,7 +120,7 @@ class RayPipelineTracer final : public StructureTracer {
   [[nodiscard]] vk::ShaderStageFlags stages() const override {
     return eCompute | eRaygenKHR | eIntersectionKHR | eAnyHitKHR | eClosestHitKHR | eMissKHR;
   }
-  // No statistic counts rays.
+  // No pipeline statistic counts rays.
   [[nodiscard]] vk::QueryPipelineStatisticFlags statistics() const override { return {}; }
   void prepare_counting(const Layout& layout) override {
     counting_.emplace(gpu_, layout, constants_, true);

@@ -1,4 +1,4 @@
-// Front-to-back raycasting in a compute kernel, one ray per invocation.
+// Front-to-back raycasting in a compute kernel, with one ray per invocation.
 #include "backends/vulkan/compute_frames.hpp"
 #include "backends/vulkan/techniques.hpp"
 

@@ -1,4 +1,4 @@
-// The same raycaster as a fragment shader: one triangle over a floating-point target.
+// The raycaster as a fragment shader: one triangle covers a floating-point render target.
 #include <algorithm>
 #include <array>
 #include <span>
@@ -19,7 +19,7 @@ constexpr std::string_view vertex_shader = "raycast_fragment.vert.spv";
 constexpr std::string_view fragment_shader = "raycast_fragment.frag";
 constexpr vk::Format target_format = vk::Format::eR32G32B32A32Sfloat;
 
-// A full-screen triangle without vertex buffers.
+// Creates the pipeline for a full-screen triangle without vertex buffers.
 vk::Pipeline make_pipeline(const Gpu& gpu, const Layout& layout, const vk::raii::RenderPass& pass,
                            vk::Extent3D extent, std::string_view fragment_code,
                            const Constants& constants) {

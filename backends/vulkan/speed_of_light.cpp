@@ -1,5 +1,5 @@
-// Does only the fetches and table look-ups of raycast: the same kernel is specialised so that it
-// sums what it reads.
+// Does only the fetches and table look-ups of raycast: the same kernel, specialised to sum what it
+// reads.
 #include "backends/vulkan/compute_frames.hpp"
 #include "backends/vulkan/techniques.hpp"
 

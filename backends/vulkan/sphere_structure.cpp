@@ -19,8 +19,8 @@ using Type = vk::AccelerationStructureTypeKHR;
 constexpr std::string_view boxes_code = "ray_boxes.comp.spv";
 constexpr vk::DeviceSize box_bytes = sizeof(vk::AabbPositionsKHR);
 
-// A structure that is built once is optimised for tracing. One that is built in every frame is
-// optimised for building.
+// A structure that is built once is optimised for fast tracing. A structure that is built in every
+// frame is optimised for fast building.
 vk::BuildAccelerationStructureFlagsKHR flags_of(Structure kind) {
   using enum vk::BuildAccelerationStructureFlagBitsKHR;
   switch (kind) {
@@ -80,8 +80,8 @@ vk::AccelerationStructureGeometryKHR SphereStructure::instances() const {
 SphereStructure::Level SphereStructure::make_level(
     Type type, const vk::AccelerationStructureGeometryKHR& geometry,
     std::uint32_t primitives) const {
-  // RADV of Mesa 25.0 crashes without a GPU if it is asked for the size of a structure. No pipeline
-  // needs one.
+  // RADV of Mesa 25.0 crashes if there is no GPU and the size of a structure is queried. Compiling
+  // pipelines needs no structure.
   if (!gpu_.executes) {
     return {Buffer(gpu_, 1, eStorageBuffer, Place::device), nullptr,
             Buffer(gpu_, 1, eStorageBuffer, Place::device)};
@@ -96,8 +96,7 @@ SphereStructure::Level SphereStructure::make_level(
   vk::raii::AccelerationStructureKHR structure(
       gpu_.device, vk::AccelerationStructureCreateInfoKHR{
                        .buffer = memory.get(), .size = memory.size(), .type = type});
-  // The device requires an alignment of the scratch memory, so the buffer is larger by that
-  // alignment.
+  // The device requires an alignment for scratch memory, so the buffer is larger by that alignment.
   const vk::DeviceSize alignment = gpu_.extensions.scratch_alignment;
   Buffer scratch(gpu_, std::max(sizes.buildScratchSize, sizes.updateScratchSize) + alignment,
                  eStorageBuffer | eShaderDeviceAddress, Place::device);

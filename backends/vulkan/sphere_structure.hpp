@@ -1,6 +1,6 @@
 #pragma once
-// An acceleration structure over the particles. The bottom level has one box for each particle, and
-// the top level has one instance of it.
+// An acceleration structure over the particles. The bottom level has one box per particle, and the
+// top level has a single instance of the bottom level.
 
 #include "backends/vulkan/particle_data.hpp"
 #include "technique/particles/particle_options.hpp"
@@ -9,16 +9,16 @@ namespace triptych::vulkan_backend {
 
 class SphereStructure {
  public:
-  // The bindings of ray_boxes.comp.glsl and of the passes that trace rays.
+  // The bindings of ray_boxes.comp.glsl and of the shaders that trace rays.
   static constexpr std::uint32_t boxes_binding = 7;
   static constexpr std::uint32_t structure_binding = 20;
 
-  // Throws core::NotSupported if the device supports fewer boxes.
+  // Throws core::NotSupported if the device does not support this many boxes.
   SphereStructure(const Gpu& gpu, std::uint32_t particles, technique::Structure kind);
 
   void bind(vk::DescriptorSet set) const;
   void prepare(const Layout& layout, const Specialization& constants);
-  // Builds the boxes and both levels again. `refit`: keeps the topology of both levels. The
+  // Rebuilds the boxes and both levels. With `refit`, both levels keep their topology. The
   // descriptor set must be bound.
   void record_build(const vk::raii::CommandBuffer& commands, bool refit) const;
 

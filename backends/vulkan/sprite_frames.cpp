@@ -22,7 +22,7 @@ vk::QueryPipelineStatisticFlags common_statistics() {
 constexpr vk::ShaderStageFlags mesh_stages =
     vk::ShaderStageFlagBits::eTaskEXT | vk::ShaderStageFlagBits::eMeshEXT;
 
-// Mesh pipelines have no input assembly and no vertex stage.
+// Mesh pipelines have neither input assembly nor a vertex stage.
 vk::QueryPipelineStatisticFlags statistics_of(const SpriteTechnique& technique) {
   using enum vk::QueryPipelineStatisticFlagBits;
   if (technique.draw.meshes) return eFragmentShaderInvocations | technique.statistics;
@@ -75,16 +75,17 @@ SpriteFrames::SpriteFrames(const Gpu& gpu, const Instance& instance,
   instance_.check_validation();
 }
 
-// Draws a frame that is not shown, so that every other frame has a previous one.
+// Draws a frame from the previous camera, which is not shown, so that the first measured frame also
+// has a previous frame.
 void SpriteFrames::draw_before(const measure::ParticleWork& work) const {
   if (work.camera_before) data_.look_from(work.before());
   static_cast<void>(frames_.submit(measure::Purpose::timing));
   if (work.camera_before) data_.look_from(work);
 }
 
-// The hidden cells depend on the previous frames. The first frame after a jump draws everything
-// that is visible, the second one knows which cells that hides, and all later ones are like the
-// second.
+// The set of hidden cells depends on the previous frames. The first frame after a jump of the
+// camera draws everything that is visible. The second frame knows which cells are hidden, and all
+// later frames are like the second.
 void SpriteFrames::settle() const {
   for (int frame = 0; frame < 2; ++frame) {
     static_cast<void>(frames_.submit(measure::Purpose::timing));
@@ -203,7 +204,7 @@ void SpriteFrames::draw(const vk::raii::CommandBuffer& commands, const Draws& dr
 
 void SpriteFrames::draw_meshes(const vk::raii::CommandBuffer& commands,
                                const std::array<std::uint32_t, 2>& share) const {
-  constexpr std::uint32_t cells_per_group = 32;  // mesh.task.glsl
+  constexpr std::uint32_t cells_per_group = 32;  // as in mesh.task.glsl
   const std::uint32_t cells = (data_.cells() + share[0] - 1) / share[0];
   commands.pushConstants<std::array<std::uint32_t, 2>>(*layout_.pipeline,
                                                        vk::ShaderStageFlagBits::eTaskEXT, 0, share);
@@ -219,8 +220,9 @@ void SpriteFrames::draw_run(const vk::raii::CommandBuffer& commands, bool instan
   }
 }
 
-// Draws 1/stride of the particles again: whole cells if there are enough of them, so that culled
-// cells stay culled. No fragment passes the depth test, which keeps the first of equal depths.
+// Draws 1/stride of the particles a second time. Draws whole cells if there are enough of them, so
+// that culled cells stay culled. The depth test rejects every fragment, because it keeps the first
+// of two equal depths.
 void SpriteFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
   const auto stride = static_cast<std::uint32_t>(options_.extra_work_stride);
   if (technique_.draw.meshes) {
@@ -232,7 +234,7 @@ void SpriteFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
     culling_.draw(commands, stride);
     return;
   }
-  // Only a few draws are used, because every draw costs lavapipe some microseconds.
+  // Uses only a few draws, because every draw costs several microseconds on lavapipe.
   constexpr std::uint32_t most_runs = 4;
   const std::uint32_t particles = data_.particles();
   const std::uint32_t length = std::max(particles / stride / most_runs, 1U);

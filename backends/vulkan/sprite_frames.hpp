@@ -1,5 +1,5 @@
 #pragma once
-// The techniques that draw sprites with the rasterizer. They differ in the stages that make the
+// The techniques that draw sprites with the rasterizer. They differ in the stages that generate the
 // sprites.
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace triptych::vulkan_backend {
 
-// A stage before the fragment stage, with the names of its two builds.
+// A stage before the fragment stage, with the names of its timed build and its counting build.
 struct SpriteStage {
   vk::ShaderStageFlagBits stage;
   std::string_view timed;
@@ -28,14 +28,16 @@ struct SpriteStage {
 // One way to turn particles into sprites.
 struct SpriteDraw {
   std::vector<SpriteStage> stages;
-  // Four vertices for each particle and no vertex buffer; otherwise one vertex for each particle.
+  // If true, a draw has four vertices per particle and no vertex buffer. Otherwise, it has one
+  // vertex per particle.
   bool instanced = false;
-  // Task and mesh stages. The task stage culls cells itself, and there are no vertices.
+  // If true, the stages are task and mesh stages. The task stage culls cells itself, and there are
+  // no vertices.
   bool meshes = false;
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::ePointList;
 };
 
-// Particles that follow each other in the arrangement.
+// A run of consecutive particles in the arrangement.
 struct ParticleRun {
   std::uint32_t begin = 0;
   std::uint32_t count = 0;
@@ -43,11 +45,12 @@ struct ParticleRun {
 
 struct SpriteTechnique {
   SpriteDraw draw;
-  // Statistics of its own stages, in addition to the common ones.
+  // The statistics of the technique's own stages, in addition to those of all sprite techniques.
   vk::QueryPipelineStatisticFlags statistics;
-  // The draw of occlusion culling's second pass, if its stages differ from those of the first.
+  // The draw of the second pass of occlusion culling, if its stages differ from those of the first
+  // pass.
   std::optional<SpriteDraw> later;
-  // Draws only these particles a second time.
+  // Draws the particles of rest_runs a second time.
   std::optional<SpriteDraw> rest;
   std::vector<ParticleRun> rest_runs;
 };
@@ -66,7 +69,7 @@ class SpriteFrames final : public measure::Prepared {
   struct Draws {
     vk::Pipeline draw;
     vk::Pipeline later;
-    vk::Pipeline rest;  // null if there is none
+    vk::Pipeline rest;  // null if there is no such draw
   };
   [[nodiscard]] Draws draws(bool counting) const;
   [[nodiscard]] DrawState draw_state(const SpriteDraw& draw, bool counting) const;
@@ -81,7 +84,7 @@ class SpriteFrames final : public measure::Prepared {
   void settle() const;
   void draw_run(const vk::raii::CommandBuffer& commands, bool instanced, ParticleRun run) const;
   void draw_again(const vk::raii::CommandBuffer& commands) const;
-  // Draws every x-th cell, and of each cell the first 1/y of its particles.
+  // Draws every x-th cell, and in each cell the first 1/y of its particles.
   void draw_meshes(const vk::raii::CommandBuffer& commands,
                    const std::array<std::uint32_t, 2>& share) const;
   [[nodiscard]] std::vector<vk::DescriptorSetLayoutBinding> bindings() const;

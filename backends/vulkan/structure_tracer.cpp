@@ -3,7 +3,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-constexpr std::uint32_t candidate_texels_binding = 13;  // nearest_hit.glsl
+constexpr std::uint32_t candidate_texels_binding = 13;  // as in nearest_hit.glsl
 
 }  // namespace
 

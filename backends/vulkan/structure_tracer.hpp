@@ -1,5 +1,5 @@
 #pragma once
-// The common part of ray_query and ray_pipeline: the acceleration structure and its bindings.
+// What ray_query and ray_pipeline have in common: the acceleration structure and its bindings.
 
 #include <memory>
 
@@ -21,9 +21,9 @@ class StructureTracer : public Tracer {
               bool counting) const final;
 
  protected:
-  // Makes the pipelines that send rays.
+  // Creates the pipelines that trace rays.
   virtual void prepare_rays(const Layout& layout) = 0;
-  // A ray for each pixel of every `every_row`-th row.
+  // Traces a ray for each pixel of every `every_row`-th row.
   virtual void send(const vk::raii::CommandBuffer& commands, const Layout& layout, bool counting,
                     std::uint32_t every_row) const = 0;
 

@@ -1,5 +1,5 @@
 #pragma once
-// The reasons why a device cannot draw a volume or particles with a technique.
+// Finds the reasons why a device cannot draw a volume or particles with a technique.
 
 #include <cstdint>
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace triptych::vulkan_backend {
 
-// Optional features that techniques need.
+// The optional device features that techniques need.
 enum class Needs : std::uint8_t {
   nothing,
   drawing,
@@ -22,10 +22,11 @@ enum class Needs : std::uint8_t {
   mesh
 };
 
-// The missing feature, if any.
+// Returns the missing feature, if any.
 [[nodiscard]] std::optional<std::string> feature_reason(const Gpu& gpu, Needs needs);
-// The limit that an image of this size exceeds: of a framebuffer if it is drawn into one, and of a
-// storage buffer with `pixel_bytes` per pixel, the largest number that a technique uses.
+// Returns the limit that an image of this size exceeds. The limits are the framebuffer size, if the
+// technique draws into a framebuffer, and the size of a storage buffer with `pixel_bytes` per
+// pixel.
 [[nodiscard]] std::optional<std::string> picture_reason(const Gpu& gpu, int width, int height,
                                                         Needs needs, std::uint64_t pixel_bytes);
 [[nodiscard]] std::optional<std::string> memory_reason(const Gpu& gpu, std::uint64_t needed);

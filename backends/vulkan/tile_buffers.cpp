@@ -29,15 +29,16 @@ Buffer words(const Gpu& gpu, vk::DeviceSize count) {
           eStorageBuffer | eUniformTexelBuffer | eIndirectBuffer | eTransferDst, Place::device};
 }
 
-// Pairs of pixels, one above the other. The buffer is almost empty if no large spheres are
-// resolved.
+// Returns the size of the image in which each texel stores two pixels, one above the other. It has
+// a single texel if no large spheres are resolved.
 vk::Extent3D pairs(const scene::ParticleScene& scene, const technique::TileRounds& rounds) {
   if (!rounds.resolved()) return {1, 1, 1};
   return {static_cast<std::uint32_t>(scene.width),
           parts(static_cast<std::uint32_t>(scene.height), 2), 1};
 }
 
-// With injected work, a particle may be stored twice, and each entry of a sphere may appear twice.
+// With injected extra work, a particle may be stored twice, and each entry of a sphere may appear
+// twice.
 std::uint64_t times(const measure::ParticleWork& work) {
   return work.options.extra_work_stride > 0 ? 2 : 1;
 }
@@ -131,7 +132,7 @@ void TileBuffers::clear(const vk::raii::CommandBuffer& commands) const {
   if (small_) clear_pixels(commands);
 }
 
-// Begins after the count of small spheres.
+// Leaves the count of small spheres, which is the first word, unchanged.
 void TileBuffers::start_round(const vk::raii::CommandBuffer& commands) const {
   commands.fillBuffer(tiles_.get(), word, 5 * word, 0);
   barrier(commands);

@@ -1,5 +1,5 @@
 #pragma once
-// The data that the passes of technique/particles/tiles.glsl exchange.
+// The buffers through which the passes of technique/particles/tiles.glsl exchange data.
 
 #include <cstdint>
 #include <vector>
@@ -36,17 +36,18 @@ class TileBuffers {
               const technique::TileRounds& rounds);
 
   void bind(vk::DescriptorSet set) const;
-  // Overwrites all data that a frame writes before it reads them.
+  // Overwrites all data that a frame writes before reading.
   void poison() const;
-  // Empties tiles, and also pixels if any round draws into them.
+  // Clears the tiles. Also clears the pixels if any round draws into them.
   void clear(const vk::raii::CommandBuffer& commands) const;
-  // Begins a round without large spheres, without entries, and without tiles that are drawn into.
+  // Begins a round with no large spheres, no entries, and no tiles to draw into.
   void start_round(const vk::raii::CommandBuffer& commands) const;
 
   [[nodiscard]] std::uint32_t tiles() const noexcept { return columns_ * rows_; }
-  // The number of blocks of TRI_BLOCK × TRI_BLOCK tiles, which are drawn together.
+  // Returns the number of blocks of TRI_BLOCK × TRI_BLOCK tiles. The tiles of a block are drawn
+  // together.
   [[nodiscard]] std::uint32_t blocks() const noexcept;
-  // Dispatches one group for each tile that the round draws into.
+  // Dispatches one work group for each tile that the round draws into.
   void dispatch_listed(const vk::raii::CommandBuffer& commands) const;
 
  private:
@@ -59,7 +60,7 @@ class TileBuffers {
   const Gpu& gpu_;
   std::uint32_t columns_;
   std::uint32_t rows_;
-  vk::DeviceSize plane_;  // size of a plane in bytes
+  vk::DeviceSize plane_;  // in bytes
   bool small_;
   Buffer camera_spheres_;
   Buffer kept_;

@@ -5,7 +5,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-// The order is that of TilePass.
+// The names of the passes, in the order of TilePass.
 constexpr std::array<std::string_view, 7> pass_names{"cells",   "bin",    "place", "fill",
                                                      "resolve", "settle", "index"};
 constexpr std::string_view show_vertex = "tiles_show.vert.spv";

@@ -32,12 +32,12 @@ class TilePipelines {
   std::vector<vk::Pipeline> pipelines_;
 };
 
-// The pipeline that colours the image. `state` describes everything but the stages.
+// Returns the pipeline that colours the image. `state` describes everything except the stages.
 [[nodiscard]] vk::Pipeline tiles_show(const Gpu& gpu, const Layout& layout,
                                       const vk::raii::RenderPass& pass, DrawState state,
                                       const Specialization& constants);
 
-// The hash of the build that is timed.
+// Returns the hash of the timed build.
 [[nodiscard]] std::string tiles_hash(const Specialization& constants);
 
 }  // namespace triptych::vulkan_backend

@@ -1,5 +1,5 @@
-// Small spheres are drawn by one invocation each, and large ones are sorted into tiles in compute
-// shaders. The nearest hit of each pixel is found by depth and then by the index in the arrangement
+// Draws each small sphere in one invocation, and sorts large spheres into tiles in compute shaders.
+// The nearest hit of each pixel is selected by depth and then by the index in the arrangement
 // (technique/particles/tiles.glsl describes the passes).
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint32_t tile_group_size = 64;
 
-struct RoundOf {  // shaders/tiles_prelude.glsl
+struct RoundOf {  // as in shaders/tiles_prelude.glsl
   std::uint32_t first_cell;
   std::uint32_t cells;
 };
@@ -64,7 +64,7 @@ class TilesFrames final : public measure::Prepared {
   Specialization constants_;
   ParticleData data_;
   TileBuffers buffers_;
-  std::uint32_t tile_groups_;  // one invocation for each tile
+  std::uint32_t tile_groups_;  // with one invocation per tile
   ParticleTarget target_;
   Layout layout_;
   vk::raii::DescriptorPool pool_;
@@ -75,10 +75,11 @@ class TilesFrames final : public measure::Prepared {
   Frames frames_;
 };
 
-// Throws core::NotSupported if a single cell needs more entries than a buffer can have.
+// Divides the frame into rounds. Throws core::NotSupported if a single cell needs more entries than
+// a buffer can have.
 technique::TileRounds rounds_of(const Gpu& gpu, const measure::ParticleWork& work,
                                 const technique::Arrangement& arrangement) {
-  // A dispatch has one work group for each cell, in one dimension. Every device allows this many.
+  // A dispatch has one work group per cell, all in one dimension. Every device supports this many.
   constexpr std::uint32_t most_cells = 65535;
   constexpr std::uint64_t enough_entries = std::uint64_t{1} << 24;
   const std::uint64_t times = work.options.extra_work_stride > 0 ? 2 : 1;
@@ -142,7 +143,8 @@ void TilesFrames::push(const vk::raii::CommandBuffer& commands, std::uint32_t fi
                                   RoundOf{first_cell, cells});
 }
 
-// Cells of the round `again` are sorted twice, which is injected work that changes nothing.
+// If `again` is not 0, sorts that many cells of the round a second time. This injected extra work
+// does not change the image.
 void TilesFrames::bin(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
                       const technique::TileRound& round, std::uint32_t again) const {
   const Label label(gpu_, commands, "tiles: cull cells and bin their spheres");
@@ -154,8 +156,8 @@ void TilesFrames::bin(const vk::raii::CommandBuffer& commands, const TilePipelin
   barrier(commands);
 }
 
-// Draws the round's large spheres, unless the last pass does that, and records which parts are
-// hidden.
+// Draws the round's large spheres, unless the final pass draws them, and records which parts of the
+// image are hidden.
 void TilesFrames::resolve(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
                           const technique::TileRound& round) const {
   const Label label(gpu_, commands, "tiles: list, fill and resolve");

@@ -23,7 +23,7 @@ enum TracedBinding : std::uint32_t {
   traced_id_texels_binding
 };
 
-// The structure on the device that rays traverse, and the passes that send the rays.
+// The structure on the device that rays traverse, and the passes that trace the rays.
 class Tracer {
  public:
   Tracer() = default;
@@ -31,29 +31,30 @@ class Tracer {
   Tracer& operator=(const Tracer&) = delete;
   virtual ~Tracer() = default;
 
-  // The bindings of the structure itself, and the number of bytes of push constants for its compute
-  // passes.
+  // Return the bindings of the structure itself, and the number of push constant bytes for its
+  // compute passes.
   [[nodiscard]] virtual std::vector<vk::DescriptorSetLayoutBinding> bindings() const = 0;
   [[nodiscard]] virtual std::uint32_t push_bytes() const = 0;
-  // The shader stages of its passes.
+  // Returns the shader stages of the passes.
   [[nodiscard]] virtual vk::ShaderStageFlags stages() const {
     return vk::ShaderStageFlagBits::eCompute;
   }
   [[nodiscard]] virtual vk::QueryPipelineStatisticFlags statistics() const {
     return vk::QueryPipelineStatisticFlagBits::eComputeShaderInvocations;
   }
-  // True if Triptych's own kernels traverse the structure, so that every driver visits the same nodes.
+  // Returns true if Triptych's own kernels traverse the structure, so that every driver visits the
+  // same nodes.
   [[nodiscard]] virtual bool counts_nodes() const = 0;
   virtual void bind(vk::DescriptorSet set) const = 0;
-  // Called once after bind(): creates the pipelines of the timed build, and the structure.
+  // Called once after bind(). Creates the pipelines of the timed build, and the structure.
   virtual void prepare(const Layout& layout, vk::DescriptorSet set) = 0;
-  // Makes the pipelines of the counting build.
+  // Creates the pipelines of the counting build.
   virtual void prepare_counting(const Layout& layout) = 0;
   // Records a frame up to the point where every pixel has its key. The descriptor set must be
   // bound.
   virtual void record(const vk::raii::CommandBuffer& commands, const Layout& layout,
                       bool counting) const = 0;
-  // The device code of the timed build.
+  // Returns the device code of the timed build.
   [[nodiscard]] virtual std::vector<std::string_view> codes() const = 0;
 };
 
@@ -100,8 +101,8 @@ class TracedFrames final : public measure::Prepared {
     const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work,
     TracedFrames::MakeTracer make_tracer);
 
-// Space for 32-bit words that compute passes write and read, also as texels. If `count` is 0, it is
-// not empty.
+// Allocates 32-bit words that compute passes write and read, also as texels. The buffer is not
+// empty even if `count` is 0.
 [[nodiscard]] Buffer device_words(const Gpu& gpu, std::uint64_t count);
 
 }  // namespace triptych::vulkan_backend

@@ -25,7 +25,7 @@ technique::Room image_room(const Gpu& gpu, const technique::Layers& slices,
   return {0, "the largest image of this format"};
 }
 
-// The limits on the memory for the voxels on a device.
+// Returns how much memory the device's limits leave for voxels, and the name of the limit.
 technique::Room room_of(const Gpu& gpu, const measure::VolumeWork& work) {
   const scene::VoxelFormat format = work.scene.grid->format;
   if (is_packed(work)) {
@@ -51,8 +51,8 @@ technique::Cut cut_of(const Gpu& gpu, std::string_view technique, const measure:
   if (technique::has_long_rays(work.scene)) {
     return {.parts = {}, .reason = std::string(technique::long_rays_in_parts)};
   }
-  // The output, the counters and the pauses; also the bricks and the quadrature if they are not
-  // read as texels.
+  // The output, the counters and the pauses. If bricks and quadrature are not read as texels, also
+  // these two.
   const std::uint32_t needed = is_packed(work) ? 3 : 5;
   const std::uint32_t most = gpu.properties.limits.maxPerStageDescriptorStorageBuffers;
   if (needed > most) {

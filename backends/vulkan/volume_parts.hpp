@@ -1,5 +1,5 @@
 #pragma once
-// A volume that is on the device one part at a time (technique/volume/parts.hpp).
+// A volume whose voxels are on the device one part at a time (technique/volume/parts.hpp).
 
 #include <array>
 #include <memory>
@@ -13,26 +13,26 @@
 
 namespace triptych::vulkan_backend {
 
-// These are for the technique raycast and for compute shaders.
+// Cuts the volume into parts for the technique.
 [[nodiscard]] technique::Cut cut_of(const Gpu& gpu, std::string_view technique,
                                     const measure::VolumeWork& work);
 
-// Whether one image can hold a volume.
+// Returns whether one image can hold the volume.
 [[nodiscard]] bool holds_whole(const Gpu& gpu, const std::array<int, 3>& size,
                                scene::VoxelFormat format);
 
-// Moves part after part to where the shader reads it.
+// Uploads one part after another to where the shader reads it.
 class VolumeParts {
  public:
-  // `parameters` (technique::raycast_parameters) must have room for technique::PartParameters at
+  // `parameters` (technique::raycast_parameters) must have room for a technique::PartParameters at
   // the end. `map` is the result of technique::brick_map.
   VolumeParts(const Gpu& gpu, const measure::VolumeWork& work,
               std::span<const technique::Part> parts, std::span<const std::int32_t> map,
               std::vector<std::byte> parameters);
 
   [[nodiscard]] int count() const noexcept { return static_cast<int>(passes_.size()); }
-  // Moves the parameters of the n-th part and, if voxels are read, its voxels: into the image, or
-  // as cells.
+  // Uploads the parameters of the n-th part and, if the shader reads its voxels, also the voxels,
+  // either into the image or as cells.
   void move(int n, const Buffer& parameters, const Image* image, const Buffer* cells);
 
  private:

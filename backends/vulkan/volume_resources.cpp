@@ -21,7 +21,8 @@ namespace {
 constexpr std::uint32_t pass_count = 2;
 constexpr std::uint32_t storage_buffers = 5;  // bricks, output, counters, quadrature, pauses
 constexpr std::uint32_t texel_buffers = 4;    // cells, table, bricks, quadrature
-// The ways in which bricks and the quadrature may be read.
+// The usages that allow shaders to read bricks and the quadrature either as storage buffers or as
+// texels.
 constexpr auto shader_buffer =
     vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformTexelBuffer;
 
@@ -38,7 +39,8 @@ Image upload_table(const Gpu& gpu, const scene::TransferFunction& function) {
   return image;
 }
 
-// Space for this many cells, which the host writes before they are read; 0: for the whole volume.
+// Creates a buffer for `held` cells, which the host writes before they are read. If `held` is 0,
+// the buffer has the cells of the whole volume.
 Buffer make_cells(const Gpu& gpu, const measure::VolumeWork& work, int held) {
   const scene::VoxelGrid& grid = *work.scene.grid;
   constexpr auto usage = vk::BufferUsageFlagBits::eUniformTexelBuffer;
@@ -138,11 +140,12 @@ VolumeResources::VolumeResources(const Gpu& gpu, const measure::VolumeWork& work
   write_set(Pass::counting);
 }
 
-// For a volume in parts, there is space for the parameters of a part at the end.
+// Creates the parameter buffer. For a volume in parts, it has space for a part's parameters at the
+// end.
 Buffer VolumeResources::make_parameters(const measure::VolumeWork& work,
                                         std::span<const std::int32_t> map,
                                         const std::vector<technique::Part>& parts) {
-  // The shader reads a texel of an image divided by the largest value of its format.
+  // The shader reads the texels of an image divided by the largest value that the format can store.
   const double stored_maximum =
       is_packed(work) ? 1 : scene::largest_stored(work.scene.grid->format);
   std::vector<std::byte> parameters =
@@ -211,7 +214,8 @@ vk::DescriptorSet VolumeResources::set(Pass pass) const {
   return sets_.at(pass == Pass::timed ? 0 : 1);
 }
 
-// A descriptor set that recorded commands use must not be written again, so counting has its own.
+// Counting has its own descriptor set, because a set must not be written after recorded commands
+// use it.
 void VolumeResources::bind_counters() {
   make_counters(pixels_ * technique::raycast_counter_stride);
   poison_counters();

@@ -15,13 +15,14 @@
 
 namespace triptych::vulkan_backend {
 
-// The bindings of technique/volume/raycast/parameters.glsl, and two that only this backend has.
+// The bindings of technique/volume/raycast/parameters.glsl, and two that exist only in this
+// backend.
 enum Binding : std::uint32_t {
   parameters_binding = 0,
   volume_binding = 1,
   transfer_binding = 2,
   bricks_binding = 3,
-  output_binding = 4,  // compute only
+  output_binding = 4,  // only for compute
   counters_binding = 5,
   quadrature_binding = 6,
   pauses_binding = 7  // for a volume in parts
@@ -35,16 +36,16 @@ enum Binding : std::uint32_t {
   return work.options.sampler == technique::Sampler::packed;
 }
 
-// A pass over the image.
+// What a pass over the image does.
 enum class Pass : std::uint8_t {
   timed,     // draws the image, and the injected extra work if there is any
   counting,  // draws only the image, with the counters bound
-  tracing    // does the same with the build that records the history of one pixel
+  tracing    // draws only the image, and records the history of one pixel
 };
 
 class VolumeResources {
  public:
-  // `output` is bound if it is given; the caller owns it.
+  // If `output` is not null, binds it. The caller owns it.
   VolumeResources(const Gpu& gpu, const measure::VolumeWork& work, const Buffer* output)
       : VolumeResources(gpu, work, output,
                         technique::brick_map(work.scene, work.options.skip, work.options.adapt)) {}
@@ -52,13 +53,14 @@ class VolumeResources {
   [[nodiscard]] const Layout& layout() const noexcept { return layout_; }
   [[nodiscard]] vk::DescriptorSet set(Pass pass) const;
 
-  // Makes the buffer of counters, with one block for each pixel, and the descriptor set for
+  // Creates the counter buffer, with one block per pixel, and the descriptor set for
   // Pass::counting. Called once.
   void bind_counters();
-  // The number of parts of a volume that does not fit the device as a whole; otherwise 0.
+  // Returns the number of parts of a volume that does not fit on the device as a whole; otherwise
+  // 0.
   [[nodiscard]] int parts() const { return parts_ ? parts_->count() : 0; }
   void move_part(int n);
-  // Makes a larger buffer of counters, asks for the history of pixel (x, y), and binds it.
+  // Creates a larger counter buffer that requests the history of pixel (x, y), and binds it.
   void bind_trace(int x, int y, int width);
   [[nodiscard]] technique::RayTrace read_trace() const;
   // Overwrites the counters if there are any.
@@ -72,8 +74,8 @@ class VolumeResources {
   VolumeResources(const Gpu& gpu, const measure::VolumeWork& work, const Buffer* output,
                   std::span<const std::int32_t> map, const std::vector<technique::Part>& parts);
 
-  // The voxels and the transfer function as images. For sampler packed, they are texels of buffers,
-  // and so are bricks and the quadrature.
+  // The voxels and the transfer function as images. With the packed sampler, shaders read them as
+  // texels of buffers instead, as well as the bricks and the quadrature.
   struct Images {
     Image volume;
     Image table;
@@ -88,7 +90,7 @@ class VolumeResources {
     vk::raii::BufferView bricks_view;
     vk::raii::BufferView quadrature_view;
   };
-  // `held`: the number of cells of the largest part; 0: the whole volume is uploaded.
+  // `held` is the number of cells of the largest part; 0 means that the whole volume is uploaded.
   [[nodiscard]] Images make_images(const measure::VolumeWork& work, int held) const;
   [[nodiscard]] Texels make_texels(const measure::VolumeWork& work, int held) const;
   [[nodiscard]] Buffer make_parameters(const measure::VolumeWork& work,
@@ -103,7 +105,7 @@ class VolumeResources {
   Buffer bricks_;
   Buffer quadrature_;
   std::optional<VolumeParts> parts_;
-  std::optional<Buffer> pauses_;  // the states of rays between two parts
+  std::optional<Buffer> pauses_;  // the states of the rays between two parts
   Buffer parameters_;
   std::optional<Images> images_;
   std::optional<Texels> texels_;
@@ -115,8 +117,9 @@ class VolumeResources {
 
 [[nodiscard]] Constants constants_of(const measure::VolumeWork& work);
 
-// The build of a raycaster for this work. `shader` is "raycast.comp" or "raycast_fragment.frag";
-// `in_parts`: for the parts of the technique raycast. Empty if no build can trace the work.
+// Returns the build of a raycaster for this work. `shader` is "raycast.comp" or
+// "raycast_fragment.frag". `in_parts` selects the build that draws a volume in parts with the
+// technique raycast. Empty if no build can trace the work.
 [[nodiscard]] std::string_view raycast_spirv(std::string_view shader,
                                              const measure::VolumeWork& work, Pass pass,
                                              bool in_parts = false);

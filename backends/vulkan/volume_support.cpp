@@ -31,7 +31,7 @@ std::optional<std::string> volume_size_reason(const Gpu& gpu, const scene::Voxel
                      limit);
 }
 
-// The reason why the volume fits neither as a whole nor in parts.
+// Returns the reason why the volume fits neither as a whole nor in parts.
 std::optional<std::string> voxels_reason(const Gpu& gpu, const measure::VolumeWork& work,
                                          const technique::RaycastBuffers& buffers,
                                          const technique::Cut& cut) {

@@ -1,6 +1,5 @@
 #pragma once
-// Vulkan-Hpp as this backend uses it: RAII handles that call through the loader that is found at
-// run time.
+// Vulkan-Hpp as this backend uses it: RAII handles that call through a loader found at run time.
 
 #define VK_NO_PROTOTYPES
 #define VULKAN_HPP_NO_STRUCT_CONSTRUCTORS  // designated initialisers

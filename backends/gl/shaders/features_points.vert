@@ -1,4 +1,4 @@
-// A point on the pixel whose number is that of the vertex plus that of the instance.
+// Draws a point on the pixel whose number is the vertex number plus the instance number.
 layout(location = 0) in uint instance;
 uniform uvec2 size;
 flat out uint number;

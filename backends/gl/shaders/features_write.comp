@@ -1,4 +1,4 @@
-// Writes first + factor·i.
+// Writes first + factor·i to element i.
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) writeonly buffer Numbers { uint numbers[]; };
 uniform uvec2 line;

@@ -1,4 +1,4 @@
-// Fetches a volume at given positions by the device's own filter, as raycast.glsl does.
+// Samples a volume at given positions with the device's filter, as raycast.glsl does.
 layout(local_size_x = 64) in;
 layout(binding = 1) uniform sampler3D volume;
 layout(std430, binding = 4) buffer Probe { vec4 probe[]; };  // xyz: position in voxels; w: the value found

@@ -1,3 +1,3 @@
-// GL's dialect for the shared shader bodies. One number can name a uniform block, a texture unit and a storage
-// block at the same time, because GL numbers the three separately.
+// GL's dialect for the shared shader bodies. A uniform block, a texture unit and a storage block
+// may all have the same number, because GL numbers the three kinds separately.
 #define TRI_BINDING(n) layout(binding = n)

@@ -1,6 +1,7 @@
-// One ray per invocation. Column x of the grid is image column tri_drawn_column(x): x itself for the
-// picture, others beside it for injected extra work. A group takes 8×8 pixels in Z order, so that any 4, 8, 16 or 32 consecutive invocations,
-// whichever a device runs in step, are a compact block: neighbouring rays walk alike.
+// Traces one ray per invocation. Column x of the grid draws image column tri_drawn_column(x): x
+// itself for the image, and a neighbouring column for injected extra work. A work group covers 8×8
+// pixels in Z order, so that any 4, 8, 16 or 32 consecutive invocations that a device runs in
+// lockstep form a compact block. Their rays pass through similar parts of the volume.
 layout(local_size_x = 64) in;
 layout(std430) TRI_BINDING(4) writeonly buffer Pixels { vec4 pixels[]; };  // top row first
 

@@ -1,5 +1,5 @@
 #version 450
-// A point on the pixel whose number is that of the vertex plus that of the instance.
+// Draws a point on the pixel whose number is the vertex number plus the instance number.
 layout(push_constant) uniform Push { uint width; uint height; };
 layout(location = 0) flat out uint number;
 

@@ -1,8 +1,9 @@
 #version 450
-// Samples a volume at given places, as raycast.glsl's fetch_hardware does: place in voxels → value.
+// Samples a volume at given positions in voxels, as fetch_hardware in raycast.glsl does.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform sampler3D volume_texture;
-layout(std430, set = 0, binding = 1) buffer Samples { vec4 samples[]; };  // xyz: place; w: value
+// xyz: position; w: sampled value
+layout(std430, set = 0, binding = 1) buffer Samples { vec4 samples[]; };
 
 void main() {
   uint i = gl_GlobalInvocationID.x;

@@ -1,4 +1,4 @@
-// The passes of `bvh` need these declarations in addition to particle_prelude.glsl.
+// The declarations that the passes of `bvh` need in addition to particle_prelude.glsl.
 layout(push_constant) uniform Tree {
   vec4 origin;
   uvec4 shape;

@@ -1,6 +1,6 @@
-// Makes the shared GLSL valid for Vulkan: one descriptor set, and compile-time constants as specialization
-// constants (pipeline.hpp: Constants). TRI_COUNT is not one of them. It is set when the SPIR-V is built, so that
-// the timed build contains no trace of counting.
+// Makes the shared GLSL valid for Vulkan: one descriptor set, and compile-time constants as
+// specialization constants (pipeline.hpp: Constants). TRI_COUNT is not a specialization constant.
+// It is defined when the SPIR-V is built, so that the timed build contains no code for counting.
 #define TRI_BINDING(n) layout(set = 0, binding = n)
 layout(constant_id = 0) const int TRI_MANUAL_SAMPLER = 1;
 layout(constant_id = 1) const int TRI_SHADING = 0;

@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// One invocation per pixel. Also speed_of_light, by its specialization constant.
+// Traces one ray per invocation. A specialization constant turns it into speed_of_light.
 #include "prelude.glsl"
 #include "portable/prelude.glsl"
 #include "portable/volume_math.h"
@@ -13,8 +13,9 @@
 #include "volume/raycast/raycast.glsl"
 #endif
 
-// A work group draws a tile of 8×8 pixels. Any 8, 16 or 32 consecutive invocations, which a device may run in
-// lockstep, draw a compact block of it, because neighbouring rays take similar paths.
+// A work group draws a tile of 8×8 pixels. Any 8, 16 or 32 consecutive invocations that a device
+// may run in lockstep draw a compact block of the tile, because neighbouring rays take similar
+// paths.
 layout(local_size_x = 64) in;
 
 ivec2 pixel_in_tile(int i) {

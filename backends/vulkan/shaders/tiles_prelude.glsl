@@ -1,4 +1,4 @@
-// Additional declarations for the passes of `tiles`, after particle_prelude.glsl.
+// The declarations that the passes of `tiles` need in addition to particle_prelude.glsl.
 layout(push_constant) uniform Round { uvec2 cells; } round_of;
 #define TRI_ROUND round_of.cells
 layout(constant_id = 7) const int TRI_CULLING = 1;
