@@ -18,8 +18,8 @@
 namespace triptych::record {
 namespace {
 
-// While this object lives, each commit waits for the disk, so that it and all earlier commits
-// survive a loss of power.
+// While an object of this class exists, each commit is flushed to the disk, so that it and all
+// earlier commits survive a power failure.
 class WaitsForDisk {
  public:
   explicit WaitsForDisk(SQLite::Database& database) : database_(database) {
@@ -39,8 +39,8 @@ struct Store::State {
   std::filesystem::path file;
   SQLite::Database database;
 
-  // Runs `action` in one transaction. It takes the write lock at the beginning, because SQLite does
-  // not wait for the lock when a reader becomes a writer.
+  // Runs `action` in one transaction. The transaction takes the write lock at its beginning,
+  // because SQLite does not wait for the lock if a transaction begins by reading and writes later.
   template <typename Action>
   void write(Action&& action) {
     on_store(file, [&] {
@@ -69,8 +69,9 @@ const std::filesystem::path& Store::file() const {
   return state_->file;
 }
 
-// SQLite works around most damage without reporting it. quick_check reads every page, which takes
-// 0.2 s for a store of 50 MB. It does not compare indexes with their tables.
+// This check is necessary because SQLite works around most damage without reporting it. quick_check
+// reads every page, which takes 0.2 s for a store of 50 MB. It does not compare indexes with their
+// tables.
 void Store::require_whole() const {
   on_store(state_->file, [&] {
     SQLite::Statement row(state_->database, "PRAGMA quick_check(1)");
@@ -113,9 +114,9 @@ void Store::begin(const std::string& run, const Beginning& beginning,
       known.planned_hash = hash_of_planned(planned);
       insert_run(state_->database, known);
     });
-    // After a run was killed, a copy of the store's file without its log must still contain the
-    // beginning of the run. Otherwise the latest run in the copy would be an earlier one, which may
-    // have passed.
+    // If the run is killed, a copy of the store's file without its log must still contain the
+    // beginning of this run. Otherwise the latest run in the copy would be a previous run, which
+    // may have passed.
     static_cast<void>(state_->database.tryExec("PRAGMA wal_checkpoint(PASSIVE)"));
   });
 }
@@ -219,8 +220,8 @@ std::vector<Store::DeviceEntry> Store::devices(std::string_view run) const {
 
 std::vector<Record> Store::records(std::string_view run) const {
   return on_store(state_->file, [&] {
-    // A transaction lets all queries see the same state of the file, even if another process writes
-    // to it.
+    // Within a transaction, all queries see the same state of the file, even if another process
+    // writes to it.
     SQLite::Transaction snapshot(state_->database, SQLite::TransactionBehavior::DEFERRED);
     return read_records(state_->database, run);
   });

@@ -15,19 +15,19 @@
 namespace triptych::record {
 namespace {
 
-// Only one thread uses a connection at a time, so SQLite need not lock around every value.
+// Only one thread uses a connection at a time, so SQLite need not lock a mutex in every call.
 constexpr int one_thread = SQLITE_OPEN_NOMUTEX;
 
-// Whether a log exists that a writer left without closing the store. If it were ignored, the newest
-// records would be missing without notice.
+// Whether there is a log from a writer that did not close the store. If the log were ignored, the
+// latest records would be missing without notice.
 bool has_log(const std::filesystem::path& file) {
   std::error_code ignored;
   const auto size = std::filesystem::file_size(file.string() + "-wal", ignored);
   return !ignored && size > 0;
 }
 
-// SQLite gives names such as ":memory:" and "file:…" another meaning. A name that begins with a
-// slash is always the name of a file.
+// Returns an absolute path, because names such as ":memory:" and "file:…" have a special meaning in
+// SQLite. A name that begins with a slash is always a file name.
 std::string file_name(const std::filesystem::path& file) {
   return std::filesystem::absolute(file).string();
 }
@@ -60,15 +60,16 @@ SQLite::Database open_to_read(const std::filesystem::path& file,
         error.getErrorCode() == SQLITE_CANTOPEN || error.getErrorCode() == SQLITE_READONLY;
     if (!no_room_for_log) throw;
     if (has_log(file)) {
-      throw core::IoError(fmt::format(
-          "{}: its writer was stopped before closing it and its log cannot be replayed in a "
-          "read-only folder; copy it together with its -wal file to a folder that can be written",
-          file.string()));
+      throw core::IoError(
+          fmt::format("{}: the program that wrote this store was stopped before it closed the "
+                      "store, and the store's log cannot be replayed in a read-only folder; copy "
+                      "the store and its -wal file to a writable folder",
+                      file.string()));
     }
   }
-  // To read a file in WAL mode, SQLite needs two more files next to it. In a read-only folder it
-  // cannot create them, and opens the file only if the caller guarantees that nobody else writes to
-  // it, which is true there.
+  // To read a file in WAL mode, SQLite needs two more files next to it. It cannot create them in a
+  // read-only folder. There it opens the file only if the caller guarantees that nobody writes to
+  // the file, which is true in such a folder.
   SQLite::Database database(immutable_uri(file),
                             SQLite::OPEN_READONLY | SQLite::OPEN_URI | one_thread,
                             milliseconds_of(busy_limit));
@@ -76,8 +77,9 @@ SQLite::Database open_to_read(const std::filesystem::path& file,
   return database;
 }
 
-// If several processes switch to WAL mode at once, SQLite rejects all but one of them immediately,
-// regardless of the busy limit, because each holds a read lock that another one waits for.
+// Switches to WAL mode. If several processes do so at once, SQLite rejects all but one of them
+// immediately, regardless of the busy limit, because each process holds a read lock for which
+// another process waits. Therefore this function tries again until the busy limit.
 void write_ahead(SQLite::Database& database, std::chrono::milliseconds busy_limit) {
   const auto end = std::chrono::steady_clock::now() + busy_limit;
   for (;;) {
@@ -99,14 +101,15 @@ SQLite::Database open_to_append(const std::filesystem::path& file,
                             milliseconds_of(busy_limit));
   // SQLite opens a read-only file for reading and does not report that it cannot be written.
   if (sqlite3_db_readonly(database.getHandle(), "main") == 1) {
-    throw core::IoError(fmt::format("{}: is read-only; nothing can be added", file.string()));
+    throw core::IoError(
+        fmt::format("{}: the store is read-only, so nothing can be added to it", file.string()));
   }
   if (is_blank(database)) create_schema(database);
   require_our_schema(database, file);
   write_ahead(database, busy_limit);
-  // In WAL mode, synchronous = NORMAL keeps all data when a process dies. Only a loss of power can
-  // lose the last transactions, and even then the file stays intact. Data that must survive a loss
-  // of power are flushed to the disk (Store::begin_record).
+  // In WAL mode, synchronous = NORMAL keeps all data when a process dies. Only a power failure can
+  // lose the latest transactions, and even then the file stays intact. Data that must survive a
+  // power failure are flushed to the disk (Store::begin_record).
   database.exec("PRAGMA synchronous = NORMAL");
   database.exec("PRAGMA foreign_keys = ON");
   return database;
@@ -116,7 +119,7 @@ SQLite::Database open_to_append(const std::filesystem::path& file,
 
 SQLite::Database open_store_file(const std::filesystem::path& file, Store::Mode mode,
                                  std::chrono::milliseconds busy_limit) {
-  if (file.empty()) throw core::InputError("a store needs the name of a file");
+  if (file.empty()) throw core::InputError("the name of the store is empty; expected a file name");
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) {
     throw core::IoError(fmt::format("{}: is a folder, not a store", file.string()));

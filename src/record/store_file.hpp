@@ -1,6 +1,6 @@
 #pragma once
-// The file of a Store: opening it, creating its tables, and translating SQLite's errors for
-// callers.
+// Opens the file of a Store, creates its tables, and converts SQLite's errors to those of this
+// project.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -16,13 +16,13 @@
 
 namespace triptych::record {
 
-// Connects to a file that is a store of this program's schema version. Throws the errors that are
-// described at the constructor of Store.
+// Opens a store that has this program's schema version. Throws the errors that the constructor of
+// Store throws.
 [[nodiscard]] SQLite::Database open_store_file(const std::filesystem::path& file, Store::Mode mode,
                                                std::chrono::milliseconds busy_limit);
 
-// Connects to a store that is still being written and that nobody else uses yet. Creates its tables
-// if there are none. The store has no log and does not wait for the disk, so the file must be
+// Opens a file that is to become a store and that no other process uses yet. Creates the tables if
+// the file is empty. Changes are neither logged nor flushed to the disk, so the file must be
 // removed after any failure. Throws SQLite::Exception but no InputError, because the user did not
 // choose the name of this file.
 [[nodiscard]] SQLite::Database open_new_store_file(const std::filesystem::path& file);
@@ -31,13 +31,13 @@ namespace triptych::record {
 // latest changes is gone.
 void require_file(const std::filesystem::path& file, SQLite::Database& database);
 
-// Throws IoError or InputError for an error of SQLite with `file`.
+// Converts an SQLite error to an IoError or InputError that names `file`, and throws it.
 [[noreturn]] void throw_store_error(const std::filesystem::path& file,
                                     const SQLite::Exception& error);
 
 [[noreturn]] void throw_damaged(const std::filesystem::path& file, std::string_view what);
 
-// Runs `action` and converts errors of SQLite, and errors in reading columns, to those of this
+// Runs `action`. Converts SQLite errors, and errors in the values of columns, to errors of this
 // project.
 template <typename Action>
 decltype(auto) on_store(const std::filesystem::path& file, Action&& action) {
@@ -47,9 +47,9 @@ decltype(auto) on_store(const std::filesystem::path& file, Action&& action) {
     throw_store_error(file, error);
   } catch (const core::Json::exception& error) {
     throw_damaged(file, error.what());
-  } catch (const std::out_of_range& error) {  // an index leads to no row of the record
+  } catch (const std::out_of_range& error) {  // a row refers to a record that does not exist
     throw_damaged(file, error.what());
-  } catch (const core::InputError& error) {  // a malformed row; the error names no file
+  } catch (const core::InputError& error) {  // an invalid value; the error does not name a file
     if (!error.place().file.empty()) throw;
     throw_damaged(file, error.what());
   }

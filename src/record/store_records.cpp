@@ -18,8 +18,9 @@
 namespace triptych::record {
 namespace {
 
-// The columns, which are written and read in the same order. Values that can be derived from a
-// record (clock, frames, medians) are also written, for users' queries, but never read back.
+// The columns of the table `record`, in the order in which they are written and read. Columns that
+// can be derived from a record (clock, frames, medians) are written for users' queries but never
+// read.
 constexpr std::string_view record_columns =
     "run, suite, plan, configuration, scene, technique, device, outcome, cause, stage, "
     "numbers, subject, code, not_tried, shared_levels, detail, last_words, injected, "
@@ -39,7 +40,7 @@ std::string numbers_text(const Reason& reason) {
   return reason.numbers.empty() ? "{}" : core::json_text(core::Json(reason).at("numbers"));
 }
 
-// Numbers that are not finite are stored as text.
+// Parses the numbers of a reason. Numbers that are not finite are stored as strings.
 std::map<std::string, double> numbers_of(const std::string& text) {
   return core::Json{{"numbers", core::Json::parse(text)}}.get<Reason>().numbers;
 }
@@ -63,7 +64,7 @@ std::int64_t insert_row(const SQLite::Database& database, const Record& r) {
   return database.getLastInsertRowid();
 }
 
-// The part of a record that is in its row of the table `record`.
+// The columns of the table `record` that are not part of a Record.
 struct Row {
   std::int64_t seq = 0;
   std::string seal;
@@ -103,7 +104,7 @@ void insert_samples(const SQLite::Database& database, std::int64_t record, std::
 using RecordsBySeq = std::unordered_map<std::int64_t, Record*>;
 
 // Calls `read(record, row)` for every row of a table that belongs to a record of the run. The first
-// column refers to the record; `columns` are the others.
+// column refers to the record; `columns` are the other columns.
 template <typename Read>
 void read_rows(const SQLite::Database& database, std::string_view table, std::string_view columns,
                std::string_view order, std::string_view run, const RecordsBySeq& records,
@@ -177,7 +178,8 @@ void require_record_seal(const Row& row, const Record& record) {
                fmt::format("the record of {} on {}", record.configuration, record.device));
 }
 
-// Reads the rows of a record in another table, with a statement that is prepared once.
+// Reads the rows of one of the other tables that belong to a record, with a statement that is
+// prepared only once.
 class RowsOf {
  public:
   RowsOf(const SQLite::Database& database, std::string_view table, std::string_view columns,
@@ -198,7 +200,7 @@ class RowsOf {
   SQLite::Statement rows_;
 };
 
-// Reads the parts of a record that are in other tables.
+// Reads the parts of a record that are stored in tables other than `record`.
 class PartsOf {
  public:
   explicit PartsOf(const SQLite::Database& database)

@@ -12,7 +12,8 @@
 
 namespace triptych::record {
 
-// The run must exist. A record of the same run, configuration and device must not exist.
+// Inserts a record. Its run must exist. A record of the same run, configuration and device must not
+// exist yet.
 void insert_record(const SQLite::Database& database, const Record& record);
 
 // See Store::records.

@@ -16,8 +16,7 @@ namespace {
 
 using core::Json;
 
-// Text is stored as Json prints it, because text that is not UTF-8 must not stop a run (see
-// record.hpp).
+// Returns a map as JSON text. Invalid UTF-8 is replaced, because it must not stop a run.
 std::string text_of(const std::map<std::string, std::string>& map, const char* field,
                     const Json& owner) {
   return map.empty() ? "{}" : core::json_text(owner.at(field));
@@ -42,7 +41,8 @@ Run read_run(SQLite::Statement& row) {
   return run;
 }
 
-// An SQL statement that selects runs, with their columns in the order in which read_run reads them.
+// Returns an SQL statement that selects runs, with the columns in the order in which read_run()
+// reads them.
 std::string select_runs(std::string_view rest) {
   return fmt::format(
       "SELECT id, plan, started_at, system, checks, plan_hash, configurations, begun, planned_hash, "

@@ -1,6 +1,7 @@
 #pragma once
 // Writes runs and their devices to the store's tables and reads them. Callers handle the
-// transactions. Used by store.cpp, and by a merge, which writes to a file that is not a Store yet.
+// transactions. Used by store.cpp and by merges, which write to a file that is not a complete store
+// yet.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -15,14 +16,14 @@
 
 namespace triptych::record {
 
-// Replaces an existing run with the same id. insert_device does the same for devices.
+// Inserts a run, or replaces the run with the same id. insert_device() does the same for a device.
 void insert_run(const SQLite::Database& database, const Run& run);
-// Adds the keys of the configurations that the run is to measure. Some of them may exist already.
+// Inserts the keys of the configurations that the run is to measure. Skips keys that exist already.
 void insert_planned(const SQLite::Database& database, const std::string& run,
                     std::span<const std::string> configurations);
 [[nodiscard]] std::vector<std::string> read_planned(const SQLite::Database& database,
                                                     std::string_view run);
-// Run::planned_hash for the sorted keys.
+// Returns Run::planned_hash for these keys, which must be sorted.
 [[nodiscard]] std::string hash_of_planned(std::span<const std::string> configurations);
 // See Store::latest_run.
 [[nodiscard]] std::optional<Run> latest_run_in(const SQLite::Database& database,
@@ -30,7 +31,7 @@ void insert_planned(const SQLite::Database& database, const std::string& run,
 // See Store::runs.
 [[nodiscard]] std::vector<Run> read_runs(const SQLite::Database& database);
 
-// The run must exist.
+// Inserts a device of a run, which must exist.
 void insert_device(const SQLite::Database& database, const std::string& run, const Device& device,
                    const std::vector<ClockTrust>& clocks);
 // See Store::devices.

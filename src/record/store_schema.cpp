@@ -14,8 +14,8 @@ namespace {
 
 constexpr int application_id = 0x54524950;  // "TRIP": distinguishes a store from other SQLite files
 
-// docs/store.md explains the tables. STRICT makes columns reject values of other types from
-// programs that write to the store. NaN is stored as NULL, because SQLite converts it to NULL.
+// docs/store.md explains the tables. STRICT makes SQLite reject values of the wrong type that other
+// programs may write to the store. NaN is stored as NULL, because SQLite converts NaN to NULL.
 constexpr const char* schema = R"sql(
 CREATE TABLE run (
   seq INTEGER PRIMARY KEY,
@@ -240,12 +240,13 @@ int pragma(const SQLite::Database& database, const std::string& name) {
   return query.getColumn(0).getInt();
 }
 
-// The objects of a database by type and name, each with the SQL statement that creates it.
+// The SQL statements that create the objects of a database, by type and name of the object.
 using Objects = std::map<std::pair<std::string, std::string>, std::string>;
 
 Objects objects_of(const SQLite::Database& database) {
   Objects objects;
-  // Indexes without a statement are those that SQLite creates itself for keys.
+  // Objects without a statement are skipped, because they are indexes that SQLite itself creates
+  // for keys.
   SQLite::Statement rows(database,
                          "SELECT type, name, sql FROM sqlite_schema WHERE sql IS NOT NULL");
   while (rows.executeStep()) {
@@ -264,8 +265,8 @@ const Objects& our_objects() {
   return ours;
 }
 
-// Rejects objects that could falsify data: a trigger could replace new rows, and a view or another
-// form of a table could replace the rows that are read. Other tables are allowed.
+// Rejects a store whose objects could falsify data: a trigger could change new rows, and a view or
+// a modified table could return wrong rows. Additional tables are allowed.
 void require_our_objects(const SQLite::Database& database, const std::filesystem::path& file) {
   const Objects found = objects_of(database);
   for (const auto& [object, statement] : our_objects()) {
@@ -274,14 +275,14 @@ void require_our_objects(const SQLite::Database& database, const std::filesystem
     throw core::InputError(
         {.file = file.string()},
         fmt::format(
-            "the {} {} is {}; measure again into another file", object.first, object.second,
+            "the {} {} is {}; measure again and name another file", object.first, object.second,
             known == found.end() ? "missing" : "different from the one that Triptych creates"));
   }
   for (const auto& [object, statement] : found) {
     if (object.first == "table" || our_objects().contains(object)) continue;
     throw core::InputError({.file = file.string()},
-                           fmt::format("has the {} {}, which Triptych did not create and which "
-                                       "may change data that are read or added: remove it",
+                           fmt::format("has the {} {}, which Triptych did not create and which may "
+                                       "change data that are read or added; remove it",
                                        object.first, object.second));
   }
 }
@@ -313,8 +314,8 @@ void require_our_schema(const SQLite::Database& database, const std::filesystem:
                                                 : "measure again, or use the older Triptych"));
 }
 
-// Two processes may find the same blank file. The second one waits for the lock and then finds that
-// the tables exist.
+// Two processes may open the same empty file at once. The second process waits for the lock and
+// then finds that the tables exist.
 void create_schema(SQLite::Database& database) {
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::EXCLUSIVE);
   if (!is_blank(database)) return;

@@ -7,7 +7,7 @@
 
 namespace triptych::record {
 
-// Whether the file does not contain anything yet.
+// Whether the database is still empty.
 [[nodiscard]] bool is_blank(const SQLite::Database& database);
 
 // Creates the tables, unless another process has created them in the meantime.

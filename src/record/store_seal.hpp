@@ -18,7 +18,7 @@ namespace triptych::record {
 [[nodiscard]] std::string seal_of(const Record& record);
 [[nodiscard]] std::string seal_of(const TruthImage& truth);
 
-// Throws the InputError "WHAT was changed after it was written" if the two differ.
+// Throws the InputError "WHAT was changed after it was written" if the two seals differ.
 void require_seal(std::string_view stored, std::string_view found, const std::string& what);
 
 }  // namespace triptych::record

@@ -1,6 +1,6 @@
 #pragma once
-// Moves values into SQL statements and out of them. Only store.cpp, store_records.cpp and
-// store_runs.cpp use this file.
+// Binds values to SQL statements and reads values from their result rows. Only store.cpp,
+// store_records.cpp and store_runs.cpp use this file.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
@@ -20,7 +20,7 @@
 
 namespace triptych::record {
 
-// Parameters are bound in the order in which they are given.
+// Binds the parameters of a statement in the order of the calls.
 class Binder {
  public:
   explicit Binder(SQLite::Statement& statement) : statement_(statement) {}
@@ -38,7 +38,8 @@ class Binder {
     }
     return *this;
   }
-  // Unsigned 64-bit numbers keep their bits, so SQL displays numbers of 2⁶³ and more as negative.
+  // The bits of unsigned 64-bit numbers are stored unchanged, so SQL shows numbers from 2⁶³ as
+  // negative numbers.
   template <typename T>
   requires std::integral<T> Binder& operator<<(T number) {
     statement_.bind(++index_, static_cast<std::int64_t>(number));
@@ -47,7 +48,7 @@ class Binder {
   Binder& operator<<(std::span<const std::byte> bytes) {
     constexpr std::size_t largest = std::numeric_limits<int>::max();
     if (bytes.size() > largest) throw core::InputError("images of 2 GiB or more cannot be stored");
-    // SQLite treats a null pointer as NULL, so an empty blob needs another pointer.
+    // SQLite treats a null pointer as NULL, so an empty blob needs a pointer that is not null.
     const void* data = bytes.empty() ? static_cast<const void*>("") : bytes.data();
     statement_.bind(++index_, data, static_cast<int>(bytes.size()));
     return *this;
@@ -58,18 +59,18 @@ class Binder {
   int index_ = 0;
 };
 
-// Columns are read in the order of the query.
+// Reads the columns of a row in the order of the query.
 class Reader {
  public:
   explicit Reader(SQLite::Statement& row) : row_(row) {}
 
   Reader& operator>>(std::string& text) {
     const SQLite::Column column = row_.getColumn(index_++);
-    // Building an object from a text and computing its seal need several times the size of the
-    // text.
+    // The size is limited, because parsing a string and computing its seal need several times its
+    // size in memory.
     constexpr int most = 64 << 20;
     if (column.getBytes() > most) {
-      throw core::InputError(fmt::format("contains a text of {} bytes; the limit is {} bytes",
+      throw core::InputError(fmt::format("contains a string of {} bytes; the limit is {} bytes",
                                          column.getBytes(), most));
     }
     text = column.getString();
@@ -120,7 +121,7 @@ void execute(const SQLite::Database& database, const std::string& sql, const Val
   }
 }
 
-// Reads rows of (owner, name, value).
+// Inserts the map as rows of (owner, name, value).
 template <typename Value>
 void insert_map(const SQLite::Database& database, std::string_view table, std::int64_t owner,
                 const std::map<std::string, Value>& map) {

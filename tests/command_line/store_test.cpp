@@ -19,7 +19,7 @@ TEST(StoreName, OneWithoutCharactersIsRefusedBeforeAnythingIsMeasured) {
   const Program program;
   const Result result = program.run(one + " --store ''");
   EXPECT_EQ(result.code, 3) << result.output;
-  EXPECT_THAT(result.output, HasSubstr("a store needs the name of a file"));
+  EXPECT_THAT(result.output, HasSubstr("the name of the store is empty"));
   EXPECT_EQ(program.run("gate volume/quick --store ''").code, 3);
 }
 

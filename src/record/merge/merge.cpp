@@ -21,10 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Each open store needs three files and a share of the memory. Therefore more stores than this are
-// merged in groups, and then the results of the groups are merged.
+// The largest number of stores that are merged at once, because each open store needs three file
+// descriptors and a share of the memory. More stores are merged in groups of this size, and then
+// the results of the groups are merged.
 constexpr std::size_t most_at_once = 64;
-constexpr int source_cache_kib = 96 << 10;  // for all sources together
+constexpr int source_cache_kib = 96 << 10;  // shared by all sources
 constexpr int out_cache_kib = 96 << 10;
 constexpr std::chrono::seconds busy_limit{10};
 
@@ -56,7 +57,8 @@ class Aside {
   std::vector<fs::path> files_;
 };
 
-// Errors in writing name the file that the user requested, because intermediate files are removed.
+// Runs `action`, which writes to an intermediate file. Errors name `out`, the file that the user
+// requested, because intermediate files are removed.
 template <typename Action>
 decltype(auto) on_new_store(const fs::path& out, Action&& action) {
   try {
@@ -69,7 +71,7 @@ decltype(auto) on_new_store(const fs::path& out, Action&& action) {
   }
 }
 
-// A file to merge from, with the id of its run for each plan.
+// A store to be merged, with the id of its run for each plan.
 struct Input {
   fs::path file;
   std::vector<std::string> runs;
@@ -86,7 +88,7 @@ class Writing {
     for (const Input& each : inputs) {
       Source& source = sources_.emplace_back(
           Source{each.file, open_store_file(each.file, Store::Mode::read, busy_limit)});
-      // A transaction lets all queries see the same state of the file, even if another process
+      // Within a transaction, all queries see the same state of the file, even if another process
       // writes to it.
       on_store(each.file, [&] {
         source.database.exec(fmt::format("PRAGMA cache_size = -{}", share));
@@ -95,7 +97,7 @@ class Writing {
     }
   }
 
-  // Returns for each run how many records were copied and how many were not.
+  // Returns, for each run, how many records were copied and how many were not.
   std::vector<RecordCounts> write(const std::vector<Input>& inputs, const std::vector<Run>& runs,
                                   DataSeen& data, const RecordCopy::Tell& tell) {
     return on_new_store(out_file_, [&] {
@@ -120,7 +122,7 @@ class Writing {
   }
 
  private:
-  // Copies the configurations that are in flight, which means that they have no record.
+  // Copies the entries of configurations whose measurement began but that have no record.
   void copy_begun(const std::vector<std::string>& parts, const std::string& run) {
     MergedRows rows(
         sources_,
@@ -137,7 +139,7 @@ class Writing {
     }
   }
 
-  // Copies a table with large rows. A row is read only after it is known to be copied.
+  // Copies a table with large rows. The content of a row is read only if the row is copied.
   void copy_named(const std::string& table, const std::vector<std::string>& key,
                   const std::vector<std::string>& content) {
     const int keys = static_cast<int>(key.size());
@@ -172,18 +174,18 @@ class Writing {
 };
 
 void require_no_store(const fs::path& out) {
-  if (out.empty()) throw core::InputError("a store needs the name of a file");
+  if (out.empty()) throw core::InputError("the name of the store is empty; expected a file name");
   std::error_code ignored;
   if (fs::exists(out, ignored)) {
     throw core::InputError({.file = out.string()},
-                           "exists already: choose another name, or remove it if the stores that "
-                           "are merged contain all of its records");
+                           "exists already; choose another name, or remove this file if the stores "
+                           "that are merged contain all of its records");
   }
   // SQLite would treat a left-over log as the log of the new store.
   if (fs::exists(out.string() + "-wal", ignored) && !fs::is_empty(out.string() + "-wal", ignored)) {
-    throw core::InputError(
-        {.file = out.string() + "-wal"},
-        "is the log of a store that no longer exists: remove it, or choose another name");
+    throw core::InputError({.file = out.string() + "-wal"},
+                           "is the log of a store that no longer exists; remove it, or choose "
+                           "another name for the new store");
   }
 }
 
@@ -206,7 +208,7 @@ struct Stepwise {
   const fs::path& out;
   Aside& aside;
   DataSeen data;
-  // The records that any step left out, and the records that the last step copied.
+  // How many records were left out in all steps, and how many were copied in the last step.
   std::vector<RecordCounts> counts;
 
   fs::path merge(std::vector<Input> inputs) {
@@ -231,10 +233,10 @@ struct Stepwise {
   }
 };
 
-// Adds the runs. This happens last, because the number of configurations is known only from the
-// records. The file has no log until then, because a failed merge is removed and not restored. At
-// the end it gets the journal mode that other programs need for appending, and survives a loss of
-// power.
+// Adds the runs after the records, because the number of configurations is known only from the
+// records. Until now the file has had no log, because the output of a failed merge is simply
+// removed. Finally, the file gets the journal mode that is needed for appending to it, and is
+// flushed to the disk so that it survives a power failure.
 void add_runs(const fs::path& file, const fs::path& out, const std::vector<MergedRun>& runs) {
   on_new_store(out, [&] {
     SQLite::Database store = open_new_store_file(file);
@@ -256,7 +258,7 @@ void add_runs(const fs::path& file, const fs::path& out, const std::vector<Merge
 
 namespace {
 
-// The devices that the run was to measure, and those that it has records of.
+// Returns the devices that the run was to measure, and those that are stored for the run.
 std::set<std::string> devices_in(const Store& store, const Run& run) {
   const std::vector<std::string> begun = devices_of(run.begun);
   std::set<std::string> devices(begun.begin(), begun.end());
@@ -287,7 +289,7 @@ std::vector<Gap> gaps_of(const Store& store) {
   const auto is_empty = [](const Run& run) {
     return run.configurations == 0 && !run.begun.empty();
   };
-  // A shard of several plans may be empty for small plans, but not for all of its plans.
+  // A shard of several plans may be empty for small plans, but not for all plans.
   if (!runs.empty() && std::ranges::all_of(runs, is_empty)) {
     for (const Run& run : runs) gaps.push_back({run.plan, "", 0, 0});
   }

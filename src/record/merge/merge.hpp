@@ -1,6 +1,6 @@
 #pragma once
-// Merges several stores into one: the shards of a plan, from several hosts and devices, become one
-// run.
+// Merges several stores into one. The shards of a plan, which may have been measured on several
+// hosts and devices, become one run.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,16 +13,18 @@
 
 namespace triptych::record {
 
-// A plan, or a device of it, for which a store's latest run is incomplete.
+// A plan, or one device of a plan, for which the latest run in a store is incomplete.
 struct Gap {
   std::string plan;
-  std::string device;  // empty if no run was begun
+  std::string device;  // empty if the gap affects the whole plan
   std::uint64_t records = 0;
   // The number of configurations to be measured; 0 if the run had nothing to measure.
   std::uint64_t configurations = 0;
-  std::vector<std::string> missing = {};  // the keys of these, if the run lists them
+  // The keys of the configurations without a record, if the run lists its configurations.
+  std::vector<std::string> missing = {};
 };
-// A complete shard has no gaps. A store whose shards are all empty has a gap for each plan.
+// Returns the gaps in a store. A complete shard has no gaps. If the shards of all plans in the
+// store are empty, there is a gap for each plan.
 [[nodiscard]] std::vector<Gap> gaps_of(const Store& store);
 
 struct MergeResult {
@@ -36,18 +38,18 @@ struct MergeResult {
   std::uint64_t older_runs = 0;
 };
 
-// Writes a store with one run for each plan. The run has the earliest id and start of its parts,
-// and the system facts of all parts. If there are two records of the same configuration and device,
-// the one without an injected fault is kept; if that does not decide, the one that was measured;
-// otherwise the one with the smaller seal. Of two calibrations of a device's clocks, the one with
-// the smaller seal is kept. The result is the same to the byte whatever the order of the stores is,
-// and also if a store is merged twice. The memory that is needed does not grow with the number of
-// records or stores.
+// Writes a store with one run for each plan. The run has the smallest id and the earliest start
+// time of its parts, and the system facts of all parts. If there are several records of the same
+// configuration and device, records without an injected fault are preferred, then measured records,
+// then skipped records, and then the record with the smallest seal. If a device's clocks were
+// calibrated several times, the calibration with the smallest seal is kept. The new store is
+// byte-identical for every order of the stores, and also if a store is merged twice. Memory use
+// does not grow with the number of records or stores.
 //
 // `out` appears only when everything has been written; an existing file is not overwritten. Throws
 // InputError if two stores have different texts or checks for the same plan, different devices with
-// the same id, or different data with the same name. Errors in reading and writing are those of
-// Store.
+// the same id, or different data with the same name. Errors in reading and writing files are those
+// that Store throws.
 [[nodiscard]] MergeResult merge_stores(const std::vector<std::filesystem::path>& stores,
                                        const std::filesystem::path& out,
                                        const RecordCopy::Tell& tell = {});

@@ -34,7 +34,7 @@ const MergedRows::Row* MergedRows::next() {
   return &*row_;
 }
 
-// Compares keys in SQLite's order, which is the order of bytes.
+// Compares keys byte by byte, which is the order in which SQLite sorts them.
 int MergedRows::compare(std::size_t a, std::size_t b) const {
   for (int key = 0; key < keys_; ++key) {
     const int order = queries_[a].text(key).compare(queries_[b].text(key));

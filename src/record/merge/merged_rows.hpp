@@ -1,5 +1,5 @@
 #pragma once
-// Presents the rows of one table in many stores as one sorted sequence.
+// Reads the rows of one table from many stores as one sorted sequence.
 
 #include <cstddef>
 #include <filesystem>
@@ -25,18 +25,19 @@ class MergedRows {
   // identical rows.
   using Before = std::function<bool(const Query& a, const Query& b)>;
 
-  // `select` must sort by its first `keys` columns, which are all texts. If it has a parameter,
-  // each source has its own value for it. All arguments must live as long as this object.
+  // `select` must sort by its first `keys` columns, which must be of type TEXT. If `select` has a
+  // parameter, `parameters` has a value of the parameter for each source. All arguments must
+  // outlive this object.
   MergedRows(const std::vector<Source>& sources, std::string_view select, int keys, Before before,
              const std::vector<std::string>& parameters = {});
 
-  // The preferred row with the next key.
+  // The preferred row among all rows with the same key.
   struct Row {
     std::size_t source;             // the source that the row comes from
-    std::vector<std::size_t> rest;  // other sources with a row with the same key
+    std::vector<std::size_t> rest;  // the other sources that have a row with this key
   };
-  // Returns nullptr after the last key. The row is valid until the next call. Throws the same
-  // errors as reading a Store.
+  // Advances to the next key. Returns nullptr after the last key. The returned row is valid until
+  // the next call. Throws the errors that Store throws when it reads a file.
   [[nodiscard]] const Row* next();
   [[nodiscard]] const Query& query(std::size_t source) const { return queries_[source]; }
 

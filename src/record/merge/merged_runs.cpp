@@ -29,7 +29,7 @@ void add_parts(std::string_view text, std::set<std::string>& parts) {
   }
 }
 
-// Joins everything that either text contains, without duplicates.
+// Joins the parts of both texts, without duplicates.
 std::string all_of(const std::string& a, const std::string& b) {
   if (a == b) return a;
   std::set<std::string> parts;
@@ -49,14 +49,16 @@ void require_same_plan(const Found<Run>& known, const Run& run, const fs::path& 
   if (run.plan_hash != known.value.plan_hash) {
     throw core::InputError(
         {.file = file.string()},
-        fmt::format("measured another version of plan {} (hash {}) than {} (hash {}): merge only "
-                    "stores of one version, and measure the others again with it",
-                    run.plan, run.plan_hash, known.file.string(), known.value.plan_hash));
+        fmt::format(
+            "contains results for another version of plan {} (hash {}) than {} (hash {}); merge "
+            "only stores with the same version of the plan, and measure the others again",
+            run.plan, run.plan_hash, known.file.string(), known.value.plan_hash));
   }
   if (run.checks != known.value.checks) {
     throw core::InputError(
         {.file = file.string()},
-        fmt::format("measured {} for {}, but {} for {}: measure both with --timed, or none",
+        fmt::format("contains results for {} with the checks {}, but {} contains results with the "
+                    "checks {}; measure both with --timed, or both without it",
                     run.plan, text_of(run.checks), known.file.string(),
                     text_of(known.value.checks)));
   }
@@ -76,8 +78,8 @@ void add(const Run& run, Run& sum) {
 
 using Devices = std::map<std::string, Found<Store::DeviceEntry>>;
 
-// Adds a device. Parts with the same device describe it equally, except for the calibration of its
-// clocks, so the entry with the smaller seal is kept.
+// Adds a device. If several parts contain the same device, they differ only in the calibration of
+// its clocks, so the entry with the smallest seal is kept.
 void add(Store::DeviceEntry entry, const fs::path& file, Devices& devices) {
   const std::string id = entry.device.id;
   const auto found = devices.find(id);
@@ -89,8 +91,9 @@ void add(Store::DeviceEntry entry, const fs::path& file, Devices& devices) {
   if (entry.device.key() != known.device.key()) {
     throw core::InputError(
         {.file = file.string()},
-        fmt::format("{} differs from that of {} (here {}; there {}): merge the stores of each "
-                    "driver and machine separately; `triptych diff` compares the results",
+        fmt::format("the device {} differs from the device with this id in {} (here {}; there {}); "
+                    "merge the stores of each driver and machine separately, and compare the "
+                    "results with `triptych diff`",
                     id, known_file.string(), entry.device.key(), known.device.key()));
   }
   if (seal_of(entry.device, entry.clocks) < seal_of(known.device, known.clocks)) {
@@ -98,7 +101,7 @@ void add(Store::DeviceEntry entry, const fs::path& file, Devices& devices) {
   }
 }
 
-// The run of a plan that grows while stores are being read.
+// The merged run of a plan, to which each store that is read adds its part.
 struct Growing {
   Found<Run> first;
   Run sum;

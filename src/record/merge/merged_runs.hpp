@@ -10,20 +10,20 @@
 
 namespace triptych::record {
 
-// The run of a plan, and the parts that it consists of.
+// The merged run of a plan, and the parts from which it is merged.
 struct MergedRun {
   Run run;
-  std::vector<std::string> parts;           // id of the run in each store; empty if it has none
+  std::vector<std::string> parts;  // id of the run in each store; empty if the store has no run
   std::vector<Store::DeviceEntry> devices;  // sorted by id
   std::vector<std::string> planned;         // keys of the configurations of all parts, sorted
 };
 
 struct MergedRuns {
   std::vector<MergedRun> runs;  // sorted by plan
-  std::uint64_t older = 0;      // runs that are not the latest of their plan in a store
+  std::uint64_t older = 0;  // number of runs that are not the latest run of their plan in a store
 };
 
-// Throws InputError as merge_stores() does.
+// Throws InputError in the same cases as merge_stores().
 [[nodiscard]] MergedRuns merged_runs(const std::vector<std::filesystem::path>& stores);
 
 }  // namespace triptych::record

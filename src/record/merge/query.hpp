@@ -1,6 +1,6 @@
 #pragma once
-// A prepared statement whose values are used without being copied, because a merge moves hundreds
-// of millions of them.
+// A prepared statement that binds and returns values without copying them, because a merge moves
+// hundreds of millions of values.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
@@ -39,17 +39,17 @@ class Query {
   void bind(int index, std::int64_t number) { require(sqlite3_bind_int64(get(), index, number)); }
   void bind(int index, double number) { require(sqlite3_bind_double(get(), index, number)); }
   void bind(int index, std::nullptr_t /*null*/) { require(sqlite3_bind_null(get(), index)); }
-  // Binds a text without copying it. The text must stay in place until the next step.
+  // Binds a string without copying it. The string must stay valid until the next step().
   void bind(int index, std::string_view text) {
     require(sqlite3_bind_text(get(), index, text.data(), static_cast<int>(text.size()), nullptr));
   }
-  // Binds the value in a column of another statement's current row. That statement must stay on its
-  // row until the next step of this one.
+  // Binds the value in a column of another statement's current row. That statement must stay on
+  // this row until the next step() of this statement.
   void bind(int index, const Query& row, int column) {
     require(sqlite3_bind_value(get(), index, sqlite3_column_value(row.get(), column)));
   }
 
-  // These functions return values of the current row. A text is valid until the next step.
+  // These functions return values of the current row. A string is valid until the next step().
   [[nodiscard]] std::string_view text(int column) const {
     const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(get(), column));
     if (bytes == nullptr) return {};

@@ -14,7 +14,7 @@
 namespace triptych::record {
 namespace {
 
-// The columns that the merge itself reads. They come before the others.
+// The columns that the merge itself reads. Queries select them before all other columns.
 constexpr std::array<std::string_view, 8> named{"configuration", "device",    "outcome", "injected",
                                                 "seal",          "data_hash", "suite",   "seq"};
 namespace column {
@@ -37,8 +37,8 @@ std::vector<std::string> other_columns(const SQLite::Database& database) {
   return columns;
 }
 
-// The columns in the order in which they are written: seq, run, and then the others in the order in
-// which they are read.
+// Returns the columns in the order in which they are written: seq, run, and then all other columns
+// in the order in which they are read.
 std::vector<std::string> columns_with(const std::vector<std::string>& others) {
   std::vector<std::string> columns{"seq", "run"};
   columns.insert(columns.end(), named.begin(), named.end() - 1);
@@ -55,10 +55,10 @@ bool has_fault(const Query& record) {
   return !record.text(column::injected).empty();
 }
 
-// A record without an injected fault is preferred to one with an injected fault, whether it was
-// measured or not. Among the others, a measured record is preferred, because a job is repeated in
-// order to measure it. The remaining rule is arbitrary, but must not depend on the order of the
-// stores.
+// Whether record `a` is preferred to record `b`. A record without an injected fault is preferred to
+// a record with an injected fault, even if only the latter was measured. Otherwise, a measured
+// record is preferred, because jobs are repeated to measure what failed before. The last rule,
+// which prefers the smaller seal, is arbitrary, but it does not depend on the order of the stores.
 bool is_before(const Query& a, const Query& b) {
   if (has_fault(a) != has_fault(b)) return has_fault(b);
   const int rank_a = rank_of(a.text(column::outcome));
@@ -66,8 +66,8 @@ bool is_before(const Query& a, const Query& b) {
   return rank_a != rank_b ? rank_a < rank_b : a.text(column::seal) < b.text(column::seal);
 }
 
-// Adds the factors of a record, and returns the resolved ones on which the content of its data
-// depends.
+// Adds the factors of a record to `rows`. Returns those factors that determine the content of its
+// data.
 std::string add_factors(RowBatch& rows, Query& factors, std::int64_t record) {
   std::string data;
   while (factors.step()) {
@@ -88,10 +88,10 @@ void DataSeen::saw(const std::string& name, std::string_view hash,
   if (is_new || known->second.hash == hash) return;
   throw core::InputError(
       {.file = file.string()},
-      fmt::format(
-          "measured other data under the same name: {} has content hash {}, in {} it has {}; give "
-          "all machines the same files and measure the shards of one machine again",
-          name, hash, known->second.file.string(), known->second.hash));
+      fmt::format("contains results for different data with the same name: {} has the content hash "
+                  "{}, but in {} it has the content hash {}; copy the same files to all machines "
+                  "and measure the shards of one machine again",
+                  name, hash, known->second.file.string(), known->second.hash));
 }
 
 std::size_t RecordCopy::Batch::bytes() const {
@@ -122,7 +122,7 @@ RecordCopy::RecordCopy(const std::vector<Source>& sources, const SQLite::Databas
   prepare_parts();
 }
 
-// Finds every table that refers to a record, and the order of its primary key.
+// Returns every table whose rows refer to a record. Its rows are sorted by its primary key.
 std::vector<RecordCopy::Part> RecordCopy::parts_of(const SQLite::Database& database) {
   std::vector<Part> parts;
   for (std::string& table :
@@ -166,7 +166,7 @@ RecordCounts RecordCopy::copy(const std::vector<std::string>& runs, const std::s
   last_configuration_.clear();
   std::array<Batch, 2> batches;
   for (Batch& each : batches) each.parts.resize(parts_.size());
-  std::future<void> writing;  // the destructor of a future waits
+  std::future<void> writing;  // its destructor waits for the end of the task
   for (std::size_t turn = 0;; turn = 1 - turn) {
     fill(batches[turn], rows, run, counts);
     if (writing.valid()) writing.get();

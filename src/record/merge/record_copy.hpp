@@ -16,11 +16,11 @@
 
 namespace triptych::record {
 
-// Remembers the content hash of each data set, and the store in which it was seen first. There is
-// one object per merge.
+// Remembers the content hash of each data set, and the store in which it was seen first. Each merge
+// has one such object.
 class DataSeen {
  public:
-  // Throws InputError if the name was seen with other content.
+  // Throws InputError if the name was seen before with another hash.
   void saw(const std::string& name, std::string_view hash, const std::filesystem::path& file);
 
  private:
@@ -31,32 +31,35 @@ class DataSeen {
   std::map<std::string, Content> contents_;
 };
 
-// The numbers of records that were copied, and of records that were not copied, by reason.
+// The numbers of records that were copied, by device, and of records that were not copied, by
+// reason.
 struct RecordCounts {
   std::uint64_t configurations = 0;
   std::map<std::string, std::uint64_t> records;  // by device
-  // These were not copied, because another record of the same configuration and device was:
+  // Records that were not copied because another record of the same configuration and device was
+  // copied:
   std::uint64_t repeated = 0;       // identical to the other record
   std::uint64_t injected = 0;       // had an injected fault, and the other record has none
-  std::uint64_t not_chosen = 0;     // different, with an outcome that is not worse
+  std::uint64_t not_chosen = 0;     // different, but with an outcome that is not worse
   std::uint64_t measured_anew = 0;  // failed or was skipped, but the other record was measured
 };
 
 class RecordCopy {
  public:
-  using Tell = std::function<void(std::uint64_t records)>;  // with the number so far
+  using Tell = std::function<void(std::uint64_t records)>;  // the number of records so far
 
-  // All arguments must live as long as this object. `out` holds no records yet.
+  // All arguments must outlive this object. `out` must not contain records yet.
   RecordCopy(const std::vector<Source>& sources, const SQLite::Database& out, DataSeen& data,
              const Tell& tell);
 
-  // Copies records from the runs `runs`, one for each source (empty if the source has none), into
-  // the run `run`. Throws InputError if two data sets with the same name have different content,
-  // and the errors of reading and writing a Store.
+  // Copies the records of the runs `runs` into the run `run`. `runs` contains the id of a run for
+  // each source (empty if the source has no run). Throws InputError if two data sets with the same
+  // name have different content. Also throws the errors that Store throws when it reads and writes
+  // a file.
   [[nodiscard]] RecordCounts copy(const std::vector<std::string>& runs, const std::string& run);
 
  private:
-  // A table whose rows belong to records. Its first column refers to the record; these are the
+  // A table whose rows belong to records. Its first column refers to the record; `columns` are the
   // other columns.
   struct Part {
     std::string table;
@@ -84,7 +87,7 @@ class RecordCopy {
   const Tell& tell_;
   std::vector<std::string> others_;  // columns of a record whose names this code does not need
   std::vector<Part> parts_;
-  std::vector<std::vector<std::optional<Query>>> queries_;  // by source and part; empty if no rows
+  std::vector<std::vector<std::optional<Query>>> queries_;  // by source and part; empty: no rows
   RowWriter record_writer_;
   std::vector<RowWriter> part_writers_;
   std::int64_t seq_ = 0;  // number of the record that was added last

@@ -24,8 +24,7 @@ class RowBatch {
 
   [[nodiscard]] std::size_t cells() const { return cells_.size(); }
   [[nodiscard]] std::size_t bytes() const { return texts_.size(); }
-  // Binds a value to a parameter of a statement. The statement must be stepped before the batch
-  // changes.
+  // Binds a value to a parameter of a statement, which must be executed before the batch changes.
   void bind(Query& statement, int index, std::size_t cell) const;
 
  private:
@@ -48,7 +47,7 @@ class RowWriter {
   RowWriter(const SQLite::Database& database, std::string_view table,
             const std::vector<std::string>& columns);
 
-  // The batch must consist of whole rows with as many columns as the table was given.
+  // The batch must consist of complete rows, with one value for each of the columns.
   void write(const RowBatch& rows);
 
  private:

@@ -216,19 +216,20 @@ TEST_F(Merge, OtherTextOfAPlanIsRefused) {
   run.plan_hash = "another";
   Store(files[1], Mode::append).add_run(run);
   expect_refused(files,
-                 AllOf(HasSubstr("shard-2.sqlite: measured another version of plan fake/quick"),
+                 AllOf(HasSubstr("shard-2.sqlite: contains results for another version of plan "
+                                 "fake/quick"),
                        HasSubstr("shard-1.sqlite"), HasSubstr("measure the others again")));
   run.plan_hash = "text";
   run.checks = {Check::timing};
   Store(files[1], Mode::append).add_run(run);
-  expect_refused(files, AllOf(HasSubstr("for timing"), HasSubstr("--timed")));
+  expect_refused(files, AllOf(HasSubstr("the checks timing"), HasSubstr("--timed")));
 }
 
 TEST_F(Merge, AnotherDriverUnderOneDeviceIsRefused) {
   Device newer = sample_device();
   newer.driver_version = "2.0";
   expect_refused({shard(1, {record_of(1)}), shard(2, {record_of(2)}, newer)},
-                 AllOf(HasSubstr("shard-2.sqlite: null:scripted differs from that of"),
+                 AllOf(HasSubstr("shard-2.sqlite: the device null:scripted differs from"),
                        HasSubstr("driver 2.0"), HasSubstr("separately")));
 }
 
@@ -237,10 +238,10 @@ TEST_F(Merge, OtherDataUnderOneNameAreRefused) {
   other.data_hash = "other";
   const fs::path first = shard(1, {record_of(1)});
   expect_refused({first, shard(2, {other})},
-                 AllOf(HasSubstr("shard-2.sqlite: measured other data under the same name"),
+                 AllOf(HasSubstr("shard-2.sqlite: contains results for different data"),
                        HasSubstr("data=b"), HasSubstr("content hash other"), HasSubstr("4567")));
   other.configuration = configuration(1);
-  expect_refused({first, shard(3, {other})}, HasSubstr("measured other data under the same name"));
+  expect_refused({first, shard(3, {other})}, HasSubstr("contains results for different data"));
 }
 
 TEST_F(Merge, FactorsThatChangeTheVoxelsTellContentsApart) {

@@ -101,13 +101,13 @@ TEST_F(StoreTest, ObjectsThatOthersMadeAreRefused) {
       {"CREATE TRIGGER hide AFTER INSERT ON device_fault BEGIN DELETE FROM device_fault; END",
        "has the trigger hide"},
       {"ALTER TABLE record RENAME TO kept; CREATE VIEW record AS SELECT * FROM kept",
-       "measure again into another file"},
+       "measure again and name another file"},
       {"CREATE VIEW x AS SELECT * FROM record", "has the view x"},
       {"CREATE INDEX x ON record (outcome) WHERE outcome = 'measured'", "has the index x"},
       {"DROP INDEX run_of_plan", "index run_of_plan is missing"},
       {"DROP TABLE device_fault; CREATE TABLE device_fault (seq INTEGER PRIMARY KEY, device, kind "
        "DEFAULT 'x', subject, detail, last_words)",
-       "measure again into another file"}};
+       "measure again and name another file"}};
   int number = 0;
   for (const auto& [attack, expected] : attacks) {
     const auto file = folder_ / ("s" + std::to_string(number++));
@@ -193,7 +193,7 @@ TEST_F(StoreTest, ATextOfManyMegabytesIsRefused) {
       .exec("UPDATE record SET detail = CAST(zeroblob(70000000) AS TEXT)");
   const Store store(file_, Mode::read);
   EXPECT_THAT([&] { static_cast<void>(store.records(sample_run().id)); },
-              ThrowsMessage<core::InputError>(HasSubstr("a text of 70000000 bytes")));
+              ThrowsMessage<core::InputError>(HasSubstr("a string of 70000000 bytes")));
 }
 
 TEST_F(StoreTest, APictureThatIsNoneIsNamed) {
