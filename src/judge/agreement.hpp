@@ -1,5 +1,5 @@
 #pragma once
-// The agreement that is required of two devices, for the gate and for comparisons.
+// How closely two devices must agree, for the gate and for comparisons.
 
 #include <array>
 #include <map>
@@ -11,15 +11,15 @@
 namespace triptych::judge {
 
 // The largest allowed RMS difference between the images of two devices that use their default
-// paths, in units of full scale.
+// rendering paths. Full scale is 1.
 inline constexpr double device_agreement = 1e-4;
 
-// The allowed relative difference of a counter between two devices. For a few samples, comparing a
-// float with a threshold may give another result on another device.
+// The allowed relative difference of a counter between two devices. For a few samples, a float that
+// is compared with a threshold may fall on different sides of it on different devices.
 inline constexpr double counters_across_devices = 1e-4;
 
-// Whether techniques count this differently on one API: on OpenCL they bin spheres, which Vulkan
-// and GL draw directly.
+// Whether the value of this counter depends on the API. Techniques bin spheres on OpenCL, but draw
+// them directly on Vulkan and OpenGL.
 [[nodiscard]] constexpr bool is_of_the_api(std::string_view counter) {
   return counter == "bin_entries";
 }
@@ -30,9 +30,9 @@ inline constexpr std::array<std::string_view, 5> portable_statistics{
     "input_assembly_vertices", "input_assembly_primitives", "geometry_primitives",
     "tessellation_control_patches", "compute_invocations"};
 
-// How exactly a driver counts a statistic, from Device::statistics_calibration. Only exact
-// statistics are compared with those of other drivers. Without a calibration, the numbers are used
-// as they are.
+// Looks up in Device::statistics_calibration how exactly a driver counts a statistic. Only exact
+// statistics are compared with those of other drivers. If there is no calibration at all, the
+// driver's numbers are assumed to be exact.
 [[nodiscard]] record::StatisticWorth worth_of(
     const std::map<std::string, record::StatisticWorth>& calibration, const std::string& statistic);
 

@@ -1,13 +1,13 @@
 #pragma once
-// The errors in an image, as data.
+// Describes the errors in an image as an Observation.
 
 #include "accuracy/image_metrics.hpp"
 #include "judge/finding.hpp"
 
 namespace triptych::judge {
 
-// The result of comparing `image` with `expected`; its cause is Cause::within_bound if nothing is
-// wrong.
+// Converts the result of comparing `image` with `expected`. The cause is Cause::within_bound if the
+// image is correct.
 [[nodiscard]] Observation image_observation(const accuracy::ImageComparison& comparison,
                                             const core::Image& image, const core::Image& expected,
                                             Against against);

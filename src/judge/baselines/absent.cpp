@@ -16,7 +16,7 @@ Absent read_absent(const core::JsonNode& entry) {
   if (entry.has("expiry")) absent.expiry = expiry_of(entry);
   if (matches_every_device(absent.device) && matches_every_host(absent.host)) {
     entry.at("device").fail(
-        "expected a device, because this entry excuses every device on every machine");
+        "this entry excuses every device on every machine; name a device or a host");
   }
   return absent;
 }

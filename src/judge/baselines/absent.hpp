@@ -1,6 +1,6 @@
 #pragma once
-// The devices that a machine lacks on purpose, from baselines/absent.json, which is reviewed like
-// waivers.
+// Reads baselines/absent.json, the list of devices that machines lack on purpose. Changes of it are
+// reviewed like waivers.
 
 #include <filesystem>
 #include <string>
@@ -9,15 +9,15 @@
 namespace triptych::judge {
 
 struct Absent {
-  std::string device = {};  // glob over device ids
-  std::string host = "*";   // glob over names of machines
+  std::string device = {};  // glob for device ids
+  std::string host = "*";   // glob for names of machines
   std::string reason = {};
-  std::string expiry = {};  // ISO date from which on the entry is ignored; empty: never
+  std::string expiry = {};  // ISO date from which the entry is ignored; empty: it never expires
 };
 
-// Reads [{device, reason}, …]; an entry may also have a `host` and an `expiry`. Without such a file
-// there are none. Throws InputError with file and line for other keys, a blank reason, or an entry
-// that excuses every device on every machine.
+// Reads [{device, reason}, …]; an entry may also have a `host` and an `expiry`. Returns an empty
+// list if the file does not exist. Throws InputError with file and line for an unknown key, a blank
+// reason, or an entry that excuses every device on every machine.
 [[nodiscard]] std::vector<Absent> read_absent(const std::filesystem::path& file);
 
 }  // namespace triptych::judge

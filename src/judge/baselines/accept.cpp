@@ -33,8 +33,8 @@ void update_image(const record::Record& record, const core::Image& reference, Ne
   next.files[name] = std::move(bytes);
 }
 
-// Because images are large, they are stored only for plans that measure times, whose reports show
-// them.
+// Images are large, so they are stored only for plans that check times: the reports on these plans
+// show them.
 void update_images(const Accepted& accepted, const AcceptRequest& request, NextFolder& next) {
   const bool keeps =
       accepted.checks.contains(Check::image) && accepted.checks.contains(Check::timing);
@@ -47,8 +47,8 @@ void update_images(const Accepted& accepted, const AcceptRequest& request, NextF
     if (done.insert(record.scene).second) {
       const core::Image reference = request.truth(record);
       if (keeps) update_image(record, reference, next);
-      // Data have another hash in each voxel format. The hashes for other devices' formats stay
-      // valid as long as the reference image does not change.
+      // Data have a different hash in each voxel format. The hashes for the formats of other
+      // devices stay valid as long as the reference image does not change.
       Json& entry = table[record.scene];
       const Json hash = reference_hash(reference);
       if (!entry.is_object() || entry.value("reference", Json()) != hash) {
@@ -74,8 +74,8 @@ record::Checks all_of(record::Checks checks, const record::Checks& more) {
   return checks;
 }
 
-// Adds the drivers that were accepted on each machine of the run. Sets that are contained in
-// another one are left out.
+// Adds, for each machine of the run, the set of drivers that were accepted on it. Leaves out sets
+// that are contained in another set.
 Json machines_of(const Accepted& accepted, const Manifest& stored) {
   std::vector<std::set<std::string>> machines = stored.machines;
   for (const record::Beginning& begun : accepted.run.begun) {
@@ -98,9 +98,9 @@ Json machines_of(const Accepted& accepted, const Manifest& stored) {
   return kept;
 }
 
-// The manifest without the hashes of its files.
+// Returns the new manifest, without the hashes of its files.
 Json next_manifest(const Accepted& accepted, const Manifest& stored, NextFolder& next) {
-  // Values about the whole plan are replaced only if the whole run is accepted.
+  // The hash and the checks of the plan are replaced only if the whole run is accepted.
   const bool whole = accepted.replaces_all || stored.plan_hash.empty();
   Json devices = stored.devices;
   for (const auto& [id, device] : accepted.devices) {
@@ -118,7 +118,7 @@ Json next_manifest(const Accepted& accepted, const Manifest& stored, NextFolder&
       {"devices", devices}};
 }
 
-// `manifest` is the future manifest, without the hashes of its files.
+// Adds an entry to history.json. `manifest` is the new manifest, without the hashes of its files.
 void append_history(const Accepted& accepted, const AcceptRequest& request, const Json& manifest,
                     NextFolder& next) {
   std::set<std::string> ids;
@@ -140,7 +140,8 @@ void write_manifest(Json manifest, NextFolder& next) {
   next.files[Layout::manifest] = bytes_of(core::to_lines(manifest, 2));
 }
 
-// Starts with all files as they are stored now, or with none if damaged files are to be dropped.
+// Returns a folder with all files that are stored now, or an empty one if the stored files are
+// damaged and --drop discards them.
 NextFolder next_of(const Baselines& stored, const AcceptRequest& request) {
   NextFolder next{.folder = stored.folder(), .files = {}, .lines = {}};
   if (!stored.problem().empty()) {

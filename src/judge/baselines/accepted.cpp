@@ -36,7 +36,7 @@ std::string plan_in_a_command(const AcceptRequest& request) {
                                                      : request.argument);
 }
 
-// A device that measured nothing at all does not become part of the baselines.
+// Returns the devices that measured something. Only these become part of the baselines.
 std::set<std::string> devices_that_measured(const std::vector<record::Record>& records) {
   std::set<std::string> devices;
   for (const record::Record& record : records) {
@@ -99,8 +99,8 @@ void refuse_other_data(const Accepted& accepted, const AcceptRequest& request) {
     const std::string now = request.data_hash(record);
     if (now.empty() || now == record.data_hash) continue;
     throw core::InputError(fmt::format(
-        "the data of {} are not those that run {} measured (content hash {}, now {}): restore "
-        "them, or measure again",
+        "the data of {} have changed since run {} measured them (content hash {}, now {}): restore "
+        "the data, or measure again",
         record.configuration, record.run, record.data_hash, now));
   }
 }
@@ -113,9 +113,9 @@ void refuse_part(const Accepted& accepted, const Baselines& stored, const std::s
   std::ranges::set_difference(known, accepted.configurations, std::back_inserter(missing));
   if (missing.empty()) return;
   throw core::InputError(fmt::format(
-      "run {} has no record of {} of {} stored configurations ({}{}): finish it with triptych run "
-      "{} --resume{}, accept the measured ones with --only GLOB, or use --drop if the plan no "
-      "longer has the missing ones",
+      "run {} has no records for {} of the {} stored configurations ({}{}): finish the run with "
+      "triptych run {} --resume{}, accept some configurations with --only GLOB, or use --drop if "
+      "the plan no longer contains the missing configurations",
       run, missing.size(), known.size(), missing.front(), missing.size() > 1 ? "; …" : "",
       plan_in_a_command(request), request.store_option));
 }
@@ -130,8 +130,9 @@ void refuse_incomplete(const record::Store& store, const Accepted& accepted,
     std::ranges::set_difference(planned, there, std::back_inserter(missing));
     if (missing.empty()) continue;
     throw core::InputError(fmt::format(
-        "run {} is incomplete: of {} configurations on {}, {} have no record ({}{}); finish it "
-        "with triptych run {} --resume{}, or accept the measured ones with --only GLOB or --drop",
+        "run {} is incomplete: of the {} configurations on {}, {} have no record ({}{}); finish "
+        "the run with triptych run {} --resume{}, or accept the measured configurations with "
+        "--only GLOB or --drop",
         accepted.run.id, planned.size(), device, missing.size(), missing.front(),
         missing.size() > 1 ? "; …" : "", plan_in_a_command(request), request.store_option));
   }

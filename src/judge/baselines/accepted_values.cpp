@@ -30,7 +30,8 @@ void drop_all_but(Json& object, const std::set<std::string>& kept) {
 
 namespace {
 
-// {configuration: …}, without the configurations that are removed.
+// Returns the table {configuration: …}, from which configurations that the run no longer contains
+// have been removed.
 Json& table_of(Json& table, const Accepted& accepted) {
   if (!table.is_object()) table = Json::object();
   if (accepted.replaces_all) drop_all_but(table, accepted.configurations);
@@ -62,9 +63,9 @@ bool has_counters(const Json& table, const record::Record& record) {
          });
 }
 
-// Counters are stored by device, not by driver version. If the accepted version lacks a feature
-// that another version has, the counters stay, and the missing feature is recorded for this
-// version.
+// Counters are stored by device, not by driver version. If the accepted driver version does not
+// support a configuration that another version supports, the counters stay, and lacking.json lists
+// the configuration for this version.
 void note_lacking(const Accepted& accepted, const Manifest& stored, const Json& counters,
                   Update& update) {
   Json& table = update.object();
@@ -93,7 +94,7 @@ void note_lacking(const Accepted& accepted, const Manifest& stored, const Json& 
   }
 }
 
-// The error of each record against the limit of its scene, on the device that measured it.
+// Writes the error of each record against the limit of its scene.
 void update_errors(const record::Store& store, const Accepted& accepted,
                    const AcceptRequest& request, Update& update) {
   Json& table = table_of(update.value(), accepted);
@@ -109,8 +110,8 @@ void update_errors(const record::Store& store, const Accepted& accepted,
   }
 }
 
-// The score of each configuration on each device of the run. A configuration that failed also has a
-// score.
+// Writes the score of each configuration on each device of the run, including configurations that
+// failed.
 void update_scores(const record::Store& store, const Accepted& accepted,
                    const AcceptRequest& request, Update& update) {
   Json& table = table_of(update.value(), accepted);
@@ -122,16 +123,17 @@ void update_scores(const record::Store& store, const Accepted& accepted,
   }
 }
 
-// Removes counts that differ between two process runs. The gate shows them, but they are not
-// stored.
+// Removes the counts that differ from one process run to the next. The gate shows these counts, but
+// they are not stored.
 record::Counts kept_of(record::Counts cost) {
   cost.erase("libc");
   cost.erase("program");
   return cost;
 }
 
-// Counts by another emulator are not comparable with the stored ones and must replace all of them,
-// which is refused with --only.
+// Writes the instruction counts. Counts from another emulator are not comparable with the stored
+// counts, so they have to replace all of them. With --only, which would replace only some, such
+// counts are refused.
 void update_cost(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::cost(device));
   bool counted = false;
@@ -157,7 +159,7 @@ void update_cost(const Accepted& accepted, const record::Device& device, NextFol
   update.write(3);
 }
 
-// Infinite statistics are not stored, because JSON has no such number.
+// Writes the code statistics, except infinite ones, which JSON cannot represent.
 void update_code(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::code(device));
   bool any = false;
@@ -180,11 +182,12 @@ void update_code(const Accepted& accepted, const record::Device& device, NextFol
   if (any) update.write(4);
 }
 
-// Untimed runs may not read statistics. For such records, the stored values are kept.
+// Writes the pipeline statistics. An untimed run may not have read any; in this case, the stored
+// values are kept.
 void update_statistics(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::statistics(device));
   update.object()["device"] = device.statistics_key();
-  // The calibration of statistics that this run did not calibrate stays as stored.
+  // For statistics that this run did not calibrate, the stored calibration is kept.
   for (const auto& [statistic, worth] : device.statistics_calibration) {
     update.object()["calibration"][statistic] = worth;
   }
@@ -217,9 +220,10 @@ void update_timings(const Accepted& accepted, const record::Device& device, Next
   }
   if (!table.empty()) update.write(2);
   if (kept > 0) {
-    next.lines.push_back(fmt::format(
-        "{}: times and statistics of {} configurations stay as stored, because the run was untimed",
-        device.id, kept));
+    next.lines.push_back(
+        fmt::format("{}: kept the stored times and statistics of {} configurations, because the "
+                    "run was untimed",
+                    device.id, kept));
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Reads the files of the baselines (judge/baselines/baselines.hpp). Used only by Baselines. All
-// functions throw InputError with file and line.
+// Reads the files that judge/baselines/baselines.hpp describes. Only the class Baselines uses these
+// functions. All of them throw InputError with file and line.
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ struct StoredImage {
 template <typename Value>
 using ByName = std::map<std::string, Value>;
 
-// Reads {name: value, …}; empty if the file is missing.
+// Reads an object {name: value, …}.
 template <typename Value, typename Read>
 ByName<Value> read_members(const core::JsonNode& node, const Read& read) {
   ByName<Value> result;
@@ -30,14 +30,15 @@ ByName<Value> read_members(const core::JsonNode& node, const Read& read) {
   return result;
 }
 
+// Reads a file of the form {name: value, …}. Returns an empty table if the file is missing.
 template <typename Value, typename Read>
 ByName<Value> read_table(const std::filesystem::path& path, const Read& read) {
   const auto file = core::JsonFile::read(path);
   return file ? read_members<Value>(file->root(), read) : ByName<Value>{};
 }
 
-// Reads {"device": …, "configurations": {name: value, …}}. The file must be about the expected
-// device.
+// Reads a file of the form {"device": …, "configurations": {name: value, …}}. The file must be
+// about the expected device. Returns an empty table if the file is missing.
 template <typename Value, typename Read>
 ByName<Value> read_device_table(const std::filesystem::path& path, std::string_view device,
                                 const Read& read) {
@@ -60,10 +61,10 @@ ByName<Value> read_device_table(const std::filesystem::path& path, std::string_v
 [[nodiscard]] DriverCode read_code(const core::JsonNode& node);
 [[nodiscard]] StoredTiming read_timing(const core::JsonNode& node);
 
-// The JSON files of a subfolder, by their names without ending.
+// Returns the JSON files of a subfolder, by their names without the extension.
 [[nodiscard]] std::map<std::string, std::filesystem::path> files_in(
     const std::filesystem::path& folder);
-// The first file that differs from the manifest, and how; empty if there is none.
+// Describes the first file that does not match the manifest. Returns "" if all files match.
 [[nodiscard]] std::string first_change(const std::filesystem::path& folder,
                                        const Manifest& manifest);
 

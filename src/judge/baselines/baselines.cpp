@@ -24,7 +24,7 @@ auto find_optional(const Table& table, const std::string& name) {
                               : std::optional(found->second);
 }
 
-// Reads the files of a folder that has one for each driver.
+// Reads all files of a folder that contains one file for each driver.
 template <typename Value, typename Read>
 ByName<Value> read_drivers(const fs::path& folder, const Read& read) {
   ByName<Value> drivers;
@@ -74,7 +74,8 @@ struct Baselines::Cache {
   const ByName<StoredImage>& stored_images() {
     return table(images, Layout::images, read_stored_image);
   }
-  // The calibration is in the same file; a driver that was accepted without calibration has none.
+  // The calibration is in the same file as the statistics. It is missing if the driver was not
+  // calibrated when it was accepted.
   const ByName<record::StatisticWorth>& calibration_of(const fs::path& path) {
     const auto known = calibrations.find(path);
     if (known != calibrations.end()) return known->second;
@@ -120,7 +121,7 @@ const std::string& Baselines::problem() const {
     try {
       if (problem.empty()) problem = contradiction_in(folder_, manifest());
     } catch (const core::InputError&) {
-      // A wrong value in a file is reported with its line when a check reads the file.
+      // The check that reads the file reports an invalid value together with its line.
     }
   }
   cache_->problem = std::move(problem);
@@ -179,7 +180,7 @@ std::map<std::string, StoredError> Baselines::errors(const std::string& configur
 }
 
 std::map<std::string, std::uint64_t> Baselines::scores(const std::string& configuration) const {
-  // The table has the same form as one of counts: names and integers.
+  // The table has the same form as a table of counters: names and integers.
   return find_optional(cache_->table(cache_->scores, Layout::scores, read_counts), configuration)
       .value_or(record::Counts{});
 }

@@ -10,7 +10,7 @@
 //                             {frame: {part: instructions}, prepare: {part: instructions}}}}
 //   code/<driver>.json        {device, driver_version, configurations: {configuration: {executable:
 //                             {assembly: hash of its disassembly, statistic: value}}}}
-//   statistics/<driver>.json  {device, calibration: {statistic: verdict} where it is known,
+//   statistics/<driver>.json  {device, calibration: {statistic: verdict} if it is known,
 //                             configurations: {configuration: {statistic: value}}}
 //   timings/<device key>.json {device, configurations: {configuration: {clock, median_ns, spread,
 //                             frames, kernel_hash}}}, from a single run; only for plans that
@@ -20,10 +20,11 @@
 //                             times
 //   accuracy.json             {configuration: {device id: {rmse, arithmetic}}}
 //   score.json                {configuration: {device id: 0…3}}
-//   lacking.json              {driver: [configurations]} that this driver version does not support,
-//                             although another version of the same device does
-//   history.json              for every accept: date, reason, devices, and the hash of the manifest
-//                             without its `files`
+//   lacking.json              {driver: [configurations]}: the configurations that this driver
+//                             version does not support, although another version of the same device
+//                             does
+//   history.json              for every `triptych accept`: date, reason, devices, and the hash of
+//                             the manifest without its `files`
 // <driver> is Device::statistics_key(), which does not depend on the machine. waivers.hpp describes
 // baselines/waivers.json.
 
@@ -69,7 +70,7 @@ struct StoredTiming {
 // The error of a configuration on a device: its image compared with the limit of its scene.
 struct StoredError {
   double rmse = 0;
-  double arithmetic = 0;  // the error against the reference image on its own lattice
+  double arithmetic = 0;  // the error against the reference image at the same sample positions
 };
 
 struct StoredCost {
@@ -88,7 +89,7 @@ struct DriverCost {
 // The stored code statistics of one driver version.
 struct DriverCode {
   std::string device;          // id
-  std::string driver_version;  // as the driver gives it
+  std::string driver_version;  // as the driver reports it
   std::map<std::string, record::Code> configurations;
 };
 
@@ -97,66 +98,69 @@ using StoredCounters = std::map<std::string, std::map<std::string, std::uint64_t
 
 class Baselines {
  public:
-  // The folder need not exist. A file is read when it is first needed. Throws InputError with file
-  // and line if it is corrupt.
+  // The folder need not exist. Each file is read when it is first needed; if it is corrupt, the
+  // member function that needs it throws InputError with file and line.
   Baselines(std::filesystem::path root, std::string_view plan);
 
-  // Whether there are baselines, and every file is as it was accepted.
+  // Whether there are baselines and no file has changed since it was accepted.
   [[nodiscard]] bool present() const;
-  // One line about a file that is missing, was edited or does not belong to the baselines; empty if
-  // all files are as they were accepted.
+  // Returns one line about a file that is missing, was edited or does not belong to the baselines.
+  // Returns "" if there is no such file.
   [[nodiscard]] const std::string& problem() const;
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   [[nodiscard]] const Manifest& manifest() const;
-  // nullopt if no image is stored.
+  // Returns the accepted reference image of a scene, or nullopt if no image is stored.
   [[nodiscard]] std::optional<core::Image> image(const std::string& scene) const;
-  // The hash of the reference image that was accepted; nullopt if there is none.
+  // Returns the hash of the accepted reference image of a scene, or nullopt if there is none.
   [[nodiscard]] std::optional<ReferenceHash> reference(const std::string& scene) const;
-  // The content hash of the data with which the record's scene was accepted, in the record's voxel
-  // format; empty if it is not known.
+  // Returns the content hash of the data with which the record's scene was accepted, in the
+  // record's voxel format, or "" if the hash is not known.
   [[nodiscard]] std::string data_hash(const record::Record& record) const;
-  // The counters of every device; nullopt if the configuration was never accepted.
+  // Returns the counters of all devices, or nullopt if the configuration was never accepted.
   [[nodiscard]] std::optional<StoredCounters> counters(const std::string& configuration) const;
   // Whether this device has accepted counters for the configuration.
   [[nodiscard]] bool was_measured(const std::string& device,
                                   const std::string& configuration) const;
-  // Whether this driver version was accepted without the configuration, because it does not support
-  // it, although another version of the device does.
+  // Whether lacking.json lists the configuration for this driver version: the version does not
+  // support the configuration, although another version of the same device does.
   [[nodiscard]] bool lacks(const record::Device& device, const std::string& configuration) const;
-  // By device id.
+  // Returns the allocated bytes by device id. Empty if the configuration was never accepted.
   [[nodiscard]] std::map<std::string, record::Counts> memory(
       const std::string& configuration) const;
-  // By device id; empty if the configuration was never accepted.
+  // Returns the errors against the limit image by device id. Empty if the configuration was never
+  // accepted.
   [[nodiscard]] std::map<std::string, StoredError> errors(const std::string& configuration) const;
-  // The scores of a stress case, by device id; empty if the configuration was never accepted.
+  // Returns the scores of a stress case by device id. Empty if the configuration was never
+  // accepted.
   [[nodiscard]] std::map<std::string, std::uint64_t> scores(const std::string& configuration) const;
-  // The costs of this driver version; nullptr if none are stored. Valid as long as this object.
+  // Returns the costs of this driver version, or nullptr if none are stored. The pointer is valid
+  // as long as this object.
   [[nodiscard]] const DriverCost* cost(const record::Device& device) const;
-  // By Device::statistics_key().
+  // Returns the costs of all driver versions by Device::statistics_key().
   [[nodiscard]] const std::map<std::string, DriverCost>& cost_of_all_drivers() const;
-  // The code statistics, as for cost().
+  // Like cost(), but for the code statistics.
   [[nodiscard]] const DriverCode* code(const record::Device& device) const;
   [[nodiscard]] const std::map<std::string, DriverCode>& code_of_all_drivers() const;
-  // nullopt if nothing is stored for this driver version, or not for this configuration.
+  // Returns nullopt if nothing is stored for this driver version or for this configuration.
   [[nodiscard]] std::optional<record::Counts> statistics(const record::Device& device,
                                                          const std::string& configuration) const;
   [[nodiscard]] bool has_statistics(const record::Device& device) const;
-  // The statistics of the configuration on every stored driver, by Device::statistics_key().
+  // Returns the statistics of the configuration on all stored drivers, by Device::statistics_key().
   [[nodiscard]] std::map<std::string, record::Counts> statistics_of_all_drivers(
       const std::string& configuration) const;
-  // Device::statistics_calibration of each stored driver, by Device::statistics_key(); empty for
-  // one that was not calibrated.
+  // Returns the statistics calibration of a stored driver (Device::statistics_calibration), which
+  // is empty if the driver was not calibrated. `driver` is its Device::statistics_key().
   [[nodiscard]] std::map<std::string, record::StatisticWorth> statistics_calibration(
       const std::string& driver) const;
-  // By configuration; empty if nothing is stored for this device key.
+  // Returns the times by configuration. Empty if nothing is stored for this device key.
   [[nodiscard]] const std::map<std::string, StoredTiming>& timings(
       const record::Device& device) const;
-  // Configurations with stored counters: a complete run must contain them.
+  // Returns the configurations with stored counters. A complete run must contain all of them.
   [[nodiscard]] std::vector<std::string> configurations() const;
-  // The content of waivers.json; `today` as for read_waivers().
+  // Returns the content of waivers.json. `today` is passed to read_waivers().
   [[nodiscard]] const std::vector<Waiver>& waivers(const std::string& today) const;
-  // The content of absent.json, which is next to waivers.json: the devices that machines lack on
-  // purpose.
+  // Returns the content of absent.json, which is next to waivers.json and lists the devices that
+  // machines lack on purpose.
   [[nodiscard]] const std::vector<Absent>& absent() const;
   [[nodiscard]] std::filesystem::path absent_file() const { return root_ / "absent.json"; }
 
@@ -167,47 +171,51 @@ class Baselines {
   std::shared_ptr<Cache> cache_;
 };
 
-// The spread of ln t over the frames of one run: 1.4826 times their median absolute deviation,
-// which is σ for a normal distribution. It is at least one step of the clock. It is also at least
-// 0.5 %, because the medians of two undisturbed process runs of the same program differ by that
-// much (docs/how-we-measure.md), which the frames of one process cannot show.
+// Returns the spread of ln t over the frames of one run: 1.4826 times the median absolute
+// deviation, which is σ for a normal distribution. The result is at least one step of the clock. It
+// is also at least 0.5 %, because the medians of two undisturbed process runs of the same program
+// differ by that much (docs/how-we-measure.md). The frames of a single process cannot show this
+// difference.
 [[nodiscard]] double log_spread(std::vector<double> times_ns);
 
-// The checks of the run's plan. For a run that does not store them, the checks that apply to every
-// plan.
+// Returns the checks of the run's plan. If the run does not store them, returns the checks that
+// apply to every plan.
 [[nodiscard]] record::Checks checked_in(const record::Run& run);
 
 struct AcceptRequest {
   std::string plan;
-  std::string argument = {};      // as in GateRequest
-  std::string store_option = {};  // as in GateRequest
+  std::string argument = {};      // see GateRequest::argument
+  std::string store_option = {};  // see GateRequest::store_option
   std::string reason;             // must not be blank
-  std::string only;               // glob over configuration keys; empty: all
-  std::string date;               // ISO
-  // If true, stored configurations without a record in the run are removed, and so are stored files
-  // that have changed since they were accepted. If false, such a run or such files are refused.
-  // With `only`, the stored values of a configuration are removed if the device now skips it.
+  std::string only;               // glob for configuration keys; empty: all
+  std::string date;               // ISO date
+  // If true, stored configurations for which the run has no record are removed, and stored files
+  // that have changed since they were accepted are discarded. If false, such a run or such files
+  // are an error. If `only` is set as well, the stored values of the configurations that it matches
+  // are removed from devices that now skip these configurations.
   bool drop = false;
-  // The reference image of a scene, as for the gate.
+  // Returns the reference image of a record's scene.
   std::function<core::Image(const record::Record&)> truth;
-  // As GateRequest::data_hash.
+  // See GateRequest::data_hash.
   std::function<std::string(const record::Record&)> data_hash = {};
-  // The limit of a record's scene, nullptr if it has none. An empty function: no errors are stored.
+  // Returns the limit of a record's scene, or nullptr if the scene has none. With an empty
+  // function, no errors are stored.
   std::function<const accuracy::LimitPicture*(const record::Record&)> limit = {};
-  // With these, every record of the run is scored. nullopt: no scores are stored.
+  // Used to score every record of the run. nullopt: no scores are stored.
   std::optional<StressTruths> stress = {};
-  // Called with the name of each file after it was written next to the old folder, and then with ""
-  // when all are written and nothing has taken effect yet.
+  // Called with the name of each file after the file was written next to the old folder. When all
+  // files are written, but none has taken effect yet, it is called with "".
   std::function<void(const std::string&)> on_written = {};
 };
 
 // Writes the measurements of a run as the new baselines. Returns one line for each changed file,
-// followed by its changed values (" PATH: OLD → NEW", the first 40 of a file). Throws InputError
-// for a blank reason, a run with injected faults, a run that measured nothing, a run that contains
-// only a part of what is stored (see `drop`; with `only` nothing else changes), and a run on other
-// data than there are now. Only what the run's plan checks is stored. Either everything changes or
-// nothing: the new folder is written next to the old one and replaces it at the end. A second
-// accept at the same time throws IoError.
+// followed by its changed values ("  PATH: OLD → NEW", at most 40 for each file).
+//   - Stores only the values that the checks of the run's plan need.
+//   - Throws InputError for a blank reason, a run with injected faults, a run that measured
+//     nothing, a run whose data have changed since, and a run that lacks stored configurations
+//     (unless `drop` or `only` is set).
+//   - Changes everything or nothing: writes the new folder next to the old one, which it replaces
+//     at the end. Throws IoError if another accept runs at the same time.
 [[nodiscard]] std::vector<std::string> accept(const record::Store& store, const std::string& run,
                                               const std::filesystem::path& root,
                                               const AcceptRequest& request);

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using record::Check;
 
-// The devices of a file {configuration: {device: …}}.
+// Returns the devices in a file of the form {configuration: {device: …}}.
 std::set<std::string> devices_of(const fs::path& file) {
   std::set<std::string> devices;
   const auto json = core::JsonFile::read(file);
@@ -42,7 +42,8 @@ Counted counted_in(const fs::path& folder) {
     ++counted.configurations;
     for (const auto& [counter, values] : counters.members()) {
       for (const auto& [device, value] : values.members()) {
-        static_cast<void>(value.whole_number());  // reports a wrong value with its line
+        static_cast<void>(
+            value.whole_number());  // throws an error with the line of an invalid value
         counted.devices.insert(device);
       }
     }
@@ -54,7 +55,7 @@ std::string lacks(const std::string& what) {
   return fmt::format("{} does not list {}", Layout::manifest, what);
 }
 
-// Finds a driver that has a file or belongs to a machine, but that the manifest does not list.
+// Looks for a driver that has a file or belongs to a machine, but is not listed in the manifest.
 std::string unknown_driver(const fs::path& folder, const Manifest& manifest) {
   std::set<std::string> drivers;
   for (const auto& [id, known] : manifest.devices) drivers.insert(known.begin(), known.end());
@@ -69,13 +70,13 @@ std::string unknown_driver(const fs::path& folder, const Manifest& manifest) {
   }
   for (const std::set<std::string>& machine : manifest.machines) {
     for (const std::string& driver : machine) {
-      if (!drivers.contains(driver)) return lacks("the driver of a machine: " + driver);
+      if (!drivers.contains(driver)) return lacks("the driver of a machine, " + driver);
     }
   }
   if (const auto lacking = core::JsonFile::read(folder / Layout::lacking)) {
     for (const auto& [driver, configurations] : lacking->root().members()) {
       if (!drivers.contains(driver)) {
-        return lacks(fmt::format("the driver {}, which {} has", driver, Layout::lacking));
+        return lacks(fmt::format("the driver {}, which {} contains", driver, Layout::lacking));
       }
     }
   }
@@ -85,7 +86,9 @@ std::string unknown_driver(const fs::path& folder, const Manifest& manifest) {
 std::string unknown_device(const Manifest& manifest, const std::set<std::string>& devices,
                            const char* file) {
   for (const std::string& id : devices) {
-    if (!manifest.devices.contains(id)) return lacks(fmt::format("{}, which {} has", id, file));
+    if (!manifest.devices.contains(id)) {
+      return lacks(fmt::format("the device {}, which {} contains", id, file));
+    }
   }
   return {};
 }
@@ -100,8 +103,8 @@ std::string lost_check(const fs::path& folder, const Manifest& manifest) {
   return {};
 }
 
-// Checks that the manifest is the one whose hash the last entry of history.json contains. Entries
-// of older versions have no hash.
+// Compares the manifest with the hash in the last entry of history.json. Entries that were written
+// by older versions of Triptych have no hash.
 std::string other_statements(const fs::path& folder) {
   const auto manifest = core::JsonFile::read(folder / Layout::manifest);
   const auto history = core::JsonFile::read(folder / Layout::history);

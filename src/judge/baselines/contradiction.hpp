@@ -1,6 +1,6 @@
 #pragma once
-// The manifest contains checksums of all other files of the baselines, but nothing contains a
-// checksum of the manifest. Therefore its statements are compared with the contents of the files.
+// Checks the manifest of the baselines. It contains checksums of all other files, but no file
+// contains a checksum of the whole manifest, so its statements are compared with the other files.
 
 #include <filesystem>
 #include <string>
@@ -10,14 +10,15 @@
 
 namespace triptych::judge {
 
-// The first statement of the manifest that its files contradict, in one line; empty if there is
-// none. A device, driver or check that the manifest leaves out would otherwise count as new or as
-// not requested. Throws InputError for a file that is not of the expected form.
+// Describes the first contradiction between the manifest and the other files in one line. Returns
+// "" if there is none. Without this check, somebody could remove a device, a driver or a check from
+// the manifest, which would then count as new or as not requested. Throws InputError for a file
+// that does not have the expected form.
 [[nodiscard]] std::string contradiction_in(const std::filesystem::path& folder,
                                            const Manifest& manifest);
 
-// The hash of everything that a manifest states apart from the hashes of its files. Each entry of
-// history.json contains the hash of the manifest that it made.
+// Returns the hash of a manifest without its list of file hashes. Each entry of history.json
+// contains this hash for the manifest that was written together with the entry.
 [[nodiscard]] std::string hash_of_statements(core::Json manifest);
 
 }  // namespace triptych::judge

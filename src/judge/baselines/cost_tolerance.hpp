@@ -1,5 +1,6 @@
 #pragma once
-// The allowed difference of two counts of the same frame by the same program in two processes.
+// The allowed difference between the instruction counts of the same frame in two processes of the
+// same program.
 
 #include <array>
 #include <optional>
@@ -13,29 +14,28 @@ struct CostTolerance {
   std::string_view part;       // "device_code" or "driver"
   std::string_view device;     // glob
   std::string_view technique;  // glob
-  double share = 0;            // share of the stored frame, device code and driver together
-  double own = 0;              // plus this share of the part's own count
-  double count = 0;            // plus this many instructions, for a frame of any size
+  double share = 0;            // share of the whole frame's stored count (device code and driver)
+  double own = 0;              // plus this share of the stored count of the part itself
+  double count = 0;            // plus this many instructions, regardless of the size of the frame
 };
 
-// The first entry that matches is used. All were measured by comparing cold caches with warm ones
-// (docs/cost.md).
-//   - The counts of device code were identical in 238 of 238 configurations. Where atomics
-//   determine
-//     the order of the work (`tiles`), a list may be walked in another order.
-//   - The driver looks up what it has allocated and finds it after more or fewer steps: at most
-//     0.007 % of the frame. PoCL's threads wait for each other, 2,000 instructions at a time. That
-//     is 0.34 % of a frame of 0.5 million instructions and 1.4 % of the smallest frame (tiles of
-//     eight spheres).
-//   - lavapipe of Mesa 22.3 compiles code within every frame of shading=gradient and of tiles with
-//     occlusion (8 to 14 million instructions), because it writes the values of uniforms into
-//     branches again. LLVM walks tables in the order of addresses: between two runs, the driver's
-//     count differed by 0.16 to 0.55 %. Where nothing is compiled, the driver is a hundredth of
-//     such a frame, so that this share of its own adds next to nothing.
-//   - What a process drew before changes the driver's count: by 260 to 1,410 instructions on
-//     OpenGL, and by 4,800 in lavapipe's `tiles` (1.8 % of it). The check of one technique must not
-//     report the change of another, and a part of the plan is compared with what the whole plan
-//     counted.
+// The first entry that matches is used. The tolerances were measured by comparing runs with cold
+// and warm caches (docs/cost.md).
+//   - The counts of device code were identical in all 238 configurations. If atomics determine the
+//     order of the work (`tiles`), a list may be traversed in a different order.
+//   - The driver looks up its allocations, which takes more or fewer steps depending on their
+//     addresses: at most 0.007 % of the frame. PoCL's threads wait for each other in steps of 2,000
+//     instructions. That is 0.34 % of a frame with 0.5 million instructions, and 1.4 % of the
+//     smallest frame (`tiles` with eight spheres).
+//   - lavapipe in Mesa 22.3 compiles code in every frame of shading=gradient and of `tiles` with
+//     occlusion culling (8 to 14 million instructions), because it compiles the values of uniforms
+//     into branches again. LLVM iterates over tables in the order of addresses, so the driver's
+//     count differed by 0.16 to 0.55 % between two runs. In frames in which nothing is compiled,
+//     the driver executes only a hundredth of that, so `own` adds next to nothing.
+//   - The driver's count depends on what the process drew before: by 260 to 1,410 instructions on
+//     OpenGL, and by 4,800 in lavapipe's `tiles` (1.8 % of its count). This must be tolerated,
+//     because a change of one technique must not affect the result of another, and because a part
+//     of a plan is compared with counts from a run of the whole plan.
 inline constexpr std::array cost_tolerances{
     CostTolerance{"device_code", "*", "tiles", 1e-5},
     CostTolerance{"device_code", "*", "*", 0},
@@ -45,8 +45,8 @@ inline constexpr std::array cost_tolerances{
     CostTolerance{"driver", "*", "*", 5e-4, 0, 2000},
 };
 
-// Returns the tolerance in instructions. `stored` is the stored count of the part, and `frame` that
-// of the frame.
+// Returns the tolerance in instructions. `stored` is the stored count of the part, and `frame` is
+// the stored count of the whole frame.
 [[nodiscard]] inline double cost_tolerance(std::string_view part, std::string_view device,
                                            std::string_view technique, double stored,
                                            double frame) {
@@ -59,14 +59,15 @@ inline constexpr std::array cost_tolerances{
   return 0;
 }
 
-// The techniques whose cache misses repeat. A buffer begins at another position within a cache line
-// in each run. This changed the misses of volumes by at most 0.07 %, or by single misses if there
-// are only about a hundred. Sprites and tiles use about as much memory as the cache holds, so that
-// their misses changed by 5 %.
+// The techniques whose number of cache misses is reproducible. In each run, a buffer starts at a
+// different offset within a cache line. For volumes, this changed the number of misses by at most
+// 0.07 %, or by a few misses if there are only about a hundred. Sprites and tiles use about as much
+// memory as the cache holds, so their number of misses changed by 5 %.
 inline constexpr std::array<std::string_view, 2> techniques_with_stable_misses{"raycast*",
                                                                                "speed_of_light"};
 
-// The tolerance for cache misses of device code; empty if they do not repeat.
+// Returns the tolerance for the cache misses of device code, or nullopt if their number is not
+// reproducible for this technique.
 [[nodiscard]] inline std::optional<double> misses_tolerance(std::string_view technique,
                                                             double stored) {
   for (const std::string_view each : techniques_with_stable_misses) {

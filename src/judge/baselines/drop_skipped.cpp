@@ -7,8 +7,8 @@ namespace {
 
 using core::Json;
 
-// Removes a device from an object {device: …} or {name: {device: …}}, and also objects that become
-// empty.
+// Removes a device from an object of the form {device: …} or {name: {device: …}}, and then removes
+// objects that became empty.
 void erase_device(Json& values, const std::string& device) {
   values.erase(device);
   for (auto item = values.begin(); item != values.end();) {
@@ -17,7 +17,7 @@ void erase_device(Json& values, const std::string& device) {
   }
 }
 
-// Removes the skipped records from a table that contains all devices.
+// Removes the skipped records from a file that contains all devices.
 void drop_from_table(std::span<const record::Record> skipped, const char* name, NextFolder& next) {
   if (!next.files.contains(name)) return;
   Update file(next, name);

@@ -1,5 +1,5 @@
 #pragma once
-// Removes the configurations that a device can no longer draw from its baselines.
+// Removes configurations from the baselines of a device that can no longer draw them.
 
 #include <map>
 #include <span>
@@ -10,12 +10,12 @@
 
 namespace triptych::judge {
 
-// Removes one device of one configuration from a table of the form {configuration: {device: …}} or
-// {configuration: {name: {device: …}}}, and the objects that become empty.
+// Removes the values of one configuration on one device from a table of the form {configuration:
+// {device: …}} or {configuration: {name: {device: …}}}. Also removes objects that become empty.
 void erase_from(core::Json& table, const std::string& configuration, const std::string& device);
 
-// Removes everything that is stored about the records' configurations on their devices. `devices`,
-// by id, identify the values that are stored by driver or by machine.
+// Removes all stored values of the skipped records from the files in `next`. `devices` contains the
+// devices by id, because some files are named after a driver or a device key.
 void drop_skipped(std::span<const record::Record> skipped,
                   const std::map<std::string, record::Device>& devices, NextFolder& next);
 

@@ -17,7 +17,7 @@ namespace triptych::judge {
 namespace fs = std::filesystem;
 namespace {
 
-// Converts errors of the file system to core::IoError.
+// Converts file-system errors to core::IoError.
 template <typename Act>
 void act_on(const fs::path& path, const Act& act) {
   try {
@@ -77,7 +77,8 @@ void replace_one_by_one(const fs::path& folder, const Files& files) {
 WriterLock::WriterLock(const fs::path& root) : fd_(-1) {
   act_on(root, [&] { fs::create_directories(root); });
   fd_ = ::open(root.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  // If a folder cannot be locked, no other process can have locked it either.
+  // Any other error means that this folder cannot be locked at all, so no other process has locked
+  // it either.
   if (fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(fd_);
     throw core::IoError(
@@ -93,7 +94,7 @@ void replace_folder(const fs::path& folder, const Files& files,
                     const std::function<void(const std::string&)>& on_written) {
   const fs::path aside = Layout::aside(folder);
   act_on(aside, [&] {
-    fs::remove_all(aside);  // left by a process that was killed
+    fs::remove_all(aside);  // may be left over from a process that was killed
     fs::create_directories(aside);
     write_files(aside, files, on_written);
     if (on_written) on_written({});

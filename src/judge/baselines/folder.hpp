@@ -10,11 +10,11 @@
 
 namespace triptych::judge {
 
-// Contents by the names within the folder.
+// The contents of the files, by their paths relative to the folder.
 using Files = std::map<std::string, std::vector<std::byte>>;
 
-// Held by the process that writes below `root`, which is created if it is missing. The constructor
-// throws IoError if another process already holds it.
+// Lock that a process holds while it writes below `root`, which is created if it is missing. The
+// constructor throws IoError if another process holds the lock.
 class WriterLock {
  public:
   explicit WriterLock(const std::filesystem::path& root);
@@ -26,11 +26,11 @@ class WriterLock {
   int fd_;
 };
 
-// Replaces the content of the folder by these files. They are written into a folder next to it
-// (Layout::aside) and flushed to the disk. Then the two folders are exchanged atomically, so a
-// process that is killed before has changed nothing. If the file system cannot exchange folders,
-// the files are renamed one by one, the manifest last: it shows whether a process was killed in
-// between. `on_written` is that of AcceptRequest. Throws IoError.
+// Replaces the content of the folder by these files. The files are written to a folder next to it
+// (Layout::aside) and flushed to the disk. Then the two folders are exchanged atomically, so
+// nothing has changed if the process is killed before. If the file system cannot exchange folders,
+// the files are written one by one, the manifest last; its checksums reveal whether a process was
+// killed before it finished. See AcceptRequest for `on_written`. Throws IoError.
 void replace_folder(const std::filesystem::path& folder, const Files& files,
                     const std::function<void(const std::string&)>& on_written);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The difference of two counts of one frame, and whether it is allowed.
+// Compares the stored and the current instruction counts of a frame.
 
 #include <array>
 #include <optional>
@@ -16,16 +16,17 @@ namespace triptych::judge {
 inline constexpr std::array<std::string_view, 2> cost_parts{"device_code", "driver"};
 
 [[nodiscard]] std::optional<double> count_of(const record::Counts& counts, std::string_view name);
-// The sum of the instructions of these parts.
+// Returns the instructions of the whole frame: the sum over cost_parts.
 [[nodiscard]] double frame_of(const record::Counts& cost);
 
 struct FrameChange {
-  bool more = false;            // some part is larger than its tolerance allows
-  bool less = false;            // some part is smaller than its tolerance allows
-  std::vector<Change> changes;  // the changes of each such part, and of the allocations
+  bool more = false;            // the count of some part increased by more than its tolerance
+  bool less = false;            // the count of some part decreased by more than its tolerance
+  std::vector<Change> changes;  // the changes of these parts; if there are any, also allocations
 };
 
-// Uses cost_tolerance.hpp, so both counts must come from the same emulator, program and driver.
+// Compares with the tolerances of cost_tolerance.hpp. These are valid only for counts from the same
+// emulator, program and driver.
 [[nodiscard]] FrameChange frame_change(const record::Record& now, const record::Counts& before);
 
 }  // namespace triptych::judge

@@ -1,5 +1,5 @@
 #pragma once
-// The names of the files in baselines/<suite>/<plan>/, for reading and writing.
+// The names of the files in baselines/<suite>/<plan>/.
 
 #include <filesystem>
 #include <string>
@@ -37,13 +37,13 @@ struct Layout {
   [[nodiscard]] static std::string timings(const record::Device& device) {
     return "timings/" + device.key_hash() + ".json";
   }
-  // The name of the content hash of the data in the entry of an image. The same data have a hash
-  // for each voxel format, and devices prefer different formats.
+  // The key of the data's content hash in an entry of images.json. There is one key for each voxel
+  // format, because the hash depends on the format and devices prefer different formats.
   [[nodiscard]] static std::string data_key(const record::Record& record) {
     const auto voxel = record.factors.find("voxel");
     return voxel == record.factors.end() ? "data" : "data_" + voxel->second;
   }
-  // The folder into which `accept` writes before it replaces the other one. It remains only if
+  // The temporary folder to which `accept` writes before it replaces `folder`. It remains only if
   // `accept` was killed.
   [[nodiscard]] static std::filesystem::path aside(const std::filesystem::path& folder) {
     return folder.parent_path() / ("." + folder.filename().string() + ".accepting");

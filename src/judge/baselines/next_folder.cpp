@@ -21,7 +21,7 @@ Json flat(const Json& value) {
   return value.is_null() ? Json::object() : value.flatten();
 }
 
-// A JSON pointer with its escapes replaced.
+// Returns a JSON pointer without the leading slash and with its escape sequences decoded.
 std::string readable(std::string pointer) {
   constexpr std::array<std::pair<std::string_view, char>, 2> escapes{{{"~1", '/'}, {"~0", '~'}}};
   for (const auto& [escape, character] : escapes) {

@@ -1,5 +1,5 @@
 #pragma once
-// The future content of a folder of baselines, and what changes in it.
+// The new content of a baselines folder before it is written, and a description of the changes.
 
 #include <cstddef>
 #include <filesystem>
@@ -15,16 +15,16 @@ namespace triptych::judge {
 [[nodiscard]] std::vector<std::byte> bytes_of(std::string_view text);
 
 struct NextFolder {
-  std::filesystem::path folder;    // the folder as it is now
-  Files files;                     // the files as they will be
-  std::vector<std::string> lines;  // the changes, one a line
+  std::filesystem::path folder;    // the existing folder
+  Files files;                     // the new files
+  std::vector<std::string> lines;  // the changes, one per line
 
   void drop_folder(std::string_view start) {
     std::erase_if(files, [&](const auto& file) { return file.first.starts_with(start); });
   }
 };
 
-// Changes one file of the folder, beginning with its content so far.
+// Edits one JSON file of the folder, starting with its current content.
 class Update {
  public:
   // `next` must live as long as this object.
@@ -36,8 +36,8 @@ class Update {
     if (!after_.is_object()) after_ = core::Json::object();
     return after_;
   }
-  // Writes the file into the NextFolder if anything changed, and adds a line for each change.
-  // `depth` is that of to_lines.
+  // Stores the file in the NextFolder if anything changed, and describes the changes. `depth` is
+  // passed to core::to_lines.
   void write(int depth) const;
 
  private:

@@ -12,7 +12,7 @@
 namespace triptych::judge {
 namespace {
 
-// `text` has the form of a date.
+// Converts `text`, which must have the form YYYY-MM-DD.
 std::chrono::year_month_day date_of(std::string_view text) {
   const auto number = [&](std::size_t begin, std::size_t length) {
     return std::stoi(std::string(text.substr(begin, length)));
@@ -21,7 +21,7 @@ std::chrono::year_month_day date_of(std::string_view text) {
           std::chrono::day(static_cast<unsigned>(number(8, 2)))};
 }
 
-// Whether the day exists.
+// Whether `text` has the form YYYY-MM-DD and is a day of the calendar.
 bool is_iso_date(std::string_view text) {
   constexpr std::string_view shape = "dddd-dd-dd";
   const bool written_so = std::ranges::equal(
@@ -29,7 +29,8 @@ bool is_iso_date(std::string_view text) {
   return written_so && date_of(text).ok();
 }
 
-// Whether the glob matches texts that have nothing in common except the form of all such texts.
+// Whether the glob matches all samples. The samples have nothing in common except the form that all
+// such names have, so a glob that matches them matches every name.
 template <std::size_t N>
 bool matches_all(std::string_view glob, const std::array<const char*, N>& samples) {
   return std::ranges::all_of(
@@ -70,10 +71,10 @@ std::optional<int> days_between(std::string_view from, std::string_view to) {
 void refuse_distant_expiry(const core::JsonNode& expiry, const std::string& today) {
   constexpr int most = 366;
   const auto days = days_between(today, expiry.text());
-  if (!days || *days <= most) return;  // expiry_of() reports a text that is no date
+  if (!days || *days <= most) return;  // expiry_of() reports a value that is not a date
   expiry.fail(
-      fmt::format("ends more than {} days after {}: name an earlier day, on which somebody "
-                  "checks whether the entry is still needed",
+      fmt::format("is more than {} days after {}; choose an earlier date, on which somebody "
+                  "reviews whether the entry is still needed",
                   most, today));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Reads values that waivers and entries for absent devices have in common.
+// Reads and checks the values that occur both in waivers and in entries for absent devices.
 
 #include <initializer_list>
 #include <optional>
@@ -10,19 +10,20 @@
 
 namespace triptych::judge {
 
-// Refuses unknown keys, because an entry with an ignored key would excuse more than intended.
+// Throws InputError for an unknown key, because an entry whose key is ignored would excuse more
+// than intended.
 void refuse_other_keys(const core::JsonNode& entry, std::initializer_list<std::string_view> known);
-// Must not be blank.
+// Returns the reason of the entry. Throws InputError if it is blank.
 [[nodiscard]] std::string reason_of(const core::JsonNode& entry);
-// Must be a day of the calendar.
+// Returns the expiry date of the entry. Throws InputError if it is not a day of the calendar.
 [[nodiscard]] std::string expiry_of(const core::JsonNode& entry);
-// nullopt unless both are ISO dates.
+// Returns nullopt unless both arguments are ISO dates.
 [[nodiscard]] std::optional<int> days_between(std::string_view from, std::string_view to);
-// Refuses an expiry date that is more than a year after `today` (an ISO date), because such an
-// entry would in practice never expire.
+// Throws InputError for an expiry date that is more than a year after `today` (an ISO date),
+// because such an entry would in practice never be reviewed.
 void refuse_distant_expiry(const core::JsonNode& expiry, const std::string& today);
-// Whether a glob matches every device or every host, however it is written: "*:*" matches every
-// device.
+// Whether a glob matches every device, host, test or configuration, regardless of how it is
+// written: not only "*" but also "*:*" matches every device.
 [[nodiscard]] bool matches_every_device(std::string_view glob);
 [[nodiscard]] bool matches_every_host(std::string_view glob);
 [[nodiscard]] bool matches_every_test(std::string_view glob);

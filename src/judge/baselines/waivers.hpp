@@ -1,6 +1,6 @@
 #pragma once
-// Lists of known failures. baselines/waivers.json is written by hand and has expiry dates. A
-// validation writes a file of its own, with one entry for each configuration.
+// Lists of known failures. baselines/waivers.json is written by hand, and its entries have expiry
+// dates. `validate` writes a file of expectations, with one entry for each configuration.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,7 +10,8 @@
 
 namespace triptych::judge {
 
-// The expected result. A waiver without it excuses failures and flakes.
+// The expected result. Only files of expectations contain it; an entry of waivers.json excuses
+// failures and flakes.
 enum class Known : std::uint8_t {
   fail,   // a regression
   flake,  // a regression in some runs and a pass in others
@@ -18,27 +19,27 @@ enum class Known : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(Known known);
 
-// The texts are globs: over ids of devices, ids of tests, and keys of configurations.
 struct Waiver {
-  std::string device;
-  std::string test;
+  std::string device;  // glob for device ids
+  std::string test;    // glob for test ids
   std::string reason;
-  std::string expiry;  // ISO date from which on the entry is ignored; empty: never
-  std::string configuration = "*";
+  std::string expiry;               // ISO date from which the entry is ignored; empty: never
+  std::string configuration = "*";  // glob for configuration keys
   Known known = Known::fail;
 };
 
-// Reads [{device, test, reason, expiry}, …]; an entry may also have a `configuration`. Without such
-// a file there are no waivers. Throws InputError with file and line, also for an entry that excuses
-// everything, and for one that ends later than a year after `today` (an ISO date).
+// Reads [{device, test, reason, expiry}, …]; an entry may also have a `configuration`. Returns an
+// empty list if the file does not exist. Throws InputError with file and line for a malformed
+// entry, an entry that excuses everything, and an entry that expires more than a year after `today`
+// (an ISO date).
 [[nodiscard]] std::vector<Waiver> read_waivers(const std::filesystem::path& file,
                                                const std::string& today);
 
-// Reads [{device, test, configuration, outcome, reason}, …]; an entry may also have an `expiry`. A
-// missing file is an InputError too.
+// Reads a file of expectations: [{device, test, configuration, outcome, reason}, …]; an entry may
+// also have an `expiry`. Throws InputError with file and line, also if the file does not exist.
 [[nodiscard]] std::vector<Waiver> read_expected(const std::filesystem::path& file);
 
-// The text of such a file: sorted, one entry a line.
+// Returns the content of a file of expectations, sorted, with one entry per line.
 [[nodiscard]] std::string expected_text(std::vector<Waiver> waivers);
 
 }  // namespace triptych::judge

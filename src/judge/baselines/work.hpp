@@ -1,5 +1,6 @@
 #pragma once
-// Splits a change of time: Δ ln t = Δ ln(work) + Δ ln(time per unit of work).
+// Computes how much of a change in time comes from a changed amount of work:
+// Δ ln t = Δ ln(work) + Δ ln(time per unit of work).
 
 #include <array>
 #include <functional>
@@ -11,8 +12,8 @@
 
 namespace triptych::judge {
 
-// Counters to which the time of a technique is proportional. The first counter that both sides have
-// is used as the amount of work.
+// Counters to which the time of a technique is proportional. The first counter that is present both
+// now and then is used as the amount of work.
 inline constexpr std::array<std::string_view, 2> work_units{"samples", "fragments"};
 
 struct WorkChange {
@@ -20,8 +21,8 @@ struct WorkChange {
   std::string unit;      // one of work_units
 };
 
-// Empty if the two sides have no unit in common, or if one of them has 0 of it. `then` returns the
-// earlier count of a unit.
+// Returns nullopt if no unit was counted both now and then, or if its count was 0. `then` returns
+// the earlier count of a unit.
 [[nodiscard]] std::optional<WorkChange> work_change(
     const record::Counts& now,
     const std::function<std::optional<double>(const std::string&)>& then);

@@ -33,8 +33,8 @@ constexpr CodeStatistic branches{"branches", "Branches", false, true, 14};
 constexpr CodeStatistic copies{"copies", "Copies", false, true, 15};
 }  // namespace quantity
 
-// Names of RADV, radeonsi, NVK, NVIDIA's driver, ANV and iris, OpenCL, and of the statistics that
-// Triptych counts.
+// The names used by RADV, radeonsi, NVK, NVIDIA's driver, ANV, iris and OpenCL, and the names of
+// the statistics that Triptych itself counts in a disassembly.
 constexpr std::array<NamedStatistic, 44> named_statistics{{
     {"subgroups per simd", quantity::occupancy},
     {"max waves", quantity::occupancy},
@@ -99,13 +99,13 @@ bool counts_instructions(const record::Executable& executable) {
 void compare_executable(const std::string& name, const record::Executable& before,
                         const record::Executable& now, CodeComparison& comparison) {
   const bool counted = counts_instructions(before) && counts_instructions(now);
-  // A statistic that only one of the two reports is missing, not zero: it did not change.
+  // A statistic that only one side reports is missing on the other side, not zero, so it is not a
+  // change.
   for (const auto& [statistic, value] : now.statistics) {
     const auto old = before.statistics.find(statistic);
     if (old == before.statistics.end() || old->second == value) continue;
     CodeStatistic meaning = code_statistic(statistic);
-    // If one of the two does not report the number of instructions, the code size decides in its
-    // place.
+    // If one side does not report the number of instructions, the code size decides instead.
     if (!counted && meaning.rank == quantity::code_size.rank) meaning.decides = true;
     comparison.changes.push_back({.executable = name,
                                   .driver_name = statistic,

@@ -1,5 +1,5 @@
 #pragma once
-// Compares the compiler reports of two builds of the same device code.
+// Compares what GPU compilers reported about two builds of the same device code.
 
 #include <cstddef>
 #include <string>
@@ -10,17 +10,17 @@
 
 namespace triptych::judge {
 
-// The meaning of a driver's statistic. Drivers use different names for the same quantity. Unknown
-// names are kept, and their changes are shown but do not affect the verdict.
+// The meaning of a statistic that a driver reports. Drivers use different names for the same
+// quantity. Changes of a statistic with an unknown name are shown but do not affect the verdict.
 struct CodeStatistic {
   std::string_view name;       // "occupancy"; empty for an unknown statistic
   std::string_view mesa = {};  // its name in Mesa's shader-db totals: "MaxWaves"; may be empty
   bool decides = false;        // whether a change for the worse is a regression
-  bool more_is_worse = true;   // meaningless if a change does not affect the verdict
-  int rank = 100;              // the order in which statistics are printed, by importance
+  bool more_is_worse = true;   // used only if `decides`, and for totals
+  int rank = 100;              // statistics are printed in this order, the most important first
 
   [[nodiscard]] bool is_occupancy() const { return rank == 0; }
-  // Spills and scratch memory should be 0, so their relative change means nothing.
+  // Spills and scratch memory are ideally 0, so a relative change of them is not meaningful.
   [[nodiscard]] bool has_relative_change() const { return decides && rank >= 4; }
   [[nodiscard]] bool counts_registers() const { return rank == 10 || rank == 11; }
 };
@@ -29,7 +29,7 @@ struct CodeStatistic {
 struct CodeChange {
   std::string executable;
   std::string driver_name;
-  CodeStatistic statistic;  // its texts are valid as long as driver_name
+  CodeStatistic statistic;
   double before = 0;
   double now = 0;
   [[nodiscard]] bool worse() const {
@@ -45,10 +45,10 @@ struct CodeComparison {
   std::vector<std::string> gone;       // executables that no longer exist
   std::vector<std::string> added;      // executables that did not exist before
   std::vector<std::string> assembled;  // executables whose disassembly changed
-  // The common direction of all statistics that affect the verdict. If some improved and others got
-  // worse, the inverse throughput gives the direction. If that did not change or is not reported,
-  // the result is `worse`, so that a person has to accept the mixed change. The result is `other`
-  // if only statistics changed that do not affect the verdict.
+  // Returns the common direction of all statistics that affect the verdict. If some of them
+  // improved and others got worse, the inverse throughput decides. If it did not change or is not
+  // reported, returns `worse`, so that a person has to accept the mixed change. Returns `other` if
+  // all changed statistics are ones that do not affect the verdict.
   [[nodiscard]] CodeDirection direction() const;
   [[nodiscard]] bool mixed() const;
 };

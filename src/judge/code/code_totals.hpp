@@ -1,5 +1,6 @@
 #pragma once
-// Totals over many configurations, with the names that Mesa's developers use in merge requests.
+// Totals of code statistics over many configurations, under the names that Mesa developers use in
+// merge requests.
 
 #include <cstddef>
 #include <map>
@@ -16,7 +17,8 @@ struct CodeTotal {
   double more = 0;  // sum of all increases
   std::size_t helped = 0;
   std::size_t hurt = 0;
-  // The configuration that got worse by the largest factor, its values, and that factor.
+  // The configuration that got worse by the largest factor, its values before and now, and that
+  // factor.
   std::string worst = {};
   double worst_before = 0;
   double worst_now = 0;
@@ -26,10 +28,11 @@ struct CodeTotal {
 
 class CodeTotals {
  public:
-  // Adds the executables and statistics that both sides have.
+  // Adds the statistics of one configuration. Executables and statistics that only one side has are
+  // left out.
   void add(const std::string& configuration, const record::Code& before, const record::Code& now);
 
-  // Keyed by the name that Mesa's developers use.
+  // The keys are the names that Mesa developers use.
   [[nodiscard]] const std::map<std::string, CodeTotal>& totals() const { return totals_; }
   [[nodiscard]] std::size_t configurations() const { return configurations_; }
   [[nodiscard]] std::size_t changed() const { return changed_; }

@@ -1,5 +1,5 @@
 #pragma once
-// The configurations that share a level of a factor.
+// Groups configurations by the factor levels that they share.
 
 #include <cstddef>
 #include <map>
@@ -12,13 +12,14 @@ namespace triptych::judge {
 using Factors = std::map<std::string, std::string>;
 
 struct FactorLevel {
-  std::string name;  // "factor=level", and other levels that the same configurations have
-  std::vector<std::size_t> inside;  // indices, ascending
-  std::vector<std::size_t> outside;
+  std::string name;  // "factor=level", and other levels that exactly the same configurations have
+  std::vector<std::size_t> inside;   // indices of the configurations with this level, ascending
+  std::vector<std::size_t> outside;  // indices of all other configurations, ascending
 };
 
-// The levels with at least `least` configurations inside and outside, sorted by name. Levels with
-// the same configurations cannot be distinguished and are combined: "ray=vertex (= corners=4)".
+// Returns the levels that at least `least` configurations have and at least `least` do not have,
+// sorted by name. Levels that occur in exactly the same configurations cannot be distinguished, so
+// they are combined: "ray=vertex (= corners=4)".
 [[nodiscard]] std::vector<FactorLevel> factor_levels(std::span<const Factors> configurations,
                                                      std::size_t least);
 

@@ -32,15 +32,15 @@ bool can_have_line(const Values& x) {
   return x.size() >= 4 && std::ranges::any_of(x, [&](double each) { return each != x.front(); });
 }
 
-// Returns exp(x − first) for each logarithm x. Subtracting the first one prevents an overflow, and
-// does not change r, because r does not depend on units.
+// Returns exp(x − first) for each logarithm x. Subtracting the first logarithm prevents an
+// overflow. It does not change the correlation r, because r does not depend on units.
 Values plain(Values logarithms) {
   const double first = logarithms.front();
   for (double& value : logarithms) value = std::exp(value - first);
   return logarithms;
 }
 
-// The comparisons are written so that NaN is refused.
+// Returns why the line is refused. The comparisons are written so that NaN is refused, too.
 LineRefusal refusal_of(const CorrelationLine& line) {
   if (line.configurations < Model::least_configurations) {
     return LineRefusal::too_few_configurations;
@@ -70,8 +70,9 @@ estimation::RobustLine fit_of(const Values& x, const Values& y) {
   return fit;
 }
 
-// Sets the weights of the configurations inside or outside a level from their deviations from their
-// own median, so that a level that is shifted as a whole does not consist of outliers.
+// Sets the weights of the configurations on one side, which is inside or outside a level. The
+// weights depend on the deviations from the median of this side, so that the configurations of a
+// level that is shifted as a whole do not count as outliers.
 void weigh_side(const Values& residuals, const std::vector<std::size_t>& side, double scale,
                 Values& weights, Values& centred) {
   Values values;
@@ -83,7 +84,7 @@ void weigh_side(const Values& residuals, const std::vector<std::size_t>& side, d
   }
 }
 
-// Σw·a·b about the weighted means.
+// Returns Σw·(a − ā)·(b − b̄), where ā and b̄ are the weighted means.
 double weighted_product(const Values& weights, const Values& a, const Values& b) {
   double sum = 0;
   double sum_a = 0;
@@ -100,9 +101,9 @@ double weighted_product(const Values& weights, const Values& a, const Values& b)
   return product;
 }
 
-// Computes the coefficient g of the level's indicator d in y = a + b·x + g·d. The regression of d
-// on x is removed first (Frisch and Waugh 1933), because otherwise b would absorb the effect of a
-// level whose configurations are all expensive.
+// Computes the coefficient g of the level's indicator d in y = a + b·x + g·d. First removes the
+// regression of d on x (Frisch and Waugh 1933), because otherwise b would absorb a part of the
+// effect if all configurations of the level are expensive.
 OffTheLine level_effect(const Values& x, const estimation::RobustLine& fit,
                         const FactorLevel& level) {
   Values weights(x.size());
@@ -122,7 +123,8 @@ OffTheLine level_effect(const Values& x, const estimation::RobustLine& fit,
   return result;
 }
 
-// The level with the clearest effect, and its q; `effect` is 0 if there is none.
+// Returns the level with the most significant effect, and its q. The effect is 0 if there is no
+// level.
 OffTheLine clearest_level(const Values& x, const estimation::RobustLine& fit,
                           std::span<const FactorLevel> levels) {
   OffTheLine best;
@@ -130,8 +132,8 @@ OffTheLine clearest_level(const Values& x, const estimation::RobustLine& fit,
   double least = 2;
   for (const FactorLevel& level : levels) {
     const OffTheLine each = level_effect(x, fit, level);
-    // For a level that coincides with the line, or whose points all got no weight, the effect is
-    // not a number.
+    // The effect is NaN if the level's indicator is a linear function of x, or if all points of the
+    // level have weight 0.
     if (!std::isfinite(each.effect) || !(each.error > 0)) continue;
     p.push_back(two_sided(each.effect / each.error, static_cast<double>(x.size()) - 3));
     if (p.back() >= least) continue;

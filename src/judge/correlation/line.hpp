@@ -1,6 +1,6 @@
 #pragma once
-// Fits a robust line to one device's cost as a function of another's, and finds the configurations
-// that are off the line. docs/correlation.md explains its use.
+// Fits a robust line to one device's costs as a function of another device's costs, and finds the
+// configurations that are off the line (docs/correlation.md).
 
 #include <span>
 #include <string>
@@ -11,47 +11,52 @@
 
 namespace triptych::judge {
 
-// Initial values. They were chosen from times, because costs of several devices were not available
-// then. Tune them with ci/bench.
+// Initial values, which can be tuned with ci/bench. They were chosen with the help of times,
+// because the costs of several devices were not available then.
 struct LineModel {
   // Conditions under which a line is meaningful.
   static constexpr std::size_t least_configurations = 20;
-  static constexpr double least_rho = 0.9;  // of the logarithms
+  static constexpr double least_rho = 0.9;  // correlation of the logarithms
   static constexpr double least_slope = 0.7;
   static constexpr double largest_slope = 1.3;
   static constexpr double largest_scale = 0.25;
-  // Costs repeat only within this share, so the scatter about a line is never assumed to be
-  // smaller.
+  // Smallest scatter about a line that is assumed, because costs are reproducible only within this
+  // share.
   static constexpr double least_scale = 5e-4;
-  // Conditions under which a level or a configuration is reported. The expected share of false
-  // findings (Benjamini and Hochberg), for levels and for configurations separately; it is 1 % for
-  // both together.
+  // Conditions under which a level or a configuration is reported.
+  // The expected share of false findings (Benjamini and Hochberg). It applies to levels and to
+  // configurations separately, so the share is at most 1 % for both together.
   static constexpr double share_of_false = 0.005;
-  // Half of the effect that must be found (10 %), because measured effects scatter around the true
-  // one.
+  // The smallest effect of a configuration that is reported: 5 %, half of the 10 % that must be
+  // found, because measured effects scatter around the true effect.
   static constexpr double configuration_effect = 1.05;
-  static constexpr double level_effect = 1.015;  // the smallest effect that is reported
-  static constexpr std::size_t least_level = 4;  // this many configurations inside, and outside
-  static constexpr std::size_t most_levels = 4;  // that are named for one pair of devices
+  static constexpr double level_effect = 1.015;  // the smallest effect of a level that is reported
+  // The smallest number of configurations that must have a level, and that must not have it.
+  static constexpr std::size_t least_level = 4;
+  // The largest number of levels that are reported for one pair of devices.
+  static constexpr std::size_t most_levels = 4;
 };
 
-// Fits points[i].y as a function of points[i].x and sets the residuals. The model is
-// ln y = a + b·ln x. The line of Theil and Sen and some others are starting points, which an
-// MM-estimate refines (estimation/regression.hpp).
+// Fits a line to the points, which are logarithms of costs: points[i].y = a + b·points[i].x. Sets
+// the line and the residuals. The Theil-Sen line and a few other lines are starting points, which
+// an MM-estimate refines (estimation/regression.hpp).
 void fit_line(CorrelationPair& pair);
 
 struct OffTheLine {
-  std::string level;                 // empty: one configuration
+  std::string level;                 // the factor level; empty for a single configuration
   std::vector<std::size_t> members;  // indices of points
-  double effect = 0;                 // ln: the residual, or the level minus the rest
-  double error = 0;                  // its standard error
-  double q = 1;  // expected share of false findings among all at least as significant
+  // Natural logarithm: the residual of the configuration, or the offset of the level against all
+  // other configurations.
+  double effect = 0;
+  double error = 0;  // standard error of the effect
+  double q = 1;      // expected share of false findings among all that are at least as significant
 };
 
-// For a pair whose line is accepted: first levels, beginning with the clearest, then configurations
-// that cost more than the line predicts, beginning with the largest residual. A reported level gets
-// its own offset in the model, and the line is fitted again before the search goes on. `factors`:
-// those of each point.
+// Finds what is off the line. Call it only for a pair whose line is accepted. Returns first the
+// levels, the most significant first, and then the configurations that cost more than the line
+// predicts, the largest residual first. After a level is found, it gets its own offset in the
+// model, and the line is fitted again before the search continues. `factors` contains the factors
+// of each point.
 [[nodiscard]] std::vector<OffTheLine> off_the_line(std::span<const CorrelationPoint> points,
                                                    std::span<const Factors> factors);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The comparison of two devices, configuration by configuration, for the report and for `gate
-// --json`.
+// The costs or times of two devices, configuration by configuration, for the report and for the
+// JSON output of `gate`.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace triptych::judge {
 
-// The reason why nothing can be concluded from a line. The limits are in LineModel.
+// The reason why a line cannot be used to judge a device. The thresholds are in LineModel.
 enum class LineRefusal : std::uint8_t {
   none,
   too_few_configurations,
@@ -20,16 +20,16 @@ enum class LineRefusal : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(LineRefusal refusal);
 
-// y = intercept + slope·x, both as logarithms, so that a constant factor between two devices is the
-// intercept.
+// The line y = intercept + slope·x. Both x and y are logarithms, so the intercept represents a
+// constant factor between two devices.
 struct CorrelationLine {
   std::size_t configurations = 0;
-  // NaN if there are too few points for a line.
+  // All following numbers are NaN if there are too few points for a line.
   double intercept = 0;
   double slope = 0;
   double scale = 0;    // robust standard deviation of the residuals, in ln
   double rho = 0;      // Pearson's r of the logarithms
-  double pearson = 0;  // correlation of the values themselves, as in the paper
+  double pearson = 0;  // Pearson's r of the values themselves, as in the paper (docs/paper.md)
   LineRefusal refusal = LineRefusal::none;
 
   [[nodiscard]] bool admitted() const { return refusal == LineRefusal::none; }
@@ -38,21 +38,21 @@ struct CorrelationLine {
 
 struct CorrelationPoint {
   std::string configuration;
-  double x = 0;          // ln of the signal on device_a
-  double y = 0;          // ln of it on device_b
-  double residual = 0;   // y − the line at x; NaN without a line
-  bool outlier = false;  // a finding names it for one of the two devices; always false for times
+  double x = 0;          // ln of the cost or time on device_a
+  double y = 0;          // ln of the cost or time on device_b
+  double residual = 0;   // y minus the value of the line at x; NaN if there is no line
+  bool outlier = false;  // whether a finding names this configuration; always false for times
 };
 
-// Each pair of devices appears once for each signal.
+// Two devices. Each pair of devices occurs once for costs and once for times.
 struct CorrelationPair {
-  // The device on the x axis: the accepted one if the other is new, otherwise the one with the
-  // lesser id. The name is an id if the device is in the run, otherwise the stored id with its
-  // driver version.
+  // The device on the x axis. If one device is accepted and the other is new, it is the accepted
+  // device, otherwise the device whose id comes first. Both names are device ids, followed by the
+  // driver version for a device that is not in the run.
   std::string device_a;
   std::string device_b;
   std::string signal;  // "cost": instructions per frame; "time": nanoseconds per frame
-  // For cost: device_b has no stored costs, so that only the line can reveal a problem.
+  // For costs: whether device_b has no stored costs, so that only the line can reveal a problem.
   bool new_device = false;
   CorrelationLine line = {};
   std::vector<CorrelationPoint> points = {};  // one for each configuration

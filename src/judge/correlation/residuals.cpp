@@ -11,7 +11,8 @@
 namespace triptych::judge {
 namespace {
 
-// The share of a level's configurations that must have moved before the level is named.
+// The share of a level's configurations that must have moved in the same direction for the level to
+// be named.
 constexpr double least_share_moved = 0.75;
 constexpr std::size_t least_level = 2;
 
@@ -72,8 +73,8 @@ class Explanation {
     cover(all, result_.back().log_ratio);
   }
 
-  // The mean of the level minus that of the rest; nullopt if too few of its configurations moved in
-  // that direction.
+  // Returns the mean change of the level minus the mean change of all other configurations. Returns
+  // nullopt if too few configurations of the level moved in this direction.
   [[nodiscard]] std::optional<double> effect_of(const FactorLevel& level) const {
     const double effect = mean_of(left_, level.inside) - mean_of(left_, level.outside);
     const auto along = std::ranges::count_if(
@@ -83,7 +84,8 @@ class Explanation {
     return effect;
   }
 
-  // Takes the level that explains most of the remaining sum of squares.
+  // Adds the level that explains most of the remaining sum of squares. Returns false if the search
+  // should end.
   bool find_level() {
     const FactorLevel* best = nullptr;
     double most = 0;
@@ -105,7 +107,7 @@ class Explanation {
     result_.back().log_ratio = of_best;
     const auto before = std::ranges::count(left_, 0.0);
     cover(best->inside, of_best);
-    return std::ranges::count(left_, 0.0) > before;  // if false, the search ends
+    return std::ranges::count(left_, 0.0) > before;
   }
 
   void find_configurations() {
@@ -121,7 +123,7 @@ class Explanation {
   }
 
   std::span<const double> moved_;
-  std::vector<double> left_;  // 0: did not move, or is already explained
+  std::vector<double> left_;  // the changes that are not explained yet; all others are 0
   std::vector<FactorLevel> levels_;
   std::vector<Movement> result_;
 };

@@ -1,7 +1,7 @@
 #pragma once
-// Compares two accepted devices A and B. Their stored residual r0 = ln B0 − ln A0 is exact. If the
-// residual r of the run differs from it by more than the repeatability of both devices, something
-// has changed: r − r0 is the change of B minus that of A.
+// Compares two accepted devices A and B. Their stored residual is r0 = ln B0 − ln A0. If the
+// residual r of the current run differs from r0 by more than the counts of both devices vary, the
+// cost of A or B has changed: r − r0 is the change of B minus the change of A.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,16 +14,16 @@
 
 namespace triptych::judge {
 
-// The instructions of one frame, for the two parts whose counts repeat.
+// The instructions of one frame, for the two parts whose counts are reproducible.
 struct FrameCost {
   double device_code = 0;
   double driver = 0;
   [[nodiscard]] double sum() const { return device_code + driver; }
 };
 
-// The largest difference of two counts of the same frame, as a share of the frame
-// (docs/correlation.md). The bounds are systematic (they depend on the layout of the heap), so they
-// do not shrink with the square root of the number of counts.
+// The largest difference between two counts of the same frame, as a share of the frame
+// (docs/correlation.md). The differences are systematic, because they depend on the layout of the
+// heap. Therefore averaging over many counts does not reduce them.
 struct Repeatability {
   double device_code = 0;
   double driver = 5e-4;
@@ -32,36 +32,41 @@ struct Repeatability {
                                           const FrameCost& stored);
 [[nodiscard]] Repeatability operator+(const Repeatability& a, const Repeatability& b);
 
-// The change of one configuration on one device since it was accepted, as shares of the stored sum.
+// The change in the cost of one configuration on one device since it was accepted, as shares of the
+// stored cost of the frame.
 struct CostChange {
   double device_code = 0;
   double driver = 0;
 };
 [[nodiscard]] CostChange change_of(const FrameCost& stored, const FrameCost& now);
-// ln of the ratio of the frame's cost that results from the parts that moved beyond their bounds; 0
-// if none did. Each part is judged by itself, so that a change of generated code is visible even if
-// the driver's count repeats only loosely.
+// Returns ln(new cost/old cost) of the frame, counting only the changes of the parts that exceed
+// their bounds, or 0 if no part does. Each part is judged separately, so that a change in device
+// code is detected even if the driver's count varies much.
 [[nodiscard]] double moved_by(const CostChange& change, const Repeatability& bound);
-// Whether r differs from r0 by more than the repeatability of both devices.
+// Whether the residual r of devices A and B differs from r0 by more than the repeatability of both.
 [[nodiscard]] bool residual_moved(const CostChange& a, const Repeatability& bound_a,
                                   const CostChange& b, const Repeatability& bound_b);
 
-// The change on one device, described with as few names as possible.
+// A change on one device, for all configurations, for those with a factor level, or for a single
+// configuration.
 struct Movement {
   enum class Of : std::uint8_t { everything, level, configuration };
   Of of = Of::configuration;
-  std::string level;                 // the name, if a level moved
-  std::vector<std::size_t> members;  // configurations
-  double log_ratio = 0;  // median of the members; for a level, its mean against the rest
-  double least = 0;      // the smallest absolute value among the members
-  double most = 0;
+  std::string level;                 // the name of the level, if `of` is Of::level
+  std::vector<std::size_t> members;  // indices of the configurations
+  // The median change of the members. For a level: their mean change minus the mean change of all
+  // other configurations.
+  double log_ratio = 0;
+  double least = 0;  // the change of the member that changed least
+  double most = 0;   // the change of the member that changed most
 };
 
-// `moved`: the result of moved_by for each configuration. The result first names everything, if all
-// configurations moved together, then the levels that explain most, then the configurations that
-// moved most. A configuration is named in addition to its level, or to everything, only if it moved
-// by more than twice as much or in the other direction. The mean of a level has the same bound as
-// its configurations, because bounds are systematic and do not average out.
+// Describes the changes of all configurations with as few movements as possible. `moved` contains
+// the result of moved_by() for each configuration. Returns first a movement of everything, if all
+// configurations changed in the same direction, then the levels that explain most of the changes,
+// and then the remaining configurations, the largest change first. A configuration that a level or
+// everything already covers is returned only if it changed by more than twice as much or in the
+// opposite direction.
 [[nodiscard]] std::vector<Movement> explain(std::span<const double> moved,
                                             std::span<const Factors> factors);
 

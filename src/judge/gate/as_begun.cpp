@@ -1,5 +1,5 @@
-// Checks whether the run is complete: whether it has all planned configurations, on all devices
-// that its machine should have, for all checks in its baselines.
+// Checks whether the run covers all devices that its machine should have, and all checks that its
+// baselines contain.
 
 #include <algorithm>
 #include <iterator>
@@ -18,7 +18,7 @@ bool applies(const Absent& entry, const record::Run& run, const std::string& tod
   });
 }
 
-// Whether this machine was declared to lack this device, or all devices of its API.
+// Whether somebody declared that this machine lacks this device, or all devices of its API.
 bool is_excused(const RunView& view, const std::string& device) {
   if (core::any_glob_matches(view.request.without_devices, device)) return true;
   return std::ranges::any_of(view.baselines.absent(), [&](const Absent& entry) {
@@ -26,7 +26,7 @@ bool is_excused(const RunView& view, const std::string& device) {
   });
 }
 
-// Whether one of the run's commands would have measured the device if it had been there.
+// Whether one of the run's commands would have measured the device if it had been present.
 bool is_asked_for(const RunView& view, const std::string& device) {
   const bool judged =
       view.request.devices.empty() || core::any_glob_matches(view.request.devices, device);
@@ -47,7 +47,7 @@ bool found_all_that_was_asked(const record::Beginning& begun) {
   });
 }
 
-// A process that crashed or hung during the listing may have missed devices.
+// Device enumeration that crashed or hung may have missed devices.
 void report_failed_listings(const RunView& view, std::vector<Finding>& findings) {
   for (const record::Beginning& begun : view.run.begun) {
     if (found_all_that_was_asked(begun)) continue;
@@ -74,10 +74,10 @@ std::map<std::string, std::string> ids_of_drivers(const Manifest& manifest) {
   return ids;
 }
 
-// A plan that only compiles expects a device only if another device of the same driver is listed,
-// because a machine need not have a compiler for a GPU that it lacks. Plans that draw report a
-// missing GPU. The part of an id before the last '-' names the driver of a device that only
-// compiles.
+// Whether a missing device has to be reported. A plan that only compiles reports it only if another
+// device of the same driver is present, because a machine need not have the compiler of a GPU that
+// it lacks. In the id of a device that only compiles, the part before the last '-' names the
+// driver.
 bool is_expected(const RunView& view, const std::string& id,
                  const std::vector<std::string>& found) {
   if (view.checks != std::set{Check::code}) return true;
@@ -87,8 +87,8 @@ bool is_expected(const RunView& view, const std::string& id,
   });
 }
 
-// Devices that were accepted on a machine of the same kind and are not listed here, by id. Each is
-// mapped to a device that is listed here and was accepted on the same machine.
+// Returns the ids of accepted devices that were not found, although a device that was accepted on
+// the same machine was. Each is mapped to the id of such a device.
 std::map<std::string, std::string> gone_devices(const RunView& view) {
   const Manifest& manifest = view.baselines.manifest();
   const std::map<std::string, std::string> ids = ids_of_drivers(manifest);
@@ -141,9 +141,9 @@ void report_undescribed(const RunView& view, std::vector<Finding>& findings) {
   }
 }
 
-// Reports checks that the baselines have and the plan no longer requests: without the report, the
-// plan would pass whatever such a check would have found. Timing is left out unless times affect
-// the verdict.
+// Reports checks that the baselines contain but the plan no longer requests. Otherwise, a plan
+// could pass because somebody removed the check that would fail. Timing is left out unless times
+// affect the verdict.
 void report_lost_checks(const RunView& view, std::vector<Finding>& findings) {
   if (!view.baselines.present() || view.run.checks.empty()) return;
   std::vector<std::string> lost;

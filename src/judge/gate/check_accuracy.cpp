@@ -1,5 +1,5 @@
-// Compares errors with the limit image: they are reported for every scene and device, and compared
-// with the accepted ones.
+// Measures the error of each image against its limit image, and compares it with the accepted
+// error.
 
 #include <algorithm>
 #include <map>
@@ -19,15 +19,17 @@ namespace {
 // Converting an image to float rounds each channel once.
 constexpr double float_rounding = 0x1.0p-24;
 
-// The largest error that is allowed. A part of the accepted error comes from rounding, storage and
-// early ray termination. Another correct image may have that part in the opposite direction, so it
-// is allowed twice more. The root mean square is a distance, so two correct images differ by no
-// more than the sum of their distances from the reference image.
+// Returns the largest allowed error. A part of the accepted error (`arithmetic`) comes from
+// rounding, storage and early ray termination. In another correct image, that part may point in the
+// opposite direction, so the error may exceed the accepted one by twice that part: the root mean
+// square is a distance, so two correct images differ by at most the sum of their distances from the
+// reference image.
 double allowed(const StoredError& stored) {
   return stored.rmse + 2 * stored.arithmetic + float_rounding;
 }
 
-// The limit for the device itself; if there is none, the largest limit of all devices.
+// Returns the largest allowed error on this device. If none was accepted for it, returns the
+// largest one of all devices.
 std::optional<double> allowed_on(const std::map<std::string, StoredError>& stored,
                                  const std::string& device) {
   const auto own = stored.find(device);
@@ -57,8 +59,7 @@ Finding judge_error(const RunView& view, const record::Record& record,
   return finding;
 }
 
-// The order that follows from the accepted errors of a family. It is computed because only errors
-// are stored.
+// Fits the order of convergence to the accepted errors of a family, because only errors are stored.
 std::optional<accuracy::Order> stored_order(const RunView& view,
                                             const accuracy::AccuracyScene& scene,
                                             const accuracy::AccuracyFamily& family) {
@@ -74,9 +75,9 @@ std::optional<accuracy::Order> stored_order(const RunView& view,
   return accuracy::fit_order(points);
 }
 
-// The order of convergence has become lower if it is below the accepted one by more than both
-// intervals together. If no order can be fitted to the same steps any more, errors that do not come
-// from the step have grown.
+// Reports a regression if the order of convergence is below the accepted order by more than the sum
+// of both half widths. If an order can no longer be fitted to the same steps, errors that do not
+// depend on the step size have grown.
 Finding judge_order(const RunView& view, const record::Device& device,
                     const std::optional<accuracy::Order>& now, const accuracy::Order& stored) {
   Observation what{.cause = now ? Cause::order : Cause::no_order, .against = Against::baseline};
@@ -102,10 +103,11 @@ void judge_orders(const RunView& view, const accuracy::AccuracyScene& scene,
   }
 }
 
-// The scenes by device and limit, in the order in which they are added.
+// Collects the scenes, one for each device and limit, in the order in which they are added.
 class Scenes {
  public:
-  // Configurations with `auto` and with the level to which it resolves on the device are one case.
+  // A configuration with the level `auto`, and the one with the level to which `auto` resolves on
+  // the device, are one case.
   void add(const record::Record& record, const accuracy::LimitPicture& limit,
            accuracy::AccuracyCase each) {
     const auto [known, is_new] = index_.try_emplace({record.device, limit.key}, scenes_.size());
@@ -126,8 +128,8 @@ class Scenes {
   std::vector<accuracy::AccuracyScene> scenes_;
 };
 
-// Processes one record after the other. A record that cannot be judged gets a finding and does not
-// stop the others.
+// Checks the records one by one. A record that cannot be judged gets a finding, and the check
+// continues with the next record.
 class AccuracyCheck {
  public:
   AccuracyCheck(const RunView& view, AccuracyFindings& out) : view_(view), out_(out) {
@@ -158,7 +160,7 @@ class AccuracyCheck {
   void measure_error(const record::Record& record) {
     const accuracy::LimitPicture* limit = view_.request.limit(record);
     if (limit == nullptr) {
-      // A scene that never had a limit needs no finding.
+      // A scene without an accepted error never had a limit, so it needs no finding.
       if (view_.baselines.errors(record.configuration).empty()) return;
       add(record, Verdict::cannot_judge, {.cause = Cause::no_limit_any_more}, view_.accept());
       return;
@@ -181,8 +183,8 @@ class AccuracyCheck {
   const RunView& view_;
   AccuracyFindings& out_;
   Scenes scenes_;
-  // Devices with at least one record that was timed by the wall clock only. Times by two clocks are
-  // never compared.
+  // Devices with at least one record that was timed only by the wall clock. For these devices, the
+  // wall clock is used for all records, because times from two clocks are never compared.
   std::set<std::string> by_the_wall_;
 };
 

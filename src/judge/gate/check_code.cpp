@@ -1,5 +1,6 @@
-// Compares compiler reports with the values stored for the same driver version. The comparison is
-// exact and valid on any machine, because the output does not depend on the machine that compiles.
+// Compares the statistics that GPU compilers report with those stored for the same driver version.
+// The values must be equal on any machine, because the output of these compilers does not depend on
+// the machine on which they run.
 
 #include <fmt/format.h>
 
@@ -15,8 +16,8 @@
 namespace triptych::judge {
 namespace {
 
-// If several executables changed, the name of the change contains the executable; otherwise only
-// the statistic.
+// Converts a change. Its name is the statistic, preceded by the executable if several executables
+// changed.
 Change change_of(const CodeChange& change, bool several) {
   const std::string_view name =
       change.statistic.name.empty() ? std::string_view(change.driver_name) : change.statistic.name;
@@ -43,8 +44,8 @@ std::vector<Change> changes_of(const CodeTotals& totals) {
   return changes;
 }
 
-// Whether the configuration consists of other executables than before, so that it cannot be
-// compared executable by executable.
+// Whether executables were added or removed, so that the configuration cannot be compared
+// executable by executable.
 bool in_other_parts(const CodeComparison& comparison) {
   return !comparison.gone.empty() || !comparison.added.empty();
 }
@@ -57,13 +58,14 @@ Verdict verdict_of(const CodeComparison& comparison) {
   return direction == CodeDirection::other ? Verdict::advisory : Verdict::pass;
 }
 
-// Returns the largest relative change of a statistic that decides; findings are sorted by it.
+// Returns the largest relative change of a statistic that affects the verdict. Findings are sorted
+// by this ratio.
 double ratio_of(const CodeComparison& comparison) {
   double ratio = 1;
   for (const CodeChange& each : comparison.changes) {
     if (!each.statistic.decides || each.before <= 0 || each.now <= 0) continue;
-    ratio = std::max(ratio, each.now > each.before ? each.now / each.before
-                                                   : each.before / each.now);
+    ratio =
+        std::max(ratio, each.now > each.before ? each.now / each.before : each.before / each.now);
   }
   return ratio;
 }
@@ -103,19 +105,18 @@ class DeviceCodeCheck {
           view_.accept());
     }
     if (!reassembled_.empty()) {
-      add(findings, Verdict::advisory,
-          {.cause = Cause::other_disassembly, .names = reassembled_});
+      add(findings, Verdict::advisory, {.cause = Cause::other_disassembly, .names = reassembled_});
     }
   }
 
  private:
   void add(std::vector<Finding>& findings, Verdict verdict, Observation what,
            Advised advice = {}) const {
-    findings.push_back(finding_about(view_, device_, Check::code, verdict, std::move(what),
-                                     std::move(advice)));
+    findings.push_back(
+        finding_about(view_, device_, Check::code, verdict, std::move(what), std::move(advice)));
   }
 
-  // Another driver version is another compiler. Its changes are reported as totals.
+  // Compares with another driver version, which has another compiler. Reports only totals.
   void tell_other(std::vector<Finding>& findings) const {
     const DriverCode* other = nullptr;
     for (const auto& [driver, code] : view_.baselines.code_of_all_drivers()) {
@@ -156,10 +157,10 @@ class DeviceCodeCheck {
 
   const RunView& view_;
   const record::Device& device_;
-  const DriverCode* stored_;  // of this driver version
+  const DriverCode* stored_;  // for this driver version; may be nullptr
   std::vector<const record::Record*> records_;
   std::vector<std::string> not_stored_;
-  std::vector<std::string> reassembled_;  // other disassembly, the same statistics
+  std::vector<std::string> reassembled_;  // the disassembly changed, but not the statistics
 };
 
 }  // namespace

@@ -19,17 +19,16 @@ Finding about_device(const DeviceCost& device, Verdict verdict, Observation what
   return finding;
 }
 
-// --- accepted devices: compared by stored residuals
-// ----------------------------------------------------------
+// --- Accepted devices: their residuals are compared with the stored residuals --------------------
 
-// The configurations of a device that were compared with at least one other device, and how far
-// each moved.
+// The configurations of a device that were compared with at least one other device, and how much
+// the cost of each changed.
 struct Moved {
   const DeviceCost* device = nullptr;
   std::vector<const record::Record*> records;
-  std::vector<double> by;  // for each record; 0: it did not move, or no pair's residual shows it
-  std::set<std::string> held;    // names of the devices with which it was compared
-  std::set<std::string> beside;  // names of those whose residual with this device moved
+  std::vector<double> by;        // change of each record; 0 if no pair's residual changed
+  std::set<std::string> held;    // names of the devices with which this device was compared
+  std::set<std::string> beside;  // names of the devices whose residual with this device changed
 };
 
 Repeatability repeatability_of(const ConfigurationCost& cost) {
@@ -40,8 +39,8 @@ CostChange change_of(const ConfigurationCost& cost) {
   return change_of(*cost.stored, cost.now);
 }
 
-// The accepted devices whose instructions the same emulator counted: those in the run, or, if there
-// are none, those that are only stored.
+// Returns the accepted devices whose instructions were counted by the same emulator: those in the
+// run or, if there are none, those that are only stored.
 std::vector<const DeviceCost*> partners_of(const DeviceCost& device,
                                            const std::vector<DeviceCost>& devices) {
   std::vector<const DeviceCost*> here;
@@ -53,15 +52,16 @@ std::vector<const DeviceCost*> partners_of(const DeviceCost& device,
   return here.empty() ? stored : here;
 }
 
-// Whether the residual r of the two differs from the stored r0. A device that is not in the run
-// takes part with its stored cost, which is exact.
+// Whether the residual r of the two devices differs from the stored residual r0. For a device that
+// is not in the run, the stored cost is used, which has no measurement error.
 bool left_residual(const ConfigurationCost& own, const ConfigurationCost& other) {
   const Repeatability none{0, 0};
   return residual_moved(change_of(other), other.record ? repeatability_of(other) : none,
                         change_of(own), repeatability_of(own));
 }
 
-// Finds the configurations whose cost on this device itself changed since it was accepted.
+// Finds the configurations whose cost on this device, and not on the others, changed since the
+// device was accepted.
 Moved movements_of(const DeviceCost& device, const std::vector<DeviceCost>& devices) {
   Moved moved{&device, {}, {}, {}, {}};
   const std::vector<const DeviceCost*> partners = partners_of(device, devices);
@@ -119,8 +119,7 @@ void judge_accepted(const Moved& moved, std::vector<Finding>& findings) {
                     .names = {moved.held.begin(), moved.held.end()}}));
 }
 
-// --- new devices: compared by a line through an accepted one
-// ----------------------------------------------------
+// --- New devices: their costs are compared with the costs that a line predicts ------------------
 
 void add_fit(Observation& what, const CorrelationLine& line) {
   set_number(what, "configurations", static_cast<double>(line.configurations));
@@ -131,8 +130,9 @@ void add_fit(Observation& what, const CorrelationLine& line) {
   set_number(what, "pearson", line.pearson);
 }
 
-// The accepted device that can judge a new one: the line with the least scatter, where accepted
-// lines come before refused ones; nullptr if none is stored.
+// Returns the pair of the new device and the accepted device that predicts its costs best: the pair
+// with the least scatter about its line. A pair whose line was refused is used only if there is no
+// other. Returns nullptr if there is no pair.
 const CorrelationPair* nearest(const DeviceCost& device,
                                const std::vector<CorrelationPair>& pairs) {
   const CorrelationPair* best = nullptr;
@@ -201,18 +201,18 @@ void judge_new(const DeviceCost& device, std::vector<CorrelationPair>& pairs,
   findings.push_back(about_device(device, Verdict::advisory, std::move(what)));
 }
 
-// --- pairs ---------------------------------------------------------------------------------------
+// --- Pairs ---------------------------------------------------------------------------------------
 
-// Pairs of two accepted devices in the run, or of one in the run and an accepted one. Pairs of two
-// new devices are only shown.
+// Returns all pairs of devices in the run, and the pairs of a new device and an accepted device
+// that is not in the run. Pairs of two new devices are shown but not judged.
 std::vector<CorrelationPair> pairs_by_cost(const std::vector<DeviceCost>& devices) {
   std::vector<CorrelationPair> pairs;
   for (std::size_t a = 0; a < devices.size(); ++a) {
     for (std::size_t b = a + 1; b < devices.size(); ++b) {
       if (devices[a].counted_by != devices[b].counted_by) continue;
       const bool b_is_known = devices[b].accepted() && !devices[a].accepted();
-      if (!devices[a].measured) continue;  // in this case b was not measured either
-      // A device that is not in the run is shown only together with a new device.
+      if (!devices[a].measured) continue;  // b was not measured either: measured devices come first
+      // A device that is not in the run is paired only with a new device.
       if (!devices[b].measured && !b_is_known) continue;
       pairs.push_back(b_is_known ? pair_of(devices[b], devices[a])
                                  : pair_of(devices[a], devices[b]));
@@ -236,7 +236,7 @@ void mark_outliers(const Moved& moved, std::vector<CorrelationPair>& pairs) {
   }
 }
 
-// One finding for each device of the run without a cost.
+// Adds a finding for each device of the run whose instructions were not counted.
 void report_uncounted(const CorrelationInput& input, const std::vector<DeviceCost>& devices,
                       std::vector<Finding>& findings) {
   std::set<std::string> told;

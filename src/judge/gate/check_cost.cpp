@@ -1,6 +1,6 @@
-// Compares the instructions per frame with those stored for the same driver version and counted by
-// the same emulator. Device code, the driver and cache misses each decide by themselves;
-// allocations and the cost of preparing are only shown.
+// Compares the instructions per frame with those that are stored for the same driver version and
+// were counted by the same emulator. The instructions of device code, those of the driver, and the
+// cache misses can each cause a regression. Allocations and the cost of preparation are only shown.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace triptych::judge {
 namespace {
 
-// A change that is reported but does not affect the verdict, with the configuration in which it is
+// A change that does not affect the verdict. It is reported for the configuration in which it is
 // largest.
 struct Note {
   std::size_t changed = 0;
@@ -69,8 +69,9 @@ class DeviceCostCheck {
         finding_about(view_, device_, Check::cost, verdict, std::move(what), std::move(advice)));
   }
 
-  // The emulator of a record that was counted by another emulator than this one; nullopt if there
-  // is none. This happens in a run that was resumed or merged from shards.
+  // If the instructions of some record were counted by a different emulator than those of
+  // `counted`, returns that emulator. This happens in runs that were resumed, or merged from
+  // shards.
   [[nodiscard]] std::optional<std::string> counted_otherwise(const record::Record& counted) const {
     for (const record::Record* record : records_) {
       if (record->cost.empty() || record->counted_by == counted.counted_by) continue;
@@ -79,8 +80,8 @@ class DeviceCostCheck {
     return std::nullopt;
   }
 
-  // Compares with the most similar stored counts: those of another version of this driver, or by
-  // another emulator.
+  // Compares with stored counts that are not directly comparable: counts of another version of this
+  // driver, or counts from another emulator.
   void tell_other(const record::Record& counted, std::vector<Finding>& findings) const {
     const DriverCost* other = stored_;
     for (const auto& [driver, cost] : view_.baselines.cost_of_all_drivers()) {
@@ -153,8 +154,9 @@ class DeviceCostCheck {
       if (a && b) into.add(record.configuration, {part, unit, *a, *b, {}, 0}, tolerated);
     };
     add_to(allocations_, stored.frame, record.cost, "allocations", Unit::allocations, 0);
-    // A driver that finds its compiled code in a cache does a small part of the work of one that
-    // compiles. Such a change is caused by the cache and not by the driver.
+    // A driver that finds its compiled code in a cache executes far fewer instructions than one
+    // that has to compile. A change by a factor of 2 or more therefore comes from the cache and is
+    // not reported.
     constexpr double most_without_a_cache = 2;
     const auto before = count_of(stored.prepare, "driver");
     const auto now = count_of(record.prepare_cost, "driver");
@@ -192,7 +194,7 @@ class DeviceCostCheck {
 
   const RunView& view_;
   const record::Device& device_;
-  const DriverCost* stored_;  // for this driver version
+  const DriverCost* stored_;  // for this driver version; may be nullptr
   std::vector<const record::Record*> records_;
   std::vector<std::string> not_stored_;
   std::vector<std::string> not_counted_;

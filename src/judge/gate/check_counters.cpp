@@ -12,12 +12,12 @@
 namespace triptych::judge {
 namespace {
 
-// The values accepted on other devices: the smallest and the largest one, and one value for each
-// family of devices.
+// The accepted values of a counter on all devices: the smallest value, the largest value, and one
+// value for each family of devices.
 struct Range {
   std::uint64_t least = UINT64_MAX;
   std::uint64_t most = 0;
-  std::map<std::string, std::uint64_t> families;  // family → one of its values
+  std::map<std::string, std::uint64_t> families;  // family of devices → one of its values
 
   explicit Range(const std::map<std::string, std::uint64_t>& stored) {
     for (const auto& [device, value] : stored) {
@@ -26,7 +26,7 @@ struct Range {
       families.emplace(record::family_of(device), value);
     }
   }
-  // The end of the range that is nearer to the value.
+  // The value in the range that is nearest to `value`.
   [[nodiscard]] std::uint64_t nearest(std::uint64_t value) const {
     return std::clamp(value, least, most);
   }
@@ -58,8 +58,8 @@ void compare_own(const std::string& name, std::uint64_t stored, const record::Re
   out.wrong.push_back(std::move(change));
 }
 
-// Compares with other devices or driver versions. A counter may be missing, because it need not
-// have a meaning on this device.
+// Compares with other devices or driver versions. A counter may be missing, because it may not
+// apply to this device.
 void compare_with_others(const std::string& name, const Range& range, const record::Record& record,
                          OpenCounts& open, Differences& out) {
   const auto found = record.counters.find(name);
@@ -76,8 +76,8 @@ void compare_with_others(const std::string& name, const Range& range, const reco
                        .allowed = open.of(name)});
 }
 
-// The value must equal what the same driver version counted before, and a counter that was reported
-// must be reported again.
+// Compares one counter. On a driver version that was accepted, the value must equal the accepted
+// one. A counter that this device reported before must be reported again.
 void compare_counter(const std::string& name, const std::map<std::string, std::uint64_t>& stored,
                      const record::Record& record, bool known_driver, OpenCounts& open,
                      Differences& out) {
@@ -150,7 +150,8 @@ std::vector<Finding> check_counters(const RunView& view) {
     }
   }
   for (const auto& [device, configurations] : not_stored) {
-    // A new device cannot be judged by a configuration that no accepted device could draw.
+    // If no accepted device could draw a configuration, there is nothing with which a new device
+    // could be compared.
     const record::Device& info = view.devices.at(device);
     const bool known = !view.baselines.present() || view.knows_driver(info);
     findings.push_back(

@@ -16,7 +16,7 @@ namespace {
 // Two renderings of the same reference image differ only by rounding to float.
 constexpr double truth_tolerance = 1e-5;
 
-// An image of one device that can be compared with those of other devices.
+// A correct image of one device, for the comparison with the images of other devices.
 struct Picture {
   const record::Record* record;
   core::Image image;
@@ -24,7 +24,7 @@ struct Picture {
 };
 
 // Whether the configuration sets only the scene and the technique, so that every device uses its
-// preferred path.
+// default rendering path.
 bool on_default_path(const record::Record& record) {
   const auto scene = record::parse_factor_list(record.scene);
   const auto named = record::parse_factor_list(record.configuration);
@@ -62,7 +62,7 @@ class SceneJudge {
     judge_image(record, std::move(image), pair);
   }
 
-  // Compares devices with each other, after every record of the scene was judged.
+  // Compares the devices with each other. Call it after all records of the scene were judged.
   void judge_agreement() {
     const Picture* left = nullptr;
     const Picture* right = nullptr;
@@ -107,7 +107,7 @@ class SceneJudge {
     }
   }
 
-  // Checks once for each scene whether the reference image is the accepted one.
+  // Checks whether the reference image is the accepted one, once for each scene.
   void check_truth(const TruthPair& pair) {
     if (truth_checked_ || !view_.baselines.present()) return;
     truth_checked_ = true;
@@ -118,7 +118,7 @@ class SceneJudge {
       Observation how = image_observation(accuracy::compare(pair.truth, *stored_, truth_tolerance),
                                           pair.truth, *stored_, Against::stored_image);
       what.numbers = how.numbers;
-      // Ids and depths are compared only where they are certain.
+      // Ids and depths are compared only in pixels where rounding cannot change them.
       if (how.cause == Cause::within_bound) {
         how = image_observation(accuracy::compare(pair.truth, *stored_, pair.bound), pair.truth,
                                 *stored_, Against::stored_image);
@@ -161,7 +161,7 @@ class SceneJudge {
   std::optional<ReferenceHash> reference_;  // its hash, if only the hash is stored
   bool truth_checked_ = false;
   std::vector<Picture> pictures_;
-  core::Image bound_;  // error bound of a particle scene, from which follows where ids are certain
+  core::Image bound_;  // error bound of a particle scene; it also states where ids are certain
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Compares the bytes allocated on the device with the accepted ones. They must be equal.
+// Compares the bytes that are allocated on the device with the accepted values. More bytes are a
+// regression, and fewer are an improvement.
 
 #include <set>
 
@@ -39,10 +40,11 @@ Finding judge(const record::Record& record, const record::Counts& stored) {
       {.cause = Cause::values_changed, .against = Against::baseline, .changes = changes});
 }
 
+// The configurations of a device whose memory cannot be compared.
 struct Untold {
-  bool accepted = false;  // some configuration of the device is stored
-  std::size_t told = 0;
-  std::vector<std::string> lost;        // stored, but not reported now
+  bool accepted = false;          // whether memory is stored for some configuration of the device
+  std::size_t told = 0;           // number of configurations for which the device reports memory
+  std::vector<std::string> lost;  // stored, but not reported now
   std::vector<std::string> not_stored;  // reported, but not stored
 };
 

@@ -56,16 +56,17 @@ Finding check_exact(const RunView& view, const record::Record& record,
                {.cause = Cause::as_stored, .numbers = {{"values", values}}, .names = unsteady});
 }
 
-// Collects all differences of a device whose driver version has no baselines.
+// The differences between a device whose driver version has no baselines and all stored drivers.
 struct Elsewhere {
   std::size_t configurations = 0;
-  std::map<std::string, Change> differences;  // portable values that differ from all stored ones
-  std::set<std::string> differing;            // the configurations with such differences
-  // Statistic → drivers that do not count it exactly, and how they count it. An empty driver is the
-  // device's own.
+  std::map<std::string, Change>
+      differences;                  // portable values that differ from every stored driver
+  std::set<std::string> differing;  // the configurations with such differences
+  // (statistic, driver) → how the driver counts the statistic, if it does not count it exactly. An
+  // empty driver stands for this device's own driver.
   std::map<std::pair<std::string, std::string>, std::string_view> not_compared;
-  std::size_t stored = 0;    // configurations that are stored for at least one driver
-  std::size_t compared = 0;  // number of values
+  std::size_t stored = 0;    // number of configurations that are stored for at least one driver
+  std::size_t compared = 0;  // number of values that were compared
 };
 
 void compare_elsewhere(const RunView& view, const record::Record& record, const std::string& name,
@@ -162,7 +163,8 @@ class StatisticsCheck {
   const RunView& view_;
   std::vector<Finding> findings_;
   std::map<std::string, Elsewhere> elsewhere_;  // by device
-  // By device: configurations without stored statistics, although others have them.
+  // Configurations without stored statistics, by device, if the device has statistics for other
+  // configurations.
   std::map<std::string, std::vector<std::string>> not_stored_;
 };
 

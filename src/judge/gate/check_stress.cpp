@@ -7,8 +7,8 @@
 namespace triptych::judge {
 namespace {
 
-// Returns the accepted score. A device without baselines may have the score of the worst accepted
-// device.
+// Returns the smallest allowed score: the accepted score of the device or, for a device without
+// baselines, the lowest accepted score of all devices.
 std::optional<int> allowed_on(const std::map<std::string, std::uint64_t>& stored,
                               const std::string& device) {
   const auto own = stored.find(device);
@@ -22,7 +22,7 @@ Verdict verdict_of(int points, std::optional<int> accepted) {
   if (!accepted) return Verdict::cannot_judge;
   if (points < *accepted) return Verdict::regression;
   if (points > *accepted) return Verdict::improved;
-  // A case that was accepted with fewer than all points is still reported.
+  // A case that was accepted with less than the full score is still reported.
   return points == best_stress_score ? Verdict::pass : Verdict::advisory;
 }
 
@@ -51,8 +51,8 @@ std::vector<Finding> check_stress(const RunView& view) {
         finding_about(view, Check::stress, Verdict::cannot_judge, {.cause = Cause::no_reference}));
     return findings;
   }
-  // Images of devices that the request does not judge are still compared with those of the judged
-  // devices.
+  // Images of devices that are not judged are needed, too, because the images of the judged devices
+  // are compared with them.
   std::vector<record::Record> all = view.store.records(view.records.front().run);
   std::erase_if(all,
                 [&](const record::Record& record) { return record.plan != view.request.plan; });

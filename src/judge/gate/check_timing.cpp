@@ -1,5 +1,5 @@
-// Compares times with those of the accepted run. They are shown, and affect the verdict only on
-// request.
+// Compares times with those of the accepted run. Times are always shown, but affect the verdict
+// only on request (`--times`).
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace triptych::judge {
 namespace {
 
-const double tolerated = std::log(1.02);  // a smaller slowdown is not reported
+const double tolerated = std::log(1.02);  // a smaller slowdown is not a regression
 
 // The ratio of a time to the stored time.
 struct Ratio {
@@ -21,8 +21,8 @@ struct Ratio {
   double half_width = 0;  // half the width of its 95 % interval
 };
 
-// The clock by which both times are compared: the stored one if this run trusts it as well,
-// otherwise the wall clock (every frame is timed by it) if the stored time is by the wall clock.
+// Returns a clock that timed both runs. This is the clock of the stored time, if it also timed this
+// record. All frames are also timed by the wall clock. Returns nullopt if there is no such clock.
 std::optional<std::string_view> common_clock(const record::Record& record,
                                              const StoredTiming& stored) {
   if (stored.clock == record.clock()) return record.clock();
@@ -58,7 +58,7 @@ class DeviceTimes {
   }
 
   std::vector<Finding> finish() && {
-    // If times affect the verdict, a time that cannot be compared does not pass.
+    // If times affect the verdict, a time that cannot be compared must not pass.
     const Verdict missing = decides() ? Verdict::cannot_judge : Verdict::advisory;
     if (!not_stored_.empty() && stored_.empty()) {
       add(missing, {.cause = Cause::no_stored_device, .facts = {{"device_key", device_.key()}}});
@@ -85,8 +85,8 @@ class DeviceTimes {
     return std::isfinite(middle) && middle > 0;
   }
 
-  // If the image is also judged, or its error is waived, that finding has the verdict, and this one
-  // is a skip.
+  // If the image is judged as well, or its error is waived, the finding about the image has the
+  // verdict, and the time is skipped.
   void add_wrong(const record::Record& record, const Observation& why) {
     const bool is_told =
         view_.checks.contains(Check::image) || is_waived(view_, record, Check::image);
@@ -102,7 +102,7 @@ class DeviceTimes {
     judge(ratio_of(record, *clock, stored->second), *clock, stored->second);
   }
 
-  // This is the only place where a time affects the verdict.
+  // This is the only place at which the value of a time affects the verdict.
   [[nodiscard]] Verdict verdict_of(const Ratio& ratio) const {
     if (!decides()) return Verdict::pass;
     if (ratio.log_ratio - ratio.half_width > tolerated) return Verdict::regression;

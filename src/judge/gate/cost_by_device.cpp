@@ -13,15 +13,15 @@
 namespace triptych::judge {
 namespace {
 
-// nullopt if neither of the two parts whose counts repeat was counted.
+// Returns nullopt if neither device code nor the driver was counted.
 std::optional<FrameCost> frame_cost(const record::Counts& counts) {
   const FrameCost cost{count_of(counts, "device_code").value_or(0),
                        count_of(counts, "driver").value_or(0)};
   return cost.sum() > 0 ? std::optional(cost) : std::nullopt;
 }
 
-// Whether the record was measured itself. Records that copied the frames of an equivalent
-// configuration are left out, because they would count the same frames several times.
+// Whether the record was measured. A record that was copied from an equivalent configuration is
+// left out, because the same frames would be counted several times.
 bool stands_for_itself(const record::Record& record) {
   return record.same_as.empty();
 }
@@ -59,7 +59,7 @@ DeviceCost of_before(const DriverCost& stored) {
   return result;
 }
 
-// The median by the given clock, which both devices trust. Every frame has a wall-clock time.
+// Returns the logarithm of the median time by the given clock.
 std::optional<double> log_median(const record::Record& record, std::string_view clock) {
   const std::vector<double>& times = record.time_ns_by(clock);
   return times.empty() ? std::nullopt : std::optional(std::log(estimation::median(times)));

@@ -20,8 +20,8 @@ bool is_right(Verdict verdict) {
   return verdict == Verdict::pass || verdict == Verdict::improved || verdict == Verdict::advisory;
 }
 
-// The result that the file of expected results should contain for this finding; nullopt if it
-// should be a pass.
+// Returns the result that the file of expectations should contain for this finding. nullopt means
+// that the configuration should pass and needs no entry.
 std::optional<Known> expected_as(const Finding& finding) {
   if (finding.verdict == Verdict::skipped) return Known::skip;
   if (finding.verdict == Verdict::regression) {
@@ -31,8 +31,8 @@ std::optional<Known> expected_as(const Finding& finding) {
   return known ? std::optional(finding.excuse.known) : std::nullopt;
 }
 
-// Returns the finding after a second attempt that was right. It becomes a flake. A timeout is
-// undecided instead, because it cannot be distinguished from a slow driver.
+// Returns the finding after a second attempt that passed. It becomes a flake, except for a timeout,
+// which gets no verdict because the driver may just be slow.
 Finding right_again(const Finding& finding) {
   Finding again = finding;
   again.drawn_again = Again::flake;
@@ -44,9 +44,9 @@ Finding right_again(const Finding& finding) {
   return again;
 }
 
-// Replaces a regression by the result of the second attempt. If its check has no finding for the
-// place now, the second attempt was right: a technique without a meaningful image, such as
-// speed_of_light, has a finding only if it fails to draw.
+// Merges a regression with the result of the second attempt. If the check has no finding for this
+// place now, the second attempt passed: a technique without a meaningful image, such as
+// speed_of_light, has a finding only if drawing fails.
 void tell_again(const Finding& finding, Redrawn& redrawn) {
   std::vector<Finding>& findings = redrawn.result.findings;
   const auto again = std::ranges::find_if(findings, [&](const Finding& each) {

@@ -1,6 +1,6 @@
 #pragma once
-// Handles regressions that were drawn a second time, and lists the results that the next run should
-// expect.
+// Combines regressions with the results of drawing them a second time, and lists the results that
+// the next run should expect.
 
 #include <functional>
 #include <set>
@@ -15,20 +15,23 @@ namespace triptych::judge {
 
 using Places = std::set<std::pair<std::string, std::string>>;  // device, configuration
 
-// The places at which the result has regressions of a configuration.
+// Returns the places whose configuration has a regression.
 [[nodiscard]] Places failing(const GateResult& result);
 
 struct Redrawn {
-  // the second attempt, in which flakes stay regressions, and timeouts are undecided
+  // The result of the second attempt. A failure that passed then is still a regression (a flake),
+  // except that a timeout that passed then has no verdict.
   GateResult result;
   Places flakes;
 };
 
-// `first` and `second` judge the same run, before and after `places` were drawn again.
+// Finds the flakes. `first` and `second` are the results before and after `places` were drawn
+// again.
 [[nodiscard]] Redrawn tell_flakes(const GateResult& first, GateResult second, const Places& places);
 
-// The failures, flakes and skips in the results that are not waived, except by the file of expected
-// results itself. `reason_of` gives the text for people who read the file.
+// Returns the entries of a new file of expectations: all failures, flakes and skips in the results,
+// except those that waivers.json excuses. `reason_of` returns the reason that is written for a
+// human reader.
 [[nodiscard]] std::vector<Waiver> as_expected(
     std::span<const GateResult> results,
     const std::function<std::string(const Finding&)>& reason_of);

@@ -23,8 +23,9 @@ bool asked_for(const GateRequest& request, const std::string& device) {
   return request.devices.empty() || core::any_glob_matches(request.devices, device);
 }
 
-// Reports a record whose data differ from those that were accepted under the same name, or from the
-// present ones. Its numbers are not compared with any others.
+// Returns an observation if the data of the record differ from the data that were accepted under
+// the same name, or have changed since. The numbers of such a record are not compared with
+// anything.
 std::optional<Observation> other_data(const RunView& view, const record::Record& record) {
   if (record.data_hash.empty()) return std::nullopt;
   const std::string accepted =
@@ -53,7 +54,7 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
   for (auto& entry : store.devices(run)) {
     if (asked_for(request, entry.device.id)) view.devices.emplace(entry.device.id, entry.device);
   }
-  // A device that was to be measured is judged even if the run has no data about it.
+  // A device that should have been measured is judged even if the run has no data about it.
   for (const std::string& id : record::devices_of(view.run.begun)) {
     record::Device unknown;
     unknown.id = id;
@@ -74,9 +75,9 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
   return view;
 }
 
-// Whether a skipped configuration was measured when the device was accepted, so that it counts as
-// missing. A setting that overrides the driver's capabilities (MESA_GL_VERSION_OVERRIDE) makes it
-// another device, which did not measure it.
+// Whether the device measured this skipped configuration when it was accepted, so that the
+// configuration counts as missing. An environment variable that overrides the driver's capabilities
+// (MESA_GL_VERSION_OVERRIDE) makes it a different device, to which this does not apply.
 bool measured_before(const RunView& view, const record::Record& record) {
   const bool overridden = std::ranges::any_of(
       view.device(record).environment,
@@ -89,8 +90,8 @@ bool measured_before(const RunView& view, const record::Record& record) {
   return code != nullptr && code->configurations.contains(record.configuration);
 }
 
-// Reports all records that were not measured, once each, under the first check that is requested. A
-// stress case that failed is reported by its score.
+// Reports each record that was not measured once, under the first requested check. A stress case
+// that failed is left out, because its score reports the failure.
 void report_outcomes(const RunView& view, std::vector<Finding>& findings) {
   const Check check = *view.checks.begin();
   const bool scored = view.checks.contains(Check::stress);
@@ -109,8 +110,8 @@ void report_outcomes(const RunView& view, std::vector<Finding>& findings) {
   }
 }
 
-// Faults of the driver outside of any configuration: in its clock, in its statistics, or when it is
-// closed.
+// Reports driver faults that belong to no configuration: faults of its clock or its statistics, and
+// crashes or hangs when the device is closed.
 void report_device_faults(const RunView& view, std::vector<Finding>& findings) {
   for (const auto& [id, device] : view.devices) {
     for (const record::DeviceFault& fault : device.faults) {
@@ -185,8 +186,8 @@ void report_missing(const RunView& view, const record::Device& device,
                                                                 view.request.store_option)}));
 }
 
-// Every device must have a record, with any outcome, for every configuration of the plan and for
-// every accepted one, and no others.
+// Reports missing and extra records. Every device must have a record, with any outcome, for every
+// configuration of the plan and for every accepted configuration, but for no other.
 void report_rows(const RunView& view, std::vector<Finding>& findings) {
   const std::vector<std::string> planned =
       view.request.expected.empty() ? view.store.planned(view.run) : view.request.expected;
@@ -209,7 +210,7 @@ void report_rows(const RunView& view, std::vector<Finding>& findings) {
   }
 }
 
-// The run must belong to the requested plan.
+// Reports a run that measured another version of the requested plan.
 void report_other_plan(const RunView& view, const std::string& run,
                        std::vector<Finding>& findings) {
   if (view.request.plan_hash.empty() || view.records.empty()) return;
@@ -252,14 +253,15 @@ void append(std::vector<Finding>& findings, std::vector<Finding> more) {
   std::ranges::move(more, std::back_inserter(findings));
 }
 
-// The input of the checks, and their results, which one check after the other fills in.
+// The input of the checks, and the results, to which each check adds its own.
 struct Judging {
   const RunView& view;
   GateResult& result;
   WrongImages wrong = {};
 };
 
-// Images are also compared for a check of times, because the time of a wrong image has no meaning.
+// Images are also compared for the check `timing`, because the time of a wrong image is
+// meaningless.
 void judge_images(Judging& all) {
   const bool wanted = all.view.checks.contains(Check::image);
   const bool for_times = all.view.baselines.present() && all.view.request.truth &&
@@ -270,8 +272,8 @@ void judge_images(Judging& all) {
   all.wrong = std::move(images.wrong);
 }
 
-// One row for each check, in the order in which they are judged. A test compares the rows with
-// record::every_check.
+// One row for each check except `image`, in the order in which they run. A test compares the checks
+// with record::every_check.
 struct CheckRow {
   Check check;
   bool against_baselines;  // whether the check needs baselines
@@ -334,12 +336,12 @@ int rank(Verdict verdict) {
   return 6;
 }
 
-// The programs that measured, if one of them is not the program that judges. A run that was resumed
-// may have several.
+// Names the programs that measured the run, if one of them is not the program that judges it. A run
+// that was resumed may have been measured by several programs.
 std::string other_programs(const RunView& view) {
   std::set<std::string> programs;
   for (const record::Beginning& each : view.run.begun) programs.insert(each.program);
-  // Older stores have this fact only once for each run.
+  // Older stores contain the program once for each run instead of once for each command.
   const bool is_known = programs.erase(std::string()) == 0 && !programs.empty();
   const auto program = view.run.system.find("triptych");
   if (!is_known && program != view.run.system.end()) programs.insert(program->second);
@@ -369,8 +371,8 @@ void report_what_is_there(const RunView& view, GateResult& result) {
   if (!view.baselines.present()) report_no_baselines(view, result.findings);
 }
 
-// A device that measured something but has only advisory findings and skips has not passed. Without
-// baselines, this is true of all devices.
+// Reports devices that measured something but have only advisories and skips, because they have not
+// passed. Without baselines this would be true of every device, so nothing is reported.
 void report_nothing_decided(const RunView& view, GateResult& result) {
   if (!view.request.decides_each_device || !view.baselines.present()) return;
   for (const std::string& device : result.nothing_decided()) {
@@ -380,8 +382,8 @@ void report_nothing_decided(const RunView& view, GateResult& result) {
   }
 }
 
-// Names the devices on which the configuration of a regression was accepted. If it was right there,
-// the driver is the likely cause, and not Triptych.
+// Adds to each regression on a new driver version the devices on which its configuration was
+// accepted. If the result was correct there, the driver and not Triptych is the likely cause.
 void tell_where_accepted(const RunView& view, std::vector<Finding>& findings) {
   if (!view.baselines.present()) return;
   for (Finding& each : findings) {

@@ -12,7 +12,7 @@ double OpenCounts::of(const std::string& counter) {
     try {
       known_ = find_(record_);
     } catch (const core::Error&) {
-      known_.emplace();  // the caller that requests the reference image reports why there is none
+      known_.emplace();  // the check of the image reports why the scene is not available
     }
   }
   const auto found = known_->find(counter);

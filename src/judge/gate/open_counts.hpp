@@ -8,16 +8,16 @@
 
 namespace triptych::judge {
 
-// The allowed differences of the counters of a record between two correct devices, by the counters'
-// names (SuiteWithTruth::open_counts). Throws core::Error if the scene is not available on this
-// machine; the record then has no allowed differences.
+// Returns by how much each counter of a record may differ between two correct devices, by name of
+// the counter (SuiteWithTruth::open_counts). Throws core::Error if the scene is not available on
+// this machine; OpenCounts then allows no difference.
 using FindOpenCounts = std::function<std::map<std::string, double>(const record::Record&)>;
 
-// The differences that rounding and rasterization allow in one record's counters, computed when
-// they are first needed.
+// The differences in one record's counters that rounding and rasterization can cause. They are
+// computed when they are first needed.
 class OpenCounts {
  public:
-  // `find` may be empty if rounding does not change any counter.
+  // `find` may be empty if rounding cannot change any counter.
   OpenCounts(const record::Record& record, const FindOpenCounts& find)
       : record_(record), find_(find) {}
 

@@ -9,8 +9,8 @@
 namespace triptych::judge {
 namespace {
 
-// The bits of sub-pixel precision if the API leaves the number open and the device does not report
-// it. The accepted devices have eight, and so has Triptych's rasterizer for OpenCL.
+// The number of sub-pixel bits to assume if the device does not report it. The accepted devices
+// have eight bits, and so does Triptych's rasterizer for OpenCL.
 constexpr double usual_bits = 8;
 
 std::optional<double> told(const record::Record& record, const char* name) {
@@ -20,8 +20,8 @@ std::optional<double> told(const record::Record& record, const char* name) {
 
 bool is_open(const std::string& counter, const record::Record& record) {
   if (counter == "fragments" || counter == "fragments_discarded") return true;
-  // If rays are computed at the vertices, they move with the vertices, and so does the silhouette,
-  // which determines the visible surface.
+  // If rays are computed at the vertices, snapping a vertex to the sub-pixel grid also moves its
+  // ray, and with it the silhouette, which determines the visible surface.
   const auto ray = record.factors.find("ray");
   return (counter == "fragments_kept" || counter == "visible_ids") && ray != record.factors.end() &&
          ray->second == "vertex";
@@ -29,18 +29,21 @@ bool is_open(const std::string& counter, const record::Record& record) {
 
 }  // namespace
 
-// The number of fragments by which two correct drivers may differ.
-//   - A driver moves each vertex to its grid of 2⁻ᵇ pixel by rounding or truncation, that is by
-//     less than one step. So an edge of a sprite lies up to 2⁻ᵇ + 2⁻⁸ pixel apart in the pictures
-//     of two drivers, plus the amount by which the sprite is larger on a coarse grid
-//     (technique/particles/margins.hpp). A point is larger by its margin, half of it on each side,
-//     and by as much again where its size is rounded up. Together this is δ.
-//   - An edge of length L that moves by δ passes δ·L centres of pixels on average. S sprites with F
-//     fragments have edges of at most 4·√(S·F) together (for squares, by Cauchy and Schwarz; a
-//     polygon around the same disc has less), and their four corners add δ² each.
-//   - An edge along an axis passes all of its L centres or none. That is a variance of δ·L² for an
-//     edge, and of 4·δ·F for all edges. m sprites in one place do it together, which makes the
-//     variance m times as large; m is S over the number of visible particles.
+// Derivation of the number of fragments by which two correct drivers may differ:
+//   - A driver snaps each vertex to its grid of 2⁻ᵇ pixel by rounding or truncation, so the vertex
+//     moves by less than one grid step. The positions of a sprite's edge in the images of two
+//     drivers therefore differ by up to 2⁻ᵇ + 2⁻⁸ pixel, plus the amount by which the sprite is
+//     enlarged on a coarse grid (technique/particles/margins.hpp). A point is enlarged by its
+//     margin, half of it on each side, and by the same amount again where its size is rounded up.
+//     The sum is δ.
+//   - An edge of length L that moves by δ crosses δ·L pixel centres on average. The edges of S
+//     sprites with F fragments have a total length of at most 4·√(S·F) (for squares, by the
+//     Cauchy-Schwarz inequality; a polygon around the same disc has a shorter outline), and the
+//     four corners of a sprite add δ² each.
+//   - An edge that is parallel to an axis crosses either all of its L pixel centres or none. The
+//     variance is δ·L² for one edge and 4·δ·F for all edges. If m sprites lie in the same place,
+//     their edges cross together, which makes the variance m times as large; m is S divided by the
+//     number of visible particles.
 //   - The result is the mean plus five standard deviations.
 double open_fragments(const std::string& counter, const record::Record& record) {
   constexpr double deviations = 5;

@@ -1,5 +1,5 @@
 #pragma once
-// Compares the results of a repeated validation, and finds the cases whose results differ.
+// Finds the cases whose results differ between repetitions of a validation.
 
 #include <compare>
 #include <cstddef>
@@ -29,19 +29,19 @@ struct Repetition {
 
 struct RepeatedCase {
   CaseKey key;
-  std::vector<Verdict> verdicts;  // the worst of each repetition that has the case
+  std::vector<Verdict> verdicts;  // the worst verdict in each repetition that has the case
   std::size_t images = 0;         // number of different images
   std::optional<Finding> worst;   // the finding of the first repetition with the worst verdict
 
-  // Whether it fails in some repetitions and not in others.
+  // Whether the case fails in some repetitions and not in others.
   [[nodiscard]] bool flakes() const;
   [[nodiscard]] std::size_t failures() const;
 };
 
-// All cases, sorted. Findings that are not about one configuration are not compared.
+// Returns all cases, sorted by key. Findings that are not about one configuration are ignored.
 [[nodiscard]] std::vector<RepeatedCase> repeated_cases(std::span<const Repetition> repetitions);
 
-// Puts the failures of flaking cases into the results of the first repetition, as flakes.
+// Adds a finding for each flaky case to the results of the first repetition, marked as a flake.
 void add_flakes(std::span<const RepeatedCase> cases, std::vector<GateResult>& first);
 
 }  // namespace triptych::judge

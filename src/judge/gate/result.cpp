@@ -19,7 +19,7 @@ std::size_t count(const GateResult& result, Verdict verdict) {
   return static_cast<std::size_t>(std::ranges::count(result.findings, verdict, &Finding::verdict));
 }
 
-// Whether the verdict decides something: it is neither an advisory finding nor a skip.
+// Whether the verdict counts as a decision. Advisories and skips do not.
 bool is_decision(Verdict verdict) {
   return verdict != Verdict::advisory && verdict != Verdict::skipped;
 }
@@ -36,8 +36,8 @@ std::vector<std::string> GateResult::nothing_decided() const {
   return without;
 }
 
-// A gate without any verdict has not passed, and neither has a gate without a verdict on one of its
-// devices.
+// A gate that reached no decision has not passed, and neither has a gate that reached none for one
+// of its devices.
 core::ExitCode GateResult::exit_code() const {
   if (count(*this, Verdict::regression) > 0) return core::ExitCode::regression;
   if (count(*this, Verdict::cannot_judge) > 0) return core::ExitCode::cannot_judge;

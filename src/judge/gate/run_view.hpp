@@ -1,5 +1,5 @@
 #pragma once
-// The data about a run that every check gets, and the function of each check.
+// The data about a run that is passed to every check, and the functions that run the checks.
 
 #include <map>
 #include <set>
@@ -17,11 +17,11 @@ struct RunView {
   const GateRequest& request;
   record::Run run;
   std::set<Check> checks;
-  std::vector<record::Record> records;               // of the requested devices
+  std::vector<record::Record> records;               // the records of the requested devices
   std::map<std::string, record::Device> devices;     // by id
   std::vector<const record::Record*> measured;       // pointers into `records`
-  std::vector<const record::Record*> of_other_data;  // measured, but the data are missing
-                                                     // here, or differ from the accepted ones
+  std::vector<const record::Record*> of_other_data;  // measured, but the data differ from the
+                                                     // accepted data or have changed since
 
   [[nodiscard]] const record::Device& device(const record::Record& record) const {
     return devices.at(record.device);
@@ -30,26 +30,27 @@ struct RunView {
   [[nodiscard]] bool knows_driver(const record::Device& device) const;
   // The test id of findings that belong to no device.
   [[nodiscard]] std::string plan_test(Check check) const;
-  // The plan as commands accept it.
+  // The plan as a command-line argument.
   [[nodiscard]] std::string argument() const;
-  // The date on which waivers may have expired. A clock that was set back after the run does not
-  // bring one back.
+  // The date that decides whether a waiver has expired: GateRequest::today or the day of the run,
+  // whichever is later, so that setting the clock back does not revive an expired waiver.
   [[nodiscard]] std::string today() const;
-  // Advice with the command that creates or renews the baselines.
+  // Returns advice with the `triptych accept` command that creates or updates the baselines.
   [[nodiscard]] Advised accept(Advice advice = Advice::accept) const;
 };
 
 [[nodiscard]] Finding finding_about(const record::Record& record, Check check, Verdict verdict,
                                     Observation what, Advised advice = {});
-// A finding about a device as a whole, without a configuration.
+// Creates a finding about a device as a whole, without a configuration.
 [[nodiscard]] Finding finding_about(const RunView& view, const record::Device& device, Check check,
                                     Verdict verdict, Observation what, Advised advice = {});
+// Creates a finding about the whole plan.
 [[nodiscard]] Finding finding_about(const RunView& view, Check check, Verdict verdict,
                                     Observation what, Advised advice = {});
-// The worst first, then by device and configuration.
+// Sorts by verdict (the worst first), then by device, then by the size of the change.
 void sort_findings(std::vector<Finding>& findings);
 
-// (device, configuration) → the error in its image. The time of such a record has no meaning.
+// (device, configuration) → the error in its image. The time of such a record is meaningless.
 using WrongImages = std::map<std::pair<std::string, std::string>, Observation>;
 
 struct ImageFindings {
@@ -75,25 +76,25 @@ struct AccuracyFindings {
   std::vector<Finding> findings;
   std::vector<accuracy::AccuracyScene> scenes;
 };
-// Without baselines, the result contains scenes but no findings.
+// Without baselines, the result contains the errors of the scenes but compares none of them.
 [[nodiscard]] AccuracyFindings check_accuracies(const RunView& view);
 
 // One finding for each record that has a score, including records that failed.
 [[nodiscard]] std::vector<Finding> check_stress(const RunView& view);
 
-// Checks whether the run has all planned configurations, on all devices that its machine should
-// have, and whether the plan requests all checks of its baselines.
+// Reports checks that the baselines contain but the plan no longer requests, devices that the run
+// does not describe, device enumerations that failed, and accepted devices that are missing.
 void report_as_begun(const RunView& view, std::vector<Finding>& findings);
 
 // Whether an unexpired entry of waivers.json covers findings of this check about the record.
 [[nodiscard]] bool is_waived(const RunView& view, const record::Record& record, Check check);
 
-// Turns regressions that waivers.json excuses into waived ones, and reports waivers that have
-// expired.
+// Changes regressions that waivers.json excuses to `waived`, and reports waivers that have expired
+// or match no test.
 void apply_waivers(const RunView& view, std::vector<Finding>& findings);
 
-// Compares findings with GateRequest::known: a known failure becomes waived, a pass that is listed
-// as a failure becomes improved, and a skip that is not listed cannot be judged.
+// Compares findings with GateRequest::known. A known failure becomes `waived`, a pass that is
+// listed as a failure becomes `improved`, and a skip that is not listed becomes `cannot_judge`.
 void apply_known(const RunView& view, std::vector<Finding>& findings);
 
 }  // namespace triptych::judge

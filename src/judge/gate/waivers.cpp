@@ -6,7 +6,8 @@
 namespace triptych::judge {
 namespace {
 
-// `configuration` is empty for a finding about a whole device or plan.
+// Whether the waiver applies to a finding. `configuration` is empty for a finding about a whole
+// device or plan.
 bool covers(const Waiver& waiver, const std::string& device, const std::string& test,
             const std::string& configuration) {
   return core::glob_matches(waiver.device, device) && core::glob_matches(waiver.test, test) &&
@@ -17,8 +18,8 @@ bool has_expired(const Waiver& waiver, const RunView& view) {
   return !waiver.expiry.empty() && view.today() >= waiver.expiry;
 }
 
-// The entry of GateRequest::known that covers the finding and is of one of these kinds; nullptr if
-// there is none.
+// Returns the entry of GateRequest::known that covers the finding and is of one of these kinds, or
+// nullptr if there is none.
 const Waiver* known_of(const RunView& view, const Finding& finding, const std::set<Known>& kinds) {
   const auto found = std::ranges::find_if(*view.request.known, [&](const Waiver& each) {
     return kinds.contains(each.known) && !has_expired(each, view) &&
@@ -55,8 +56,8 @@ void compare_with_known(const RunView& view, Finding& finding) {
   }
 }
 
-// Whether the waiver concerns anything that this gate has judged; other waivers belong to other
-// plans.
+// Whether the waiver covers any configuration and check that this gate judged. Waivers for other
+// plans do not.
 bool concerns(const Waiver& waiver, const RunView& view) {
   return std::ranges::any_of(view.records, [&](const record::Record& record) {
     return std::ranges::any_of(view.checks, [&](Check check) {
@@ -65,7 +66,7 @@ bool concerns(const Waiver& waiver, const RunView& view) {
   });
 }
 
-// Whether the waiver names this plan, but no test that the plan can have.
+// Whether the waiver names this plan, but matches no test of it.
 bool matches_no_test(const Waiver& waiver, const RunView& view) {
   const record::Checks checks = record::every_check();
   const std::string image = view.plan_test(Check::image);

@@ -12,7 +12,7 @@
 namespace triptych::judge {
 namespace {
 
-// The position in the other image that corresponds to a pixel of this image.
+// The position of a pixel.
 struct Place {
   int x;
   int y;
@@ -27,7 +27,8 @@ bool same_bits(float a, float b) {
   return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-// An image, and the bound on its error, for comparisons that do not require equal bits.
+// An image and its error bound. The bound is used by comparisons that do not require bit-identical
+// images.
 struct Judged {
   const core::Image& image;
   core::Image bound = {};
@@ -40,13 +41,13 @@ void add_pixel(Observation& what, const std::string& prefix, const std::array<fl
   }
 }
 
-// Compares two images pixel by pixel. They must have the sizes and channels that the rule requires.
+// Compares two images pixel by pixel. fits() must be true for them.
 class SameJudge {
  public:
   SameJudge(const record::SamePicture& rule, const Judged& one, const Judged& other)
       : rule_(rule), one_(one), other_(other) {}
 
-  // nullopt if the images are equal under the rule.
+  // Returns nullopt if the images are equal according to the rule.
   [[nodiscard]] std::optional<Observation> difference() const {
     std::size_t wrong = 0;
     Place first{-1, -1};
@@ -85,7 +86,8 @@ class SameJudge {
         return false;
       }
     }
-    // An id is certain where its bound is 0; elsewhere it may belong to another surface.
+    // Ids and depths are compared only where both ids are certain, that is, where their bounds are
+    // 0. Elsewhere, round-off may make another surface visible.
     const bool certain = rule_.to_the_bit || one_.bound.ids.empty() ||
                          (one_.bound.ids[a] == 0 && other_.bound.ids[b] == 0);
     if (one_.image.ids.empty() || !certain) return true;

@@ -1,5 +1,5 @@
 #pragma once
-// Decides whether the expectations of a stress case hold for its record.
+// Checks whether a record of a stress case meets its expectations.
 
 #include <map>
 #include <optional>
@@ -17,27 +17,30 @@ class StressRun {
  public:
   StressRun(const record::Store& store, const std::vector<record::Record>& records);
 
-  // nullptr if the run has no such record.
+  // Returns the record of the same device whose factor levels differ from those of `record` by
+  // `changed`, or nullptr if the run has no such record.
   [[nodiscard]] const record::Record* other(const record::Record& record,
                                             const record::Changed& changed) const;
-  // nullptr if the record has no image, or if the image in the store cannot be read.
+  // Returns the image of a record, or nullptr if the record has no image or the image cannot be
+  // read from the store.
   [[nodiscard]] const core::Image* picture(const record::Record& record);
 
  private:
   using Factors = std::map<std::string, std::string>;
 
   const record::Store& store_;
-  std::map<std::pair<std::string, Factors>, const record::Record*> index_;  // by device and key
-  std::map<std::string, core::Image> pictures_;                             // by hash
+  // The records by device and factor levels.
+  std::map<std::pair<std::string, Factors>, const record::Record*> index_;
+  std::map<std::string, core::Image> pictures_;  // by hash
 };
 
-// Whether the run has the other record that an expectation needs; true for an expectation that
-// needs none.
+// Whether the run contains the second record with which the expectation compares `record`. Returns
+// true for an expectation that needs no second record.
 [[nodiscard]] bool has_other(const record::Expectation& expectation, const record::Record& record,
                              const StressRun& run);
 
-// nullopt if the expectation holds, otherwise what does not hold. The record must have an image.
-// MayBeRefused always holds.
+// Returns nullopt if the record meets the expectation, otherwise an observation that states how it
+// fails. The record must have an image. The expectation MayBeRefused is always met.
 [[nodiscard]] std::optional<Observation> unmet(const record::Expectation& expectation,
                                                const record::Record& record, StressRun& run,
                                                const FindTruth& truth);

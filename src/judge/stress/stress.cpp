@@ -22,13 +22,12 @@ bool is_finite(const core::Image& image) {
          std::ranges::none_of(image.depth, [](float value) { return std::isnan(value); });
 }
 
-// A case that is being scored. For an image that was drawn, it has the distance from the reference
-// image.
+// A case that is being scored.
 struct Case {
   const record::Record* record = nullptr;
   StressScore score = {};
-  std::optional<double> rmse = {};
-  core::Image bound = {};  // the bound on the error of the image
+  std::optional<double> rmse = {};  // distance from the reference image, if an image was drawn
+  core::Image bound = {};           // the bound on the error of the image
 };
 
 class Scoring {
@@ -57,7 +56,8 @@ class Scoring {
     return truths_.expectations ? truths_.expectations(record) : std::vector<record::Expectation>{};
   }
 
-  // nullopt for a case that is not scored, because the device does not support it.
+  // Scores a case, except for its agreement with other devices. Returns nullopt for a case that is
+  // not scored, because the device does not support it.
   std::optional<Case> first_points(const record::Record& record) {
     Case result{&record};
     StressScore& score = result.score;
@@ -112,8 +112,8 @@ class Scoring {
     }
   }
 
-  // If the images of two devices differ, only the one that is nearer to the reference image keeps
-  // its point.
+  // Gives the point for agreement. If the images of two devices differ, only the image that is
+  // closer to the reference image gets it.
   void judge_agreement(Case& own, const std::vector<Case*>& cases) {
     if (!own.rmse) return;
     own.score.agreed = true;

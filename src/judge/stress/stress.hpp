@@ -1,6 +1,6 @@
 #pragma once
-// Scores a stress case on a device: one point for drawing an image at all, one for the right image,
-// and one for the image that other devices draw.
+// Scores a stress case on a device: one point for drawing an image, one point if the image is
+// correct, and one point if it agrees with the images of other devices.
 
 #include <functional>
 #include <string>
@@ -19,17 +19,17 @@ using FindExpectations = std::function<std::vector<record::Expectation>(const re
 
 struct StressTruths {
   FindTruth truth;
-  FindExpectations expectations;  // empty: there are no expectations
-  // Whether the records are only a part of a plan. In that case, an expectation is not checked if
-  // the other image that it needs is not among them.
+  FindExpectations expectations;  // an empty function: there are no expectations
+  // Whether the records are only a part of a plan. In this case, an expectation is not checked if
+  // it needs another record that is not in this part.
   bool part = false;
 };
 
 struct StressScore {
   bool drawn = false;   // a finite image was drawn without a crash, a hang or an error
   bool right = false;   // the image is within its bound, and all expectations of the case hold
-  bool agreed = false;  // no image that is nearer to the reference image differs from this one
-  std::vector<Observation> lost = {};  // the reason for every point that is missing
+  bool agreed = false;  // no image that is closer to the reference image differs from this image
+  std::vector<Observation> lost = {};  // the reasons for the missing points
 
   [[nodiscard]] int points() const {
     return static_cast<int>(drawn) + static_cast<int>(right) + static_cast<int>(agreed);
@@ -42,10 +42,10 @@ struct StressScored {
   StressScore score;
 };
 
-// `records` must be all records of one run, because devices are compared with each other and images
-// with other images of the same device. Records that were skipped because the device lacks
-// something get no score. A case that may be refused has all points if it is refused. If no other
-// device drew a configuration, none contradicts it.
+// Scores all records. `records` must contain all records of one run, because devices are compared
+// with each other, and images with other images of the same device. A skipped record gets no score,
+// unless the case has the expectation MayBeRefused; in this case it gets all points. A
+// configuration that no other device drew gets the point for agreement.
 [[nodiscard]] std::vector<StressScored> score_stress(const record::Store& store,
                                                      const std::vector<record::Record>& records,
                                                      const StressTruths& truths);
