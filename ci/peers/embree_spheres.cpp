@@ -1,7 +1,9 @@
-// The Embree program of embree_spheres: spheres as RTC_GEOMETRY_TYPE_SPHERE_POINT, packets of eight coherent rays, all cores.
+// The program that embree_spheres compiles and runs. It draws spheres with Embree (RTC_GEOMETRY_TYPE_SPHERE_POINT), with
+// packets of eight coherent rays on all cores.
 //   embree_spheres SCENE COUNT EDGE eye(3) forward(3) up(3) tangent_of_half
-// Prints its version and the build time in ms. Then reads lines: "frame" draws and prints nanoseconds, "image FILE" draws
-// and writes premultiplied RGBA floats, top row first.
+// Prints Embree's version and the build time in ms. Then reads commands, one per line. For each command it draws a frame and
+// prints the time in nanoseconds. "frame" does nothing else; "image FILE" also writes premultiplied RGBA floats to FILE, top
+// row first.
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else

@@ -1,4 +1,4 @@
-"""Shared by the comparisons in this folder: measuring Triptych, VTK's window, and the ratio at equal error."""
+"""Code shared by the comparisons in this folder: measuring Triptych, VTK's window, and the ratio of times at equal error."""
 import argparse
 import json
 import os
@@ -10,7 +10,7 @@ import tempfile
 import time
 
 PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "build/release/src/app/triptych"
-WARM_UP, FRAMES, LONGEST = 4, 20, 3.0  # for one measurement of VTK; LONGEST is in seconds
+WARM_UP, FRAMES, LONGEST = 4, 20, 3.0  # of one VTK measurement: two numbers of frames, and the time limit in s
 
 
 def arguments_of(description):
@@ -18,14 +18,14 @@ def arguments_of(description):
     parser.add_argument("--triptych", default=str(PROGRAM))
     parser.add_argument("--device", default="gl:llvmpipe-egl")
     parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--error", type=float, default=1 / 255, help="root mean square over RGBA, linear")
+    parser.add_argument("--error", type=float, default=1 / 255, help="error limit: root mean square over RGBA in linear colours")
     return parser
 
 
 def start(parser, compare):
-    """Runs compare(arguments, folder) in an X display drawn by Mesa, and exits with its code."""
+    """Runs compare(arguments, folder) on an X display that Mesa draws, and exits with the code that it returns."""
     arguments = parser.parse_args()
-    if "DISPLAY" not in os.environ:  # Debian's VTK needs GLX for its window
+    if "DISPLAY" not in os.environ:  # Debian's VTK needs GLX to open a window
         os.environ["LIBGL_ALWAYS_SOFTWARE"] = "1"
         os.execvp("xvfb-run", ["xvfb-run", "-a", "-s", "-screen 0 640x480x24", sys.executable, *sys.argv])
     with tempfile.TemporaryDirectory() as folder:
@@ -40,7 +40,7 @@ def ask(command):
 
 
 class Ours:
-    """Triptych's side: a plan with one scene, measured on one device."""
+    """Triptych's side of the comparison: a plan with one scene, measured on one device."""
 
     def __init__(self, arguments, folder, plan):
         self.triptych, self.device, self.folder, self.plan = arguments.triptych, arguments.device, folder, plan
@@ -48,7 +48,7 @@ class Ours:
         self.file.write_text(json.dumps({"summary": "Compared with VTK"} | plan))  # JSON is YAML
 
     def frame(self):
-        """The description of the frame that `triptych render` writes for other programs."""
+        """Returns the description of the frame, which `triptych render` writes for other programs."""
         levels = [f"--set={factor}={value[0] if isinstance(value, list) else value}"
                   for factor, value in self.plan.items() if factor != "suite"]
         ask([self.triptych, "render", self.plan["suite"], "--device", self.device, "--out", self.folder, *levels])
@@ -63,7 +63,7 @@ class Ours:
 
 
 class Window:
-    """VTK's off-screen view of one prop, with the camera of Triptych's frame."""
+    """VTK's off-screen window that shows one prop, with the camera of Triptych's frame."""
 
     def __init__(self, frame, add, edge):
         from vtkmodules import vtkRenderingCore
@@ -92,7 +92,7 @@ class Window:
         return next((line.strip() for line in lines if "renderer string" in line), "unknown renderer")
 
     def time(self):
-        """The median time of a frame in nanoseconds."""
+        """Returns the median frame time in nanoseconds."""
         times, begin = [], time.perf_counter()
         for frame in range(WARM_UP + FRAMES):
             before = time.perf_counter_ns()
@@ -105,7 +105,7 @@ class Window:
         return statistics.median(times)
 
     def rmse(self, limit):
-        """limit: premultiplied RGBA, top row first."""
+        """Returns the error of VTK's image against `limit`, an image in premultiplied RGBA, top row first."""
         from vtkmodules import vtkCommonCore
         from vtkmodules.util import numpy_support
         self.window.Render()
@@ -116,7 +116,8 @@ class Window:
 
 
 def pixel_rays(frame, edge):
-    """Directions through the pixels' centres, top row first, of length 1 along the view: [y, x, 3]."""
+    """Returns the ray directions through the pixel centres as an array [y, x, 3], top row first. Their component along the view
+    axis is 1."""
     import numpy
     view = frame["camera"]
     forward, up = numpy.array(view["forward"]), numpy.array(view["up"])
@@ -127,7 +128,8 @@ def pixel_rays(frame, edge):
 
 
 def by_turns(rounds, ours, theirs):
-    """Calls two functions that return {name: (ns, error)} alternately. Returns the smallest time of each configuration."""
+    """Calls two functions alternately, both of which return {name: (ns, error)}. Returns for each function the fastest result
+    per name."""
     best = {}, {}
     for _ in range(rounds):
         for side, measure in zip(best, (ours, theirs)):
@@ -137,14 +139,15 @@ def by_turns(rounds, ours, theirs):
 
 
 def short_names(cases):
-    """Removes levels that all names have in common: {"step=1": …} from {"data=x,step=1": …}."""
+    """Removes the levels that all names have in common, for example to get {"step=1": …} from {"data=x,step=1": …}."""
     shared = set.intersection(*(set(name.split(",")) for name in cases))
     return {",".join(level for level in name.split(",") if level not in shared): case
             for name, case in cases.items()}
 
 
 def print_ratio(scene, ours, vtk, error):
-    """Prints each side's Pareto front and the ratio of the smallest times to the error. Returns whether there is a ratio."""
+    """Prints the Pareto front of each side, and the ratio of the smallest times within the error limit. Returns whether there
+    is a ratio."""
     print(f"{scene}")
     ours = short_names(ours)
     for program, cases in (("Triptych", ours), ("VTK", vtk)):

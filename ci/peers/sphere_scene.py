@@ -1,4 +1,5 @@
-"""Shared by the comparisons of spheres: random spheres, their file, and their image in double precision."""
+"""Code shared by the comparisons with spheres: random spheres, a file that contains them, and their image in double
+precision."""
 import struct
 
 import numpy
@@ -10,8 +11,8 @@ AMBIENT, DIFFUSE = 0.3, 0.7
 
 
 class Spheres:
-    """Spheres in a cube with an edge length of 10. The radius depends on their number, so that they always fill the
-    same share of the cube."""
+    """Random spheres in a cube with an edge length of 10. Their radius depends on their number, so that their total volume is
+    the same for any number."""
 
     def __init__(self, count):
         random = numpy.random.default_rng(count)
@@ -20,7 +21,7 @@ class Spheres:
         self.colours = random.integers(30, 256, (count, 3)).astype(numpy.uint8)
 
     def write(self, file):
-        """Writes a MegaMol file with one list: one radius, positions as floats, colours as bytes."""
+        """Writes a MegaMol file with one list, which has one radius, positions as floats and colours as bytes."""
         count = len(self.centres)
         rows = numpy.zeros(count, dtype=[("place", "<f4", 3), ("colour", "u1", 3)])
         rows["place"], rows["colour"] = self.centres, self.colours
@@ -28,11 +29,12 @@ class Spheres:
         vertices, colours = 1, 1  # x, y, z as floats; r, g, b as bytes
         head = struct.pack("<6sHI12f", b"MMPLD\0", 100, 1, *box, *box)
         body = struct.pack("<IBBfQ", 1, vertices, colours, self.radius, count) + rows.tobytes()
-        begin = len(head) + 16  # after the offsets of the first frame and of the end
+        begin = len(head) + 16  # the offsets of the first frame and of the end of the file come first
         file.write_bytes(head + struct.pack("<2Q", begin, begin + len(body)) + body)
 
     def picture(self, frame):
-        """The reference image as premultiplied RGBA, top row first. Tests all pixels in the square around each silhouette."""
+        """Returns the reference image in premultiplied RGBA, top row first. Tests all pixels in the square around each
+        silhouette."""
         rays = peer.pixel_rays(frame, EDGE)
         rays /= numpy.linalg.norm(rays, axis=2, keepdims=True)
         view = frame["camera"]
@@ -52,7 +54,7 @@ class Spheres:
                 along = (ray * centre).sum(axis=1)
                 half = radius**2 - ((centre - along[:, None] * ray) ** 2).sum(axis=1)
                 some, along, half = some[half > 0], along[half > 0], numpy.sqrt(half[half > 0])
-                order = numpy.argsort(half - along, kind="stable")  # so that the nearest sphere of a pixel is written last
+                order = numpy.argsort(half - along, kind="stable")  # so that the nearest sphere in a pixel is written last
                 some, entry, half = some[order], (along - half)[order], half[order]
                 front = entry < nearest[y[some], x[some]]
                 some, entry, half = some[front], entry[front], half[front]

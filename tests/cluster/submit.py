@@ -57,7 +57,7 @@ class Submit(unittest.TestCase):
         for refused, cancelled in (("1", []), ("2", ["scancel 1"]), ("3", ["scancel 1 2"])):
             done = self.submit(*plans, REFUSED=refused)
             self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
-            self.assertIn("submit: sbatch refused", done.stderr)
+            self.assertIn("submit: sbatch rejected", done.stderr)
             self.assertEqual(self.calls("scancel"), cancelled)
         self.assertEqual(self.submit(*plans).returncode, 0)
         self.assertIn("--dependency=afterany:1:2 ", self.calls("sbatch")[-1])

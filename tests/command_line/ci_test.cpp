@@ -92,7 +92,7 @@ TEST_F(Ci, AReleaseThatIsTooOldGetsOneLine) {
   static_cast<void>(folder.write("os-release", "ID=debian\nVERSION_ID=\"11\"\n"));
   const Result old = run("", "ci/setup --run");
   EXPECT_EQ(old.code, 3);
-  EXPECT_EQ(old.output, "setup: Debian 11 is too old: Debian 12 is the oldest that works\n");
+  EXPECT_EQ(old.output, "setup: Debian 11 is too old; Debian 12 or later is required\n");
   // Debian testing has no version number yet.
   static_cast<void>(folder.write("os-release", "ID=debian\n"));
   EXPECT_EQ(run("", "ci/setup --run").code, 0);

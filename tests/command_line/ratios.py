@@ -35,12 +35,12 @@ class Ratios(unittest.TestCase):
     def test_data_that_are_not_there_are_told(self):
         done = run("skip distance over bricks*", factors={})
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stderr.count("left out, because ct_bonsai_256x256x256_u8.nrrd is missing"), 2)
+        self.assertEqual(done.stderr.count("skipped, because ct_bonsai_256x256x256_u8.nrrd is missing"), 2)
 
     def test_a_name_that_is_none(self):
         done = run("tiels", factors={})
         self.assertEqual(done.returncode, 2)
-        self.assertIn("no ratio has this name; there are: cells", done.stderr)
+        self.assertIn("no comparison matches this name; expected one of: cells", done.stderr)
 
     def test_only_what_keeps_the_error_stands_for_a_side(self):
         module = loaded()
