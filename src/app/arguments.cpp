@@ -20,20 +20,20 @@ void add_example(CLI::App& command, const std::string& example) {
 void add_choice_options(CLI::App& command, PlanChoice& choice) {
   command.add_option(
       "--set", choice.set,
-      "factor=a,b: replace the plan's values of a factor (repeatable); write a comma inside a "
-      "value as %2C");
-  command.add_option("--shard", choice.shard, "i/n: only the i-th of n parts of the plan");
+      "factor=a,b: use these levels instead of the plan's levels of a factor (repeatable); write a "
+      "comma inside a level as %2C");
+  command.add_option("--shard", choice.shard, "i/n: use only the i-th of n parts of the plan");
   add_selection_options(command, choice);
 }
 
 void add_selection_options(CLI::App& command, PlanChoice& choice) {
   command.add_option("--filter", choice.filter,
-                     "Only configurations whose name or key matches this glob (repeatable); "
+                     "Use only configurations whose name or key matches this glob (repeatable); "
                      "`triptych list PLAN` prints both");
   command.add_option("--caselist", choice.caselist,
-                     "Only configurations that this file lists, one name or key on each line");
+                     "Use only the configurations listed in this file, one name or key per line");
   command.add_option("--fraction", choice.fraction,
-                     "1/n: only one n-th of the configurations, the same ones every time");
+                     "1/n: use only one n-th of the configurations, always the same subset");
 }
 
 core::InputError nothing_selected(const PlanChoice& choice) {
@@ -49,7 +49,7 @@ void add_baselines_option(CLI::App& command, std::string& folder, const std::str
 }
 
 void add_devices_option(CLI::App& command, std::vector<std::string>& globs) {
-  command.add_option("--device", globs, "Only devices that match this glob (repeatable)");
+  command.add_option("--device", globs, "Use only devices that match this glob (repeatable)");
 }
 
 void add_inject_option(CLI::App& command, std::vector<std::string>& faults,
@@ -60,8 +60,7 @@ void add_inject_option(CLI::App& command, std::vector<std::string>& faults,
 
 void add_limit_option(CLI::App& command, int& seconds, const std::string& what) {
   command
-      .add_option("--limit", seconds,
-                  fmt::format("Seconds after which {} is regarded as hung", what))
+      .add_option("--limit", seconds, fmt::format("Treat {} as hung after this many seconds", what))
       ->capture_default_str()
       ->check(CLI::Range(1, 86400));
 }

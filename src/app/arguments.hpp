@@ -1,5 +1,5 @@
 #pragma once
-// Command-line options that several commands share.
+// Command-line options shared by several commands.
 
 #include <CLI/CLI.hpp>
 #include <functional>
@@ -16,7 +16,8 @@
 
 namespace triptych::app {
 
-// A command adds itself to the program. Its action runs after parsing and returns the exit code.
+// The program and the command that the user chose. Each command registers itself with add(). Its
+// action runs after parsing and returns the exit code.
 struct Commands {
   CLI::App& program;
   std::function<core::ExitCode()> chosen;
@@ -24,7 +25,8 @@ struct Commands {
   CLI::App& add(const std::string& name, const std::string& summary,
                 std::function<core::ExitCode()> run);
 
-  // A command whose options are stored in the arguments that `run` gets.
+  // A registered command, and the arguments into which its options are parsed. `run` is called with
+  // these arguments.
   template <typename Arguments>
   struct Added {
     CLI::App& command;
@@ -38,16 +40,16 @@ struct Commands {
   }
 };
 
-// Shows a complete command line in --help and in the manual page, above the text that all commands
-// share.
+// Adds a complete example command line to --help and to the manual page, above the footer that all
+// commands share.
 void add_example(CLI::App& command, const std::string& example);
 
 using measure::PlanChoice;
-// Adds --set, --shard and those of add_selection_options.
+// Adds --set, --shard and the options that add_selection_options() adds.
 void add_choice_options(CLI::App& command, PlanChoice& choice);
 // Adds --filter, --caselist and --fraction.
 void add_selection_options(CLI::App& command, PlanChoice& choice);
-// The error to throw if these options match no configuration of any plan.
+// Returns the error to throw if the options in `choice` match no configuration of any plan.
 [[nodiscard]] core::InputError nothing_selected(const PlanChoice& choice);
 
 // Adds the positional argument PLAN. At least one plan is required.
@@ -62,20 +64,21 @@ inline constexpr const char* standard_store = "triptych.sqlite";
 // `git bisect run` skips a commit if its command exits with this code.
 inline constexpr auto bisect_skips = static_cast<core::ExitCode>(125);
 
-// Adds --baselines. An empty name is refused, because it would mean the current folder.
-void add_baselines_option(
-    CLI::App& command, std::string& folder,
-    const std::string& help =
-        "Folder with the baselines (default: ./baselines, or the installed ones)");
+// Adds --baselines. An empty name is rejected, because it would mean the current folder.
+void add_baselines_option(CLI::App& command, std::string& folder,
+                          const std::string& help =
+                              "Folder with the baselines (default: ./baselines if it exists, else "
+                              "the installed baselines)");
 
-// Adds --device, for devices that have been measured already.
+// Adds --device for commands that read stored records. The option selects among the devices that
+// have been measured.
 void add_devices_option(CLI::App& command, std::vector<std::string>& globs);
 
-// Adds --inject FAULT[@GLOB], repeatable, and its former name --plant, which help does not list.
+// Adds --inject FAULT[@GLOB] (repeatable), and its former name --plant, which --help does not list.
 void add_inject_option(CLI::App& command, std::vector<std::string>& faults,
                        const std::string& help);
 
-// Adds --limit, the seconds after which `what` is regarded as hung.
+// Adds --limit, the number of seconds after which `what` is treated as hung.
 inline constexpr int standard_limit_s = record::standard_limit.count();
 void add_limit_option(CLI::App& command, int& seconds, const std::string& what);
 
@@ -85,7 +88,7 @@ void add_without_data_option(CLI::App& command, bool& without);
 // Adds --verbose.
 void add_verbose_option(CLI::App& command, bool& verbose);
 
-// Prints to standard output.
+// Prints `json` to standard output.
 void print(const core::Json& json, int indent = 2);
 
 void add_devices_command(Commands& commands);

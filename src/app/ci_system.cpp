@@ -22,7 +22,7 @@ std::string environment_text(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-// Control sequences that only the CI system reads.
+// Writes control sequences that only the CI system interprets.
 void write_control(const std::string& text) {
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
 }
@@ -33,8 +33,9 @@ void add_ci_option(CLI::App& command, std::string& name) {
   command
       .add_option(
           "--ci", name,
-          "Also write the output for a CI system: github (annotations, job summary, folded log), "
-          "gitlab (codequality.json in --out, folded log), none, or auto (by the environment)")
+          "Also write output for a CI system: github (annotations, job summary, folded log), "
+          "gitlab (codequality.json in --out, folded log), none, or auto (detect the system from "
+          "its environment variables)")
       ->capture_default_str();
 }
 
@@ -63,7 +64,7 @@ std::string ci_job_file(CiSystem system) {
     return file.empty() ? ".gitlab-ci.yml" : file;
   }
   if (system != CiSystem::github) return {};
-  // "owner/name/.github/workflows/file.yml@refs/heads/main"
+  // The variable has the form "owner/name/.github/workflows/file.yml@refs/heads/main".
   const std::string workflow = environment_text("GITHUB_WORKFLOW_REF");
   const std::string repository = environment_text("GITHUB_REPOSITORY") + "/";
   if (repository.size() < 2 || !workflow.starts_with(repository)) return {};
@@ -75,7 +76,7 @@ void add_to_job_summary(CiSystem system, const std::string& markdown) {
   if (system != CiSystem::github || file.empty()) return;
   std::ofstream out(file, std::ios::binary | std::ios::app);
   out << markdown << '\n' << std::flush;
-  if (!out) say("triptych: the job summary {} cannot be written\n", file);
+  if (!out) say("triptych: cannot write the job summary {}\n", file);
 }
 
 LogSection::LogSection(CiSystem system, std::string title) : system_(system) {

@@ -1,7 +1,7 @@
 #pragma once
-// The plans of the check `code` among the plans that the gate judges by default. By default they
-// are judged only on devices whose driver version has stored code, so that a machine without a GPU
-// compiler, or with another version of it, still passes.
+// The default plans of the gate that run the check `code`. By default these plans are judged only
+// on devices whose driver version has stored code. A machine without a GPU compiler, or with
+// another version of the compiler, therefore still passes.
 
 #include <string>
 #include <vector>
@@ -16,19 +16,19 @@ extern const std::vector<std::string> code_plans;
 // The devices on which a plan of the check `code` is judged by default.
 struct JudgedCompilers {
   std::vector<std::string> devices;     // ids, sorted
-  std::vector<std::string> not_stored;  // "ID (DRIVER VERSION)" of the devices without stored code
+  std::vector<std::string> not_stored;  // devices without stored code, as "ID (DRIVER VERSION)"
 };
 
-// Selects devices from `found`, which are the devices of the machine or of a run. `devices` also
-// contains devices that have stored code but were not found, because the gate reports them as
-// missing if another device of the same driver is present. `globs`: the devices that the user
-// named; empty: all.
+// Selects devices from `found`, which lists the devices of this machine or of a run. The result
+// also contains devices that have stored code but were not found, because the gate reports such a
+// device as missing if another device of the same driver is present. `globs` limits the devices; if
+// it is empty, all devices are considered.
 [[nodiscard]] JudgedCompilers judged_compilers(const measure::Plan& plan,
                                                const std::vector<record::Device>& found,
                                                const std::vector<std::string>& globs,
                                                const std::string& baselines);
 
-// Prints one line for each reason why devices are not judged.
+// Prints why devices are not judged, one line per reason.
 void print_not_judged(const JudgedCompilers& compilers, const std::string& plan);
 
 }  // namespace triptych::app

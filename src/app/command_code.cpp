@@ -1,5 +1,5 @@
-// Prints the statistics and the disassembly that one device's compiler produces for a
-// configuration.
+// The command code: prints the statistics and the disassembly that a device's compiler produces for
+// one configuration.
 
 #include <fmt/format.h>
 
@@ -29,8 +29,8 @@ struct CodeArguments {
   int limit_s = standard_limit_s;
 };
 
-// Lines such as " Inverse Throughput 6486", with the most important ones first. `samples`: the
-// executable may have a loop that samples a volume.
+// Prints lines such as " Inverse Throughput 6486", the most important statistics first. `samples`
+// is true if the executable may contain a loop that samples a volume.
 void print_statistics(const record::Executable& executable, bool samples) {
   std::vector<std::pair<std::string, double>> statistics(executable.statistics.begin(),
                                                          executable.statistics.end());
@@ -42,15 +42,15 @@ void print_statistics(const record::Executable& executable, bool samples) {
   }
   const bool disassembled = !executable.assembly.empty();
   if (samples && disassembled && !executable.statistics.contains("Loop instructions")) {
-    put("  the loop that samples the volume could not be identified, so the instructions of one "
-        "iteration are not reported\n");
+    put("  the sampling loop could not be identified, so the number of instructions per iteration "
+        "is not reported\n");
   }
 }
 
 void print_text(const record::Device& device, const record::Record& record,
                 const record::Store& store, bool brief) {
   put("{}: {}, driver {}{}\n", device.id, device.name, device.driver_version,
-      device.compiles_for.empty() ? "" : "; it only compiles, nothing is executed on it");
+      device.compiles_for.empty() ? "" : "; only compiles, nothing is executed on it");
   put("{}\n", record.configuration);
   for (const auto& [name, executable] : record.code) {
     put("\n{}\n", name);
@@ -76,7 +76,7 @@ measure::Plan plan_of(const measure::Suite& suite, const CodeArguments& argument
   measure::Plan plan =
       measure::default_plan(suite, PlanChoice{.set = arguments.frame.set}.overrides());
   if (!plan.varied.empty()) {
-    throw core::InputError("code compiles a single configuration: give each factor one value");
+    throw core::InputError("code compiles a single configuration: set each factor to one level");
   }
   plan.checks = {record::Check::code};
   return plan;
@@ -110,7 +110,7 @@ core::ExitCode code(const CodeArguments& arguments) {
 
 void add_code_command(Commands& commands) {
   auto [command, arguments] = commands.add(
-      "code", "Print a compiler's statistics and disassembly of one configuration", code);
+      "code", "Print a compiler's statistics and the disassembly for one configuration", code);
   add_example(command, "triptych code volume --device vulkan:radv-navi31 --set shading=gradient");
   arguments.frame.add_to(command);
   command.add_flag("--brief", arguments.brief, "Print the statistics without the disassembly");

@@ -33,14 +33,15 @@ struct CompareArguments {
   bool json = false;
 };
 
-// "DEVICE,NAME=VALUE,…"
+// Parses "DEVICE,NAME=VALUE,…".
 measure::SideOptions parse_side(std::string_view option, const std::string& text,
                                 const std::string& program) {
   const std::string where = fmt::format("{} {}", option, text);
   measure::SideOptions side{.device = text.substr(0, text.find(',')), .command = {}};
   if (side.device.find(':') == std::string::npos) {
     throw core::InputError(
-        where + ": expected a device such as vulkan:lavapipe, `triptych devices` lists them");
+        where +
+        ": expected a device such as vulkan:lavapipe; `triptych devices` lists the devices");
   }
   if (side.device.size() < text.size()) {
     const std::string_view after = std::string_view(text).substr(side.device.size() + 1);
@@ -51,9 +52,9 @@ measure::SideOptions parse_side(std::string_view option, const std::string& text
   return side;
 }
 
-// The records of the latest run. A device that this run does not contain is taken from the latest
-// earlier run of the same plan that contains it, because `compare --store` writes a run for each
-// side.
+// Returns the records of the latest run. For a device that the latest run does not contain, uses
+// the most recent earlier run of the same plan that contains the device, because `compare --store`
+// writes a separate run for each side.
 std::vector<record::Record> records_of_all_devices(const record::Store& store,
                                                    const record::Run& latest) {
   std::vector<record::Record> records;
@@ -75,11 +76,11 @@ std::vector<record::Record> records_of_all_devices(const record::Store& store,
   return records;
 }
 
-// Compares all devices of the latest run of each plan with each other.
+// Prints, for the latest run of each plan, a table that compares all devices with each other.
 core::ExitCode show_apis(const CompareArguments& arguments) {
   const Comparing& comparing = arguments.comparing;
   if (comparing.store.empty()) {
-    throw core::InputError("--apis needs --store: the file that `triptych run` wrote");
+    throw core::InputError("--apis needs --store FILE, a store that `triptych run` wrote");
   }
   const record::Store store = open_to_judge(comparing.store);
   std::set<std::string> asked;
@@ -104,7 +105,7 @@ core::ExitCode show_apis(const CompareArguments& arguments) {
 core::ExitCode compare(const CompareArguments& arguments) {
   if (arguments.apis) return show_apis(arguments);
   if (arguments.a.empty() || arguments.b.empty()) {
-    throw core::InputError("compare needs two sides, --a and --b, or --apis with a store");
+    throw core::InputError("compare needs two sides (--a and --b), or --apis with --store");
   }
   Comparing comparing = arguments.comparing;
   comparing.a = parse_side("--a", arguments.a, arguments.a_program);
@@ -135,8 +136,9 @@ core::ExitCode diff(const DiffArguments& arguments) {
   measure::Truths truths(registry.find_suite(), b);
   const comparison::StoreDiff found = comparison::diff_stores(a, b, arguments.devices, truths);
   if (found.devices.empty() && found.only_one.empty()) {
-    throw core::NotSupported(fmt::format("neither {} nor {} has a run{}", arguments.a, arguments.b,
-                                         arguments.devices.empty() ? "" : " of such a device"));
+    throw core::NotSupported(fmt::format("neither {} nor {} contains a run{}", arguments.a,
+                                         arguments.b,
+                                         arguments.devices.empty() ? "" : " on a matching device"));
   }
   if (arguments.json) {
     print(report::to_json(found));
@@ -148,10 +150,14 @@ core::ExitCode diff(const DiffArguments& arguments) {
 
 void add_diff_command(Commands& commands) {
   auto [command, arguments] = commands.add(
-      "diff", "List what differs between two stores, for example of two driver versions", diff);
+      "diff", "List the differences between two stores, for example from two driver versions",
+      diff);
   add_example(command, "triptych diff old.sqlite new.sqlite");
-  command.add_option("OLD", arguments.a, "Store of a run or a validation")->required();
-  command.add_option("NEW", arguments.b, "Store with the same plans")->required();
+  command.add_option("OLD", arguments.a, "Store written by `triptych run` or `triptych validate`")
+      ->required();
+  command
+      .add_option("NEW", arguments.b, "Store to compare with OLD; it must contain the same plans")
+      ->required();
   add_devices_option(command, arguments.devices);
   command.add_flag("--json", arguments.json, "Print machine-readable JSON");
 }
@@ -166,34 +172,35 @@ void add_compare_commands(Commands& commands) {
       compare);
   add_example(command, "triptych compare volume/quick --a gl:llvmpipe-egl --b vulkan:lavapipe");
   Comparing& comparing = arguments.comparing;
-  command.add_option(
-      "PLAN", comparing.plans,
-      fmt::format("Plans: YAML files, or SUITE/PLAN (default: {})", fmt::join(main_job, " ")));
+  command.add_option("PLAN", comparing.plans,
+                     fmt::format("Plans to compare: YAML files, or SUITE/PLAN (default: {})",
+                                 fmt::join(main_job, " ")));
   add_choice_options(command, comparing.choice);
   constexpr const char* side =
-      "DEVICE[,NAME=VALUE]…: a device, and environment variables for this side only";
+      "DEVICE[,NAME=VALUE]…: a device, with environment variables that are set for this side only";
   command.add_option("--a", arguments.a, side);
   command.add_option("--b", arguments.b, side);
   command.add_option("--a-program", arguments.a_program,
-                     "Another build of triptych that measures side a");
+                     "Measure side a with this other build of triptych");
   command.add_option("--b-program", arguments.b_program,
-                     "Another build of triptych that measures side b");
+                     "Measure side b with this other build of triptych");
   command.add_flag("--no-times", arguments.no_times,
-                   "Compare only deterministic measurements; measure no times");
+                   "Compare only deterministic measurements, not frame times");
   command.add_flag(
       "--apis", arguments.apis,
-      "Measure nothing; print a table of the devices in --store, with one row for each technique");
+      "Measure nothing; print a table of the devices in --store, with one row per technique");
   command
       .add_option("--budget", comparing.budget_s,
-                  "Seconds after which no further times are measured (default: no limit)")
+                  "Stop measuring times after this many seconds (default: no limit)")
       ->check(CLI::Range(1, 1000000));
-  add_limit_option(command, comparing.limit_s, "a worker that does not answer");
+  add_limit_option(command, comparing.limit_s, "a worker that does not respond");
   command.add_option("--store", comparing.store,
-                     "SQLite file that keeps both runs (default: nothing is kept)");
-  command.add_option("--seed", comparing.seed, "Seed of the random order of the measurements")
+                     "SQLite file in which both runs are saved (default: the runs are not saved)");
+  command.add_option("--seed", comparing.seed, "Seed for the random order of the measurements")
       ->capture_default_str();
-  add_inject_option(command, comparing.faults,
-                    "Inject a fault into side b to prove that it is found; see run --help");
+  add_inject_option(
+      command, comparing.faults,
+      "Inject a fault into side b to check that the comparison finds it; see run --help");
   add_verbose_option(command, comparing.verbose);
   command.add_flag("--json", arguments.json, "Print machine-readable JSON");
 }

@@ -21,7 +21,7 @@ std::string why(const measure::Broken& broken) {
   return broken.ended ? text_of(*broken.ended) : broken.reason;
 }
 
-// `compilers`: the devices that only compile and were not opened.
+// `compilers` lists the devices that only compile. They were not opened.
 struct Devices {
   std::vector<Greeting> greeted;
   std::vector<measure::Broken> broken;
@@ -34,7 +34,7 @@ void print_text(const Devices& found) {
         each.device.driver_version, each.device.api_version);
     if (each.refused) put("  cannot be used: {}\n", text_of(*each.refused));
     if (!each.device.compiles_for.empty()) {
-      put("  only compiles, for the GPU family {}: nothing is executed on it\n",
+      put("  only compiles, for the GPU family {}; nothing is executed on it\n",
           each.device.compiles_for);
     }
     for (const record::ClockTrust& clock : each.clocks) {
@@ -52,12 +52,11 @@ void print_text(const Devices& found) {
     }
   }
   for (const measure::Broken& each : found.broken) {
-    put("not usable: {}: {}\n", each.what, why(each));
+    put("cannot be used: {}: {}\n", each.what, why(each));
   }
   if (found.compilers.empty()) return;
-  put("compilers for GPUs that this machine does not have (nothing is executed on them; "
-      "--compilers "
-      "opens them):\n");
+  put("compilers for GPUs that this machine does not have (nothing is executed; use --compilers to "
+      "open them):\n");
   for (const std::string& each : found.compilers) put("  {}\n", each);
 }
 
@@ -114,10 +113,10 @@ core::ExitCode devices(const DevicesArguments& arguments) {
 
 void add_devices_command(Commands& commands) {
   auto [command, arguments] = commands.add(
-      "devices", "List the devices, what they can do, and which of their timers are trustworthy",
+      "devices", "List the devices, their limits, and which of their timers are trustworthy",
       devices);
   command.add_option("--device", arguments.devices,
-                     "Only devices that match this glob (repeatable; default: all)");
+                     "List only devices that match this glob (repeatable; default: all)");
   command.add_flag("--compilers", arguments.compilers,
                    "Also open the compilers for GPUs that this machine does not have");
   command.add_flag("--json", arguments.json, "Print machine-readable JSON");

@@ -1,5 +1,5 @@
-// The manual page and the shell completion. Both are generated from the commands, so they cannot
-// lack an option. The build writes them next to the program, and `cmake --install` installs them.
+// Generates the manual page and the shell completion from the commands, so that no option can be
+// missing. The build writes both files next to the program, and `cmake --install` installs them.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,7 +15,8 @@
 namespace triptych::app {
 namespace {
 
-// In a manual page backslashes, hyphens and the first character of a line are special.
+// Escapes text for a manual page, in which backslashes, hyphens and the first character of a line
+// have a special meaning.
 std::string roff(std::string_view text) {
   std::string escaped = "\\&";
   for (const char each : text) {
@@ -32,7 +33,7 @@ std::string roff(std::string_view text) {
   return escaped;
 }
 
-// The commands that --help lists.
+// Returns the commands that --help lists.
 std::vector<const CLI::App*> shown_commands(const CLI::App& program) {
   return program.get_subcommands(
       [](const CLI::App* each) { return !each->get_group().empty() && !each->get_name().empty(); });
@@ -68,14 +69,14 @@ std::string section(const CLI::App& command) {
 constexpr std::string_view environment = R"(.SH ENVIRONMENT
 .TP
 .B TRIPTYCH_DATA
-Folder with volumes/ and particles/, in which plans find their data files.
+Folder with the subfolders volumes/ and particles/, from which plans load their data files.
 .TP
 .B XDG_CACHE_HOME
-The compiled code of drivers is kept in its folder triptych/ (default: ~/.cache).
+Code that drivers have compiled is cached in its subfolder triptych/ (default: ~/.cache).
 .PP
-Environment variables of the drivers are part of a device's key.
+Environment variables that affect a driver are part of the device's key.
 .B triptych devices
-lists them.
+lists these variables.
 )";
 
 std::string manual(const CLI::App& program) {
@@ -91,7 +92,7 @@ std::string manual(const CLI::App& program) {
   return text.append(environment);
 }
 
-// The words that may follow a command: its options, and the plans that come with the suites.
+// Returns the words that may follow a command: its options, and the plans that the suites provide.
 std::string words_after(const CLI::App& command, const std::vector<std::string>& plans) {
   std::string words;
   bool takes_plans = false;

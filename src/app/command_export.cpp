@@ -30,8 +30,8 @@ struct ExportArguments {
   bool json = false;
 };
 
-// Computes the errors of images against their reference and limit images. If a store is read-only,
-// reference images cannot be saved in it, so they are drawn again for each export.
+// Computes the errors of images against their reference and limit images. Reference images cannot
+// be saved in a read-only store, so they are drawn again for each export from such a store.
 class Errors {
  public:
   explicit Errors(const std::vector<std::string>& files) : registry_(make_registry()) {
@@ -54,7 +54,7 @@ class Errors {
         add("limit", limit->image, image, errors);
       }
     } catch (const core::Error& error) {
-      say("triptych: {}: its errors cannot be computed: {}\n", record::short_name(record),
+      say("triptych: {}: cannot compute the errors of this image: {}\n", record::short_name(record),
           error.what());
     }
     return errors;
@@ -73,11 +73,11 @@ class Errors {
 
   Registry registry_;
   std::deque<record::Store> stores_;
-  std::map<std::string, measure::Truths> truths_;  // the key is the run
+  std::map<std::string, measure::Truths> truths_;  // by run id
 };
 
-// The plan's name in the stores. If the user named a YAML file, that is the name with which the
-// file was run.
+// Returns the plan's name in the stores. If `plan` is a YAML file, this is the plan's name at the
+// time of the run.
 std::string plan_in(const std::vector<record::Store>& stores, const std::string& plan) {
   const bool named = std::ranges::any_of(
       stores, [&](const record::Store& each) { return each.latest_run(plan).has_value(); });
@@ -118,13 +118,15 @@ core::ExitCode write_tables(const ExportArguments& arguments) {
 void add_export_command(Commands& commands) {
   auto [command, arguments] = commands.add(
       "export", "Write stores as CSV tables, with a dictionary of their columns", write_tables);
-  command.add_option("STORE", arguments.stores, "SQLite files")->required();
-  command.add_option("--out", arguments.out, "Folder for the tables")->required();
-  command.add_option("--plan", arguments.plan,
-                     "Only this plan: SUITE/PLAN or the YAML file, as it was run (default: all)");
+  command.add_option("STORE", arguments.stores, "Stores to export (SQLite files)")->required();
+  command.add_option("--out", arguments.out, "Folder for the CSV files")->required();
+  command.add_option(
+      "--plan", arguments.plan,
+      "Export only this plan: SUITE/PLAN or the YAML file, as given to `run` (default: all)");
   command.add_flag("--errors", arguments.errors,
                    "Also write errors.csv: the errors of each image against its reference image "
-                   "and its limit, by four metrics; draws those that are not in the store");
+                   "and its limit image, in four metrics; draws the reference and limit images "
+                   "that are not in the store");
   command.add_flag("--json", arguments.json, "Print the number of rows of each table as JSON");
   add_example(command, "triptych export results.sqlite --out tables");
 }

@@ -39,11 +39,12 @@ core::ExitCode answer(const std::string& device) {
 void add_features_command(Commands& commands) {
   auto [command, arguments] =
       commands.add("features",
-                   "Check features of each API that no scene needs: large offsets, many draws, "
+                   "Check API features that no scene needs, such as large offsets, many draws and "
                    "sampling modes",
                    features);
-  command.add_option("--device", arguments.devices, "Devices that match this glob (repeatable)");
-  command.add_option("--only", arguments.only, "The name of one feature");
+  command.add_option("--device", arguments.devices,
+                     "Check only devices that match this glob (repeatable; default: all)");
+  command.add_option("--only", arguments.only, "Check only the feature with this name");
   add_limit_option(command, arguments.limit_s, "a feature");
   command.add_flag("--json", arguments.json, "Print machine-readable JSON");
   add_example(command, "triptych features --device 'vulkan:*'");

@@ -56,7 +56,7 @@ struct AcceptArguments {
   std::vector<std::string> plans;  // as typed by the user
   PlanChoice choice;
   std::string store = standard_store;
-  std::string baselines;  // empty: the user's own
+  std::string baselines;  // empty: ./baselines
   std::string reason;
   std::string only;
   bool drop = false;
@@ -69,15 +69,16 @@ struct JudgedPlan {
   std::vector<std::string> devices = {};  // globs; empty: the devices that the user named
 };
 
-// The gate judges these plans if none is named.
+// Returns the plans that the gate judges if the user names none.
 std::vector<std::string> gate_job() {
   std::vector<std::string> plans = main_job;
   plans.insert(plans.end(), code_plans.begin(), code_plans.end());
   return plans;
 }
 
-// The current plans. A plan that cannot be read is not judged. If `--without` removes cost or code,
-// the plans for counting or compiling are left out.
+// Returns the plans to judge, as currently defined. Without named plans, plans that have none of
+// the requested checks are left out. If `--without` removes cost or code, the plans that count
+// instructions or compile are left out.
 std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry& registry) {
   record::Checks asked;
   for (const std::string& name : arguments.checks) asked.insert(record::check(name));
@@ -92,7 +93,7 @@ std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry&
     if (is_default && std::ranges::none_of(each.plan.checks, is_asked)) continue;
     if (each.plan.configurations.empty()) {
       throw core::NotSupported(
-          fmt::format("{}: shard {} contains no configuration, so there is nothing to judge",
+          fmt::format("{}: shard {} contains no configurations, so there is nothing to judge",
                       each.plan.name, arguments.choice.shard));
     }
     if (without.contains(record::Check::cost) && each.plan.counted()) continue;
@@ -104,7 +105,7 @@ std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry&
   if (plans.empty() && arguments.choice.selects()) throw nothing_selected(arguments.choice);
   if (plans.empty()) {
     throw core::InputError(
-        "--check and --without exclude every check of the plans: choose other checks");
+        "--check and --without together exclude every check of the plans: choose other checks");
   }
   return plans;
 }
@@ -113,8 +114,8 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
                                const Registry& registry, measure::Truths& truths) {
   judge::GateRequest request = request_of(truths, judged.plan, registry.suite(judged.plan.suite));
   request.devices = judged.devices.empty() ? arguments.devices : judged.devices;
-  // A device that only compiles appears only in plans that check code, and other devices need not
-  // report code.
+  // A device that only compiles is required only in plans with the check code, and any other device
+  // only in the remaining plans.
   for (const std::string& glob : arguments.required) {
     const bool compiles = measure::compile_only(glob).has_value();
     if (compiles == judged.plan.compiled()) request.required_devices.push_back(glob);
@@ -127,7 +128,7 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
   return request;
 }
 
-// Compares each device with itself under the base build or driver, without baselines.
+// Compares each device with itself under the base build or driver. The baselines are not used.
 core::ExitCode judge_by_base(const GateArguments& arguments) {
   const Registry registry = make_registry();
   const measure::Listing listing = measure::name_a_compiler(arguments.devices)
@@ -146,8 +147,8 @@ core::ExitCode judge_by_base(const GateArguments& arguments) {
   return compare_and_tell(comparisons, arguments.json);
 }
 
-// The devices that were found: those of the machine if the gate measures, otherwise those of the
-// run.
+// Returns the devices that were found: the machine's devices if the gate measures, otherwise the
+// devices of the stored run.
 std::vector<record::Device> found_devices(const GateArguments& arguments, const Registry& registry,
                                           const JudgedPlan& judged) {
   if (arguments.measure) return registry.devices_and_compilers(arguments.devices).devices;
@@ -160,8 +161,9 @@ std::vector<record::Device> found_devices(const GateArguments& arguments, const 
   return found;
 }
 
-// Limits default plans of the check `code` to devices with stored code, and removes the plans
-// without any. If a device that only compiles is required, all are judged.
+// Limits default plans with the check `code` to devices that have stored code, and removes plans
+// for which there is no such device. If the user requires a device that only compiles, nothing is
+// limited.
 void limit_to_stored_code(const GateArguments& arguments, const Registry& registry,
                           std::vector<JudgedPlan>& plans) {
   if (!arguments.plans.empty() || measure::name_a_compiler(arguments.required)) return;
@@ -176,7 +178,8 @@ void limit_to_stored_code(const GateArguments& arguments, const Registry& regist
     return each.devices.empty();
   });
   if (plans.empty()) {
-    throw core::NotSupported("no plan is left to judge: no code is stored for these devices");
+    throw core::NotSupported(
+        "there is nothing to judge, because no code is stored for these devices");
   }
 }
 
@@ -222,7 +225,7 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
 void refuse_bad_files(const GateArguments& arguments) {
   if (!arguments.faults.empty() && !arguments.measure && arguments.base.empty()) {
     throw core::InputError(
-        "--inject needs --measure or --base, because a fault is injected while measuring");
+        "--inject needs --measure or --base, because faults are injected during measurement");
   }
   std::vector<core::NamedFile> read{{"--store", arguments.store}};
   for (const std::string& plan : arguments.plans) read.push_back({"PLAN", plan});
@@ -230,7 +233,8 @@ void refuse_bad_files(const GateArguments& arguments) {
                            {{"--junit", arguments.junit}, {"--markdown", arguments.markdown}});
 }
 
-// For `git bisect run`: a commit on which no verdict is possible is skipped.
+// For `git bisect run`, returns the exit code that makes git skip the commit if no verdict is
+// possible.
 core::ExitCode gate(const GateArguments& arguments) {
   const measure::Stopwatch since;
   const auto judged = [&] {
@@ -266,18 +270,19 @@ void accept_one(const AcceptArguments& arguments, const std::string& typed, reco
   const std::vector<std::string> changes = judge::accept(
       store, latest_run_of(store, typed, arguments.store), baselines.folder(), request);
   for (const std::string& change : changes) put_lines(change + "\n");
-  put("{}: {} changes under {}; review them before you commit\n", plan, changes.size(),
+  put("{}: {} changes in {}; review them before you commit\n", plan, changes.size(),
       baselines.name().string());
 }
 
-// All plans that were measured, if none is named.
+// Returns the plans that the user names, or all plans in the store if the user names none.
 std::vector<std::string> plans_to_accept(const AcceptArguments& arguments,
                                          const record::Store& store) {
   if (!arguments.plans.empty()) return arguments.plans;
   std::vector<std::string> plans;
   for (const record::Run& run : latest_runs(store)) plans.push_back(run.plan);
   if (plans.empty()) {
-    throw core::NotSupported(fmt::format("{} has no run: measure first", arguments.store));
+    throw core::NotSupported(
+        fmt::format("{} contains no runs: measure first with `triptych run`", arguments.store));
   }
   return plans;
 }
@@ -292,7 +297,7 @@ core::ExitCode accept(const AcceptArguments& arguments) {
   }
   baselines.keep();
   if (!baselines.copied_from().empty()) {
-    put("{} was created: all values that were not accepted now are copies of {}\n",
+    put("{} was created; all values that were not just accepted are copied from {}\n",
         baselines.name().string(), baselines.copied_from().string());
   }
   return core::ExitCode::pass;
@@ -300,34 +305,37 @@ core::ExitCode accept(const AcceptArguments& arguments) {
 
 void add_accept_command(Commands& commands) {
   auto [command, arguments] =
-      commands.add("accept", "Make the latest runs of plans the baselines", accept);
+      commands.add("accept", "Make the latest run of each plan its new baseline", accept);
   add_example(command,
               "triptych accept volume/quick --store results.sqlite --reason 'new driver version'");
   command.add_option("PLAN", arguments.plans,
-                     "SUITE/PLAN or the YAML file, as it was run (default: every plan in the "
+                     "SUITE/PLAN or the YAML file, as given to `run` (default: every plan in the "
                      "store)");
-  command.add_option("--reason", arguments.reason, "The reason, which is kept in history.json")
+  command
+      .add_option("--reason", arguments.reason,
+                  "The reason for the change, which is saved in history.json")
       ->required();
-  command.add_option("--only", arguments.only, "Only configurations that match this glob");
+  command.add_option("--only", arguments.only, "Accept only configurations that match this glob");
   command.add_flag("--drop", arguments.drop,
-                   "Remove stored configurations that the run does not contain, and files that "
-                   "were changed since they were accepted; with --only, remove configurations "
-                   "that a device skips now");
+                   "Remove baselines of configurations that the run does not contain, and "
+                   "baseline files that were edited after they were accepted; with --only, remove "
+                   "configurations that a device now skips");
   command.add_option("--store", arguments.store, "SQLite file with the records")
       ->capture_default_str();
-  add_baselines_option(command, arguments.baselines,
-                       "Folder to write to (default: ./baselines, which is started as a copy of "
-                       "the installed baselines)");
+  add_baselines_option(
+      command, arguments.baselines,
+      "Folder to write to (default: ./baselines; if it does not exist, it is created "
+      "as a copy of the installed baselines)");
 }
 
 }  // namespace
 
 void add_gate_commands(Commands& commands) {
-  auto [command, arguments] =
-      commands.add("gate", "Judge the latest runs of plans, or measure and judge them", gate);
+  auto [command, arguments] = commands.add(
+      "gate", "Judge the latest run of each plan, or measure the plans and judge them", gate);
   add_example(command, "triptych gate --measure --store gate.sqlite --out out");
   command.add_option("PLAN", arguments.plans,
-                     fmt::format("SUITE/PLAN or the YAML file, as it was run (default: {})",
+                     fmt::format("SUITE/PLAN or the YAML file, as given to `run` (default: {})",
                                  fmt::join(gate_job(), " ")));
   add_choice_options(command, arguments.choice);
   command.add_flag("--measure", arguments.measure, "Measure new runs before judging");
@@ -335,44 +343,52 @@ void add_gate_commands(Commands& commands) {
       ->capture_default_str();
   add_baselines_option(command, arguments.baselines);
   command
-      .add_option("--check", arguments.checks,
-                  fmt::format("Judge only these checks, of {} (default: those of the plan)",
-                              record::text_of(record::every_check())))
+      .add_option(
+          "--check", arguments.checks,
+          fmt::format(
+              "Judge only these checks; possible checks: {} (default: the checks of the plan)",
+              record::text_of(record::every_check())))
       ->delimiter(',');
   command
       .add_option("--without", arguments.without,
-                  "Leave out these checks; cost also leaves out the plans that count instructions, "
-                  "and code the plans that only compile")
+                  "Leave out these checks; leaving out cost also leaves out the plans that count "
+                  "instructions, and leaving out code also leaves out the plans that only compile")
       ->delimiter(',');
   add_devices_option(command, arguments.devices);
-  command.add_option("--require", arguments.required,
-                     "A device that matches this glob must have measured something (repeatable)");
-  command.add_option("--without-device", arguments.without_devices,
-                     "Do not expect devices that match this glob on this machine, or an API whose "
-                     "devices cannot be listed (repeatable; see docs/gate.md)");
+  command.add_option(
+      "--require", arguments.required,
+      "Require that a device matching this glob has measured something (repeatable)");
+  command.add_option(
+      "--without-device", arguments.without_devices,
+      "Do not expect devices that match this glob on this machine, and accept that an "
+      "API that matches it cannot list its devices (repeatable; see docs/gate.md)");
   add_without_data_option(command, arguments.without_data);
   command.add_flag("--times", arguments.times,
-                   "Let times affect the verdict: for a machine that is reserved for measuring");
+                   "Let times affect the verdict (only for dedicated benchmarking machines)");
   CLI::Option* base = command.add_option(
       "--base", arguments.base,
-      "Another build of triptych, or NAME=VALUE,… that select another driver: compare each device "
-      "with itself under that build or driver instead of with the baselines");
+      "Compare each device with itself under another build or driver instead of with the "
+      "baselines; name a build of triptych, or environment variables that select a driver as "
+      "NAME=VALUE,…");
   command.add_option(
       "--out", arguments.out,
-      "Folder for report.html, gate.log, summary.md, benchmark.json and a JUnit XML file for "
-      "each plan");
-  command.add_option("--junit", arguments.junit, "Write JUnit XML of all plans to this file");
+      "Folder for report.html, gate.log, summary.md, benchmark.json and one JUnit XML file per "
+      "plan");
+  command.add_option("--junit", arguments.junit,
+                     "Write a JUnit XML report for all plans to this file");
   command.add_option("--markdown", arguments.markdown, "Write a Markdown summary to this file");
-  command.add_flag("--json", arguments.json, "Print every finding as JSON");
+  command.add_flag("--json", arguments.json, "Print all findings as JSON");
   add_verbose_option(command, arguments.verbose);
   add_ci_option(command, arguments.ci);
-  command.add_flag("--bisect", arguments.bisect,
-                   "For `git bisect run`: exit with code 125 instead of 2 or 3");
+  command.add_flag(
+      "--bisect", arguments.bisect,
+      "Exit with code 125 instead of 2 or 3, so that `git bisect run` skips the commit");
   for (const char* other : {"--measure", "--store", "--baselines", "--check", "--without",
                             "--require", "--without-device", "--out", "--junit", "--markdown"}) {
     base->excludes(other);
   }
-  add_inject_option(command, arguments.faults, "Same as for run; needs --measure or --base");
+  add_inject_option(command, arguments.faults,
+                    "Inject a fault (repeatable), see run --help; needs --measure or --base");
   add_accept_command(commands);
 }
 

@@ -1,4 +1,4 @@
-// The command history: compares the stores of many days or commits in their order.
+// The command history: compares the stores of many days or commits in chronological order.
 
 #include <fmt/format.h>
 
@@ -46,7 +46,7 @@ core::ExitCode history(const HistoryArguments& arguments) {
   }
   if (builder.devices().empty()) {
     throw core::NotSupported(
-        "the stores have no run of a device that matches; `triptych devices` lists devices");
+        "the stores contain no run on a matching device; `triptych devices` lists devices");
   }
   const core::Json json = report::to_json(builder.devices());
   if (!arguments.out.empty()) core::write_text(arguments.out, report::history_page(json));
@@ -64,9 +64,9 @@ core::ExitCode history(const HistoryArguments& arguments) {
 void add_history_command(Commands& commands) {
   auto [command, arguments] = commands.add(
       "history",
-      "Follow cost and time over the stores of many days, and name the first store that is worse",
+      "Show cost and time over the stores of many days, and name the first store that is worse",
       history);
-  command.add_option("STORE", arguments.stores, "Stores of the same plans, in any order")
+  command.add_option("STORE", arguments.stores, "Stores that contain the same plans, in any order")
       ->required();
   add_devices_option(command, arguments.devices);
   command.add_option("--out", arguments.out, "Also write an HTML page, such as history.html");

@@ -21,7 +21,8 @@ struct ListArguments {
   bool json = false;
 };
 
-// "raycast | speed_of_light" or "0.015625 to 4096 | own"; empty if the values cannot be listed.
+// Returns "raycast | speed_of_light" or "0.015625 to 4096 | own", for example, or an empty string
+// if the levels cannot be listed.
 std::string levels_text(const measure::Factor& factor) {
   const std::string words = fmt::format("{}", fmt::join(factor.levels, " | "));
   if (factor.kind != measure::FactorKind::number) return words;
@@ -95,7 +96,7 @@ core::Json json_of(const measure::Suite& suite, const std::vector<CountedPlan>& 
   return json;
 }
 
-// The possible contents of a plan of the suite, and the plans that come with the suite.
+// Lists everything that a plan of the suite may contain, and the plans that the suite provides.
 core::ExitCode list_suite(const measure::Suite& suite, const Registry& registry, bool as_json) {
   const std::vector<CountedPlan> plans = plans_of(suite, registry);
   if (as_json) {
@@ -154,7 +155,7 @@ core::ExitCode list(const ListArguments& arguments) {
   if (suite == registry.suites.end()) return list_plan(arguments, registry);
   if (!arguments.choice.is_whole()) {
     throw core::InputError(fmt::format(
-        "{0} is a suite: options that choose configurations need a plan, such as {0}/quick",
+        "{0} is a suite, but options that select configurations need a plan, such as {0}/quick",
         arguments.plan));
   }
   return list_suite(**suite, registry, arguments.json);
@@ -169,7 +170,7 @@ void add_list_command(Commands& commands) {
       list);
   add_plan_option(command, arguments.plan);
   add_choice_options(command, arguments.choice);
-  command.add_flag("--json", arguments.json, "Print every factor of every configuration as JSON");
+  command.add_flag("--json", arguments.json, "Print all factors of every configuration as JSON");
   add_example(command, "triptych list volume/quick");
 }
 

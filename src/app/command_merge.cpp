@@ -1,4 +1,5 @@
-// The command merge: combines the measurements of several machines as if one machine had made them.
+// The command merge: combines the measurements of several machines into one store, as if one
+// machine had measured everything.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -25,19 +26,19 @@ struct MergeArguments {
 
 void tell_left_out(const record::RecordCounts& counts) {
   if (counts.repeated > 0) {
-    put("  {} records exist in several stores; each is kept once\n", counts.repeated);
+    put("  {} records occur in several stores; each record is kept once\n", counts.repeated);
   }
   if (counts.injected > 0) {
     put("  {} records with an injected fault were replaced by records without one\n",
         counts.injected);
   }
   if (counts.measured_anew > 0) {
-    put("  {} failed or skipped records were replaced by measured ones of another store\n",
+    put("  {} failed or skipped records were replaced by measured records from another store\n",
         counts.measured_anew);
   }
   if (counts.not_chosen > 0) {
     put("  {} records were dropped, because another store has a different record of the same "
-        "configuration and device; the one with the lower seal is kept\n",
+        "configuration and device; the record with the lower seal was kept\n",
         counts.not_chosen);
   }
 }
@@ -59,11 +60,11 @@ std::vector<std::string> gaps_in(const record::Store& store,
   std::vector<std::string> told;
   for (const std::string& each : plans) {
     const std::string name = measure::plan_name(each);
-    if (!store.latest_run(name)) told.push_back(name + ": not begun");
+    if (!store.latest_run(name)) told.push_back(name + ": no run of this plan");
   }
   for (const record::Gap& gap : record::gaps_of(store)) {
     if (gap.configurations == 0) {
-      told.push_back(gap.plan + ": is an empty shard, which contains no configuration");
+      told.push_back(gap.plan + ": an empty shard without configurations");
       continue;
     }
     told.push_back(fmt::format(
@@ -72,11 +73,11 @@ std::vector<std::string> gaps_in(const record::Store& store,
         gap.missing.empty() ? "" : "; missing: ", gap.missing.empty() ? "" : gap.missing.front()));
     if (gap.missing.size() > 1) told.back() += ", …";
   }
-  if (told.empty() && store.runs().empty()) told.emplace_back("contains no run");
+  if (told.empty() && store.runs().empty()) told.emplace_back("contains no runs");
   return told;
 }
 
-// The gaps of all stores, one on each line.
+// Returns the gaps of all stores, one per line.
 std::string all_gaps(const MergeArguments& arguments) {
   std::string lines;
   for (const std::string& file : arguments.stores) {
@@ -98,16 +99,15 @@ core::ExitCode merge(const MergeArguments& arguments) {
     put_lines(gaps);
     return gaps.empty() ? core::ExitCode::pass : core::ExitCode::cannot_judge;
   }
-  if (arguments.out.empty())
-    throw core::InputError("--out is required: it names the store to write");
+  if (arguments.out.empty()) throw core::InputError("--out is required: name the store to write");
   if (std::ranges::none_of(arguments.stores, holds_a_run)) {
     throw core::NotSupported(
-        fmt::format("nothing to merge: there is no run in {}", fmt::join(arguments.stores, ", ")));
+        fmt::format("there is nothing to merge: no runs in {}", fmt::join(arguments.stores, ", ")));
   }
   core::require_writable(std::filesystem::path(arguments.out).parent_path());
-  // Everything that can fail is done before the merged store appears.
+  // Everything that can fail is done before the merged store is created.
   const std::string gaps = all_gaps(arguments);
-  // On a terminal, the count is updated from time to time.
+  // On a terminal, the count is refreshed every 200 milliseconds.
   const auto count = [last =
                           std::chrono::steady_clock::time_point()](std::uint64_t records) mutable {
     const auto now = std::chrono::steady_clock::now();
@@ -120,14 +120,16 @@ core::ExitCode merge(const MergeArguments& arguments) {
   clear_line();
   for (const record::MergeResult::Plan& each : result.plans) tell(each, arguments.out);
   if (result.older_runs > 0) {
-    put("{} older runs were left out: each store contributes the latest run of a plan\n",
+    put("{} older runs were left out, because each store contributes only its latest run of a "
+        "plan\n",
         result.older_runs);
   }
-  // A gap of one shard need not be a gap of the merged run, because another shard may contain the
-  // configuration.
+  // A gap in one shard is not necessarily a gap in the merged run, because another shard may
+  // contain the configuration.
   if (!gaps.empty()) {
     put_lines(gaps);
-    put("These records are missing in {} unless another store has them\n", arguments.out);
+    put("These records are also missing from {} unless another store contains them\n",
+        arguments.out);
   }
   return core::ExitCode::pass;
 }
@@ -135,20 +137,21 @@ core::ExitCode merge(const MergeArguments& arguments) {
 }  // namespace
 
 void add_merge_command(Commands& commands) {
-  auto [command, arguments] =
-      commands.add("merge", "Combine the stores of shards, hosts or devices into one", merge);
+  auto [command, arguments] = commands.add(
+      "merge", "Combine the stores of several shards, hosts or devices into one store", merge);
   command.add_option("STORE", arguments.stores, "Stores that `triptych run` wrote")->required();
   add_example(command, "triptych merge shard-*.sqlite --out all.sqlite");
   CLI::Option* out =
-      command.add_option("--out", arguments.out, "The store to write; it must not exist");
+      command.add_option("--out", arguments.out, "The store to write, which must not exist yet");
   CLI::Option* check =
       command
-          .add_flag("--check", arguments.check,
-                    "Merge nothing; list the incomplete stores, and exit with code 2 if any is")
+          .add_flag(
+              "--check", arguments.check,
+              "Merge nothing; list the incomplete stores, and exit with code 2 if there are any")
           ->excludes(out);
   command
       .add_option("--plan", arguments.plans,
-                  "With --check: a plan that every store must contain a run of (repeatable)")
+                  "With --check: require that every store contains a run of this plan (repeatable)")
       ->needs(check);
 }
 

@@ -32,7 +32,8 @@ struct ReduceArguments {
   std::string against;
   int limit_s = 0;  // 0: determined by the first frame
   int frames = 500;
-  // `render` needs --truth, but `reduce` always compares with the reference image
+  // Accepted so that a `render` command can be reused. `reduce` always compares with the reference
+  // image.
   bool truth = true;
 };
 
@@ -44,8 +45,9 @@ measure::RunOptions options_of(const ReduceArguments& arguments) {
           .program = version()};
 }
 
-// Wrong counters are found by comparison with the other device. `render` draws on one device only,
-// so the command for them is `reduce`.
+// Returns the command that reproduces the failure. Wrong counters are found by comparison with a
+// second device, but `render` draws on only one device, so for wrong counters the command is
+// `reduce`.
 std::string command_for(const OneFrame& frame, const ReduceArguments& arguments,
                         const reduction::Failure& failure, const record::Record& record,
                         const record::Device& device) {
@@ -63,7 +65,7 @@ std::string command_for(const OneFrame& frame, const ReduceArguments& arguments,
 }
 
 // Writes the reference image, the device's image (if there is one), and the data that another
-// program needs to draw it.
+// program needs to draw this frame.
 std::vector<std::string> write_frame(const OneFrame& frame, const reduction::Trial& trial,
                                      measure::Truths& truths, const fs::path& out) {
   const record::Record& record = trial.last();
@@ -83,10 +85,10 @@ std::vector<std::string> write_frame(const OneFrame& frame, const reduction::Tri
   return files;
 }
 
-// Draws the frame once more, in one process, and writes all input of the driver into the folder
-// "dump": device code, options, buffers and a program in C. For a wrong image, pixel.txt contains
-// the history of its worst pixel. If the driver crashes earlier, nothing is written. `limit` is the
-// time limit of the frame: if it hangs, the input has been written before.
+// Draws the frame once more, in one process, and writes all of the driver's input to the folder
+// "dump": device code, options, buffers and a C program. For a wrong image, pixel.txt contains the
+// history of its worst pixel. Nothing is written if the driver crashes before it receives this
+// input. `limit` is the frame's time limit. If the frame hangs, its input has already been written.
 std::vector<std::string> write_dump_of(const OneFrame& frame, const ReduceArguments& arguments,
                                        const reduction::Trial& trial, measure::Truths& truths,
                                        std::optional<std::chrono::seconds> limit,
@@ -149,7 +151,7 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   const Registry registry = make_registry();
   const OneFrame frame = choose_frame(registry, arguments.frame);
   const fs::path out(arguments.frame.out);
-  // A README without frame.json next to it was not written by `reduce`, so it is kept.
+  // A README.md without frame.json next to it was not written by `reduce`, so it is kept.
   if (fs::exists(out / "frame.json")) fs::remove(out / "README.md");
   report::remove_frame(out);
   const core::TemporaryFolder folder;
@@ -168,7 +170,7 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   reduction::Trial trial(frame.suite, frame.device, other, options, truths, store);
   const reduction::FirstFrames first = trial.first(start);
   if (!first.first) {
-    put("the frame does not fail on {}: there is nothing to make smaller\n", frame.device);
+    put("the frame does not fail on {}, so there is nothing to reduce\n", frame.device);
     return core::ExitCode::pass;
   }
   if (!first.repeats()) {
@@ -191,10 +193,11 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   }
   report.command = command_for(frame, arguments, reduction.failure, trial.last(), report.device);
   core::write_text(out / "README.md", report::markdown(report));
-  put_lines(fmt::format("{}\n{} frames drawn; {}{}\n{}\n{}\n", report.message, report.frames,
-                        report::text_of(report.changes),
-                        report.complete ? "" : "; the search ended at its limit of frames",
-                        (out / "README.md").string(), report.command));
+  put_lines(
+      fmt::format("{}\n{} frames drawn; {}{}\n{}\n{}\n", report.message, report.frames,
+                  report::text_of(report.changes),
+                  report.complete ? "" : "; the search stopped when it reached the limit on frames",
+                  (out / "README.md").string(), report.command));
   return core::ExitCode::regression;
 }
 
@@ -206,19 +209,20 @@ void add_reduce_command(Commands& commands) {
       reduce);
   arguments.frame.add_to(command);
   command.add_option("--out", arguments.frame.out, "Folder to write into")->capture_default_str();
-  command.add_option("--against", arguments.against,
-                     "A device whose counters are right: different counters are a failure, too");
+  command.add_option(
+      "--against", arguments.against,
+      "A device with correct counters; counters that differ from its counters are also a failure");
   command
       .add_option("--limit", arguments.limit_s,
-                  "Seconds after which a frame is regarded as hung (default: 20, or three times "
-                  "the time of the first frame)")
+                  "Treat a frame as hung after this many seconds (default: 20, or three times the "
+                  "duration of the first frame)")
       ->check(CLI::Range(1, 86400));
-  command.add_option("--frames", arguments.frames, "The largest number of frames to draw")
+  command.add_option("--frames", arguments.frames, "The maximum number of frames to draw")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
   command.add_flag("--truth", arguments.truth,
-                   "Has no effect: reduce always compares with the reference image. It exists so "
-                   "that a `render` command can be reused");
+                   "Has no effect, because reduce always compares with the reference image; it is "
+                   "accepted so that a `render` command can be reused");
   add_example(command,
               "triptych reduce volume --device vulkan:lavapipe --set viewport=64 --out small");
 }

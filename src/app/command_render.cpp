@@ -39,13 +39,14 @@ struct RenderArguments {
   std::string pixel;  // "X,Y"; empty: none
 };
 
-// Writes the reference image and the difference next to the image, and states whether the image is
-// right.
+// Writes the reference image and the difference image next to the device's image, and prints
+// whether the device's image is correct.
 core::ExitCode hold_against_truth(const core::Image& image, const judge::TruthPair& pair,
                                   const fs::path& out) {
   const report::HeldAgainstTruth held = report::write_difference(out, image, pair);
   if (held.has_difference) {
-    put("{}: black is no error, white is the bound of each pixel, cyan is beyond the bound\n",
+    put("{}: black means no error, white an error equal to the pixel's bound, cyan a larger "
+        "error\n",
         (out / "difference.png").string());
   }
   put_lines(report::words::text_of(held.what) + "\n");
@@ -83,13 +84,13 @@ Drawn draw_one(const Drawing& drawing, const measure::Plan& plan) {
   return {run, drawing.store.records(run).at(0)};
 }
 
-// Draws with the fastest technique, which is found by short trials. If the device can draw with
-// none of them, returns the result of the first.
+// Draws with the fastest technique, which is found by short trials. If the device cannot draw with
+// any of them, returns the result for the first technique.
 Drawn draw_the_fastest(const Drawing& drawing, const measure::Plan& plan) {
   if (drawing.arguments.error) {
     throw core::InputError(
-        "--error and technique=auto cannot be combined, because each chooses by its own rule: name "
-        "the technique");
+        "--error and technique=auto cannot be combined, because each selects the fastest frame by "
+        "its own rule: name the technique");
   }
   const auto [records, answers] =
       measure::try_for_fastest(plan, drawing.suite, [&](const measure::Plan& tried) {
@@ -103,8 +104,8 @@ Drawn draw_the_fastest(const Drawing& drawing, const measure::Plan& plan) {
   return {fastest.run, fastest};
 }
 
-// Draws with the fastest settings that keep the requested error. If the device could draw nothing,
-// the result contains the reason.
+// Draws with the fastest settings that meet the requested error. If the device could not draw
+// anything, the returned record contains the reason.
 Drawn draw_within_error(const Drawing& drawing, const measure::Plan& plan,
                         measure::Truths& truths) {
   const auto wanted = accuracy::parse_requested_error(*drawing.arguments.error);
@@ -135,7 +136,7 @@ void require_option(const std::string& value, std::string_view name) {
   if (value.empty()) throw core::InputError(fmt::format("{} is required", name));
 }
 
-// Switches on names of objects and passes for debugging tools, and makes the backends write the
+// Makes the backends name objects and passes for debugging tools and, with --dump, write the
 // driver's input to the folder.
 void prepare_process(const RenderArguments& arguments) {
   ::setenv("TRIPTYCH_LABELS", "1", 1);
@@ -160,13 +161,14 @@ core::ExitCode keep(const RenderArguments& arguments, measure::SuiteWithTruth& s
 
 core::ExitCode render_in_process(const RenderArguments& arguments) {
   if (arguments.error) {
-    throw core::InputError("--error draws several configurations: leave it out with --in-process");
+    throw core::InputError(
+        "--error cannot be combined with --in-process, because it draws several configurations");
   }
   prepare_process(arguments);
   const Registry registry = make_registry();
   const auto [suite, plan, device] = choose_frame(registry, arguments.frame);
   if (!plan.automatic.empty()) {
-    throw core::InputError("auto draws several configurations: name the technique");
+    throw core::InputError("technique=auto draws several configurations: name the technique");
   }
   const fs::path out(arguments.frame.out);
   report::remove_frame(out);
@@ -206,7 +208,7 @@ core::ExitCode render(const RenderArguments& arguments) {
                              : arguments.error       ? draw_within_error(drawing, plan, truths)
                                                      : draw_one(drawing, plan);
   record::require_measured(record);
-  if (record.image.empty()) throw core::InputError(record.technique + " does not draw an image");
+  if (record.image.empty()) throw core::InputError(record.technique + " does not produce an image");
   const core::Image image = store.picture(record.image);
   return keep(arguments, suite, record, store.devices(run).at(0).device, image,
               [&](const record::Record& of) { return truths.of(of); });
@@ -215,32 +217,33 @@ core::ExitCode render(const RenderArguments& arguments) {
 }  // namespace
 
 void add_render_command(Commands& commands) {
-  auto [command, arguments] =
-      commands.add("render", "Draw one configuration, and write image.exr, image.png, frame.json",
-                   render, {.frame = {.chooses = true, .describes = true}});
+  auto [command, arguments] = commands.add(
+      "render", "Draw one configuration, and write image.exr, image.png and frame.json", render,
+      {.frame = {.chooses = true, .describes = true}});
   arguments.frame.add_to(command);
   command.add_option("--out", arguments.frame.out, "Folder to write into");
-  command.add_option("--error", arguments.error,
-                     "E or E:METRIC (rms, the default, covered, p99.9 or max): choose the fastest "
-                     "step, quadrature, ert, adapt and skip whose error against the scene's limit "
-                     "image is at most E");
+  command.add_option(
+      "--error", arguments.error,
+      "E or E:METRIC (METRIC is rms, the default, covered, p99.9 or max): choose the "
+      "fastest levels of step, quadrature, ert, adapt and skip with which the error "
+      "against the scene's limit image is at most E");
   add_limit_option(command, arguments.limit_s, "the frame");
   command.add_flag("--in-process", arguments.in_process,
-                   "Draw one frame in this process and nothing else, for debuggers and capture "
-                   "tools (RenderDoc, apitrace, gfxreconstruct). Objects and passes have names");
+                   "Draw only one frame, in this process, for debuggers and capture tools "
+                   "(RenderDoc, apitrace, gfxreconstruct); objects and passes have debug names");
   command.add_option("--dump", arguments.dump,
-                     "Write all input of the driver to this folder: device code, options, "
-                     "parameters, buffers. Implies --in-process");
+                     "Write all of the driver's input to this folder: device code, options, "
+                     "parameters and buffers; implies --in-process");
   command.add_option("--pixel", arguments.pixel,
                      "X,Y: print the device's results for this pixel, sample by sample (volumes) "
-                     "or sphere by sphere, and mark the first difference from the reference (exit "
-                     "code 1). Draws further frames. Implies --in-process");
+                     "or sphere by sphere (particles), and mark the first difference from the "
+                     "reference (exit code 1); draws additional frames; implies --in-process");
   command.add_flag("--truth", arguments.truth,
                    "Compare with the reference image: write truth.exr, truth.png and "
                    "difference.png, and exit with code 1 if the image is wrong");
   command.add_flag("--describe", arguments.describe,
-                   "Draw nothing, but describe the data (format, sizes, spacing, orientation, "
-                   "elements, range, a small image). Needs neither --device nor --out");
+                   "Draw nothing; describe the data instead (format, size, spacing, orientation, "
+                   "elements, range, a small image); needs neither --device nor --out");
   add_example(command,
               "triptych render volume --device vulkan:lavapipe --set viewport=256 --out frame");
 }

@@ -18,7 +18,8 @@ struct ReportArguments {
   std::string benchmark_json;
 };
 
-// Is called before anything is written, so that either both files are written or neither.
+// Checks that the file can be written. This is called before anything is written, so that either
+// both files are written or neither.
 void require_file(std::string_view option, const std::string& file) {
   if (file.empty()) return;
   if (std::filesystem::is_directory(file)) {
@@ -37,7 +38,8 @@ core::ExitCode write_report(const ReportArguments& arguments) {
   record::Store store = open_to_judge(arguments.store);
   measure::Truths truths(registry.find_suite(), store);
   if (store.runs().empty()) {
-    throw core::NotSupported(arguments.store + " has no run: measure first with `triptych run`");
+    throw core::NotSupported(arguments.store +
+                             " contains no runs: measure first with `triptych run`");
   }
   core::write_text(arguments.out, page_of(store, truths, arguments.baselines));
   if (!arguments.benchmark_json.empty()) {
@@ -58,8 +60,9 @@ void add_report_command(Commands& commands) {
       ->capture_default_str();
   command.add_option("--out", arguments.out, "The HTML file to write")->capture_default_str();
   add_baselines_option(command, arguments.baselines);
-  command.add_option("--benchmark-json", arguments.benchmark_json,
-                     "Also write the latest run of every plan as Google Benchmark JSON");
+  command.add_option(
+      "--benchmark-json", arguments.benchmark_json,
+      "Also write the latest run of every plan to this file, as Google Benchmark JSON");
 }
 
 }  // namespace triptych::app

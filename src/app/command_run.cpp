@@ -1,4 +1,4 @@
-// The command run, and the processes that it starts.
+// The command run, and the commands of the processes that it starts.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -17,7 +17,8 @@ namespace {
 
 using measure::RunResult;
 
-// Returns cannot_judge if no configuration of some plan was measured.
+// Measures the plans. Returns cannot_judge if a plan has no measured configuration, or if the
+// requested error was not met.
 core::ExitCode run(const Measuring& measuring) {
   const auto [scored, results, error_kept] = measure_resumably(measuring);
   const bool measured =
@@ -25,8 +26,9 @@ core::ExitCode run(const Measuring& measuring) {
   return measured && error_kept ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
-// Result for a CTest fixture: a failed configuration fails the test (except for a stress case,
-// whose score reports it), and a run with nothing but skips is skipped.
+// Measures for a CTest fixture. A failed configuration fails the test unless the plan is scored,
+// because then the scores report the failure. If every configuration is skipped, the test is
+// skipped.
 core::ExitCode run_as_test(const Measuring& measuring) {
   const auto [scored, results, error_kept] = measure_and_tell(measuring);
   const bool failed =
@@ -41,7 +43,8 @@ core::ExitCode run_as_test(const Measuring& measuring) {
 void limit_own_memory(std::uint64_t bytes) {
   const rlimit limit{bytes, bytes};
   if (::setrlimit(RLIMIT_DATA, &limit) != 0) {
-    throw core::InputError(fmt::format("--memory {}: more than this user may allocate", bytes));
+    throw core::InputError(
+        fmt::format("--memory {}: the limit exceeds what this user may allocate", bytes));
   }
 }
 
@@ -64,10 +67,10 @@ core::ExitCode list_api(const std::string& api) {
   return core::ExitCode::pass;
 }
 
-// These commands are not listed, because only this program calls them
-// (measure/worker/own_program.hpp).
+// Adds the commands that only this program calls (measure/worker/own_program.hpp). --help does not
+// list them.
 void add_worker_commands(Commands& commands) {
-  auto [worker, arguments] = commands.add("worker", "Serve one device (started by run)", serve);
+  auto [worker, arguments] = commands.add("worker", "Draw on one device (started by run)", serve);
   worker.add_option("--device", arguments.device)->required();
   worker.add_option("--memory", arguments.memory);
   worker.group("");
@@ -81,32 +84,33 @@ void add_run_options(CLI::App& command, Measuring& measuring) {
   add_plan_option(command, measuring.plans);
   add_choice_options(command, measuring.choice);
   command.add_option("--device", measuring.devices,
-                     "Only devices that match this glob (repeatable; default: all)");
+                     "Measure only devices that match this glob (repeatable; default: all)");
   command.add_option("--store", measuring.store, "SQLite file for the records")
       ->capture_default_str();
   add_limit_option(command, measuring.limit_s, "a configuration");
   constexpr std::uint64_t least_memory = std::uint64_t{64} << 20;
   command
       .add_option("--memory", measuring.memory,
-                  "Memory that a worker may allocate, such as 4G; a configuration whose data need "
-                  "more fails (default: no limit; has no effect under Valgrind)")
+                  "Memory that a worker may allocate, such as 4G; a configuration that needs more "
+                  "memory fails (default: no limit; has no effect under Valgrind)")
       ->transform(CLI::AsSizeValue(false))
       ->check(CLI::Range(least_memory, std::numeric_limits<std::uint64_t>::max()));
   add_verbose_option(command, measuring.verbose);
   command.add_flag("--untimed", measuring.untimed,
-                   "Draw only one frame for the image and one for the counters: no times, no "
-                   "statistics");
+                   "Draw only one frame for the image and one for the counters; measure neither "
+                   "times nor statistics");
   command
       .add_flag("--timed", measuring.timed,
-                "Also measure times for plans without the check timing, such as SUITE/accuracy")
+                "Measure times even for plans without the timing check, such as SUITE/accuracy")
       ->excludes("--untimed");
   command.add_flag(
       "--measure-every", measuring.measure_every,
-      "Also measure configurations that do exactly the same work as another one in their scene");
+      "Also measure configurations that do exactly the same work as another configuration of the "
+      "same scene");
   add_inject_option(
       command, measuring.faults,
-      "Inject a fault to prove that the gate finds it: " + measure::fault_names() +
-          "; FAULT@factor=level,… or FAULT@GLOB limits it to configurations or devices");
+      "Inject a fault to check that the gate finds it: " + measure::fault_names() +
+          "; FAULT@factor=level,… or FAULT@GLOB limits the fault to configurations or devices");
 }
 
 }  // namespace
@@ -115,16 +119,16 @@ void add_run_commands(Commands& commands) {
   auto [command, measuring] =
       commands.add("run", "Measure a plan on the devices of this machine", run, {.chooses = true});
   add_run_options(command, measuring);
-  command.add_flag("--resume", measuring.resume, "Continue the plan's latest run in the store");
+  command.add_flag("--resume", measuring.resume, "Continue each plan's latest run in the store");
   add_example(command, "triptych run volume/quick --device 'vulkan:*' --store results.sqlite");
   command
       .add_option("--error", measuring.error,
-                  "E or E:METRIC (rms, the default, covered, p99.9 or max): measure only settings "
-                  "of step, quadrature, ert, adapt and skip whose error against the limit image "
-                  "of each scene is at most E, and report the fastest")
+                  "E or E:METRIC (METRIC is rms, the default, covered, p99.9 or max): measure only "
+                  "levels of step, quadrature, ert, adapt and skip with which the error against "
+                  "the limit image of the scene is at most E, and report the fastest levels")
       ->excludes("--untimed");
 
-  // Every device adds its part to the run that test-start began.
+  // Every device adds its measurements to the run that test-start began.
   auto [test, tested] = commands.add("test-measure", "Measure one device as a CTest fixture",
                                      run_as_test, {.resume = true, .brief = true});
   add_run_options(test, tested);

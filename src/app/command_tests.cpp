@@ -1,5 +1,5 @@
-// The commands for CTest: the list of tests, which is created when tests are run by listing the
-// devices of this machine, and the command of each test.
+// The commands for CTest. One writes the list of tests: CTest calls it when the tests are run, and
+// it lists the devices of this machine. The others are the commands that the tests run.
 
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 struct TestsArguments {
   std::vector<std::string> plans;
   std::vector<std::string>
-      large;  // plans that one of several devices with the same driver measures
+      large;  // plans that are measured on only one of several devices with the same driver
   std::string out;
   std::string folder;
 };
@@ -35,7 +35,7 @@ core::ExitCode list_tests(const TestsArguments& arguments) {
   const auto add = [&](const std::string& plan, bool one_per_driver) {
     const measure::Plan loaded = measure::load_plan(plan, {}, registry.find_suite());
     const std::string stem = report::ctest_stem(loaded.suite, loaded.name);
-    // CTest runs the tests in another folder, so the path of a YAML file becomes absolute.
+    // CTest runs the tests in another folder, so the path of a YAML file must be absolute.
     const bool named = loaded.name.find('/') != std::string::npos;
     tests.push_back({.suite = loaded.suite,
                      .plan = named ? plan : fs::absolute(plan).string(),
@@ -68,7 +68,8 @@ judge::GateResult judge_store(const CheckArguments& arguments, const record::Sto
                               measure::Truths& truths) {
   const std::string plan = measure::plan_name(arguments.plan);
   const auto run = store.latest_run(plan);
-  if (!run) throw core::NotSupported("nothing was measured");
+  if (!run)
+    throw core::NotSupported("the store contains no run of the plan, because nothing was measured");
   judge::GateRequest request = request_of(truths, plan);
   request.checks = {judge::check(arguments.check)};
   request.decides_each_device = false;
@@ -76,8 +77,8 @@ judge::GateResult judge_store(const CheckArguments& arguments, const record::Sto
   return judge_named(store, run->id, default_baselines().string(), request);
 }
 
-// Judges the plan's latest run in the store. The test is skipped if nothing was judged, or if the
-// cause of a failure is a slow or noisy machine or a missing file.
+// Judges the plan's latest run in the store. The test is skipped if nothing was judged, or if a
+// failure is caused by a slow or noisy machine or by a missing file.
 core::ExitCode check(const CheckArguments& arguments) {
   const Registry registry = make_registry();
   record::Store store = open_to_judge(arguments.store);
@@ -101,21 +102,21 @@ core::ExitCode check(const CheckArguments& arguments) {
 void add_test_commands(Commands& commands) {
   auto [tests, listed] = commands.add(
       "ctest", "Write a CTest file with the tests of this machine's devices", list_tests);
-  tests.add_option("PLAN", listed.plans, "Plans: YAML files, or SUITE/PLAN")->required();
+  tests.add_option("PLAN", listed.plans, "Plans to test: YAML files, or SUITE/PLAN")->required();
   tests.add_option("--one-per-driver", listed.large,
-                   "Plans that are measured on only one of several devices with the same driver "
+                   "A plan to measure on only one of several devices with the same driver "
                    "(repeatable)");
   tests.add_option("--out", listed.out, "The CTest file to write")->required();
-  tests.add_option("--folder", listed.folder, "The folder in which the tests keep their stores")
+  tests.add_option("--folder", listed.folder, "The folder for the stores that the tests write")
       ->required();
   add_example(tests, "triptych ctest volume/quick --out tests.cmake --folder stores");
 
   auto [starting, store] =
-      commands.add("test-start", "Forget what an earlier test run measured", start);
+      commands.add("test-start", "Delete the measurements of an earlier test run", start);
   starting.add_option("--store", store)->required();
   starting.group("");
 
-  auto [checking, checked] = commands.add("test-check", "One check as a CTest test", check);
+  auto [checking, checked] = commands.add("test-check", "Run one check as a CTest test", check);
   checking.add_option("PLAN", checked.plan)->required();
   checking.add_option("--check", checked.check)->required();
   checking.add_option("--device", checked.device);

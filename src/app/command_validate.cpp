@@ -24,8 +24,8 @@
 namespace triptych::app {
 namespace {
 
-// Everything that a driver must get right, whatever its speed: ordinary scenes with every
-// technique, hostile scenes, and closed forms.
+// Plans that cover everything that a driver must get right, regardless of its speed: ordinary
+// scenes with every technique, stress scenes, and scenes with closed-form solutions.
 constexpr std::array<const char*, 6> validation_plans{"volume/quick",     "volume/stress",
                                                       "volume/accuracy",  "particles/quick",
                                                       "particles/stress", "particles/accuracy"};
@@ -48,8 +48,8 @@ struct ValidateArguments {
   std::string ci = standard_ci;
 };
 
-// A validation checks images and counters only, because every device must draw the right image with
-// the right amount of work, whereas times, image bits and statistics differ between devices. A
+// A validation checks only images and counters. Every device must draw the correct image with the
+// correct amount of work, but times, exact image bits and statistics differ between devices. A
 // stress case is judged by its score, which includes its image.
 record::Checks checks_of(const record::Checks& of_plan) {
   const bool scored = of_plan.contains(judge::Check::stress);
@@ -71,7 +71,7 @@ Measuring measuring_of(const ValidateArguments& arguments, const std::string& fi
           .told_to = stderr};
 }
 
-// Returns false if the run was interrupted. The part that was measured is judged anyway.
+// Returns false if the run was interrupted. The measured part is judged even then.
 bool measured_to_its_end(const Measuring& measuring) {
   try {
     measure_resumably(measuring);
@@ -82,7 +82,7 @@ bool measured_to_its_end(const Measuring& measuring) {
   }
 }
 
-// The runs in the store, which are earlier ones of this validation or of another one.
+// Returns the ids of the runs in the store, which were written by earlier calls of `validate`.
 std::set<std::string> runs_in(const std::string& file) {
   std::set<std::string> ids;
   if (!std::filesystem::exists(file)) return ids;
@@ -92,10 +92,10 @@ std::set<std::string> runs_in(const std::string& file) {
   return ids;
 }
 
-// The plans of a validation, and the results of each.
+// The plans of a validation, and the results for each plan.
 class Validation {
  public:
-  // `before` contains runs that do not belong to this validation.
+  // `before` contains the ids of runs that do not belong to this validation.
   Validation(const ValidateArguments& arguments, const std::string& file,
              const std::set<std::string>& before, std::optional<std::vector<judge::Waiver>> known)
       : arguments_(arguments),
@@ -112,7 +112,8 @@ class Validation {
     }
   }
 
-  // A fault that does not recur is still a fault, but of another kind.
+  // Draws all failed configurations once more. A failure that does not recur is still a failure,
+  // but it is reported as a flake.
   void draw_failures_again() {
     for (judge::GateResult& result : results_) {
       const judge::Places places = judge::failing(result);
@@ -122,13 +123,13 @@ class Validation {
       const measure::Plan plan = arguments_.choice.load(result.plan, registry_.find_suite());
       auto [second, flakes] = judge::tell_flakes(result, judge_plan(plan), places);
       result = std::move(second);
-      for (const record::Record& each : first) {  // the store keeps the failed records
+      for (const record::Record& each : first) {  // keep the failed records in the store
         if (flakes.contains({each.device, each.configuration})) store_.add_record(each);
       }
     }
   }
 
-  // The devices that were opened, also those that measured nothing.
+  // Returns the devices that were opened, including devices on which nothing was measured.
   [[nodiscard]] std::vector<std::string> devices() const {
     std::set<std::string> ids;
     for (const judge::GateResult& result : results_) {
@@ -137,7 +138,7 @@ class Validation {
     return {ids.begin(), ids.end()};
   }
 
-  // The results of this repetition, with the hash of each image.
+  // Returns the results of this repetition, with the hash of each image.
   [[nodiscard]] judge::Repetition repetition() const {
     judge::Repetition repetition{.results = results_, .images = {}};
     for (const judge::GateResult& result : results_) {
@@ -192,7 +193,7 @@ class Validation {
   }
 
  private:
-  // 0 if there is no reference image, for example because the data are missing now.
+  // Returns 0 if there is no reference image, for example because the data file is now missing.
   [[nodiscard]] double bound_of(const record::Record& record) {
     try {
       return report::largest_bound(truths_.of(record).bound);
@@ -201,7 +202,8 @@ class Validation {
     }
   }
 
-  // The records whose images were judged with a bound above a step of 8 bits.
+  // Returns the records whose image was judged with a bound larger than one step of an 8-bit
+  // colour.
   [[nodiscard]] std::vector<report::WideBound> wide_bounds(
       const std::vector<record::Record>& records) {
     std::vector<report::WideBound> bounds;
@@ -236,7 +238,7 @@ class Validation {
     return result;
   }
 
-  // Returns false if it was interrupted.
+  // Draws the failed configurations again. Returns false if the user interrupted it.
   bool draw_again(const std::string& plan, const judge::Places& places) {
     say("{}: drawing {} failed configurations again\n", plan, places.size());
     Measuring measuring = measuring_of(arguments_, store_.file().string());
@@ -255,8 +257,8 @@ class Validation {
   std::vector<judge::GateResult> results_;
 };
 
-// Measures everything again until there are as many repetitions as requested, or until the user
-// interrupts one, which is then left out.
+// Measures everything again until the requested number of repetitions is reached or the user
+// interrupts. An interrupted repetition is left out.
 std::vector<judge::Repetition> repeat(const ValidateArguments& arguments, const std::string& file,
                                       const std::optional<std::vector<judge::Waiver>>& known,
                                       const Validation& first) {
@@ -274,7 +276,7 @@ std::vector<judge::Repetition> repeat(const ValidateArguments& arguments, const 
   return repetitions;
 }
 
-// Compares the repetitions, and prints and writes one line for each case.
+// Compares the repetitions, and prints and writes one line per case.
 void tell_repeats(const ValidateArguments& arguments,
                   const std::vector<judge::Repetition>& repetitions, Validation& first) {
   const std::vector<judge::RepeatedCase> cases = judge::repeated_cases(repetitions);
@@ -284,7 +286,7 @@ void tell_repeats(const ValidateArguments& arguments,
   put_lines(report::repeats_text(cases, repetitions.size()), stderr);
 }
 
-// Only the first of several shards probes the features.
+// Probes the features of the devices. If the plans are sharded, only the first shard does this.
 FeatureTable features_of(const ValidateArguments& arguments, const Validation& validation) {
   const std::string& shard = arguments.choice.shard;
   if (!shard.empty() && !shard.starts_with("1/")) return {};
@@ -293,7 +295,7 @@ FeatureTable features_of(const ValidateArguments& arguments, const Validation& v
 
 core::ExitCode validate(const ValidateArguments& arguments) {
   const measure::Stopwatch since;
-  // Throws for an unknown name before anything is measured.
+  // This throws for an unknown name before anything is measured.
   static_cast<void>(ci_system(arguments.ci));
   core::refuse_overwriting({{"--expect", arguments.expect}},
                            {{"--junit", arguments.junit},
@@ -315,7 +317,8 @@ core::ExitCode validate(const ValidateArguments& arguments) {
   validation.tell_coverage(features);
   const core::ExitCode told = validation.tell(since.seconds());
   if (verdict_of(features) != core::ExitCode::regression) return told;
-  say("Features that no scene needs are wrong, so the exit code is 1: coverage.txt lists them\n");
+  say("API features that no scene needs are wrong, so the exit code is 1; coverage.txt lists "
+      "them\n");
   return core::ExitCode::regression;
 }
 
@@ -323,41 +326,45 @@ core::ExitCode validate(const ValidateArguments& arguments) {
 
 void add_validate_command(Commands& commands) {
   auto [command, arguments] = commands.add(
-      "validate", "Check everything that a new driver must get right: images, work, hostile scenes",
+      "validate", "Check everything that a new driver must get right: images, work, stress scenes",
       validate);
   add_example(command, "triptych validate --device vulkan:lavapipe --out validation");
-  command.add_option("--device", arguments.devices, "Devices that match this glob (repeatable)")
+  command
+      .add_option("--device", arguments.devices,
+                  "Validate devices that match this glob (repeatable)")
       ->required();
   command
       .add_option("--out", arguments.out,
                   "Folder for the store and for the files that the gate writes for a CI system")
       ->capture_default_str();
-  command.add_option("--junit", arguments.junit, "Write JUnit XML of all plans");
+  command.add_option("--junit", arguments.junit,
+                     "Write a JUnit XML report for all plans to this file");
   command.add_option("--json", arguments.json,
-                     "Write every finding as JSON to this file; - prints it");
+                     "Write all findings as JSON to this file; use - for standard output");
   command.add_flag(
       "--resume", arguments.resume,
-      "Continue with the store in the folder, after an interruption or a crash of the machine");
+      "Continue with the store in the folder after an interruption or a machine crash");
   command
       .add_option("--jobs", arguments.jobs,
-                  "Number of workers that run at once, also for one device (default: one for each "
-                  "device)")
+                  "Number of workers that run at the same time, even if there is only one device "
+                  "(default: one per device)")
       ->check(CLI::Range(1, 64));
   command
       .add_option("--repeat", arguments.repeat,
-                  "Draw everything this many times. A case that fails in only some repetitions is "
-                  "a flake, which is a failure. repeats.jsonl in the folder has one line for each "
-                  "case")
+                  "Draw everything this many times; a case that fails in only some repetitions is "
+                  "a flake, which counts as a failure; repeats.jsonl in the folder has one line "
+                  "per case")
       ->check(CLI::Range(1, 1000));
   add_limit_option(command, arguments.limit_s, "a configuration");
   command.add_option("--shard", arguments.choice.shard,
-                     "i/n: only the i-th of n parts of each plan");
+                     "i/n: use only the i-th of n parts of each plan");
   add_selection_options(command, arguments.choice);
-  command.add_option("--expect", arguments.expect,
-                     "A file of --write-expect with known failures, flakes and skips: they are "
-                     "waived, and everything else has to pass");
+  command.add_option(
+      "--expect", arguments.expect,
+      "Waive the known failures, flakes and skips in this file, which --write-expect "
+      "has written; everything else must pass");
   command.add_option("--write-expect", arguments.write_expect,
-                     "Write failures, flakes and skips to this file, for --expect");
+                     "Write all failures, flakes and skips to this file, for use with --expect");
   add_baselines_option(command, arguments.baselines);
   add_without_data_option(command, arguments.without_data);
   add_verbose_option(command, arguments.verbose);

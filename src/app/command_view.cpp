@@ -1,4 +1,4 @@
-// The command view: determines what to show, and then replaces this process by the program that
+// The command view: determines what to show, and then replaces this process with the program that
 // opens the window.
 
 #include <fmt/format.h>
@@ -40,18 +40,18 @@ struct ViewArguments {
 
 constexpr std::size_t most_columns = 4;
 
-// Throws InputError if the window was not built.
+// Returns the path of the program that opens the window. Throws InputError if it was not built.
 std::string window_program() {
   const fs::path program = fs::path(measure::own_program()).parent_path() / "triptych-view";
   if (::access(program.c_str(), X_OK) == 0) return program.string();
-  throw core::InputError(
-      fmt::format("view: the window's program {} is not installed. CMake builds it if the packages "
-                  "libglfw3-dev and libimgui-dev are installed (ci/setup --view); the Debian "
-                  "package triptych-view contains it",
-                  program.string()));
+  throw core::InputError(fmt::format(
+      "view: the program that opens the window, {}, is not installed. CMake builds it if "
+      "the packages libglfw3-dev and libimgui-dev are installed (ci/setup --view). It "
+      "is also part of the Debian package triptych-view",
+      program.string()));
 }
 
-// "GLOB" or "DEVICE,NAME=VALUE,…".
+// Adds the devices that `text` selects. `text` is "GLOB" or "DEVICE,NAME=VALUE,…".
 void add_sides(const measure::Listing& listing, const std::string& text,
                std::vector<measure::ViewSide>& sides) {
   const std::string glob = text.substr(0, text.find(','));
@@ -65,7 +65,7 @@ void add_sides(const measure::Listing& listing, const std::string& text,
   }
 }
 
-// The first device of each API.
+// Returns the first device of each API, but at most as many devices as the window has columns.
 std::vector<measure::ViewSide> one_of_each_api(const measure::Listing& listing) {
   std::vector<measure::ViewSide> sides;
   std::vector<std::string> apis;
@@ -91,20 +91,21 @@ std::vector<measure::ViewSide> sides_of(const ViewArguments& arguments,
   return sides;
 }
 
-// Replaces this process by the window's.
+// Replaces this process with the program that opens the window.
 [[noreturn]] void become(const std::string& program, const std::string& request) {
   std::string name = "triptych-view";
   std::string argument = request;
   char* const arguments[] = {name.data(), argument.data(), nullptr};
   ::execv(program.c_str(), arguments);
-  throw core::IoError(fmt::format("{} cannot be started: {}", program, std::strerror(errno)));
+  throw core::IoError(fmt::format("cannot start {}: {}", program, std::strerror(errno)));
 }
 
 core::ExitCode view(const ViewArguments& arguments) {
   const Registry registry = make_registry();
   const auto [suite, plan] = choose_data(registry, arguments.frame);
   if (!plan.automatic.empty()) {
-    throw core::InputError("the window shows one technique at a time: name it instead of auto");
+    throw core::InputError(
+        "the window shows one technique at a time: name a technique instead of auto");
   }
   for (const auto& each : measure::parse_faults(arguments.frame.faults)) {
     measure::check_fault(each.fault);
@@ -141,12 +142,13 @@ void add_view_command(Commands& commands) {
       "turns",
       view, {.frame = {.chooses = true}});
   command.add_option("SUITE", arguments.frame.suite, "volume or particles")->required();
-  command.add_option("--device", arguments.devices,
-                     "A column for each device that matches this glob (repeatable; default: one "
-                     "device of each API). DEVICE,NAME=VALUE,… sets variables for its driver, so "
-                     "that two drivers can be shown next to each other");
+  command.add_option(
+      "--device", arguments.devices,
+      "Show a column for each device that matches this glob (repeatable; default: one "
+      "device per API); DEVICE,NAME=VALUE,… sets environment variables for the "
+      "driver, so that two drivers can be shown side by side");
   command.add_option("--set", arguments.frame.set,
-                     "factor=value (repeatable); write a comma in a value as %2C");
+                     "factor=level (repeatable); write a comma inside a level as %2C");
   add_inject_option(command, arguments.frame.faults, "Inject a fault (repeatable); see run --help");
   add_limit_option(command, arguments.limit_s, "a frame");
   command.add_option("--size", arguments.size, "Size of the window in pixels")
@@ -155,7 +157,7 @@ void add_view_command(Commands& commands) {
                      "Wait until every device has drawn, write the window as a PNG to this file, "
                      "and exit");
   command.add_flag("--json", arguments.json,
-                   "When the window is closed, print what it showed as JSON");
+                   "When the window is closed, print the displayed results as JSON");
   add_example(command,
               "triptych view volume --device vulkan:lavapipe --device gl:llvmpipe-egl "
               "--set transfer_function=surfaces");

@@ -30,8 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Prints the progress of a comparison. A log gets a line for each stage, and a sign of life from
-// time to time.
+// Prints the progress of a comparison. A log gets one line per stage, and from time to time a line
+// that shows that the program is still running.
 class ComparisonPrinter {
  public:
   explicit ComparisonPrinter(bool verbose) : verbose_(verbose) {}
@@ -59,8 +59,8 @@ report::ComparisonCommand command_of(const Comparing& comparing, const std::stri
   report::ComparisonCommand command{.plan = typed, .sides = comparing.sides, .varied = plan.varied};
   for (const std::string& each : comparing.faults)
     command.sides += " --inject " + core::shell_quoted(each);
-  // A factor that has one value on the command line no longer varies in the plan, but the printed
-  // commands must contain it.
+  // A factor with a single level on the command line no longer varies in the plan, but the printed
+  // commands must still contain it.
   for (const auto& [factor, values] : comparing.choice.overrides()) {
     if (std::ranges::find(command.varied, factor) == command.varied.end()) {
       command.varied.push_back(factor);
@@ -81,7 +81,7 @@ class Comparer {
         store_(store.empty() ? (folder_.emplace().path() / "compared.sqlite").string() : store,
                record::Store::Mode::append),
         truths_(registry.find_suite(), store_) {
-    store_.require_whole();  // reference images are read from it
+    store_.require_whole();  // because reference images are read from it
   }
 
   [[nodiscard]] Told compare(const Comparing& comparing, const std::string& typed,
@@ -148,7 +148,7 @@ core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool 
       try {
         all.push_back(comparer.compare(each, typed, std::move(plan)));
       } catch (const measure::Interrupted&) {
-        throw core::Error("interrupted; a comparison cannot be continued: start it again");
+        throw core::Error("interrupted; a comparison cannot be resumed, so start it again");
       }
       code = core::worse_of(code, all.back().result.exit_code());
     }
@@ -160,14 +160,16 @@ core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool 
 
 std::vector<std::string> worker_of(const std::string& option, const std::string& program) {
   if (!is_program(program)) {
-    throw core::InputError(fmt::format("{} {}: is not an executable program", option, program));
+    throw core::InputError(
+        fmt::format("{} {}: this file is not an executable program", option, program));
   }
   const std::string file = fs::absolute(program).string();
   // A driver may have printed something before the version.
   const std::string told = measure::output_of({file, "--version"}).value_or("");
   if (("\n" + told).find("\ntriptych ") == std::string::npos) {
     throw core::InputError(fmt::format(
-        "{} {}: is not a build of triptych, according to its --version", option, program));
+        "{} {}: this program is not a build of triptych, judging by its --version output", option,
+        program));
   }
   return measure::worker_command(file);
 }
@@ -182,7 +184,7 @@ std::vector<Comparing> against_base(const std::string& base,
     command = worker_of("--base", base);
   } else if (base.find('=') == std::string::npos) {
     throw core::InputError(
-        fmt::format("--base {}: is neither an executable program nor NAME=VALUE", base));
+        fmt::format("--base {}: expected an executable program or NAME=VALUE", base));
   } else {
     environment = measure::parse_environment(base, "--base " + base);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// The two sides of a comparison, as commands see them.
+// The two sides of a comparison, as specified on the command line.
 
 #include <cstdint>
 #include <string>
@@ -10,34 +10,36 @@
 
 namespace triptych::app {
 
-// The plans that a gate and a comparison use by default: images, work and times, then instructions.
+// The plans that `gate` and `compare` use by default. The first two check images, work and times;
+// the last two count instructions.
 extern const std::vector<std::string> main_job;
 
 struct Comparing {
-  std::vector<std::string> plans;  // as typed by the user; empty: the default plans
+  std::vector<std::string> plans;  // as typed by the user; empty: main_job
   PlanChoice choice = {};
   measure::SideOptions a;
   measure::SideOptions b;
-  std::string sides;                     // names the sides on a command line, "--a … --b …"
+  std::string sides;                     // the options that select the sides: "--a … --b …"
   std::vector<std::string> faults = {};  // injected into side b
-  std::string store = {};                // keeps both runs of each plan; empty: nothing is kept
-  int budget_s = 0;                      // in seconds; 0: none
+  std::string store = {};                // saves both runs of each plan; empty: not saved
+  int budget_s = 0;                      // in seconds; 0: no limit
   int limit_s = standard_limit_s;
   std::uint64_t seed = 1;
   bool times = true;
   bool verbose = false;
 };
 
-// Compares, prints the differences and returns the exit code over all comparisons.
+// Compares the sides, prints the differences, and returns the exit code for all comparisons.
 [[nodiscard]] core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool json);
 
-// The measure::worker_command of another build. Throws InputError with the option's name if the
-// file is not an executable build of triptych. Without this check, the missing answer would be
-// reported as a failure of the device.
+// Returns the worker command (see measure::worker_command) of another build. Throws InputError with
+// the option's name if the file is not an executable build of triptych. Without this check, a
+// program that never responds would be reported as a failure of the device.
 [[nodiscard]] std::vector<std::string> worker_of(const std::string& option,
                                                  const std::string& program);
 
-// Compares each device with itself under `base`: the program of another build, or "NAME=VALUE,…".
+// Returns comparisons of each device with itself under `base`. `base` is the program of another
+// build, or "NAME=VALUE,…".
 [[nodiscard]] std::vector<Comparing> against_base(const std::string& base,
                                                   const std::vector<std::string>& devices);
 

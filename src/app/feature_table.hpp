@@ -1,5 +1,5 @@
 #pragma once
-// Probes the features of devices and prints them, for `features` and `validate`.
+// Probes API features of devices and prints the results, for `features` and `validate`.
 
 #include <map>
 #include <string>
@@ -11,18 +11,19 @@
 
 namespace triptych::app {
 
-// The key is the device.
+// The results by device id.
 using FeatureTable = std::map<std::string, std::vector<measure::FeatureRow>>;
 
-// `only`: the name of a probe; empty: all. Devices that cannot be probed have no rows.
+// Probes the devices. `only` is the name of one probe; if it is empty, all probes run. Devices that
+// cannot be probed have no rows.
 [[nodiscard]] FeatureTable probe_devices(const std::vector<std::string>& devices,
                                          const std::string& only, int limit_s);
 
-// One line for each probe: its size, and the error or the reason for a skip.
+// Returns one line per probe, with its size, and the error or the reason for a skip.
 [[nodiscard]] std::string feature_text(const FeatureTable& table);
 [[nodiscard]] core::Json feature_json(const FeatureTable& table);
 
-// Regression if a probe is wrong; cannot_judge if none is right.
+// Returns regression if any probe is wrong, and cannot_judge if no probe is right.
 [[nodiscard]] core::ExitCode verdict_of(const FeatureTable& table);
 
 }  // namespace triptych::app

@@ -1,5 +1,5 @@
-// triptych: a single program with all commands. All errors are caught here, except in the worker,
-// and become one line on stderr and an exit code.
+// The program `triptych`, which contains all commands. All errors except those in a worker are
+// caught here. They are reported as one line on stderr and an exit code.
 
 #include <fmt/format.h>
 
@@ -25,11 +25,11 @@ namespace {
 using core::ExitCode;
 
 constexpr const char* footer =
-    "Exit codes: 0 pass, 1 regression, 2 could not judge, 3 usage or I/O, 77 skipped (tests).\n"
-    "A PLAN is a YAML file or a short name such as volume/quick. `triptych list PLAN` prints its "
+    "Exit codes: 0 pass, 1 regression, 2 could not judge, 3 usage or I/O error, 77 skipped.\n"
+    "PLAN is a YAML file or a short name such as volume/quick. `triptych list PLAN` prints its "
     "configurations.";
 
-// Reports an unknown command. CLI11 would only report that a command is required.
+// Reports an unknown command by name. CLI11 would report only that a command is required.
 void refuse_unknown_command(const CLI::App& program, std::string_view name) {
   if (name.starts_with('-')) return;
   std::vector<std::string> known;
@@ -41,8 +41,8 @@ void refuse_unknown_command(const CLI::App& program, std::string_view name) {
       fmt::format("unknown command '{}'{}", name, measure::suggestion(name, known)));
 }
 
-// Lets each option take one value at a time, even if it may be repeated. Otherwise `run --device
-// GLOB PLAN` would have two devices and no plan.
+// Limits each option to one value per occurrence, even if the option may be repeated. Otherwise
+// `run --device GLOB PLAN` would be parsed as two devices and no plan.
 void give_options_one_value(CLI::App& program) {
   for (CLI::App* command : program.get_subcommands({})) {
     for (CLI::Option* option : command->get_options()) {
@@ -53,7 +53,7 @@ void give_options_one_value(CLI::App& program) {
 
 ExitCode run(int argc, char** argv) {
   CLI::App program{
-      "Cross-API portability tests: draws the same scenes through OpenCL, Vulkan and OpenGL and "
+      "Cross-API portability tests: draws the same scenes through OpenCL, Vulkan and OpenGL, and "
       "compares images, work and cost with a reference renderer and with stored baselines",
       "triptych"};
   program.set_version_flag("--version", "triptych " + app::version());
@@ -79,7 +79,8 @@ ExitCode run(int argc, char** argv) {
       return ExitCode::pass;
     }
     app::say("triptych: {}\nRun with --help for more information.\n", error.what());
-    // An older commit may not have an option, which must not count as a verdict on that commit.
+    // An option may not exist yet in an older commit. This must not count as a verdict on that
+    // commit.
     const auto arguments = std::span(argv, static_cast<std::size_t>(argc));
     const bool bisects =
         std::ranges::find(arguments, std::string_view("--bisect")) != arguments.end();
@@ -103,11 +104,11 @@ ExitCode run_and_catch(int argc, char** argv) {
   }
 }
 
-// The end of the output may still be in a buffer. Output that cannot be written must not look like
-// success.
+// Flushes standard output, because the end of the output may still be buffered. Returns false on
+// failure, so that lost output does not look like success.
 bool output_is_written() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
-  std::perror("triptych: standard output cannot be written");
+  std::perror("triptych: cannot write to standard output");
   return false;
 }
 

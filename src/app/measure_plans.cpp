@@ -25,7 +25,7 @@ void write_raw(const std::string& text) {
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
 }
 
-// Passes progress on to a log or a terminal.
+// Prints the progress of a measurement to a log or a terminal.
 class ProgressPrinter {
  public:
   explicit ProgressPrinter(const Measuring& measuring)
@@ -51,15 +51,15 @@ class ProgressPrinter {
   std::string plan_;
 };
 
-// An option for a factor or an error applies to a single plan: a factor belongs to one suite, and
-// an error to the scenes of a plan.
+// Rejects options that apply to a single plan if several plans are named. The factors of --set
+// belong to one suite, and --error is computed for the scenes of one plan.
 void refuse_for_several(const Measuring& measuring) {
   if (measuring.plans.size() < 2) return;
   if (!measuring.choice.set.empty()) {
     throw core::InputError(
-        "--set changes the factors of one plan: name a single plan, or write a YAML file for each");
+        "--set applies to a single plan: name one plan, or write a YAML file for each plan");
   }
-  if (measuring.error) throw core::InputError("--error works with one plan: name a single plan");
+  if (measuring.error) throw core::InputError("--error applies to a single plan: name one plan");
 }
 
 std::vector<measure::Plan> load_plans(const Measuring& measuring, const Registry& registry) {
@@ -69,7 +69,7 @@ std::vector<measure::Plan> load_plans(const Measuring& measuring, const Registry
     measure::Plan plan = measuring.choice.load(name, registry.find_suite());
     if (std::ranges::find(plans, plan.name, &measure::Plan::name) != plans.end()) {
       throw core::InputError(fmt::format(
-          "two plans are called {}: rename one, because runs are found by the plan's name",
+          "two plans are named {}: rename one, because runs are identified by the plan's name",
           plan.name));
     }
     if (plan.configurations.empty() && measuring.choice.selects()) continue;
@@ -105,7 +105,7 @@ measure::RunOptions options_of(const Measuring& measuring, const record::Beginni
           .program = version()};
 }
 
-// The devices and the store with which plans are measured.
+// The devices on which plans are measured, and the store that receives the records.
 struct Bench {
   const Measuring& measuring;
   const Registry& registry;
@@ -114,7 +114,8 @@ struct Bench {
   record::Store& store;
 };
 
-// GPU families whose compiler is not installed are recorded only if the user named them.
+// Describes how the run began. GPU families whose compiler is not installed are recorded only if
+// the user named a GPU family or requires the device.
 record::Beginning begun_with(const measure::Listing& listing, const Measuring& measuring) {
   record::Beginning begun{.host = measure::host_name(), .asked = measuring.devices};
   const bool named = measure::name_a_compiler(measuring.devices);
@@ -150,8 +151,8 @@ std::vector<measure::RunResult> measure_on(const Bench& bench,
     throw;
   }
   for (const auto& [fault, only] : measure::faults_that_hit_nothing(runs, bench.devices)) {
-    say("triptych: --inject {}@{} affects nothing: no configuration or device matches; `triptych "
-        "list PLAN` prints the names of configurations, which leave out default levels\n",
+    say("triptych: --inject {}@{} has no effect, because no configuration or device matches; "
+        "`triptych list PLAN` prints the names of configurations, which omit default levels\n",
         fault, only);
   }
   for (std::size_t i = 0; i < plans.size(); ++i) {
@@ -160,8 +161,8 @@ std::vector<measure::RunResult> measure_on(const Bench& bench,
   return results;
 }
 
-// Measures the configurations that meet the requested error, and finds the fastest for each scene
-// and device.
+// Measures the configurations that meet the requested error, and finds the fastest configuration
+// for each scene and device.
 Measured measure_within_error(const Bench& bench, const measure::Plan& plan) {
   const auto wanted = accuracy::parse_requested_error(*bench.measuring.error);
   measure::SuiteWithTruth& suite = bench.registry.suite(plan.suite);
@@ -191,9 +192,9 @@ void tell_the_fastest(const Bench& bench, const measure::Plan& plan, const std::
   }
 }
 
-// Devices that only compile are used only by plans that check their code. Such a plan leaves out
-// devices that run on the processor, because the plans that check cost count their instructions,
-// unless the user names only such devices.
+// Returns the devices that fit the plan. A plan that only compiles uses devices that only compile.
+// It also leaves out devices that run on the processor, because the plans that check cost already
+// count their instructions. Other plans leave out devices that only compile.
 std::vector<std::string> devices_of(const measure::Listing& listing,
                                     const std::vector<std::string>& globs, bool compiled) {
   std::vector<std::string> chosen = measure::choose_devices(listing, globs);
@@ -203,7 +204,8 @@ std::vector<std::string> devices_of(const measure::Listing& listing,
     const bool fits = compiled ? device->cpu_features.empty() : device->compiles_for.empty();
     if (fits) fit.push_back(id);
   }
-  // If the user names only devices that do not fit, they are skipped with the reason.
+  // If the user names only devices that do not fit, they are still returned, so that each is
+  // recorded as skipped with a reason.
   if (fit.empty() && !globs.empty()) return chosen;
   return fit;
 }
@@ -231,7 +233,8 @@ measure::Listing listing_for(const Measuring& measuring, const Registry& registr
   return listing;
 }
 
-// Plans that only compile use other devices than plans that draw.
+// Measures the plans in two groups, because plans that only compile use different devices than
+// plans that draw.
 std::vector<measure::RunResult> measure_each(const Measuring& measuring, const Registry& registry,
                                              const std::vector<measure::Plan>& plans,
                                              const measure::Listing& listing,
@@ -255,7 +258,7 @@ std::vector<measure::RunResult> measure_each(const Measuring& measuring, const R
           missing += fmt::format("; {}: {}", each.what, each.reason);
         }
       }
-      throw core::NotSupported(fmt::format("{}: this machine has no device with a GPU compiler{}",
+      throw core::NotSupported(fmt::format("{}: no GPU compiler is available on this machine{}",
                                            group.front().name, missing));
     }
     std::vector<measure::RunResult> measured = measure_on(bench, group);
@@ -291,7 +294,7 @@ Measured measure_resumably(const Measuring& measuring) {
   } catch (const measure::Interrupted& interrupted) {
     throw measure::Interrupted(
         interrupted.signal(),
-        "interrupted; the records so far are in the store; --resume continues");
+        "interrupted; the records so far are in the store; use --resume to continue");
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Measuring plans, for all commands that do so.
+// Measuring of plans, for all commands that measure.
 
 #include <cstdint>
 #include <cstdio>
@@ -22,34 +22,36 @@ struct Measuring {
   // Globs of devices that must be measured. If one of them cannot be used, the run records why.
   std::vector<std::string> required = {};
   std::string store = standard_store;
-  bool resume = false;  // continue the plans' latest runs instead of beginning new ones
+  bool resume = false;  // continue the plans' latest runs instead of beginning new runs
   std::set<std::pair<std::string, std::string>> again = {};  // see measure::RunOptions
   int jobs = 0;                                              // see measure::RunOptions
   int limit_s = standard_limit_s;
   std::optional<std::uint64_t> memory = {};  // bytes that a worker may allocate
   std::vector<std::string> faults = {};
   bool measure_every = false;
-  bool brief = false;                     // times are shown and do not affect a verdict
-  bool untimed = false;                   // one frame each for the image and the counters
-  bool statistics = false;                // also read the statistics in an untimed run
-  bool timed = false;                     // also measure times for plans without the check timing
+  bool brief = false;       // few frames: times are shown, but do not affect a verdict
+  bool untimed = false;     // one frame each for the image and the counters
+  bool statistics = false;  // also read the statistics in an untimed run
+  bool timed = false;       // also measure times for plans without the check timing
   std::optional<std::string> error = {};  // requested error, as typed by the user
-  bool chooses = false;                   // report the fastest of the levels that `auto` stands for
-  bool verbose = false;                   // a line for each configuration
-  CiSystem ci = CiSystem::none;           // the CI system whose log it is
+  bool chooses = false;                   // report the fastest technique if a plan contains `auto`
+  bool verbose = false;                   // print a line for each configuration
+  CiSystem ci = CiSystem::none;           // the CI system that shows the log
   std::FILE* told_to = stdout;
 };
 
 struct Measured {
-  bool scored = false;                           // the scores of some plan report its failures
-  std::vector<measure::RunResult> results = {};  // in the order of the plans
-  bool error_kept = true;  // whether every device keeps the requested error in every scene
+  bool scored = false;  // a plan is scored, so its scores report its failures
+  std::vector<measure::RunResult> results = {};  // in the same order as the plans
+  bool error_kept = true;  // whether every device meets the requested error in every scene
 };
 
-// Measures and prints a few lines about the result. Throws what measure::run_plans throws.
+// Measures the plans and prints a few lines about the results. Throws the same exceptions as
+// measure::run_plans().
 Measured measure_and_tell(const Measuring& measuring);
 
-// The same for commands with --resume. If the run is interrupted, the message mentions that option.
+// Does the same for commands with --resume. If the run is interrupted, the exception's message
+// mentions --resume.
 Measured measure_resumably(const Measuring& measuring);
 
 }  // namespace triptych::app

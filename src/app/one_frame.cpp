@@ -10,7 +10,8 @@ void FrameArguments::add_to(CLI::App& command) {
   CLI::Option* const option =
       command.add_option("--device", device, "A device id, or a glob that matches one device");
   if (!describes) option->required();
-  command.add_option("--set", set, "factor=value (repeatable); write a comma in a value as %2C");
+  command.add_option("--set", set,
+                     "factor=level (repeatable); write a comma inside a level as %2C");
   add_inject_option(command, faults, "Inject a fault (repeatable); see run --help");
 }
 
@@ -22,7 +23,8 @@ ChosenData choose_data(const Registry& registry, const FrameArguments& arguments
     std::erase_if(several, [&](const auto& factor) { return plan.automatic.contains(factor); });
   }
   if (!several.empty()) {
-    throw core::InputError("one configuration is drawn: give each factor one value");
+    throw core::InputError(
+        "this command draws a single configuration: set each factor to one level");
   }
   if (const std::string reason = suite.missing_data(plan.configurations.front()); !reason.empty()) {
     throw core::InputError(reason);

@@ -1,5 +1,5 @@
 #pragma once
-// Shared by the commands that draw one configuration on one device.
+// Arguments and functions shared by the commands that draw one configuration on one device.
 
 #include <string>
 #include <vector>
@@ -17,27 +17,26 @@ struct FrameArguments {
   std::vector<std::string> faults = {};
 
   bool chooses = false;    // "auto" may stand for several techniques
-  bool describes = false;  // no device is needed for a description of the data
+  bool describes = false;  // --device is optional, because describing the data needs no device
 
   void add_to(CLI::App& command);  // all options except --out
 };
 
 struct OneFrame {
   measure::SuiteWithTruth& suite;
-  measure::Plan plan;  // a plan with that configuration, or with those that `auto` stands for
-  std::string device;  // device id
+  measure::Plan plan;  // one configuration, or one per technique if the technique is `auto`
+  std::string device;  // id
 };
 
-// The suite and the one configuration that the arguments name. Throws core::InputError if they
-// name several, or if its data are missing.
+// The suite and the configuration that the arguments name.
 struct ChosenData {
   measure::SuiteWithTruth& suite;
   measure::Plan plan;
 };
 [[nodiscard]] ChosenData choose_data(const Registry& registry, const FrameArguments& arguments);
 
-// Throws core::InputError unless the arguments name one configuration, its data and one device, and
-// IoError if the folder cannot be written.
+// Throws core::InputError unless the arguments name one configuration and one device and the data
+// exist, and IoError if the folder cannot be written.
 [[nodiscard]] OneFrame choose_frame(const Registry& registry, const FrameArguments& arguments);
 
 }  // namespace triptych::app

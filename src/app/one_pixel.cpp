@@ -24,7 +24,7 @@ int parse_coordinate(std::string_view text, std::string_view whole) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || end != text.data() + text.size() || number < 0) {
     throw core::InputError(fmt::format(
-        "--pixel {}: expected X,Y in pixels from the image's left upper corner", whole));
+        "--pixel {}: expected X,Y in pixels from the upper left corner of the image", whole));
   }
   return number;
 }
@@ -44,7 +44,7 @@ accuracy::TakenSample taken_sample(const technique::TracedSample& traced) {
   return taken;
 }
 
-// Joins a part of a step with the parts before it, weighted by their contributions to the light.
+// Merges a part of a step into the parts before it, weighted by their contributions to the pixel.
 void add_part_of_step(accuracy::TakenSample& step, const accuracy::TakenSample& part) {
   const double added = (1 - step.opacity) * part.opacity;
   const double sum = step.opacity + added;
@@ -57,7 +57,8 @@ void add_part_of_step(accuracy::TakenSample& step, const accuracy::TakenSample& 
   step.gathered = part.gathered;
 }
 
-// The parts of one step have the same middle.
+// Converts the recorded samples. Parts of the same step are recorded with the same midpoint, and
+// are merged into one sample.
 std::vector<accuracy::TakenSample> taken_samples(const technique::RayTrace& trace) {
   std::vector<accuracy::TakenSample> samples;
   for (const technique::TracedSample& traced : trace.samples) {

@@ -1,5 +1,6 @@
 #pragma once
-// `render --pixel X,Y`: a device's results for one pixel, next to those of the reference.
+// `render --pixel X,Y`: shows a device's results for one pixel next to the reference renderer's
+// results.
 
 #include <filesystem>
 #include <string_view>
@@ -11,11 +12,12 @@
 
 namespace triptych::app {
 
-// Throws core::InputError unless the text is "X,Y".
+// Parses "X,Y". Throws core::InputError for any other text.
 [[nodiscard]] measure::PixelPlace parse_pixel(std::string_view text);
 
-// Prints the history, and writes all of it to pixel.txt in the folder. ExitCode::regression if an
-// operation differs from the reference. Throws NotSupported if the suite cannot report the pixel.
+// Prints the pixel's history (shortened if it is long), and writes the complete history to
+// pixel.txt in the folder `out`. Returns ExitCode::regression if an operation differs from the
+// reference. Throws NotSupported if the suite cannot trace the pixel.
 [[nodiscard]] core::ExitCode show_pixel(measure::SuiteWithTruth& suite,
                                         const measure::FrameInProcess& drawn,
                                         const accuracy::TruthPair& truth,

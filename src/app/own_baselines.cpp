@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 constexpr const char* own_folder = "baselines";
 constexpr const char* starting_folder = ".baselines.starting";
 
-// Installed files may be read-only. The copies are not.
+// Copies a folder. Installed files may be read-only, but the copies are writable.
 void copy_tree(const fs::path& from, const fs::path& to) {
   fs::create_directories(to);
   for (const auto& entry : fs::recursive_directory_iterator(from)) {
@@ -45,7 +45,7 @@ OwnBaselines::OwnBaselines(const std::string& named)
 }
 
 OwnBaselines::~OwnBaselines() {
-  std::error_code ignored;  // the next call replaces files that remain
+  std::error_code ignored;  // files that remain are replaced by the next call
   if (working_ != name_) fs::remove_all(working_, ignored);
 }
 

@@ -1,17 +1,17 @@
 #pragma once
-// The folder of baselines to which `accept` writes.
+// The baselines folder to which `accept` writes.
 
 #include <filesystem>
 #include <string>
 
 namespace triptych::app {
 
-// The folder that the user names, or ./baselines. The baselines that were installed with the
-// program are never changed. If ./baselines does not exist, they are copied to a folder with a
-// temporary name, which is renamed to ./baselines when everything was accepted.
+// The folder that the user names, or ./baselines by default. The baselines that were installed with
+// the program are never changed. If ./baselines does not exist, the installed baselines are copied
+// to a temporary folder, which is renamed to ./baselines when all plans have been accepted.
 class OwnBaselines {
  public:
-  // `named`: the option's value; empty: ./baselines.
+  // `named` is the option's value. If it is empty, ./baselines is used.
   explicit OwnBaselines(const std::string& named);
   // Removes the copy if keep() was not called.
   ~OwnBaselines();
@@ -20,11 +20,11 @@ class OwnBaselines {
 
   // The folder to write to.
   [[nodiscard]] const std::filesystem::path& folder() const { return working_; }
-  // The name of the folder after everything was accepted.
+  // The name that the folder has after all plans have been accepted.
   [[nodiscard]] const std::filesystem::path& name() const { return name_; }
-  // The folder that it was copied from; empty if it was not copied.
+  // The folder from which the baselines were copied; empty if nothing was copied.
   [[nodiscard]] const std::filesystem::path& copied_from() const { return copied_from_; }
-  // Makes the copy permanent. Call this when everything was accepted.
+  // Makes the copy permanent. Call this after all plans have been accepted.
   void keep();
 
  private:

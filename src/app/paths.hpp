@@ -6,12 +6,12 @@
 
 namespace triptych::app {
 
-// The folders in which data files are searched: $TRIPTYCH_DATA and its subfolders volumes/ and
-// particles/.
+// Returns the folders that are searched for data files: $TRIPTYCH_DATA and its subfolders volumes/
+// and particles/.
 [[nodiscard]] std::vector<std::filesystem::path> data_folders();
 
-// The folder of the baselines: ./baselines if it exists, else those installed with the program,
-// else those of the source tree.
+// Returns the baselines folder: ./baselines if it exists, otherwise the folder installed with the
+// program, otherwise the folder in the source tree.
 [[nodiscard]] std::filesystem::path default_baselines();
 
 }  // namespace triptych::app

@@ -16,15 +16,15 @@ struct Registry {
   std::vector<std::unique_ptr<measure::Backend>> backends;
   std::vector<std::unique_ptr<measure::SuiteWithTruth>> suites;
 
-  // Both throw core::InputError with the known names.
+  // suite() and backend() throw core::InputError for an unknown name. The message lists the known
+  // names.
   [[nodiscard]] measure::SuiteWithTruth& suite(std::string_view name) const;
   [[nodiscard]] const measure::Backend& backend(std::string_view api) const;
   [[nodiscard]] measure::FindSuiteWithTruth find_suite() const;
-  // The devices of this machine, of those APIs in which any of the globs may match a device (all
-  // APIs if there are no globs). Opening the drivers of an API takes a quarter of a second.
+  // Lists the devices of this machine. With globs, only the APIs that may have a matching device
+  // are opened, because opening the drivers of an API takes a quarter of a second.
   [[nodiscard]] measure::Listing devices(const std::vector<std::string>& globs) const;
-  // The same devices, and those that only compile, which measure::list_compilers finds for the
-  // globs.
+  // Lists these devices, and also the devices that only compile (see measure::list_compilers).
   [[nodiscard]] measure::Listing devices_and_compilers(const std::vector<std::string>& globs) const;
 };
 

@@ -10,7 +10,7 @@
 namespace triptych::app {
 namespace {
 
-// Returns whether the line was not printed before.
+// Returns true if the line has not been printed before.
 bool is_new(const std::string& line) {
   static std::mutex mutex;
   static std::set<std::string> printed;
@@ -36,7 +36,7 @@ std::size_t columns() {
 void show_line(std::string_view text) {
   if (!watched()) return say("{}\n", text);
   clear_line();
-  // A line that wraps around could not be removed again.
+  // A line that wraps around could not be erased.
   const std::size_t room = columns();
   say("{}", core::printable(text, room > 1 ? room - 1 : 1));
 }

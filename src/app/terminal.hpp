@@ -1,6 +1,6 @@
 #pragma once
-// Output of commands on a terminal: answers go to stdout; progress, notes and errors go to stderr.
-// If stderr cannot be written, the run continues.
+// Terminal output of commands. Results go to stdout; progress, notes and errors go to stderr. If
+// stderr cannot be written, the run continues.
 
 #include <fmt/format.h>
 
@@ -16,9 +16,9 @@
 
 namespace triptych::app {
 
-// Names and messages may come from any source. They are printed so that a terminal shows them as
-// text, and very long ones are cut. Only the format contains characters that move the cursor or end
-// a line.
+// Names and messages may come from untrusted sources. Their control characters are escaped, and
+// very long strings are cut. Only the format string may contain characters that move the cursor or
+// end a line.
 template <typename Arg>
 auto shown(const Arg& arg) {
   if constexpr (std::convertible_to<const Arg&, std::string_view>) {
@@ -44,38 +44,37 @@ void say(fmt::format_string<Args...> format, Args&&... args) {
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
 }
 
-// The same on stdout.
+// Like say(), but prints to stdout.
 template <typename... Args>
 void put(fmt::format_string<Args...> format, Args&&... args) {
   const std::string text = shown_text(format, std::forward<Args>(args)...);
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stdout));
 }
 
-// For a text that already consists of lines: everything in it that a terminal would obey is printed
-// as an escape.
+// Prints text that already consists of lines. Control characters other than line ends are escaped.
 inline void put_lines(std::string_view text, std::FILE* to = stdout) {
   const std::string lines = core::printable_lines(text);
   static_cast<void>(std::fwrite(lines.data(), 1, lines.size(), to));
 }
 
-// Whether the output is shown by a terminal.
+// Whether stderr is a terminal.
 [[nodiscard]] bool watched();
-// The columns of that terminal; 0 without a terminal.
+// The width of that terminal in columns; 0 if stderr is not a terminal.
 [[nodiscard]] std::size_t columns();
-// On a terminal, removes the progress line that show_line() has printed.
+// On a terminal, erases the progress line that show_line() has printed.
 void clear_line();
 
-// Shows progress: one line that is rewritten on a terminal and cut to its width, and a line for
-// each step elsewhere.
+// Shows progress. On a terminal this is one line, cut to the terminal's width, that is overwritten
+// each time. Elsewhere, each call prints a line.
 void show_line(std::string_view text);
 template <typename... Args>
 void show(fmt::format_string<Args...> format, Args&&... args) {
   show_line(shown_text(format, std::forward<Args>(args)...));
 }
-// Reports something that had to be guessed about the data. A note is printed once, although each
-// process that reads the data sends it.
+// Reports a guess that was made about the data. Each note is printed only once, although every
+// process that reads the data reports it.
 void show_note(const measure::Loading& loading);
-// The line disappears when loading has ended.
+// Shows the progress of loading. The line disappears when loading has ended.
 void show_loading(const measure::Loading& loading);
 
 }  // namespace triptych::app

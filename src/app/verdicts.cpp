@@ -58,10 +58,10 @@ std::string page_about(const record::Store& store, measure::Truths& truths,
 }  // namespace
 
 void require_store(const std::filesystem::path& file) {
-  // An empty name is refused when the store is opened.
+  // An empty name is rejected when the store is opened.
   if (file.empty() || std::filesystem::exists(file)) return;
   throw core::NotSupported(
-      fmt::format("there is no store {}: measure first with `triptych run PLAN --store {}`",
+      fmt::format("the store {} does not exist: measure first with `triptych run PLAN --store {}`",
                   file.string(), core::shell_quoted(file.string())));
 }
 
@@ -84,7 +84,7 @@ std::string latest_run_of(const record::Store& store, const std::string& plan,
   const std::optional<record::Run> run = store.latest_run(name);
   if (run) return run->id;
   throw core::NotSupported(
-      fmt::format("{} has no run of {}: measure first with `triptych run {} --store {}`", file,
+      fmt::format("{} contains no run of {}: measure first with `triptych run {} --store {}`", file,
                   name, core::shell_quoted(plan), core::shell_quoted(file)));
 }
 
@@ -192,7 +192,8 @@ report::JunitFacts junit_facts(const record::Store& store,
   return facts;
 }
 
-// Writes annotations and the job summary, which a CI system does not read from the folder.
+// Writes the annotations and the job summary, because a CI system does not read these from the
+// folder.
 void tell_ci(const std::vector<judge::GateResult>& results, const report::FindingPlaces& places,
              CiSystem ci) {
   if (ci != CiSystem::github) return;

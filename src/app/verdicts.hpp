@@ -1,5 +1,5 @@
 #pragma once
-// Functions that all judging commands share.
+// Functions shared by all commands that judge.
 
 #include <string>
 #include <vector>
@@ -12,57 +12,60 @@
 
 namespace triptych::app {
 
-// Throws core::NotSupported with the command that measures if the store does not exist.
+// Throws core::NotSupported if the store does not exist. The message contains the command that
+// measures.
 void require_store(const std::filesystem::path& file);
 
-// Opens the store to judge its runs. It is opened for appending, so that reference images are saved
-// for the next time, or for reading if it is read-only. Throws NotSupported if it does not exist,
-// and any error that record::Store throws.
+// Opens the store to judge its runs. The store is opened for appending, so that reference images
+// can be saved for later, or read-only if it is not writable. Throws NotSupported if the store does
+// not exist, and any error that record::Store throws.
 [[nodiscard]] record::Store open_to_judge(const std::string& file);
 
-// The id of the plan's latest run. Throws NotSupported (nothing to judge) if there is none. `plan`
-// is a name or a YAML file as it was typed. `file` is the name of the store in the message.
+// Returns the id of the plan's latest run. Throws NotSupported if there is none. `plan` is a plan's
+// name or a YAML file, as typed by the user. `file` is the store's name for the message.
 [[nodiscard]] std::string latest_run_of(const record::Store& store, const std::string& plan,
                                         const std::string& file);
 
-// " --store FILE" for commands that are printed, if the store is not the default one.
+// Returns " --store FILE" for printed commands, or an empty string if the store is the default
+// store.
 [[nodiscard]] std::string store_option(const std::string& file);
 
-// Like judge::judge_run. If a library throws because of the store's content, the error names the
-// store.
+// Like judge::judge_run(), but if a library throws because of the store's content, the error names
+// the store.
 [[nodiscard]] judge::GateResult judge_named(const record::Store& store, const std::string& run,
                                             const std::string& baselines,
                                             const judge::GateRequest& request);
 
-// A request to judge a plan on all devices with every check of the plan, with these reference
-// images, as of today.
+// Returns a request to judge a plan on all devices with all of the plan's checks, with the
+// reference images in `truths` and with today's date.
 [[nodiscard]] judge::GateRequest request_of(measure::Truths& truths, const std::string& plan);
-// The same for the current version of a plan, with its configurations.
+// Returns the same request for the current version of a plan, including its configurations.
 [[nodiscard]] judge::GateRequest request_of(measure::Truths& truths, const measure::Plan& plan,
                                             const measure::Suite& suite);
 
-// Turns findings that could not be judged only because data files are missing into skips, for
-// machines that are meant to lack these files. A failure of a device is never excused.
+// Turns a finding that could not be judged into a skip if the only reason is a missing data file.
+// This is for machines that lack data files on purpose. A device failure is never excused.
 void excuse_absent_data(const record::Store& store, judge::GateResult& result);
 
-// The files to which a verdict is written; empty: not written.
+// The files to which a verdict is written. A file whose name is empty is not written.
 struct VerdictFiles {
   std::string folder;  // files for a CI system: see report/ci/folder.hpp
   std::string junit;
   std::string markdown;
-  std::string json;       // "-": printed instead of the last screen
+  std::string json;       // "-": print JSON instead of the last screen
   std::string baselines;  // the folder of the baselines that were used
   CiSystem ci = CiSystem::none;
 };
 
 // Writes the files and the output for the CI system, and prints the last screen, which lists the
-// files in the folder. `seconds` is the total time. Returns the exit code over all results.
+// files in the folder. `seconds` is the total time of the command. Returns the exit code for all
+// results.
 core::ExitCode tell_verdict(const record::Store& store, measure::Truths& truths,
                             const std::vector<judge::GateResult>& results, double seconds,
                             const VerdictFiles& files);
 
-// The HTML page about the latest run of each plan in a store, judged by all checks of the plan. The
-// store must contain a run.
+// Returns the HTML page about the latest run of each plan in the store, judged with all checks of
+// the plan. The store must contain a run.
 [[nodiscard]] std::string page_of(const record::Store& store, measure::Truths& truths,
                                   const std::string& baselines);
 

@@ -113,7 +113,7 @@ TEST_F(Compare, TheGateJudgesByABase) {
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM), 0, "PASS");
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --inject crash"), 1, "b crashed");
   expect_verdict(gate("--base nothing"), 3,
-                 "--base nothing: is neither an executable program nor NAME=VALUE");
+                 "--base nothing: expected an executable program or NAME=VALUE");
   expect_verdict(gate("--base /bin/true"), 3, "--base /bin/true: is not a build of triptych");
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --measure"), 3, "excludes");
   expect_verdict(gate("--bisect --base " TRIPTYCH_PROGRAM " --measure"), 125, "excludes");

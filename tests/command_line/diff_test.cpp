@@ -91,7 +91,7 @@ TEST_F(Diff, DevicesThatAreNotAskedForAreLeftOut) {
   const Result result = diff("--device 'gl:*'");
   EXPECT_EQ(result.code, 2) << result.output;
   EXPECT_EQ(result.output,
-            "triptych: neither old.sqlite nor new.sqlite has a run of such a device\n");
+            "triptych: neither old.sqlite nor new.sqlite contains a run on a matching device\n");
 }
 
 TEST_F(Diff, AStoreThatIsNotThereIsNamed) {

@@ -106,7 +106,7 @@ TEST_F(Installed, AcceptsIntoTheWorkingDirectoryAndNowhereElse) {
   EXPECT_EQ(accepted.code, 0) << accepted.output;
   EXPECT_THAT(
       accepted.output,
-      HasSubstr("baselines was created: all values that were not accepted now are copies of " +
+      HasSubstr("baselines was created; all values that were not just accepted are copied from " +
                 installed.string()));
   EXPECT_TRUE(tree(installed) == before);
   auto own = tree(folder.path() / "repository/baselines");

@@ -75,11 +75,13 @@ TEST_F(MergeCommand, NamesWhatItsPartsLack) {
   EXPECT_EQ(merged.code, 0) << merged.output;
   EXPECT_THAT(
       merged.output,
-      AllOf(HasSubstr(" in m.sqlite: 8 configurations\n"),
-            testing::ContainsRegex("\n2.sqlite: .* on null:scripted: 2 of 3 configurations.*"
-                                   "\n2.sqlite: .* on null:scripted#2: 2 of 3 config"),
-            HasSubstr("\nThese records are missing in m.sqlite unless another store has them"),
-            Not(HasSubstr("\n1.sqlite")), Not(HasSubstr("\n3.sqlite"))));
+      AllOf(
+          HasSubstr(" in m.sqlite: 8 configurations\n"),
+          testing::ContainsRegex("\n2.sqlite: .* on null:scripted: 2 of 3 configurations.*"
+                                 "\n2.sqlite: .* on null:scripted#2: 2 of 3 config"),
+          HasSubstr(
+              "\nThese records are also missing from m.sqlite unless another store contains them"),
+          Not(HasSubstr("\n1.sqlite")), Not(HasSubstr("\n3.sqlite"))));
   fs::remove(program.folder() / "m.sqlite");
   EXPECT_THAT(run("merge 1.sqlite 3.sqlite --out m.sqlite").output, Not(HasSubstr("lack")));
 }
@@ -108,7 +110,7 @@ TEST_F(MergeCommand, CheckNamesWhatIsNotComplete) {
   ASSERT_EQ(run("run volume/quick --device 'null:*' --store 5.sqlite --shard 90/90").code, 2);
   const Result checked = run("merge --check 4.sqlite 5.sqlite --plan p.yaml --plan volume/quick");
   EXPECT_EQ(checked.code, 2);
-  EXPECT_EQ(checked.output, "4.sqlite: volume/quick: not begun\n");
+  EXPECT_EQ(checked.output, "4.sqlite: volume/quick: no run of this plan\n");
   EXPECT_THAT(run("merge --check none.sqlite").output, HasSubstr("there is no such file"));
 }
 

@@ -145,7 +145,7 @@ TEST_F(OnlyCompile, TheGateJudgesNoDriverWithoutStoredCode) {
       absent_device;
   const Result result = program.run(gate);
   EXPECT_EQ(result.code, 2) << result.output;
-  EXPECT_NE(result.output.find("no plan is left to judge"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("there is nothing to judge"), std::string::npos) << result.output;
 }
 
 }  // namespace

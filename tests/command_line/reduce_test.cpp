@@ -98,7 +98,7 @@ TEST(Reduce, WhatDoesNotFailPasses) {
       program.run(std::string("reduce volume --out r --set step=0.5 ") + tiny, script);
   EXPECT_EQ(result.code, 0) << result.output;
   EXPECT_EQ(result.output,
-            "the frame does not fail on null:scripted: there is nothing to make smaller\n");
+            "the frame does not fail on null:scripted, so there is nothing to reduce\n");
 }
 
 TEST(Reduce, TheLimitOfFramesIsTold) {
@@ -106,7 +106,7 @@ TEST(Reduce, TheLimitOfFramesIsTold) {
   const Result result = program.run(scene + "--frames 1", failing("crash", "none"));
   EXPECT_EQ(result.code, 1) << result.output;
   EXPECT_THAT(result.output, HasSubstr("1 frames drawn; "));
-  EXPECT_THAT(result.output, HasSubstr("the search ended at its limit of frames"));
+  EXPECT_THAT(result.output, HasSubstr("the search stopped when it reached the limit on frames"));
 }
 
 TEST(Reduce, WhatCannotBeDrawnCannotBeReduced) {

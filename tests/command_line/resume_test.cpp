@@ -64,7 +64,8 @@ kill -INT $!; wait $!; code=$?; cat out; exit $code
 TEST_F(Resume, AValidationGoesOn) {
   const auto first_told = [&](const std::string& options) {
     const Result ended = validate_one(program, options);
-    EXPECT_THAT(ended.output, HasSubstr("the records so far are in the store; --resume continues"));
+    EXPECT_THAT(ended.output,
+                HasSubstr("the records so far are in the store; use --resume to continue"));
     const std::string from = ended.output.substr(ended.output.find("null:scripted "));
     return from.substr(0, from.find(": "));
   };
@@ -118,7 +119,7 @@ TEST_F(Resume, APlanIsGivenOnce) {
        {"one/p.yaml one/p.yaml", "one/p.yaml other/p.yaml --resume", "volume/quick volume/quick"}) {
     const Result result = run(plans);
     EXPECT_EQ(result.code, 3) << result.output;
-    EXPECT_THAT(result.output, HasSubstr("two plans are called"));
+    EXPECT_THAT(result.output, HasSubstr("two plans are named"));
   }
 }
 

@@ -80,7 +80,7 @@ TEST(Usage, ASuiteHasNothingToOverride) {
   const Program program;
   for (const char* choice : {"--set nonsense=1", "--shard 9/2", "--filter x"}) {
     expect_refused(program.run(std::string("list volume ") + choice), 3,
-                   "volume is a suite: options that choose configurations need a plan");
+                   "volume is a suite, but options that select configurations need a plan");
   }
 }
 
@@ -123,7 +123,7 @@ TEST(Usage, AnInterruptOffersAResumeWhereThereIsOne) {
   expect_refused(program.run("render volume " + hang + " --out picture", script, interrupted), 124,
                  "triptych: interrupted\n");
   const Result run = program.run("run volume/quick " + hang, script, interrupted);
-  EXPECT_NE(run.output.find("interrupted; the records so far are in the store; --resume continues"),
+  EXPECT_NE(run.output.find("interrupted; the records so far are in the store; use --resume to continue"),
             std::string::npos)
       << run.output;
 }
@@ -145,7 +145,7 @@ TEST(Usage, AStoreThatIsNoStore) {
   const Program program;
   program.write("text.sqlite", "this is no database, however long one looks at it");
   expect_refused(program.run("gate volume/quick --store text.sqlite"), 3, "text.sqlite");
-  expect_refused(program.run("gate volume/quick --store none.sqlite"), 2, "there is no store");
+  expect_refused(program.run("gate volume/quick --store none.sqlite"), 2, "the store none.sqlite does not exist");
   expect_refused(program.run("gate volume/quick --store none.sqlite --check colour"), 3,
                  "unknown check 'colour'");
 }

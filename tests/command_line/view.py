@@ -155,7 +155,7 @@ class Mistakes(unittest.TestCase):
     def test_what_is_unknown_is_named(self):
         self.refused(["clouds"], 3, "unknown suite 'clouds'", "volume")
         self.refused(["volume", "--set", "stepp=1"], 3, "did you mean 'step'?")
-        self.refused(["volume", "--set", "step=1,2"], 3, "one value")
+        self.refused(["volume", "--set", "step=1,2"], 3, "one level")
         self.refused(["volume", "--set", "technique=auto"], 3, "auto")
         self.refused(["volume", "--set", "camera=view:0/91/1"], 3, "elevation")
         self.refused(["volume", "--inject", "rust"], 3, "rust")
