@@ -17,15 +17,16 @@
 namespace triptych::scene {
 namespace {
 
-// The radius and colour of one element or type.
+// The appearance of one element or type.
 struct Look {
   double radius = 0;
   Rgb rgb{};
   double intensity = 0;
 };
 
-// The rank of each kind, which does not depend on the order in the file: elements are sorted by
-// atomic number, types by number, and all others follow, sorted by name.
+// Returns the rank of each kind. Ranks do not depend on the order of the kinds in the file:
+// elements are sorted by atomic number, numbered types by number, and all other kinds follow,
+// sorted by name.
 std::vector<std::size_t> ranks_of(const Atoms& atoms) {
   const auto key = [&atoms](std::size_t kind) {
     const std::string& name = atoms.kind_names[kind];
@@ -40,7 +41,8 @@ std::vector<std::size_t> ranks_of(const Atoms& atoms) {
   return ranks;
 }
 
-// Half the median distance to the nearest neighbour; ½ if all atoms are at the same position.
+// Returns half the median distance between nearest neighbours, or ½ if all atoms are at the same
+// position.
 double radius_without_elements(const Atoms& atoms) {
   constexpr double lonely_radius = 0.5;
   const auto distance = median_nearest_distance(atoms.places);
@@ -48,7 +50,7 @@ double radius_without_elements(const Atoms& atoms) {
 }
 
 std::vector<Look> looks_of(const Atoms& atoms) {
-  constexpr double golden_ratio = 0.6180339887498949;  // neighbours get hues far apart
+  constexpr double golden_ratio = 0.6180339887498949;  // gives successive ranks very different hues
   const std::vector<std::size_t> ranks = ranks_of(atoms);
   const bool radius_by_type = !atoms.elements && atoms.radii.empty();
   const double type_radius = radius_by_type ? radius_without_elements(atoms) : 0;
@@ -66,7 +68,7 @@ std::vector<Look> looks_of(const Atoms& atoms) {
   return looks;
 }
 
-// The atoms' indices in ascending order of their numbers.
+// Returns the atoms' indices, sorted by the atoms' numbers. Rejects a number that appears twice.
 std::vector<std::uint32_t> sorted_by_number(const Atoms& atoms, const LineReader& reader,
                                             int first_line) {
   std::vector<std::uint32_t> sorted(atoms.places.size());
@@ -84,7 +86,7 @@ std::vector<std::uint32_t> sorted_by_number(const Atoms& atoms, const LineReader
   return sorted;
 }
 
-// The number of atoms of each kind, in the order of the ranks.
+// Returns the number of atoms of each kind, in the order of the ranks.
 std::vector<ReadFacts::Kind> counted_kinds(const Atoms& atoms) {
   const std::vector<std::size_t> ranks = ranks_of(atoms);
   std::vector<ReadFacts::Kind> kinds(ranks.size());
@@ -95,7 +97,8 @@ std::vector<ReadFacts::Kind> counted_kinds(const Atoms& atoms) {
   return kinds;
 }
 
-// "3 of Xx, 1 of Qq"; empty if every kind is an element.
+// Returns a list such as "3 of 'Xx', 1 of 'Qq'" of the kinds that are not elements. The list is
+// empty if every kind is an element.
 std::string without_element(const std::vector<ReadFacts::Kind>& kinds) {
   std::string list;
   for (const auto& [name, count] : kinds) {
@@ -114,8 +117,8 @@ ReadFacts facts_of(Atoms& atoms) {
   if (!atoms.elements || !atoms.radii.empty()) return facts;
   if (const std::string list = without_element(facts.kinds); !list.empty()) {
     facts.notes.push_back(fmt::format(
-        "{}: these kinds are not chemical elements, so they are drawn with a radius of 2 Å "
-        "and with colours that do not depend on an element",
+        "{}: these kinds are not chemical elements, so their atoms are drawn with a radius of 2 Å "
+        "and with arbitrary colours",
         list));
   }
   return facts;

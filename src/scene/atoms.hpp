@@ -13,27 +13,27 @@
 
 namespace triptych::scene {
 
-// The data that all text formats have in common: positions, and an element or a type for each atom,
-// which determines its radius and colour. `places` and `kinds` have one entry per particle, in the
-// order of the file.
+// The atoms that a reader of a text format has read: the position of each atom, and its element or
+// type, which determines its radius and colour. `places` and `kinds` have one entry per atom, in
+// file order.
 struct Atoms {
   std::vector<std::array<double, 3>> places;  // in the file's unit
   std::vector<std::uint32_t> kinds;           // indices into kind_names
   std::vector<std::string> kind_names;
-  std::vector<double> radii;        // from the file, one per particle, or empty
-  std::vector<std::int64_t> order;  // numbers from the file, one per particle, or empty
-  bool elements = true;             // whether kinds are elements; otherwise they are types
+  std::vector<double> radii;        // one per atom if the file states radii, otherwise empty
+  std::vector<std::int64_t> order;  // one number per atom if the file states them, otherwise empty
+  bool elements = true;             // true: the kinds are elements; false: they are numbered types
   double angstrom = 1;              // the length of an ångström in the file's unit
-  std::vector<std::string> notes;   // guesses that were made (ReadFacts::notes)
+  std::vector<std::string> notes;   // what the reader had to guess (see ReadFacts::notes)
 
-  // Returns the index of the kind with this name, and adds the kind if it is new.
+  // Returns the index of the kind with this name. Adds the kind if it is new.
   [[nodiscard]] std::uint32_t kind(std::string_view name);
   void add(const std::array<double, 3>& place, std::uint32_t kind_index) {
     places.push_back(place);
     kinds.push_back(kind_index);
   }
 
-  // Replaces the names of the kinds; `kinds` must index them already.
+  // Takes over the kind names of `other`. `kinds` must already contain indices into these names.
   void take_names(Atoms&& other) {
     kind_names = std::move(other.kind_names);
     index_ = std::move(other.index_);
@@ -43,10 +43,11 @@ struct Atoms {
   std::map<std::string, std::uint32_t, std::less<>> index_;
 };
 
-// Converts to spheres, with radii and colours as load_particles documents them. If there is an
-// `order`, the spheres are sorted by it and ids are ranks in it, so that they are the same in each
-// frame of a trajectory. Throws InputError for a number that appears twice; `first_line` is the
-// line of the first atom in the file, which has one atom on each line.
+// Converts the atoms to spheres. Radii and colours are documented at load_particles(). If `order`
+// is not empty, the spheres are sorted by it and their ids are their ranks, so that an atom has the
+// same id in every frame of a trajectory. Throws InputError for a number that appears twice. The
+// error names the line of the atom, assuming one atom per line and the first atom in line
+// `first_line`.
 [[nodiscard]] ParticleSet to_particles(Atoms atoms, ColourKind colour, const LineReader& reader,
                                        int first_line = 0);
 

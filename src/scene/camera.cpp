@@ -27,13 +27,14 @@ constexpr std::array<std::string_view, 16> paths{
     "diagonal_xyz", "diagonal_-xyz", "diagonal_x-yz", "diagonal_xy-z", "path_x",   "path_y",
     "path_z",       "path_sin_x",    "path_sin_y",    "path_sin_z"};
 
-// The box around which all camera paths are laid out.
+// The box around which all camera paths are laid out, and the quantities that the paths are derived
+// from.
 struct Stage {
   dvec3 centre;
   dvec3 size;
   double largest = 0;
   double tangent = 0;   // the tangent of half the field of view
-  double distance = 0;  // distance at which the largest extent exactly fills the view
+  double distance = 0;  // the distance at which the largest extent exactly fills the view
 
   Stage(const Box& box, double fov_y_deg)
       : centre(0.5 * (box.lo + box.hi)),
@@ -53,8 +54,8 @@ dvec3 unit(const dvec3& v) {
   return v / std::sqrt(glm::dot(v, v));
 }
 
-// The unit vector orthogonal to `forward` that is nearest to +y. If the view is (nearly) along y,
-// it points to the side that an orbit about x would have up at that position.
+// Returns the unit vector orthogonal to `forward` that is closest to +y. If the view is (nearly)
+// along y, returns the up vector that a camera on orbit_x would have at that position.
 dvec3 upright(const dvec3& forward) {
   const bool steep = std::abs(forward.y) > 0.999;
   const dvec3 wish = steep ? dvec3(0, 0, forward.y < 0 ? -1 : 1) : dvec3(0, 1, 0);
@@ -139,7 +140,7 @@ Pose random_pose(const Stage& stage, core::Random& random) {
   return pose;
 }
 
-// The share of the box's 8×8×8 cell centres that lie inside a square frustum.
+// Returns the fraction of the centres of the box's 8×8×8 cells that lie inside the square frustum.
 double coverage(const Stage& stage, const Pose& pose) {
   constexpr int cells = 8;
   const dvec3 right = glm::cross(pose.forward, pose.up);
@@ -157,8 +158,8 @@ double coverage(const Stage& stage, const Pose& pose) {
 }
 
 Pose random_view(const Stage& stage, std::uint64_t seed) {
-  // This ends soon for any box, because a camera farther away than L/2 + D has most of the box in
-  // view.
+  // This loop ends soon for any box, because a camera farther away than L/2 + D sees most of the
+  // box.
   core::Random random(seed);
   Pose pose = random_pose(stage, random);
   while (coverage(stage, pose) < random_view_coverage) pose = random_pose(stage, random);
@@ -169,7 +170,7 @@ Pose random_view(const Stage& stage, std::uint64_t seed) {
   throw core::InputError(fmt::format("camera '{}': expected {}", spec, expected));
 }
 
-// Parses λ from the text "i/n".
+// Parses "i/n", and returns λ = i/n.
 double parse_lambda(std::string_view spec, std::string_view text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string_view::npos) reject(spec, "PATH:i/n");
@@ -223,8 +224,8 @@ Pose pose_of(std::string_view spec, const Stage& stage) {
   return on_path(stage, path, parse_lambda(spec, rest));
 }
 
-// Sets near and far from the depths of the box's corners, widened by one per cent. near is at least
-// a thousandth of the diagonal.
+// Sets the near and far planes to the range of the corners' depths, widened by one per cent. The
+// near plane is at least a thousandth of the box's diagonal away from the eye.
 void set_depth_range(Camera& camera, const Box& box) {
   double nearest = std::numeric_limits<double>::infinity();
   double farthest = -nearest;
@@ -243,15 +244,16 @@ void set_depth_range(Camera& camera, const Box& box) {
 
 void require_usable(const Box& box, double fov_y_deg) {
   if (!(fov_y_deg > 0 && fov_y_deg < 180)) {
-    throw core::InputError(
-        fmt::format("a field of view of {} degrees; expected between 0 and 180", fov_y_deg));
+    throw core::InputError(fmt::format(
+        "the field of view is {} degrees; expected an angle between 0 and 180 degrees", fov_y_deg));
   }
   for (glm::length_t axis = 0; axis < 3; ++axis) {
     const double extent = box.hi[axis] - box.lo[axis];
     if (!(extent > 0 && std::isfinite(extent))) {
-      throw core::InputError(fmt::format(
-          "a camera needs data with a positive, finite extent, but the extent is {} along {}",
-          extent, "xyz"[axis]));
+      throw core::InputError(
+          fmt::format("a camera needs data with a positive, finite extent, but the extent is {} "
+                      "along the {} axis",
+                      extent, "xyz"[axis]));
     }
   }
 }
@@ -289,7 +291,7 @@ Camera camera_at(std::string_view spec, const Box& box, double fov_y_deg) {
   require_usable(box, fov_y_deg);
   const Pose pose = pose_of(spec, Stage(box, fov_y_deg));
   Camera camera;
-  // Adding zero turns −0 into 0.
+  // Adding zero turns -0 into +0.
   camera.eye = pose.eye + 0.0;
   camera.forward = pose.forward + 0.0;
   camera.up = pose.up + 0.0;

@@ -6,9 +6,10 @@
 
 namespace triptych::scene {
 
-// A pinhole camera in world units, right-handed, y up. Pixel (x, y) of a w×h image, top row first,
-// looks along   forward + (2(x+½)/w − 1)·aspect·tan(fov/2)·right + (1 − 2(y+½)/h)·tan(fov/2)·up,
-// with right = forward × up and aspect = w/h. forward, up and right are unit and orthogonal.
+// A pinhole camera in a right-handed world space with y up. The ray of pixel (x, y) in a w×h image
+// (top row first) has the direction
+//   forward + (2(x+½)/w − 1)·aspect·tan(fov/2)·right + (1 − 2(y+½)/h)·tan(fov/2)·up
+// with right = forward × up and aspect = w/h. forward, up and right are orthogonal unit vectors.
 struct Camera {
   glm::dvec3 eye{0, 0, 0};
   glm::dvec3 forward{0, 0, -1};
@@ -18,15 +19,15 @@ struct Camera {
   double far = 1000;
 
   [[nodiscard]] glm::dvec3 right() const;
-  // Unit direction of the ray through the centre of pixel (x, y).
+  // Returns the unit direction of the ray through the centre of pixel (x, y).
   [[nodiscard]] glm::dvec3 ray_direction(int x, int y, int width, int height) const;
 };
 
-// tan(fov/2) with the same bits on every machine; std::tan may differ between C libraries.
+// Returns tan(fov/2), bit-identical on every machine. std::tan may differ between C libraries.
 [[nodiscard]] double tangent_of_half(double fov_y_deg);
 
-// A camera at `eye` that looks at `target`, with its up vector as close to +y as possible. The view
-// direction must not be parallel to y.
+// Returns a camera at `eye` that looks at `target`, with its up vector as close to +y as possible.
+// The view direction must not be parallel to y.
 [[nodiscard]] Camera looking(const glm::dvec3& eye, const glm::dvec3& target, double fov_y_deg);
 
 struct Box {
@@ -34,25 +35,26 @@ struct Box {
   glm::dvec3 hi{1, 1, 1};
 };
 
-// The `camera` factor: "PATH:i/n", 0 ≤ i < n, λ = i/n; "random:SEED"; or "view:…" (free_view.hpp).
-// With c the box's centre, s its size, L its largest extent and D = (L/2)/tan(fov/2):
+// Returns the camera that a value of the `camera` factor describes: "PATH:i/n" with 0 ≤ i < n and λ
+// = i/n, "random:SEED", or "view:…" (free_view.hpp). Let c be the box's centre, s its size, L its
+// largest extent, and D = (L/2)/tan(fov/2). The paths are:
 // clang-format off
-//   orbit_x|y|z      a circle of radius L/2 + D about that axis, at the angle 2πλ, looking at c;
-//   orbit_-x|-y|-z   the same the other way round. x and y start on the +z side, z on the +x side, all
-//                    with +y up; the up vector turns with the camera, so that it is never along the view.
-//   diagonal_xyz     along that diagonal of the box (a minus reverses an axis), from half its length + D
-//   diagonal_-xyz    before c straight towards c, reached at λ = 1.
+//   orbit_x|y|z      a circle of radius L/2 + D about that axis, at the angle 2πλ, looking at c
+//   orbit_-x|-y|-z   the same circle in the opposite direction. The orbits about x and y start on the +z side, those about z on
+//                    the +x side, all with +y up. The up vector turns with the camera, so it is never parallel to the view.
+//   diagonal_xyz     along that diagonal of the box (a minus sign reverses the axis after it). The camera starts at half the
+//   diagonal_-xyz    diagonal's length plus D before c, moves straight towards c, and reaches it at λ = 1.
 //   diagonal_x-yz, diagonal_xy-z
-//   path_x|y|z       along the axis towards its lower end, from half the extent + D beyond c to c at
-//                    λ = 1, looking ahead.
-//   path_sin_x|y|z   the same, displaced along z, x, x by ¼ of the extent there times sin 2πλ.
-//   random:SEED      a random direction, roll, distance (0.3…1.2 of L/2 + D) and target (in the middle
-//                    half of the box), drawn again until at least `random_view_coverage` of the centres
-//                    of the box's 8×8×8 cells lie inside a frustum of aspect 1.
+//   path_x|y|z       along the axis towards its lower end, looking ahead. The camera starts at half the extent plus D
+//                    from c and reaches c at λ = 1.
+//   path_sin_x|y|z   the same path, displaced along z, x or x, respectively, by ¼ of the box's extent there times sin 2πλ
+//   random:SEED      a random direction, roll, distance (0.3…1.2 times L/2 + D) and target (in the middle half of the box).
+//                    They are drawn again until at least the fraction `random_view_coverage` of the centres of the box's 8×8×8
+//                    cells lies inside a frustum of aspect ratio 1.
 // clang-format on
-// near and far enclose the part of the box that lies in front of the eye. Equal arguments give
-// equal bits on every machine. Throws InputError for any other spec, a field of view outside (0,
-// 180)° or a box without extent.
+// The near and far planes enclose the part of the box in front of the eye. Equal arguments give
+// bit-identical cameras on every machine. Throws InputError for any other `spec`, for a field of
+// view outside (0, 180)°, and for a box without extent.
 [[nodiscard]] Camera camera_at(std::string_view spec, const Box& box, double fov_y_deg);
 inline constexpr double random_view_coverage = 0.3;
 [[nodiscard]] std::array<std::string_view, 16> camera_paths();

@@ -32,7 +32,8 @@ constexpr std::array<Magic, 5> foreign{{{"\xFD"
                                         {"7z\xBC\xAF", "7-Zip", "7z x"},
                                         {"\x1F\x9D", "compress", "uncompress"}}};
 
-// Like Inflater, for bzip2: one stream, or several one after the other.
+// Decompresses bzip2 data, with the same interface as Inflater. The data may consist of several
+// concatenated streams.
 class Bunzipper {
  public:
   Bunzipper(ByteSource source, std::string name)
@@ -90,7 +91,7 @@ class Bunzipper {
     if (code == BZ_STREAM_END) {
       ended_ = true;
     } else if (code != BZ_OK) {
-      reject(code == BZ_DATA_ERROR_MAGIC ? "no bzip2 header" : "the data are damaged");
+      reject(code == BZ_DATA_ERROR_MAGIC ? "the bzip2 header is missing" : "the data are damaged");
     }
   }
 
@@ -143,7 +144,7 @@ ByteSource file_bytes(const std::filesystem::path& file, std::uint64_t start) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   const std::string name = file.string();
-  if (!*in || error) throw core::IoError(name + ": cannot be read");
+  if (!*in || error) throw core::IoError(name + ": the file cannot be read");
   in->seekg(static_cast<std::streamoff>(std::min<std::uintmax_t>(start, size)));
   return [in, name](std::span<std::byte> out) {
     in->read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(out.size()));

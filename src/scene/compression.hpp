@@ -1,6 +1,6 @@
 #pragma once
-// Files that are compressed as a whole. They are recognized by their first bytes, whatever their
-// names are.
+// Reading of files that are compressed as a whole. Compression is recognized by a file's first
+// bytes, regardless of its name.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,28 +14,30 @@ namespace triptych::scene {
 
 enum class Packing : std::uint8_t { none, gzip, bzip2 };
 
-// Determines the compression from the first bytes of a file. Throws InputError for a compression
-// that is not supported, with the command that unpacks it.
+// Determines the compression from the first bytes of a file. Throws InputError for an unsupported
+// compression. The message contains a command that decompresses the file.
 [[nodiscard]] Packing packing_of(std::span<const std::byte> start, const std::string& file);
 [[nodiscard]] std::string_view name_of(Packing packing);
 
-// The unpacked content of `source`. Reading it throws InputError if the stream is broken.
+// Returns the decompressed content of `source`. Reading it throws InputError if the stream is
+// damaged.
 [[nodiscard]] ByteSource unpacked(ByteSource source, Packing packing, const std::string& file);
 
-// The bytes of a file from `start` on, without unpacking. Throws IoError.
+// Returns the file's bytes from offset `start`, without decompressing them. Throws IoError.
 [[nodiscard]] ByteSource file_bytes(const std::filesystem::path& file, std::uint64_t start = 0);
 
-// The compression of the whole file, judged by its first bytes; `none` if it is not compressed.
+// Returns the compression of a file, judged by its first bytes, or `none` if the file is not
+// compressed.
 [[nodiscard]] Packing packing_of_file(const std::filesystem::path& file);
 
-// The content of a file, unpacked if it is compressed.
+// Returns the content of a file, decompressed if necessary.
 [[nodiscard]] ByteSource content_bytes(const std::filesystem::path& file);
 
-// Up to `most` bytes of a file's content, unpacked, from its beginning.
+// Returns up to `most` bytes from the beginning of a file's decompressed content.
 [[nodiscard]] std::string content_start(const std::filesystem::path& file, std::size_t most);
 
-// Reads and discards `count` bytes, or all remaining ones if there are fewer. Returns the number of
-// discarded bytes.
+// Reads and discards `count` bytes, or all remaining bytes if there are fewer. Returns the number
+// of discarded bytes.
 std::uint64_t skip_bytes(const ByteSource& source, std::uint64_t count);
 
 }  // namespace triptych::scene

@@ -40,7 +40,7 @@ class Description {
   [[nodiscard]] const Entry& require(const std::string& key, std::string_view spelling) const {
     const Entry* entry = find(key);
     if (entry == nullptr) {
-      throw core::InputError({.file = file_}, fmt::format("has no line '{}: …'", spelling));
+      throw core::InputError({.file = file_}, fmt::format("the line '{}: …' is missing", spelling));
     }
     return *entry;
   }
@@ -104,7 +104,7 @@ const Entry* endianness_in(const Description& description) {
   const Entry* right = description.find("endianness");
   const Entry* wrong = description.find("endianess");
   if (right != nullptr && wrong != nullptr) {
-    throw core::InputError(wrong->place, "the byte order is given twice");
+    throw core::InputError(wrong->place, "the byte order is stated twice");
   }
   return right != nullptr ? right : wrong;
 }

@@ -13,11 +13,11 @@
 namespace triptych::scene {
 namespace {
 
-// A picture made of characters, from blank to dense. A character is about twice as high as it is
+// An image made of characters, from blank to dense. A character is about twice as high as it is
 // wide.
 class SmallPicture {
  public:
-  // The picture has no more columns and rows than the grid, so that no cell remains empty.
+  // The image has at most as many columns and rows as the grid, so that no cell remains empty.
   SmallPicture(double width, double height, std::size_t most_columns, std::size_t most_rows) {
     constexpr double longest = 56;
     const double scale = longest / std::max({width, height, std::numeric_limits<double>::min()});
@@ -28,7 +28,8 @@ class SmallPicture {
     cells_.assign(columns_ * rows_, 0);
   }
 
-  // The cell at a position in the picture, given as shares of its width and height, with y up.
+  // Returns the cell at a position in the image. The position is given as fractions of the image's
+  // width and height, with y up.
   [[nodiscard]] double& at(double x, double y) {
     const auto place = [](double share, std::size_t count) {
       const double cell = std::clamp(share, 0.0, 1.0) * static_cast<double>(count);
@@ -66,8 +67,8 @@ std::string unit_text(const ReadFacts& facts) {
   return facts.unit.empty() ? " (the file states no unit)" : " " + facts.unit;
 }
 
-// A histogram with bins of equal width: exact for integers with at most 65536 different values,
-// otherwise with a bin width of 1/65535 of the range.
+// A histogram with bins of equal width. It is exact for integers whose range is at most 65535.
+// Otherwise a bin is 1/65535 of the range wide.
 struct Histogram {
   double step = 0;
   std::vector<std::uint64_t> counts = std::vector<std::uint64_t>(65536);
@@ -169,7 +170,7 @@ std::vector<std::string> summary_of(const Volume& volume) {
   lines.push_back(fmt::format("range: {:.9g} to {:.9g}{}", volume.range_lo, volume.range_hi,
                               histogram.other == 0
                                   ? ""
-                                  : fmt::format(", and {} values that are not finite",
+                                  : fmt::format(", plus {} values that are not finite",
                                                 histogram.other)));
   std::string percentiles = "percentiles:";
   for (const double percent : {1.0, 25.0, 50.0, 75.0, 99.0}) {
@@ -194,7 +195,7 @@ std::vector<std::string> summary_of(const ParticleSet& set) {
       set.dropped == 0
           ? ""
           : fmt::format(
-                ", and {} that were dropped, because their position or radius cannot be drawn",
+                ", plus {} dropped ones whose position or radius cannot be drawn",
                 set.dropped)));
   if (!facts.kinds.empty()) {
     std::string kinds = facts.elements ? "elements:" : "types:";

@@ -9,12 +9,13 @@
 
 namespace triptych::scene {
 
-// Lines of text: format, sizes, spacing and extent with their unit, orientation, range and
-// percentiles of the values, a small picture (the largest value along z), and the reader's notes.
+// Returns lines that describe a volume: format, size, spacing and extent with their unit,
+// orientation, range and percentiles of the values, a small image (the largest value along z), and
+// the reader's notes.
 [[nodiscard]] std::vector<std::string> summary_of(const Volume& volume);
 
-// Lines of text: format, counts by element or type, extent, radii, a small picture (the number of
-// centres along z), and the reader's notes.
+// Returns lines that describe a particle set: format, counts by element or type, extent, radii, a
+// small image (the number of centres along z), and the reader's notes.
 [[nodiscard]] std::vector<std::string> summary_of(const ParticleSet& set);
 
 }  // namespace triptych::scene

@@ -1,7 +1,7 @@
 #pragma once
 // Some processors need about a hundred cycles for each operation on a denormal float, and others
-// treat it as 0. Therefore denormals are set to 0 before data are sent to a device, which changes
-// every value by less than 2⁻¹²⁶.
+// treat denormals as 0. Therefore denormals are set to 0 before data are sent to a device. This
+// changes each value by less than 2⁻¹²⁶.
 
 #include <cmath>
 #include <limits>

@@ -18,8 +18,8 @@ namespace {
 
 using Names = std::set<std::string, std::less<>>;
 
-// Residues that contain only the elements H, C, N, O, P and S: the PDB's standard residues, and
-// those of the force fields AMBER, CHARMM, GROMOS and OPLS in the spelling of their programs.
+// Residues that contain only the elements H, C, N, O, P and S: the PDB's standard residues, and the
+// residues of the force fields AMBER, CHARMM, GROMOS and OPLS as their programs spell them.
 constexpr std::string_view organic_residues =
     // amino acids, their protonation states and caps
     "ALA ARG ASN ASP CYS GLN GLU GLY HIS ILE LEU LYS MET PHE PRO SER THR TRP TYR VAL ASX GLX PYL "
@@ -42,7 +42,7 @@ constexpr std::string_view organic_residues =
 constexpr std::string_view hemes = "HEM HEC HEA HEB HEO HAS HDD HEME HEMA";
 constexpr std::string_view chlorophylls = "CLA CHL BCL BCB PHO";
 
-// Names of ions that differ from the element's symbol.
+// Ion names that differ from the element's symbol.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 18> ion_names{
     {{"SOD", "Na"},
      {"CLA", "Cl"},
@@ -63,9 +63,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 18> ion_name
      {"IP", "Na"},
      {"BRO", "Br"}}};
 
-// Two-letter symbols that begin like an organic element but cannot be the name of a carbon,
-// nitrogen or other organic atom, because such a name continues with a Greek letter (A, B, G, D, E,
-// Z, H) or with the letter of a bound atom.
+// Two-letter symbols that cannot be mistaken for an organic atom. They begin like an organic
+// element, but the name of an organic atom continues with a Greek letter (A, B, G, D, E, Z, H) or
+// with the letter of a bound atom.
 constexpr std::string_view clear_symbols = "CL BR SI SE FE CU NI PT PB CR IR";
 constexpr std::string_view one_letter_symbols = "HBCNOFPSKVYIWUD";
 
@@ -87,14 +87,15 @@ std::string upper_case(std::string_view text) {
   return upper;
 }
 
-// The first run of letters: "CA" of "1CA3".
+// Returns the first run of letters, such as "CA" in "1CA3".
 std::string_view first_letters(std::string_view upper) {
   while (!upper.empty() && !is_upper(upper.front())) upper.remove_prefix(1);
   const auto end = std::ranges::find_if_not(upper, is_upper);
   return upper.substr(0, static_cast<std::size_t>(end - upper.begin()));
 }
 
-// AMBER marks the residues at the ends of a chain: NALA and CALA, A5 and A3, DA5 and DA3.
+// Returns whether the residue is organic. AMBER marks the residues at the ends of a chain, for
+// example NALA and CALA, A5 and A3, DA5 and DA3.
 bool is_organic(const std::string& residue) {
   static const Names known = split_names(organic_residues);
   if (known.contains(residue)) return true;
@@ -112,14 +113,15 @@ std::string_view ion_of(std::string_view letters) {
   return found == ion_names.end() ? std::string_view{} : found->second;
 }
 
-// The element of a word that names an ion, either by the element's symbol or as a force field
-// spells it.
+// Returns the element if a word names an ion, either by the element's symbol or in a force field's
+// spelling. Otherwise returns an empty string.
 std::string ion_symbol(std::string_view letters) {
   if (const std::string_view ion = ion_of(letters); !ion.empty()) return std::string(ion);
   return atomic_number(letters) ? proper_symbol(letters) : std::string{};
 }
 
-// An ion is the only atom of its residue, and the atom and the residue have the same name.
+// Returns the element of an ion, or an empty string. An ion is the only atom of its residue, and
+// the atom and the residue have the same name.
 std::string element_of_ion(std::string_view atom, std::string_view residue) {
   const std::string symbol = ion_symbol(atom);
   if (symbol.empty()) return {};
@@ -148,7 +150,8 @@ std::string guessed_element(std::string_view letters) {
   return atomic_number(two) ? proper_symbol(two) : std::string(unknown_element);
 }
 
-// The element that follows from the residue; unknown if the residue is not known.
+// Returns the element that follows from the residue, or an empty string if the residue is not
+// known.
 std::string element_of_residue(std::string_view letters, const std::string& residue) {
   static const Names heme_names = split_names(hemes);
   static const Names chlorophyll_names = split_names(chlorophylls);
@@ -161,7 +164,8 @@ std::string element_of_residue(std::string_view letters, const std::string& resi
   return is_organic(residue) ? organic_element(letters) : std::string{};
 }
 
-// A marked name has the form "\x01NAME\x01RESIDUE", which cannot be a symbol in a file.
+// The separator in the name of a kind whose element is not yet known. Such a name has the form
+// "\x01NAME\x01RESIDUE" and cannot be confused with a symbol from a file.
 constexpr char unnamed_mark = '\x01';
 
 struct Unnamed {
@@ -176,8 +180,8 @@ std::optional<Unnamed> as_unnamed(std::string_view kind) {
   return Unnamed{kind.substr(0, end), kind.substr(end + 1)};
 }
 
-// Whether the names in known residues are aligned so that symbols end in the second column. Some
-// programs left-align all names.
+// Returns whether the atom names in known residues are aligned so that symbols end in the second
+// column. Some programs left-align all names instead.
 bool are_aligned(const Atoms& atoms) {
   bool any = false;
   for (const std::string& kind : atoms.kind_names) {
@@ -196,7 +200,7 @@ bool are_aligned(const Atoms& atoms) {
   return any;
 }
 
-// "C 8, Cl 2".
+// Returns a list such as "C 8, Cl 2".
 std::string listed(const std::map<std::string, std::uint64_t>& counts) {
   std::string list;
   for (const auto& [symbol, count] : counts) {
@@ -229,7 +233,8 @@ NamedElement element_of_columns(std::string_view columns, std::string_view resid
       atomic_number(letters.substr(0, 2))) {
     return {proper_symbol(letters.substr(0, 2))};
   }
-  // Some programs write bromine in column 14 by mistake. No boron atom has such a name.
+  // Some programs write bromine one column too far to the right, in column 14. No boron atom has
+  // such a name.
   if (letters == "BR") return {"Br", true};
   const bool one_letter =
       !letters.empty() && one_letter_symbols.find(letters.front()) != std::string_view::npos;

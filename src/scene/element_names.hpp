@@ -1,6 +1,6 @@
 #pragma once
-// Derives the elements of atoms from an atom name and a residue name, for files that state no
-// elements. For instance, CA in the residue ALA is carbon, but CA in the residue CA is calcium.
+// Derives the elements of atoms from their atom and residue names, for files that do not state
+// elements. For example, CA in the residue ALA is carbon, but CA in the residue CA is calcium.
 
 #include <string>
 #include <string_view>
@@ -10,31 +10,32 @@
 namespace triptych::scene {
 
 struct NamedElement {
-  std::string symbol;    // unknown_element if the name does not determine one
+  std::string symbol;    // unknown_element if the names do not determine an element
   bool guessed = false;  // true if the element was guessed from the name alone
 };
 
-// The element of a particle that is not an atom, such as a virtual site of a water model.
+// The symbol for particles that are not atoms, such as the virtual sites of water models.
 inline constexpr std::string_view unknown_element = "X";
 
-// Derives the element from the name and the residue: amino acids, nucleotides, water, lipids and
-// sugars contain only H, C, N, O, P and S (and Se in MSE and SEC); an ion has the name of its
-// residue, in the spelling of CHARMM (SOD, CLA, POT), AMBER (Na+, Cl-) or GROMACS (NA, CL); hemes
-// and chlorophylls contain their metal. In any other residue the element is guessed from the name.
+// Derives the element from the atom's name and its residue. Amino acids, nucleotides, water, lipids
+// and sugars contain only H, C, N, O, P and S (and Se in MSE and SEC). An ion has the same name as
+// its residue, in the spelling of CHARMM (SOD, CLA, POT), AMBER (Na+, Cl-) or GROMACS (NA, CL).
+// Hemes and chlorophylls contain their metal. In any other residue, the element is guessed from the
+// atom's name.
 [[nodiscard]] NamedElement element_of_name(std::string_view atom, std::string_view residue);
 
-// Like element_of_name, for the four columns of a PDB file, in which symbols are right-aligned in
-// columns 13 and 14: in a residue that is not known, "CA " is calcium and " CA " is carbon.
+// Does the same for the four name columns of a PDB file, in which symbols are right-aligned in
+// columns 13 and 14. In an unknown residue, "CA " is therefore calcium, and " CA " is carbon.
 [[nodiscard]] NamedElement element_of_columns(std::string_view columns, std::string_view residue);
 
-// The kind of an atom whose element the file does not state. It is valid until name_elements is
-// called. `columns` may contain the blanks that align the name.
+// Returns a temporary kind for an atom whose element the file does not state. name_elements()
+// replaces it with an element. `columns` may contain the blanks that align the name.
 [[nodiscard]] std::uint32_t unnamed_kind(Atoms& atoms, std::string_view columns,
                                          std::string_view residue);
 
-// Replaces the kinds of unnamed_kind by elements, and adds a note about the guessed ones.
-// `aligned`: the format right-aligns symbols, as PDB does; this is used only if the names of the
-// known residues are aligned in this way.
+// Replaces the kinds from unnamed_kind() with elements, and adds a note that lists the guessed
+// elements. `aligned` means that the format right-aligns symbols, as PDB does. It has an effect
+// only if the names in known residues are really aligned in this way.
 void name_elements(Atoms& atoms, bool aligned = false);
 
 }  // namespace triptych::scene

@@ -10,7 +10,7 @@
 namespace triptych::scene {
 namespace {
 
-// The symbols in the order of their atomic numbers.
+// The symbols of the elements, in the order of their atomic numbers.
 constexpr std::array<std::string_view, 118> symbols{
     "H",  "He", "Li", "Be", "B",  "C",  "N",  "O",  "F",  "Ne", "Na", "Mg", "Al", "Si", "P",
     "S",  "Cl", "Ar", "K",  "Ca", "Sc", "Ti", "V",  "Cr", "Mn", "Fe", "Co", "Ni", "Cu", "Zn",
@@ -96,7 +96,8 @@ double van_der_waals_radius(std::string_view symbol) {
 }
 
 Rgb element_colour(std::string_view symbol) {
-  constexpr double golden_ratio = 0.6180339887498949;  // neighbours get hues far apart
+  constexpr double golden_ratio =
+      0.6180339887498949;  // gives successive elements very different hues
   const int number = atomic_number(symbol).value_or(0);
   if (const auto proper = symbol_of(number)) {
     const auto found = std::ranges::find(traditional, *proper, &Colour::symbol);

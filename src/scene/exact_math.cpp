@@ -9,8 +9,8 @@
 namespace triptych::scene {
 namespace {
 
-// A Taylor series, evaluated by Horner's scheme. The coefficients are 1/n! with the signs of the
-// series; the compiler rounds them correctly.
+// Evaluates a Taylor series by Horner's method. The coefficients are 1/n! with the signs of the
+// series, and the compiler rounds them correctly.
 template <std::size_t N>
 double horner(const std::array<double, N>& coefficients, double x) {
   double sum = 0;
@@ -18,7 +18,7 @@ double horner(const std::array<double, N>& coefficients, double x) {
   return sum;
 }
 
-// Both series are used for |x| ≤ π/4, where the first omitted term is below 2⁻⁵⁶.
+// Both series are used only for |x| ≤ π/4, where the first omitted term is below 2⁻⁵⁶.
 double sine_series(double x) {
   static constexpr std::array<double, 9> c{1.0,
                                            -1.0 / 6,
@@ -45,7 +45,7 @@ double cosine_series(double x) {
   return horner(c, x * x);
 }
 
-// The sine for 0 ≤ turns ≤ ¼.
+// Returns the sine for 0 ≤ turns ≤ ¼.
 double sine_of_quarter(double turns) {
   constexpr double tau = 2 * std::numbers::pi;
   return turns <= 0.125 ? sine_series(tau * turns) : cosine_series(tau * (0.25 - turns));
@@ -87,7 +87,7 @@ double exponential(double x) {
 }
 
 double logarithm(double x) {
-  // x = m·2^e with m near 1; ln m = 2·artanh s, s = (m − 1)/(m + 1), |s| < 0.172.
+  // x = m·2^e with m near 1, and ln m = 2·artanh s with s = (m − 1)/(m + 1), |s| < 0.172.
   static constexpr std::array<double, 11> c{1.0,      1.0 / 3,  1.0 / 5,  1.0 / 7,
                                             1.0 / 9,  1.0 / 11, 1.0 / 13, 1.0 / 15,
                                             1.0 / 17, 1.0 / 19, 1.0 / 21};
@@ -103,7 +103,7 @@ double logarithm(double x) {
 
 double logarithm_of_1_plus(double x) {
   if (x <= -1) return -std::numeric_limits<double>::infinity();
-  // The quotient corrects the rounding of 1 + x (Kahan).
+  // The factor x/(sum − 1) corrects the rounding error of 1 + x (Kahan).
   const double sum = 1 + x;
   return sum == 1 ? x : logarithm(sum) * (x / (sum - 1));
 }

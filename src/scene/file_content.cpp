@@ -17,11 +17,11 @@ namespace triptych::scene {
 
 namespace {
 
-// Calls `take` with each piece of the unpacked stream.
+// Calls `take` with each piece of the decompressed stream.
 template <typename Take>
 void unpack(const std::vector<std::byte>& packed, Packing packing, const std::string& name,
             ProgressSteps& steps, Take&& take) {
-  // This is small enough to report the progress in steps of at most one per cent.
+  // Input is passed on in pieces that are small enough to report progress at least once per cent.
   const std::size_t sip = std::max<std::size_t>(packed.size() / 200, 1);
   std::size_t taken = 0;
   const ByteSource source = unpacked(
@@ -41,8 +41,8 @@ void unpack(const std::vector<std::byte>& packed, Packing packing, const std::st
   }
 }
 
-// The stream is read twice: the first pass determines the unpacked size, so that memory is
-// allocated only once.
+// Returns the decompressed size. The stream is decompressed twice: this first pass determines the
+// size, so that memory needs to be allocated only once.
 std::uint64_t count_unpacked(const std::vector<std::byte>& packed, Packing packing,
                              const std::string& name, ProgressSteps& steps, std::uint64_t most) {
   std::uint64_t count = 0;
@@ -62,9 +62,10 @@ std::vector<char> read_content(const std::filesystem::path& file, const Progress
   const Packing packing = packing_of(bytes, name);
   const bool promises_gzip = lower_case(file.extension().string()) == ".gz";
   if (promises_gzip && packing == Packing::none) {
-    throw core::InputError({.file = name},
-                           "not a gzip stream, because it does not begin like one; if the file "
-                           "is not compressed, remove .gz from its name");
+    throw core::InputError(
+        {.file = name},
+        "the name ends in .gz, but the content is not a gzip stream; if the file "
+        "is not compressed, remove .gz from its name");
   }
   if (packing == Packing::none) {
     const auto* begin = reinterpret_cast<const char*>(bytes.data());

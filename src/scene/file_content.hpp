@@ -8,10 +8,10 @@
 
 namespace triptych::scene {
 
-// The content of a file. It is unpacked if it is compressed with gzip or bzip2, whatever the file's
-// name is. `progress` is called with the share of the work that is done. Throws IoError for a file
-// that cannot be read, and InputError for a compressed stream that is broken or unpacks to more
-// than `most` bytes.
+// Returns the content of a file. A file that is compressed with gzip or bzip2 is decompressed,
+// regardless of its name. `progress` is called with the completed fraction of the work. Throws
+// IoError if the file cannot be read, and InputError if a compressed stream is damaged or
+// decompresses to more than `most` bytes.
 [[nodiscard]] std::vector<char> read_content(const std::filesystem::path& file,
                                              const Progress& progress = {},
                                              std::uint64_t most = most_unpacked_bytes);

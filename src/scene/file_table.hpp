@@ -5,8 +5,9 @@
 
 namespace triptych::scene {
 
-// The content hash of a transfer function that was read from a file, because the file may change
-// while its name stays the same. Empty for a preset, which its name identifies completely.
+// Returns the content hash of a transfer function that was read from a file, because the file may
+// change while its name stays the same. Returns an empty string for a preset, which is identified
+// completely by its name.
 [[nodiscard]] std::string file_table_hash(const TransferFunction& function);
 
 }  // namespace triptych::scene

@@ -6,8 +6,8 @@
 
 namespace triptych::scene {
 
-// The file with this name or, if the name is relative, the first file with this name below
-// `folders`.
+// Returns the file with this name. A relative name is first looked up in the working directory, and
+// then in each of `folders`. Returns nullopt if there is no such file.
 [[nodiscard]] std::optional<std::filesystem::path> find_file(
     std::string_view name, const std::vector<std::filesystem::path>& folders);
 

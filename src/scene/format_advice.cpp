@@ -13,8 +13,8 @@
 namespace triptych::scene {
 namespace {
 
-// A format that is not supported, the nearest supported one, and the command of a common program
-// that converts between them.
+// An unsupported format, the closest supported format, and a command of a common program that
+// converts the file.
 struct Conversion {
   std::string_view endings;
   std::string_view what;
@@ -25,15 +25,15 @@ struct Conversion {
 constexpr std::array<Conversion, 14> of_particles{{
     {".xtc .trr .tng .tpr", "a GROMACS file", ".gro",
      "gmx trjconv -f IN.xtc -s RUN.tpr -o OUT.gro"},
-    {".dcd .psf .crd .prmtop .parm7 .inpcrd .rst7 .nc .ncdf .mdcrd",
-     "a file of CHARMM, NAMD or AMBER", ".pdb",
+    {".dcd .psf .crd .prmtop .parm7 .inpcrd .rst7 .nc .ncdf .mdcrd", "a CHARMM, NAMD or AMBER file",
+     ".pdb",
      "python3 -c \"import MDAnalysis as m; "
      "m.Universe('TOPOLOGY','TRAJECTORY').atoms.write('OUT.pdb')\""},
     {".mol2 .sdf .mol .mdl .smi .cml .cdx", "a molecule", ".xyz", "obabel IN -O OUT.xyz"},
     {".pdbqt", "an AutoDock file", ".pdb", "obabel IN.pdbqt -O OUT.pdb"},
-    {".bcif .mmtf", "a binary structure of the PDB", ".cif",
+    {".bcif .mmtf", "a binary PDB structure", ".cif",
      "download the entry as mmCIF: https://files.rcsb.org/download/ID.cif"},
-    {".mtz .mrc", "a file of reflections or of a density, without atoms", ".cif",
+    {".mtz .mrc", "a file with reflections or a density, without atoms", ".cif",
      "use the atomic model of the same structure"},
     {".poscar .contcar .vasp", "a VASP structure", ".extxyz", "ase convert -i vasp IN OUT.extxyz"},
     {".traj .db .cell .res .castep .xsf .in .gen .cfg .xml .json", "a structure that ASE can read",
@@ -42,12 +42,12 @@ constexpr std::array<Conversion, 14> of_particles{{
      "python3 -c \"import MDAnalysis as m; m.Universe('IN.gsd').atoms.write('OUT.xyz')\""},
     {".restart", "a LAMMPS restart", ".data", "lmp -restart2data IN.restart OUT.data"},
     {".cube .cub", "a file with both atoms and a volume", ".xyz", "obabel IN.cube -O OUT.xyz"},
-    {".ply .las .laz .pcd .pts", "a cloud of points without radii", ".xyz",
-     "write the number of points, an empty line, and a line 'C x y z' for each point"},
+    {".ply .las .laz .pcd .pts", "a point cloud without radii", ".xyz",
+     "write the number of points, an empty line, and one line 'C x y z' per point"},
     {".csv .txt .npy", "a table", ".xyz",
-     "write the number of particles, an empty line, and a line 'ELEMENT x y z' for each particle"},
+     "write the number of particles, an empty line, and one line 'ELEMENT x y z' per particle"},
     {".vtu .vtp .pvd", "a VTK mesh", ".xyz",
-     "in ParaView: File, Save Data, as CSV; then write a line 'C x y z' for each point"},
+     "in ParaView: File, Save Data, as CSV; then write one line 'C x y z' per point"},
 }};
 
 constexpr std::array<Conversion, 14> of_volumes{{
@@ -71,11 +71,12 @@ constexpr std::array<Conversion, 14> of_volumes{{
     {".jpg .jpeg .png .bmp .jp2", "one slice", ".nrrd",
      "in Fiji: File, Import, Image Sequence; then File, Save As, Nrrd"},
     {".img", "the voxels of an Analyze or NIfTI pair", ".hdr", "use the .hdr file next to it"},
-    {".cube .cub .xplor .dx", "a density map of a chemistry program", ".nrrd",
+    {".cube .cub .xplor .dx", "a density map from a chemistry program", ".nrrd",
      "in ChimeraX: open IN; save OUT.mrc; then data=OUT.mrc:XxYxZ:f32:skip=1024"},
-    {".pvm .vol .bov .raw .bin .img16 .yuv", "a file of voxels without their size",
+    {".pvm .vol .bov .raw .bin .img16 .yuv",
+     "a file that contains voxels but not their number along each axis",
      "raw voxels with a stated size",
-     "state it as data=FILE:XxYxZ:TYPE, for instance head.raw:256x256x128:u8"},
+     "state it as data=FILE:XxYxZ:TYPE, for example data=head.raw:256x256x128:u8"},
     {".fits .fit", "an astronomical image", "raw voxels with a stated size",
      "python3 -c \"from astropy.io import fits; a=fits.getdata('IN.fits'); print(a.shape[::-1], "
      "a.dtype); a.astype('<f4').tofile('OUT.raw')\"; then data=OUT.raw:XxYxZ:f32"},

@@ -20,7 +20,7 @@ bool is_within(double value, double lowest, double highest) {
   return value >= lowest && value <= highest;  // false for NaN
 }
 
-// The same angle in [0, 360).
+// Wraps an angle to [0, 360).
 double wrapped(double azimuth_deg) {
   const double rest = std::fmod(azimuth_deg, 360);
   return rest < 0 ? rest + 360 : rest;
@@ -30,7 +30,8 @@ double rounded(double value, double unit) {
   return std::round(value / unit) * unit;
 }
 
-// A double cannot represent a tenth exactly, so the text is rounded instead of the number.
+// Formats an angle with one decimal. A double cannot represent a tenth exactly, so the string is
+// shortened instead of the number.
 std::string angle(double degree) {
   std::string text = fmt::format("{:.1f}", rounded(degree, 0.1) + 0.0);
   if (text.ends_with(".0")) text.resize(text.size() - 2);

@@ -28,7 +28,7 @@ constexpr ScalarType scalar_type_of() {
   return ScalarType::f32;
 }
 
-// Rounds a value in [0, 1] to the steps of an integer type; floats are unchanged.
+// Rounds a value in [0, 1] to the nearest step of an integer type. Floats are not rounded to steps.
 template <typename T>
 T quantise(double x) {
   if constexpr (std::is_integral_v<T>) {
@@ -38,7 +38,7 @@ T quantise(double x) {
   }
 }
 
-// Fills a volume with the values of voxel(i, j, k).
+// Fills a volume with the results of voxel(i, j, k).
 template <typename T, typename VoxelAt>
 Volume fill(std::array<int, 3> size, double range_hi, VoxelAt&& voxel) {
   Volume volume;
@@ -59,7 +59,7 @@ Volume fill(std::array<int, 3> size, double range_hi, VoxelAt&& voxel) {
   return volume;
 }
 
-// Fills a volume from a field over the unit cube with values in [0, 1].
+// Fills a volume by sampling a field over the unit cube, whose values are in [0, 1].
 template <typename T, typename Field>
 Volume sample(std::array<int, 3> size, Field&& field) {
   const double top = std::is_integral_v<T> ? static_cast<double>(std::numeric_limits<T>::max()) : 1;
@@ -147,8 +147,8 @@ std::array<Blob, 40> sparse_blobs() {
   core::Random random(20240229);
   std::array<Blob, 40> blobs;
   for (Blob& blob : blobs) {
-    // Each statement draws one random number, because the compiler may choose the order of
-    // evaluation within an expression.
+    // Each statement draws one random number, because within an expression the compiler may choose
+    // the order of evaluation.
     blob.centre.x = random.uniform(0.1, 0.9);
     blob.centre.y = random.uniform(0.1, 0.9);
     blob.centre.z = random.uniform(0.1, 0.9);
@@ -157,7 +157,8 @@ std::array<Blob, 40> sparse_blobs() {
   return blobs;
 }
 
-// The voxels [first, last) along one axis whose centres lie within `radius` of `centre`.
+// Returns the range [first, last) of voxels along one axis whose centres lie within `radius` of
+// `centre`.
 std::array<int, 2> touched(double centre, double radius, int n) {
   return {std::max(0, static_cast<int>(std::floor((centre - radius) * n))),
           std::min(n, static_cast<int>(std::floor((centre + radius) * n)) + 1)};
@@ -201,20 +202,22 @@ struct Generator {
 };
 
 constexpr std::array<Generator, 8> generators{{
-    {{"uniform_box", "the same value everywhere: no empty space, known in closed form"},
+    {{"uniform_box", "the same value everywhere: no empty space, closed-form solution"},
      uniform_box},
     {{"gradient_box", "a ramp from corner to corner"}, gradient_box},
-    {{"frequency_box", "twelve sine periods along each axis: the worst case for caches and steps"},
+    {{"frequency_box",
+      "twelve sine periods along each axis: the worst case for caches and step sizes"},
      frequency_box},
-    {{"mandelbulb", "distance to the power-8 Mandelbulb: a dense core with fine surface detail"},
+    {{"mandelbulb", "distance to the power-8 Mandelbulb: a dense core with fine surface details"},
      mandelbulb},
-    {{"marschner_lobb", "the reconstruction filter test signal"}, marschner_lobb},
+    {{"marschner_lobb", "the Marschner-Lobb test signal for reconstruction filters"},
+     marschner_lobb},
     {{"nested_shells", "three smooth concentric shells"}, nested_shells},
     {{"sparse_field", "forty small blobs in empty space, about 4 % occupied"}, sparse_field},
-    {{"gaussian_blob", "a Gaussian, known in closed form for every ray"}, gaussian_blob},
+    {{"gaussian_blob", "a Gaussian, with a closed-form solution for every ray"}, gaussian_blob},
 }};
 
-// Throws InputError for an unknown name or a size that cannot be made.
+// Throws InputError for an unknown name or an unsupported size.
 const Generator& generator_of(std::string_view name, std::array<int, 3> size) {
   for (const int n : size) {
     if (n < 1 || n > largest_side) {

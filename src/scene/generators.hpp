@@ -1,13 +1,13 @@
 #pragma once
-// Seeded generators, which make the same voxels on every machine, compiler and standard library.
-// They use only + − × ÷ and sqrt of IEEE doubles, which are exactly rounded, and tables or
-// polynomials built from these operations (scene/exact_math.hpp). They never use the C library's
+// Seeded generators whose voxels are bit-identical for every machine, compiler and standard
+// library. They use only + − × ÷ and sqrt of IEEE doubles, which are correctly rounded, and tables
+// or polynomials built from these operations (scene/exact_math.hpp). They never use the C library's
 // sin, pow or exp, whose last bits differ between implementations.
 //
 // Fields are sampled at voxel centres: u = (i+½)/nx, v = (j+½)/ny and w = (k+½)/nz are the
-// coordinates in the unit cube, and (x, y, z) = 2(u, v, w) − 1. The spacing is 1. b(t) is (1 − t²)²
-// for |t| < 1 and 0 elsewhere. Integer formats store f as floor(f·hi + ½), where hi is the upper
-// end of the range.
+// coordinates in the unit cube, and (x, y, z) = 2(u, v, w) − 1. The voxel spacing is 1. b(t) is (1
+// − t²)² for |t| < 1 and 0 elsewhere. Integer formats store a field f as floor(f·hi + ½), where hi
+// is the upper end of the range.
 //
 // clang-format off
 //   uniform_box     f32  0..1       ½ everywhere
@@ -39,14 +39,15 @@ struct GeneratorInfo {
   std::string_view summary;
 };
 
-// The eight generators above, in that order.
+// Returns the eight generators above, in that order.
 [[nodiscard]] std::vector<GeneratorInfo> volume_generators();
 
-// Throws InputError for an unknown name or a size outside 1…4096 per axis. Does not generate the
-// volume.
+// Throws InputError for an unknown name, or for a size outside 1…4096 along any axis. Does not
+// generate the volume.
 void check_volume_generator(std::string_view name, std::array<int, 3> size);
 
-// Throws as check_volume_generator does. The volume's name is generate:NAME:SIZE.
+// Generates a volume, whose name is generate:NAME:SIZE. Throws the same exceptions as
+// check_volume_generator().
 [[nodiscard]] Volume generate_volume(std::string_view name, std::array<int, 3> size);
 
 }  // namespace triptych::scene

@@ -11,12 +11,12 @@
 namespace triptych::scene {
 namespace {
 
-constexpr double nanometre = 0.1;  // an ångström in this file's unit
+constexpr double nanometre = 0.1;  // the length of an ångström in nanometres, the unit of the file
 constexpr std::size_t places_begin = 20;
 
-// Numbers are written as "%{n+5}.{n}f", so the first decimal point is always in column 25, and the
-// distance between decimal points is the width of a number. One line is enough to determine the
-// width, because no number may be wider than its columns.
+// Returns the width of a coordinate in columns. Numbers are written as "%{n+5}.{n}f", so the first
+// decimal point is always in column 25, and the distance between decimal points is the width. One
+// line is sufficient to determine it, because no number may be wider than its columns.
 std::size_t place_width(std::string_view line, const LineReader& reader) {
   constexpr std::size_t first_point = places_begin + 4;
   const std::size_t first = line.find('.', places_begin);
@@ -27,8 +27,8 @@ std::size_t place_width(std::string_view line, const LineReader& reader) {
   }
   if (first != first_point || third - second != second - first || second - first < 6) {
     reader.reject(fmt::format("the decimal points of x, y and z are in columns {}, {} and {}; "
-                              "expected the first one in column 25 and equal distances: a number "
-                              "may be too wide for its columns",
+                              "expected the first point in column 25 and equal distances between "
+                              "the points; a number may be too wide for its columns",
                               first + 1, second + 1, third + 1));
   }
   return second - first;
@@ -38,7 +38,7 @@ void add_gro_atom(Atoms& atoms, std::string_view line, std::size_t width,
                   const LineReader& reader) {
   if (line.size() < places_begin + 3 * width) {
     reader.reject(
-        fmt::format("expected an atom with its position in columns 21 to {}, found {} columns",
+        fmt::format("expected an atom with its position in columns 21 to {}, but the line has {} columns",
                     places_begin + 3 * width, line.size()));
   }
   constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
@@ -47,22 +47,22 @@ void add_gro_atom(Atoms& atoms, std::string_view line, std::size_t width,
     const std::string_view field = line.substr(places_begin + axis * width, width);
     place.at(axis) = reader.number(field, axes.at(axis));
     if (field.find('.') == 4 || !std::isfinite(place.at(axis))) continue;
-    reader.reject(fmt::format("{}: '{}' does not fill its columns {} to {} as the first atom does; a "
-                              "number that is too wide for its columns cannot be read",
+    reader.reject(fmt::format("{}: '{}' is not aligned in columns {} to {} as in the first atom's line; "
+                              "a number that is too wide for its columns cannot be read",
                               axes.at(axis), quotable(trimmed(field)),
                               places_begin + axis * width + 1, places_begin + (axis + 1) * width));
   }
   atoms.add(place, unnamed_kind(atoms, trimmed(line.substr(10, 5)), line.substr(5, 5)));
 }
 
-// In a box above 1000 nm, the numbers run into each other. The box is not used, so this only checks
-// that the line is not another atom.
+// Checks that the line describes a box and not another atom. In a box larger than 1000 nm, the
+// numbers are not separated by blanks. The box itself is not used.
 void check_box(std::string_view line, const LineReader& reader) {
   const std::size_t words = split_words(line).size();
   const bool numbers = line.find_first_not_of("0123456789.+-eE \t") == std::string_view::npos;
   const bool enough = words == 3 || words == 9 || std::ranges::count(line, '.') >= 3;
   if (numbers && enough) return;
-  reader.reject("expected the box, 3 or 9 numbers, after the last atom");
+  reader.reject("expected the box (3 or 9 numbers) after the last atom");
 }
 
 }  // namespace

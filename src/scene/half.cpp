@@ -30,9 +30,9 @@ Half::operator double() const {
   return (bits & 0x8000U) != 0 ? -value : value;
 }
 
-// Imath and glm cannot be used, because they convert from float, so a double would be rounded
-// twice. The value is rounded to an integer number of quanta. If that number reaches the next power
-// of two, it carries into the exponent.
+// Imath and glm cannot be used, because they convert from float, and a double would be rounded
+// twice. Here the value is rounded to an integer number of quanta. If that number reaches the next
+// power of two, it carries into the exponent.
 Half to_half(double value) {
   const double size = std::abs(value);
   unsigned bits = infinity;

@@ -11,12 +11,12 @@ struct Half {
 };
 
 inline constexpr double largest_half = 65504;
-// Halves below this are subnormal, and devices may treat them as 0.
+// The smallest normal half. Smaller magnitudes are subnormal, and devices may treat them as 0.
 inline constexpr double least_normal_half = 0x1.0p-14;
-// The largest relative error of rounding to the nearest half, for values that are not subnormal.
+// The largest relative error when a value that is not subnormal is rounded to the nearest half.
 inline constexpr double half_roundoff = 0x1.0p-11;
 
-// The nearest half; ties go to even, and values from 65520 on become infinity.
+// Returns the nearest half. Ties are rounded to even, and values of 65520 or more become infinity.
 [[nodiscard]] Half to_half(double value);
 
 }  // namespace triptych::scene

@@ -1,5 +1,6 @@
 #pragma once
-// Shared by the readers of volume headers: directions of axes, and names of anatomical directions.
+// Helpers for readers of volume headers: directions of the axes, and names of anatomical
+// directions.
 
 #include <array>
 #include <string>
@@ -12,12 +13,13 @@ using Vector3 = std::array<double, 3>;
 [[nodiscard]] double dot_product(const Vector3& a, const Vector3& b);
 [[nodiscard]] double length_of(const Vector3& a);
 
-// Names two axes that are not perpendicular, such as "axes 0 and 1". Empty if all axes are
-// perpendicular to within a thousandth.
+// Returns the names of two axes that are not perpendicular, such as "axes 0 and 1", or an empty
+// string if all axes are perpendicular to within a thousandth.
 [[nodiscard]] std::string sheared_axes(const std::array<Vector3, 3>& axes);
 
-// The main directions of the axes as letters: "RAS" if the axes point to the right, anterior and
-// superior. `positive` contains the letters of the space's own axes, "RAS" or "LPS".
+// Returns the main directions of the axes as letters, for example "RAS" if the axes point to the
+// right, anterior and superior. `positive` contains the letters of the positive directions of the
+// space's own axes, "RAS" or "LPS".
 [[nodiscard]] std::string anatomical_letters(const std::array<Vector3, 3>& axes,
                                              std::string_view positive);
 

@@ -35,7 +35,7 @@ struct Inflater::Stream {
     throw core::InputError({.file = name}, "broken gzip stream: " + reason);
   }
 
-  // Whether there is compressed input; reads more if all of it has been used.
+  // Returns whether there is compressed input. Reads more input if all of it has been used.
   bool has_input() {
     if (zlib.avail_in == 0) {
       zlib.avail_in = static_cast<uInt>(source(buffer));
@@ -44,8 +44,8 @@ struct Inflater::Stream {
     return zlib.avail_in > 0;
   }
 
-  // Zero bytes after a member, which tapes and block devices use for padding. No member begins with
-  // a zero byte.
+  // Skips zero bytes after a member, which tapes and block devices use for padding. No member
+  // begins with a zero byte.
   void drop_padding() {
     bool padded = false;
     for (; has_input() && *zlib.next_in == 0; ++zlib.next_in, --zlib.avail_in) padded = true;

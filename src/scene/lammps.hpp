@@ -6,17 +6,19 @@
 
 namespace triptych::scene {
 
-// Reads a LAMMPS dump with named columns. Positions are in x y z, otherwise unwrapped in xu yu zu,
-// otherwise scaled in xs ys zs or xsu ysu zsu. The size of an atom is its radius (or half of its
-// diameter) if the file has one, otherwise it follows from the element, otherwise from the type.
-// Atoms are sorted by id if there is one. Throws InputError with file and line.
+// Reads one frame of a LAMMPS dump with named columns. Positions are read from x y z, or else from
+// the unwrapped columns xu yu zu, or else from the scaled columns xs ys zs or xsu ysu zsu. An
+// atom's radius is read from the file (as radius, or as half the diameter), or else it is derived
+// from the element, or else from the type. If there are ids, the atoms are sorted by id. Throws
+// InputError with file and line.
 [[nodiscard]] ParticleSet read_lammps_dump(LineReader& reader, std::uint64_t frame,
                                            ColourKind colour);
 
 // Reads a LAMMPS data file. The comment after "Atoms" names the style of the section (atomic,
-// charge, bond, angle, molecular, full, sphere and others). Without it, the style is atomic if the
-// number of columns allows no other. Image flags are whole numbers and have no effect. Atoms are
-// sorted by id. Throws InputError with file and line.
+// charge, bond, angle, molecular, full, sphere and others). Without this comment, the style is
+// atomic if the number of columns fits no other style; otherwise the file is rejected. Image flags
+// must be whole numbers and are ignored. The atoms are sorted by id. Throws InputError with file
+// and line.
 [[nodiscard]] ParticleSet read_lammps_data(LineReader& reader, std::uint64_t frame,
                                            ColourKind colour);
 

@@ -12,8 +12,8 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// The columns of type and position in a line of the Atoms section (LAMMPS manual, read_data); the
-// id is always first. Three image flags may follow.
+// The columns of the type and the position in a line of the Atoms section (LAMMPS manual,
+// read_data). The id is always the first column. Three image flags may follow at the end.
 struct Style {
   std::string_view name;
   std::size_t type;
@@ -54,7 +54,7 @@ const Style* named_style(std::string_view comment, const LineReader& reader) {
   if (found == styles.end()) {
     reader.reject(
         fmt::format("expected Atoms in the style atomic, charge, molecular, bond, angle, full, "
-                    "sphere, dipole, electron, ellipsoid, body, peri, line or tri, found '{}'",
+                    "sphere, dipole, electron, ellipsoid, body, peri, line or tri; found '{}'",
                     quotable(name)));
   }
   return &*found;
@@ -68,26 +68,28 @@ bool are_whole(const Words& words, std::size_t first) {
                      });
 }
 
-// Determines the style from the number of columns if there is no comment. 5 columns are always
-// atomic. 8 columns that end in image flags are atomic only if the position has a decimal point,
-// because the styles electron and line have 8 columns that end with the position, which may consist
-// of whole numbers. 6 and 7 columns are ambiguous.
+// Determines the style from the number of columns if there is no comment. Lines with 5 columns
+// always have the style atomic. Lines with 8 columns that end in image flags are atomic only if the
+// position contains a decimal point. The reason is that the styles electron and line also have 8
+// columns; they end with the position, which may consist of whole numbers. Lines with 6 or 7
+// columns are ambiguous.
 const Style& guessed_style(const Words& words, const LineReader& reader) {
   const Style& atomic = styles[0];
   if (words.size() == atomic.flags()) return atomic;
   if (atomic.has_flags(words.size()) && are_whole(words, atomic.flags())) {
     if (!are_whole(words, atomic.place)) return atomic;
     reader.reject(
-        "the last 3 of 8 whole numbers could be image flags (style atomic) or the position (style "
-        "electron and others); expected the style in a comment, such as 'Atoms # atomic'");
+        "the last 3 of the 8 whole numbers could be image flags (style atomic) or the position "
+        "(style electron and others); expected a comment that names the style, such as 'Atoms # "
+        "atomic'");
   }
   reader.reject(
-      fmt::format("expected the style of {} columns in a comment, such as 'Atoms # charge' or "
-                  "'Atoms # molecular'",
+      fmt::format("the style of atoms with {} columns is ambiguous; expected a comment that names the style, "
+                  "such as 'Atoms # charge' or 'Atoms # molecular'",
                   words.size()));
 }
 
-// Reads the header up to the Atoms section, and returns the style in its comment.
+// Reads the header up to the Atoms section, and returns the style that the section's comment names.
 std::string_view find_atoms(LineReader& reader, std::optional<std::uint64_t>& count) {
   static_cast<void>(reader.require("a title"));
   for (;;) {
@@ -106,7 +108,7 @@ std::string_view find_atoms(LineReader& reader, std::optional<std::uint64_t>& co
 
 void add_data_atom(Atoms& atoms, const Words& words, const Style& style, const LineReader& reader) {
   if (!style.fits(words.size())) {
-    reader.reject(fmt::format("expected {} or, with image flags, {} columns (style {}), found {}",
+    reader.reject(fmt::format("expected {} columns, or {} with image flags (style {}), found {}",
                               style.flags(), style.flags() + 3, style.name, words.size()));
   }
   atoms.order.push_back(reader.integer(words[0], "id"));
@@ -146,12 +148,13 @@ ParticleSet read_lammps_data(LineReader& reader, std::uint64_t frame, ColourKind
   for (std::uint64_t i = 0; i < *count; ++i) {
     split_words_into(without_comment(reader.require(atoms_wanted)), words);
     if (words.empty()) {
-      reader.reject(fmt::format("the section ends after {} atoms, expected {}", i, *count));
+      reader.reject(fmt::format("the section ends after {} atoms; expected {} atoms", i, *count));
     }
     if (style == nullptr) style = &guessed_style(words, reader);
     add_data_atom(atoms, words, *style, reader);
   }
-  // The next line must be blank or the end; otherwise the stated count was too small.
+  // The next line must be blank, or the file must end. Otherwise the stated number of atoms was too
+  // small.
   const auto after = reader.next();
   if (after && !trimmed(*after).empty()) {
     reader.reject(fmt::format("expected the section to end after {} atoms", *count));

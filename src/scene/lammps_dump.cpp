@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view item_mark = "ITEM: ";
 using DumpWords = std::vector<std::string_view>;
 
-// The simulation box, for converting scaled positions.
+// The simulation box, which is needed to convert scaled positions.
 struct Cell {
   std::array<double, 3> lo{};
   std::array<double, 3> size{1, 1, 1};
@@ -26,7 +26,7 @@ struct Cell {
   }
 };
 
-// The indices of the columns that are used.
+// The indices of the columns that the reader uses.
 struct Columns {
   std::size_t count = 0;
   std::array<std::size_t, 3> place{};
@@ -108,7 +108,7 @@ Columns parse_columns(std::string_view header, const LineReader& reader) {
   reader.reject("expected columns x y z, xu yu zu, xs ys zs or xsu ysu zsu");
 }
 
-// Reads the headers of one frame up to its atoms, and returns the header of the atoms without
+// Reads the headers of one frame up to its atoms. Returns the list of column names that follows
 // "ITEM: ATOMS".
 std::string_view read_headers(LineReader& reader, Frame& frame) {
   for (;;) {
@@ -122,7 +122,7 @@ std::string_view read_headers(LineReader& reader, Frame& frame) {
       frame.count = reader.count(reader.require("the number of atoms"), "the number of atoms");
     } else if (header.starts_with("BOX BOUNDS")) {
       frame.cell = read_cell(reader, header);
-    } else {  // TIMESTEP, TIME, UNITS: one line each
+    } else {  // TIMESTEP, TIME and UNITS have one line each
       static_cast<void>(reader.require("a value"));
     }
   }

@@ -11,38 +11,39 @@
 
 namespace triptych::scene {
 
-// The largest number of particles, because ids have 32 bits and the highest id means "none".
+// The largest number of particles. Ids have 32 bits, and the highest id means "none".
 inline constexpr std::uint64_t most_particles = 0xFFFFFFFEU;
 
-// Reads the lines of a text and counts them, so that errors can name the file and the line. The
+// Reads text line by line, and counts the lines so that errors can name the file and the line. The
 // text must outlive the reader.
 class LineReader {
  public:
   LineReader(std::string_view text, std::string file, ProgressSteps progress);
 
-  // Returns the next line without its end (LF or CR LF), or nullopt after the last line.
+  // Returns the next line without its line end (LF or CR LF), or nullopt after the last line.
   [[nodiscard]] std::optional<std::string_view> next();
-  // Returns the next line. If there is none, throws InputError that the file ends where `what` was
-  // expected.
+  // Returns the next line. If there is none, throws InputError with the message that the file ends
+  // where `what` was expected.
   [[nodiscard]] std::string_view require(std::string_view what);
-  // Skips blank lines; returns whether nothing else is left.
+  // Skips blank lines. Returns true if nothing follows them.
   [[nodiscard]] bool at_end();
-  // Skips this many lines; all of them must exist.
+  // Skips `count` lines. Throws InputError if there are fewer, like require().
   void skip(std::uint64_t count, std::string_view what);
 
-  // Throws InputError that names the line that was read last, or another one.
+  // Throw InputError. The error names the last line that was read, or `line`.
   [[noreturn]] void reject(const std::string& message) const { reject_at(line_, message); }
   [[noreturn]] void reject_at(int line, const std::string& message) const;
 
-  // The number in a word; throws "WHAT: expected a number, found 'WORD'". NaN and infinities are
-  // accepted; callers drop positions that contain them.
+  // Returns the number in a word. If it is not a number, throws "WHAT: expected a number, found
+  // 'WORD'". NaN and infinities are accepted. Callers drop positions that contain them.
   [[nodiscard]] double number(std::string_view word, std::string_view what) const;
-  // A count of particles: 0 … most_particles.
+  // Returns a number of particles, which must be at most most_particles.
   [[nodiscard]] std::uint64_t count(std::string_view word, std::string_view what) const;
   [[nodiscard]] std::int64_t integer(std::string_view word, std::string_view what) const;
 
-  // An upper limit for the number of further lines, each of which has at least `shortest`
-  // characters. Memory may be reserved for this many, whatever count the file claims.
+  // Returns the number of entries to reserve memory for: `claimed`, but at most as many lines as
+  // can follow if each has at least `shortest` characters. A file that claims too many entries
+  // therefore cannot exhaust the memory.
   [[nodiscard]] std::size_t room(std::uint64_t claimed, std::size_t shortest) const;
 
   [[nodiscard]] int line() const { return line_; }
@@ -56,7 +57,7 @@ class LineReader {
   ProgressSteps progress_;
 };
 
-// Like split_words, but into a vector that can be reused.
+// Does the same as split_words(), but into a vector that can be reused.
 void split_words_into(std::string_view text, std::vector<std::string_view>& words);
 
 }  // namespace triptych::scene

@@ -20,9 +20,9 @@ Complex eighth_power(Complex z) {
   return squared(squared(squared(z)));
 }
 
-// z⁸ as defined by White and Nylander: for z = r·(sin θ·cos φ, sin θ·sin φ, cos θ), the result has
-// radius r⁸ and the angles 8θ and 8φ. The multiples of the angles come from complex powers, so that
-// no trigonometric function is needed.
+// Returns z⁸ as defined by White and Nylander: for z = r·(sin θ·cos φ, sin θ·sin φ, cos θ), the
+// result has the radius r⁸ and the angles 8θ and 8φ. The multiples of the angles are computed as
+// complex powers, which need no trigonometric functions.
 glm::dvec3 eighth_power(glm::dvec3 z) {
   const double rho = std::sqrt(z.x * z.x + z.y * z.y);
   const Complex theta = eighth_power(Complex{z.z, rho});  // r⁸·(cos 8θ, sin 8θ)
@@ -36,7 +36,7 @@ double mandelbulb_distance(glm::dvec3 c) {
   constexpr int most_iterations = 12;
   constexpr double escape_radius = 4;
   glm::dvec3 z = c;
-  double derivative = 1;  // |dz/dc|, by the chain rule with the norm of 8z⁷ taken as 8r⁷
+  double derivative = 1;  // |dz/dc| by the chain rule, where 8r⁷ approximates the norm of 8z⁷
   double r = std::sqrt(glm::dot(z, z));
   for (int n = 0; n < most_iterations && r < escape_radius; ++n) {
     const double r2 = r * r;

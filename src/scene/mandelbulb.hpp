@@ -3,8 +3,8 @@
 
 namespace triptych::scene {
 
-// The estimated distance from c to the power-8 Mandelbulb, in the units of c; 0 inside. It has the
-// same bits on every machine.
+// Returns the estimated distance from c to the power-8 Mandelbulb, in the units of c, or 0 inside.
+// The result is bit-identical on every machine.
 [[nodiscard]] double mandelbulb_distance(glm::dvec3 c);
 
 }  // namespace triptych::scene

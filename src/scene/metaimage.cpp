@@ -59,18 +59,18 @@ class MetaHeader {
   [[nodiscard]] const MetaField& require(const std::string& key) const {
     const MetaField* field = find(lower_case(key));
     if (field == nullptr) {
-      throw core::InputError({.file = file_}, fmt::format("the header has no line '{} = …'", key));
+      throw core::InputError({.file = file_}, fmt::format("the header contains no line '{} = …'", key));
     }
     return *field;
   }
-  // Whether the value of a key is True; `otherwise` if the key is missing.
+  // Returns whether the value of a key is True, or `otherwise` if the key is missing.
   [[nodiscard]] bool flag(const std::string& key, bool otherwise) const {
     const MetaField* field = find(key);
     if (field == nullptr) return otherwise;
     const std::string value = lower_case(field->value);
     if (value == "true" || value == "1") return true;
     if (value == "false" || value == "0") return false;
-    throw core::InputError(field->place, fmt::format("'{}'; expected True or False",
+    throw core::InputError(field->place, fmt::format("found '{}'; expected True or False",
                                                      quotable(field->value)));
   }
   [[nodiscard]] std::uint64_t data_start() const { return data_start_; }
@@ -110,7 +110,7 @@ StoredType meta_type(const MetaField& field) {
        {"met_long_long", StoredType::i64},
        {"met_float", StoredType::f32},
        {"met_double", StoredType::f64},
-       // ITK writes them with four bytes.
+       // ITK writes these two types with four bytes.
        {"met_ulong", StoredType::u32},
        {"met_long", StoredType::i32}}};
   const std::string name = lower_case(field.value);
@@ -127,13 +127,13 @@ StoredType meta_type(const MetaField& field) {
 std::uint64_t whole_number(const MetaField& field) {
   const auto number = parse_number<std::uint32_t>(field.value);
   if (!number || *number == 0) {
-    throw core::InputError(field.place, fmt::format("'{}'; expected a whole number, 1 or more",
+    throw core::InputError(field.place, fmt::format("found '{}'; expected a whole number, 1 or more",
                                                     quotable(field.value)));
   }
   return *number;
 }
 
-// The first three words, which belong to the spatial axes.
+// Returns the first three words, which belong to the spatial axes.
 std::string first_three(const MetaField& field, std::uint64_t dimensions) {
   auto words = split_words(field.value);
   if (words.size() != dimensions) {
@@ -148,7 +148,7 @@ void take_meta_sizes(const MetaHeader& header, Volume& volume, ValueLayout& layo
   const MetaField& dims = header.require("NDims");
   const std::uint64_t dimensions = whole_number(dims);
   if (dimensions != 3 && dimensions != 4) {
-    throw core::InputError(dims.place, fmt::format("{} dimensions; expected 3, or 4", dimensions));
+    throw core::InputError(dims.place, fmt::format("the volume has {} dimensions; expected 3 or 4", dimensions));
   }
   const MetaField& sizes = header.require("DimSize");
   volume.size = parse_sizes(first_three(sizes, dimensions), sizes.place);
@@ -159,7 +159,7 @@ void take_meta_sizes(const MetaHeader& header, Volume& volume, ValueLayout& layo
         whole_number({std::string(split_words(sizes.value)[3]), sizes.place});
     if (further > 1 && layout.components > 1) {
       throw core::InputError(sizes.place,
-                             "has channels and also a fourth dimension; expected only one of them");
+                             "the volume has both channels and a fourth dimension; expected only one of them");
     }
     if (further > 1) layout.block = volume.voxel_count();
     layout.components *= further;
@@ -171,19 +171,19 @@ void take_meta_sizes(const MetaHeader& header, Volume& volume, ValueLayout& layo
       parse_spacings(first_three(*spacing, dimensions), volume.size, spacing->place);
 }
 
-// Records the directions of the axes, which are the rows of TransformMatrix, in the space LPS.
+// Records the directions of the axes, which are the rows of TransformMatrix, in LPS space.
 void note_directions(const MetaHeader& header, Volume& volume) {
   for (const char* key : {"transformmatrix", "orientation", "rotation"}) {
     const MetaField* field = header.find(key);
     if (field == nullptr) continue;
     const auto words = split_words(field->value);
-    if (words.size() != 9) return;  // four dimensions have a larger matrix
+    if (words.size() != 9) return;  // a volume with four dimensions has a larger matrix
     std::array<Vector3, 3> axes{};
     for (std::size_t i = 0; i < 9; ++i) {
       const auto number = parse_number<double>(words[i]);
       if (!number) {
         throw core::InputError(field->place,
-                               fmt::format("'{}'; expected a number", quotable(words[i])));
+                               fmt::format("found '{}'; expected a number", quotable(words[i])));
       }
       axes.at(i / 3).at(i % 3) = *number;
     }
@@ -223,7 +223,7 @@ RawVoxels locate_voxels(const MetaHeader& header, const std::filesystem::path& f
     source.start = header.data_start();
   } else if (name.find('%') != std::string::npos && split_words(data.value).size() > 1) {
     throw core::InputError(data.place,
-                           "a pattern of files is not supported; expected their names after LIST");
+                           "patterns of file names are not supported; expected the file names after LIST");
   } else {
     source.file = data_file_beside(file, data.value, data.place);
   }
@@ -232,7 +232,7 @@ RawVoxels locate_voxels(const MetaHeader& header, const std::filesystem::path& f
     if (!bytes || *bytes < -1) {
       throw core::InputError(
           skip->place,
-          fmt::format("'{}'; expected a whole number, 0 or more, or -1", quotable(skip->value)));
+          fmt::format("found '{}'; expected a whole number, 0 or more, or -1", quotable(skip->value)));
     }
     source.skip = *bytes;
   }
@@ -240,7 +240,7 @@ RawVoxels locate_voxels(const MetaHeader& header, const std::filesystem::path& f
   const bool compressed = header.flag("compresseddata", false);
   if (!binary && compressed) {
     throw core::InputError(header.require("CompressedData").place,
-                           "text cannot be compressed; expected BinaryData = True");
+                           "ASCII voxels cannot be compressed; expected BinaryData = True");
   }
   source.encoding = compressed ? RawEncoding::zlib
                     : binary   ? RawEncoding::plain
@@ -262,7 +262,7 @@ Volume read_metaimage(const std::filesystem::path& file, const Component& compon
   take_meta_sizes(header, volume, source.layout);
   note_directions(header, volume);
   const MetaField& type = header.require("ElementType");
-  // A type such as "MET_UCHAR_ARRAY" is one of the ways to declare that a voxel has several
+  // A type such as "MET_UCHAR_ARRAY" is one of several ways to declare that a voxel has several
   // channels.
   MetaField element = type;
   constexpr std::string_view array = "_array";

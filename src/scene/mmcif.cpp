@@ -17,10 +17,10 @@ constexpr std::string_view category = "_atom_site.";
 
 struct Token {
   std::string_view text;
-  bool quoted = false;  // a quoted word is always a value
+  bool quoted = false;  // quoted words are always values
 
   [[nodiscard]] bool is_tag() const { return !quoted && text.starts_with('_'); }
-  // The words that end a loop: loop_, data_NAME, save_NAME, global_, stop_.
+  // Returns whether this word ends a loop: loop_, data_NAME, save_NAME, global_ and stop_ do.
   [[nodiscard]] bool is_keyword() const {
     if (quoted) return false;
     const std::string word = lower_case(text.substr(0, 8));
@@ -30,21 +30,22 @@ struct Token {
   [[nodiscard]] bool is_value() const { return !is_tag() && !is_keyword(); }
 };
 
-// Splits a CIF into words: plain words, quoted words, and text fields, which are enclosed by lines
-// that begin with a semicolon. Comments are skipped. The content of a text field is not needed and
-// is discarded.
+// Splits a CIF file into words: plain words, quoted words, and text fields. A text field is
+// enclosed by lines that begin with a semicolon. Its content is not needed, so it is discarded.
+// Comments are skipped.
 class Tokens {
  public:
   explicit Tokens(LineReader& reader) : reader_(reader) {}
 
-  // Returns the next word without taking it; nullopt at the end of the file.
+  // Returns the next word without consuming it, or nullopt at the end of the file.
   [[nodiscard]] const std::optional<Token>& peek() {
     if (!ahead_ && !ended_) ahead_ = read();
     return ahead_;
   }
   void take() { ahead_.reset(); }
-  // The number of lines that begin with '#' before the current word (or the end of the file):
-  // marks() counts all of them, and marks_before() only those directly before it.
+  // The number of lines that begin with '#' before the current word (or before the end of the
+  // file). marks() counts all of these lines, and marks_before() only those directly before the
+  // word.
   [[nodiscard]] std::uint64_t marks() const { return marks_; }
   [[nodiscard]] std::uint64_t marks_before() const { return marks_before_; }
 
@@ -84,14 +85,14 @@ class Tokens {
     const bool quoted = first == '\'' || first == '"';
     std::size_t end = 0;
     if (quoted) {
-      // A quote ends a word only if a blank follows, so 'O5'' is one word.
+      // A quote ends a word only if a blank follows, so 'O5'' is a single word.
       end = rest_.find(first, 1);
       while (end != std::string_view::npos && end + 1 < rest_.size() && rest_[end + 1] != ' ' &&
              rest_[end + 1] != '\t') {
         end = rest_.find(first, end + 1);
       }
       if (end == std::string_view::npos)
-        reader_.reject(fmt::format("expected a closing {}", first));
+        reader_.reject(fmt::format("expected a closing quote ({})", first));
     } else {
       end = std::min(rest_.find_first_of(" \t"), rest_.size());
     }
@@ -109,7 +110,7 @@ class Tokens {
   std::uint64_t marks_before_ = 0;
 };
 
-// The columns of _atom_site that are used, and their positions in a row.
+// The columns of _atom_site that the reader uses. Several of them may be missing.
 enum class Item : std::uint8_t { element, x, y, z, model, atom, residue, old_atom, old_residue };
 constexpr std::array<std::string_view, 9> item_names{
     "type_symbol",   "cartn_x",       "cartn_y",      "cartn_z",     "pdbx_pdb_model_num",
@@ -122,7 +123,7 @@ struct AtomColumns {
   [[nodiscard]] const std::optional<std::size_t>& operator[](Item item) const {
     return places.at(static_cast<std::size_t>(item));
   }
-  // Adds an item by its tag in lower case.
+  // Adds a column by its tag, which must be in lower case.
   void add(std::string_view tag, const LineReader& reader) {
     const std::size_t index = count++;
     if (!tag.starts_with(category)) return;
@@ -134,7 +135,8 @@ struct AtomColumns {
   }
 };
 
-// CIF files of small molecules state positions as fractions of the unit cell, in other items.
+// CIF files of small molecules use other items, which state positions as fractions of the unit
+// cell.
 void refuse_small_molecule(std::string_view tag, const LineReader& reader) {
   if (tag != "_atom_site_fract_x") return;
   reader.reject(
@@ -142,7 +144,7 @@ void refuse_small_molecule(std::string_view tag, const LineReader& reader) {
       "molecules; expected mmCIF with _atom_site.Cartn_x. To convert: obabel IN.cif -O OUT.xyz");
 }
 
-// Reads the tags of a loop whose keyword has been read. Empty if the loop is not the one over
+// Reads the tags of a loop whose keyword has been read. Returns nullopt if it is not the loop over
 // atoms.
 std::optional<AtomColumns> read_columns(Tokens& tokens, const LineReader& reader) {
   AtomColumns columns;
@@ -158,7 +160,7 @@ std::optional<AtomColumns> read_columns(Tokens& tokens, const LineReader& reader
 }
 
 // Collects the rows of one model. The rows of a model need not be consecutive, so frames are
-// counted in the order in which models appear.
+// numbered in the order in which the models first appear.
 class AtomRows {
  public:
   AtomRows(const AtomColumns& columns, std::uint64_t frame, const LineReader& reader)
@@ -198,11 +200,11 @@ class AtomRows {
  private:
   std::size_t require(Item item, std::string_view name) const {
     const auto& column = columns_[item];
-    if (!column) reader_.reject(fmt::format("expected a column {}{}", category, name));
+    if (!column) reader_.reject(fmt::format("expected the column {}{}", category, name));
     return *column;
   }
 
-  // In "1.234(5)" the parentheses contain the uncertainty.
+  // Removes the uncertainty, which a number such as "1.234(5)" contains in parentheses.
   static std::string_view without_uncertainty(std::string_view word) {
     return word.ends_with(')') ? word.substr(0, word.find('(')) : word;
   }
@@ -212,7 +214,7 @@ class AtomRows {
     const std::string_view symbol = element ? row[*element] : std::string_view("?");
     const bool unstated = symbol.empty() || symbol == "?" || symbol == ".";
     if (!unstated) {
-      // A charge may follow: "Fe3+".
+      // The symbol may be followed by a charge, as in "Fe3+".
       return atoms_.kind(proper_symbol(symbol.substr(0, symbol.find_first_of("0123456789+-"))));
     }
     if (!atom_) return atoms_.kind(unknown_element);
@@ -246,7 +248,7 @@ Atoms read_rows(Tokens& tokens, const AtomColumns& columns, std::uint64_t frame,
     row.clear();
     for (; row.size() < columns.count; tokens.take()) {
       if (!tokens.peek() || !tokens.peek()->is_value()) {
-        reader.reject(fmt::format("expected {} values in each row of {}, found {} in the last one",
+        reader.reject(fmt::format("expected {} values in each row of {}, found {} in the last row",
                                   columns.count, category, row.size()));
       }
       row.push_back(tokens.peek()->text);
@@ -256,8 +258,8 @@ Atoms read_rows(Tokens& tokens, const AtomColumns& columns, std::uint64_t frame,
   return rows.take();
 }
 
-// Reads a single atom whose items are tags with one value each, which CIF allows instead of a loop
-// of one row. The first tag has not been read.
+// Reads a single atom whose items are tags with one value each. CIF allows this form instead of a
+// loop with one row. The first tag has not been read yet.
 Atoms read_pairs(Tokens& tokens, std::uint64_t frame, const LineReader& reader) {
   AtomColumns columns;
   std::vector<std::string_view> row;
@@ -277,9 +279,9 @@ Atoms read_pairs(Tokens& tokens, std::uint64_t frame, const LineReader& reader) 
   return rows.take();
 }
 
-// Detects files that were cut off. If a program ends the heading and every category with '#', as
-// the PDB does, the last category must end with '#', too. A few '#' do not suffice as evidence,
-// because some programs write them only between categories.
+// Detects truncated files. If a program ends the heading and every category with '#', as the PDB
+// does, the last category must end with '#', too. A few '#' are not sufficient evidence, because
+// some programs write them only between categories.
 class ClosingMarks {
  public:
   void heading(const Tokens& tokens) {
@@ -291,9 +293,8 @@ class ClosingMarks {
     if (tokens.peek() || tokens.marks_before() > 0 || !closes_heading_ || closed_ == 0) return;
     if (closed_ >= enough) reader.reject("the file ends here, where '#' was expected");
     atoms.notes.emplace_back(
-        "other parts of the file end with '#', but the atoms do not; if the file was cut off, "
-        "atoms "
-        "are missing");
+        "other sections of the file end with '#', but the section of the atoms does not; if the "
+        "file was cut off, atoms are missing");
   }
 
  private:
@@ -303,7 +304,7 @@ class ClosingMarks {
   std::uint64_t closed_ = 0;
 };
 
-// Describes the other content of a file without atoms, to the extent that its loops reveal it.
+// Describes the content of a file without atoms, as far as the tag of one of its loops reveals it.
 std::string_view other_content(std::string_view tag) {
   if (tag.starts_with("_chem_comp_atom.")) {
     return "the file describes a chemical component (_chem_comp_atom), not a structure";
@@ -350,7 +351,7 @@ ParticleSet read_mmcif(LineReader& reader, std::uint64_t frame, ColourKind colou
   }
   if (others > 0) {
     atoms->notes.emplace_back(
-        "the file has atoms in several data blocks; only those of the first block are read");
+        "the file has atoms in several data blocks; only the atoms of the first block are read");
   }
   return to_particles(std::move(*atoms), colour, reader);
 }

@@ -20,7 +20,9 @@
 namespace triptych::scene {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the file's numbers are little-endian");
+static_assert(std::endian::native == std::endian::little,
+              "this reader requires a little-endian machine, because the numbers in the file are "
+              "little-endian");
 
 enum class VertexType : std::uint8_t { none, float_xyz, float_xyzr, short_xyz, double_xyz };
 enum class ColourType : std::uint8_t {
@@ -36,7 +38,7 @@ enum class ColourType : std::uint8_t {
 constexpr std::array<std::size_t, 5> vertex_bytes{0, 12, 16, 6, 24};
 constexpr std::array<std::size_t, 8> colour_bytes{0, 3, 4, 4, 12, 16, 8, 8};
 
-// Reads numbers at given positions. Every read is checked against the end of the data.
+// Reads numbers at a current position. Every read is checked against the end of the data.
 class Bytes {
  public:
   Bytes(std::span<const char> content, std::string file)
@@ -79,9 +81,9 @@ class Bytes {
 struct List {
   VertexType vertex = VertexType::none;
   ColourType colour = ColourType::none;
-  float radius = 0;  // the value for all particles without their own
-  Rgb rgb{};         // the value for all particles without their own
-  double lo = 0;     // the lower end of the intensities
+  float radius = 0;  // for all particles without an individual radius
+  Rgb rgb{};         // for all particles without an individual colour
+  double lo = 0;     // the range of the intensities is [lo, hi]
   double hi = 1;
   std::uint64_t count = 0;
   std::span<const char> data;
@@ -121,12 +123,12 @@ List read_list(Bytes& bytes, int version) {
         fmt::format("{} particles are too many; the limit is {}", list.count, most_particles));
   }
   if (list.vertex == VertexType::none && list.count > 0) {
-    bytes.reject(
-        fmt::format("expected a list with positions, found {} particles without them", list.count));
+    bytes.reject(fmt::format("expected a list with positions, found {} particles without positions",
+                             list.count));
   }
   if (version >= 103) static_cast<void>(bytes.take_many(6, sizeof(float), "the list's box"));
   list.data = bytes.take_many(list.count, list.stride(), "the list's particles");
-  if (version == 101) {  // clusters: their number, then data of a stated size
+  if (version == 101) {  // the number of clusters, the size of their data, and the data
     static_cast<void>(bytes.take<std::uint32_t>("the number of clusters"));
     const auto size = bytes.take<std::uint64_t>("the size of the clusters");
     static_cast<void>(bytes.take_many(size, 1, "the clusters"));
@@ -134,7 +136,7 @@ List read_list(Bytes& bytes, int version) {
   return list;
 }
 
-// Reads the file up to the requested frame and leaves the position at its beginning. Returns the
+// Reads the file up to the requested frame, and leaves the position at its beginning. Returns the
 // position at which the frame ends.
 std::uint64_t find_frame(Bytes& bytes, std::uint64_t frame, int& version) {
   constexpr std::array<char, 6> magic{'M', 'M', 'P', 'L', 'D', '\0'};
@@ -147,7 +149,7 @@ std::uint64_t find_frame(Bytes& bytes, std::uint64_t frame, int& version) {
     bytes.reject(fmt::format("expected a version from 100 to 103, found {}", version));
   }
   const auto frames = bytes.take<std::uint32_t>("the number of frames");
-  static_cast<void>(bytes.take_many(12, sizeof(float), "the boxes of data and clipping"));
+  static_cast<void>(bytes.take_many(12, sizeof(float), "the data box and the clipping box"));
   const std::uint64_t table = bytes.at();
   const auto offsets = bytes.take_many(std::uint64_t{frames} + 1, 8, "the table of frames");
   if (frame >= frames) {
@@ -158,8 +160,8 @@ std::uint64_t find_frame(Bytes& bytes, std::uint64_t frame, int& version) {
   if (range[0] < table + offsets.size() || range[1] < range[0] || range[1] > bytes.size()) {
     bytes.move_to(table + frame * 8);
     bytes.reject(
-        fmt::format("expected frame {} between byte {} and the file's end at {}, found {} "
-                    "to {}",
+        fmt::format("expected frame {} between byte {} and the end of the file at byte {}, found "
+                    "it at bytes {} to {}",
                     frame, table + offsets.size(), bytes.size(), range[0], range[1]));
   }
   bytes.move_to(range[0]);

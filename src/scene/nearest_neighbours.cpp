@@ -17,14 +17,14 @@ double distance_squared(const Place& a, const Place& b) {
   return sum;
 }
 
-// A k-d tree without pointers: the middle element of each range splits it along the axis that
-// belongs to its depth in the tree. A grid would suit most data, but a single distant outlier would
-// put all other points into one cell.
+// A k-d tree without pointers: the middle element of each range splits it along the axis of that
+// tree level. A grid would suit most data, but a single distant outlier would put all other points
+// into one cell.
 class Tree {
  public:
   explicit Tree(std::vector<Place>& places) : places_(places) { build(places_, 0); }
 
-  // The squared distance from a position to the nearest one that differs from it.
+  // Returns the squared distance from a position to the nearest position that differs from it.
   [[nodiscard]] double nearest_squared(const Place& from) const {
     double best = std::numeric_limits<double>::infinity();
     search(places_, 0, from, best);

@@ -5,11 +5,12 @@
 
 namespace triptych::scene {
 
-// The median distance to the nearest other position, over all distinct positions that single
-// precision can represent (other positions do not become particles). For an even number of
-// positions it is the upper of the two middle values. Empty if there are fewer than two distinct
-// positions. If there are more than 100 000, the median is taken over at most 100 000 of them,
-// which are evenly spread in the order of x. Takes O(n log n) for any arrangement.
+// Returns the median distance between a position and its nearest neighbour, over all distinct
+// positions that single precision can represent (positions that it cannot represent do not become
+// particles). For an even number of positions, this is the upper of the two middle values. Returns
+// nullopt if there are fewer than two distinct positions. If there are more than 100 000 positions,
+// the median is taken over at most 100 000 of them, which are evenly spaced in the order of x. The
+// run time is O(n log n) for any arrangement.
 [[nodiscard]] std::optional<double> median_nearest_distance(
     std::vector<std::array<double, 3>> places);
 

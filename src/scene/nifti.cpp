@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t header_bytes_1 = 348;
 constexpr std::size_t header_bytes_2 = 540;
 
-// The positions of the fields in the two versions of the header (nifti1.h, nifti2.h).
+// The byte offsets of the fields in the two versions of the header (nifti1.h, nifti2.h).
 struct Offsets {
   std::size_t dim, datatype, pixdim, vox_offset, slope, intercept, units, qform_code, sform_code,
       quatern, srow, magic;
@@ -34,13 +34,14 @@ struct Offsets {
 constexpr Offsets offsets_1{40, 70, 76, 108, 112, 116, 123, 252, 254, 256, 280, 344};
 constexpr Offsets offsets_2{16, 12, 104, 168, 176, 184, 500, 344, 348, 352, 400, 4};
 
-// Reads the numbers of a header in either version and byte order.
+// Reads numbers from a header of either version and byte order.
 class NiftiHeader {
  public:
   explicit NiftiHeader(const std::filesystem::path& file)
       : file_(file.string()), bytes_(content_start(file, header_bytes_2)) {
     if (bytes_.size() < header_bytes_1) {
-      reject(fmt::format("has {} bytes; a NIfTI header has {}", bytes_.size(), header_bytes_1));
+      reject(fmt::format("the file has {} bytes, but a NIfTI header has {}", bytes_.size(),
+                         header_bytes_1));
     }
     for (const bool big : {false, true}) {
       big_ = big;
@@ -50,7 +51,8 @@ class NiftiHeader {
       check_magic();
       return;
     }
-    reject("is not a NIfTI file: its first 4 bytes are not a header size (348 or 540)");
+    reject(
+        "this is not a NIfTI file, because its first 4 bytes are not a header size (348 or 540)");
   }
 
   [[nodiscard]] bool big_endian() const { return big_; }
@@ -107,7 +109,8 @@ class NiftiHeader {
 
   void check_magic() const {
     if (version_ == 2 && bytes_.size() < header_bytes_2) {
-      reject(fmt::format("has {} bytes; a NIfTI-2 header has {}", bytes_.size(), header_bytes_2));
+      reject(fmt::format("the file has {} bytes, but a NIfTI-2 header has {}", bytes_.size(),
+                         header_bytes_2));
     }
     const std::string_view magic(bytes_.data() + offsets().magic, 4);
     const char digit = version_ == 1 ? '1' : '2';
@@ -116,13 +119,12 @@ class NiftiHeader {
     const std::string_view stated = std::string_view(bytes_).substr(4, offsets().magic);
     if (std::ranges::count(stated, '\0') == std::ssize(stated)) {
       reject(
-          "has an empty header: it states neither sizes nor a type, so that its voxels cannot be "
-          "read");
+          "the header is empty: it states neither sizes nor a type, so the voxels cannot be read");
     }
     const bool zeros = std::ranges::count(magic, '\0') == 4;
     reject(fmt::format(
-        "has the size of a NIfTI-{} header, but {} in place of the format name 'n+{}' or 'ni{}'; "
-        "Analyze 7.5 is not supported, because it states no orientation",
+        "the header has the size of a NIfTI-{} header, but {} instead of the format name 'n+{}' or "
+        "'ni{}'; Analyze 7.5 is not supported, because it states no orientation",
         version_, zeros ? "zero bytes" : fmt::format("'{}'", quotable(magic)), digit, digit));
   }
 
@@ -135,7 +137,7 @@ class NiftiHeader {
 struct Datatype {
   int code;
   StoredType type;
-  std::uint64_t components;  // consecutive values of a voxel
+  std::uint64_t components;  // number of consecutive values per voxel
 };
 constexpr std::array<Datatype, 12> datatypes{{{2, StoredType::u8, 1},
                                               {4, StoredType::i16, 1},
@@ -154,18 +156,18 @@ const Datatype& datatype_of(const NiftiHeader& header) {
   const auto found = std::ranges::find(datatypes, header.datatype(), &Datatype::code);
   if (found == datatypes.end()) {
     header.reject(
-        fmt::format("datatype {} is not supported; expected integers of 8 to 64 bits, "
-                    "floats of 32 or 64 bits, RGB or RGBA",
+        fmt::format("datatype {} is not supported; expected 8-bit to 64-bit integers, "
+                    "32-bit or 64-bit floats, RGB or RGBA",
                     header.datatype()));
   }
   return *found;
 }
 
-// The sizes of the three spatial axes, and the product of all further ones.
+// Sets the sizes of the three spatial axes. Returns the product of the sizes of all further axes.
 std::uint64_t take_nifti_sizes(const NiftiHeader& header, Volume& volume) {
   const std::int64_t axes = header.dim(0);
   if (axes < 3 || axes > 7) {
-    header.reject(fmt::format("has {} dimensions; expected 3 to 7", axes));
+    header.reject(fmt::format("the volume has {} dimensions; expected 3 to 7", axes));
   }
   std::uint64_t further = 1;
   for (std::size_t i = 1; i <= static_cast<std::size_t>(axes); ++i) {
@@ -177,7 +179,8 @@ std::uint64_t take_nifti_sizes(const NiftiHeader& header, Volume& volume) {
     if (i <= 3) {
       volume.size.at(i - 1) = static_cast<int>(size);
     } else {
-      // At most four factors below 2³¹. An overflow is detected when the bytes are counted.
+      // There are at most four such factors, each below 2³¹. An overflow is detected later, when
+      // the bytes are counted.
       further = further > std::numeric_limits<std::uint32_t>::max()
                     ? further
                     : further * static_cast<std::uint64_t>(size);
@@ -196,8 +199,8 @@ std::array<double, 3> spacing_of(const NiftiHeader& header, const Volume& volume
   return spacing;
 }
 
-// The columns of the matrix that maps voxels to millimetres, from the quaternion (nifti1.h, method
-// 2).
+// Returns the columns of the matrix that maps voxels to millimetres, computed from the quaternion
+// (method 2 in nifti1.h).
 std::array<Vector3, 3> axes_of_quaternion(const NiftiHeader& header,
                                           const std::array<double, 3>& spacing) {
   const double b = header.quatern(0);
@@ -231,10 +234,11 @@ void note_orientation(const NiftiHeader& header, Volume& volume) {
     for (std::size_t i = 0; i < 3; ++i) {
       const double length = length_of(axes.at(i));
       if (std::abs(length - volume.spacing.at(i)) <= allowed * volume.spacing.at(i)) continue;
-      volume.facts.notes.push_back(fmt::format(
-          "axis {} has the spacing {} (pixdim), but the length {} in the matrix (sform); "
-          "the spacing is used",
-          i, volume.spacing.at(i), length));
+      volume.facts.notes.push_back(
+          fmt::format("axis {} has the spacing {} (pixdim), but its column in the matrix (sform) "
+                      "has the length {}; "
+                      "the spacing is used",
+                      i, volume.spacing.at(i), length));
     }
     if (const std::string sheared = sheared_axes(axes); !sheared.empty()) {
       volume.facts.notes.push_back(
@@ -261,7 +265,7 @@ std::string unit_name(int code) {
   }
 }
 
-// The .img file that belongs to a .hdr file, compressed or not.
+// Returns the .img file that belongs to a .hdr file. Either may be compressed.
 std::filesystem::path image_beside(const std::filesystem::path& file, const NiftiHeader& header) {
   std::filesystem::path stem = file;
   const std::string last = lower_case(file.extension().string());
@@ -278,14 +282,13 @@ std::filesystem::path image_beside(const std::filesystem::path& file, const Nift
 
 std::uint64_t start_of_voxels(const NiftiHeader& header) {
   const double offset = header.vox_offset();
-  // In a single file, the four bytes after the header state whether extensions follow.
+  // In a single file, four bytes after the header state whether extensions follow.
   const std::size_t least = header.is_single_file() ? header.header_bytes() + 4 : 0;
   if (offset == 0) return least;
   constexpr double most = 0x1.0p53;
   if (!(offset >= static_cast<double>(least) && offset <= most) || offset != std::floor(offset)) {
     header.reject(
-        fmt::format("voxels from byte {} on (vox_offset); expected a whole number from {} "
-                    "on",
+        fmt::format("the voxels begin at byte {} (vox_offset); expected a whole number, {} or more",
                     offset, least));
   }
   return static_cast<std::uint64_t>(offset);
@@ -300,7 +303,7 @@ Volume read_nifti(const std::filesystem::path& file, const Component& component)
   RawVoxels source;
   const std::uint64_t further = take_nifti_sizes(header, volume);
   if (datatype.components > 1 && further > 1) {
-    header.reject("has colours and also a fourth dimension; expected only one of them");
+    header.reject("the volume has both colours and a fourth dimension; expected only one of them");
   }
   volume.spacing = spacing_of(header, volume, file.string());
   volume.facts.unit = unit_name(header.units());
@@ -310,7 +313,7 @@ Volume read_nifti(const std::filesystem::path& file, const Component& component)
   source.start = start_of_voxels(header);
   if (header.is_single_file() && header.vox_offset() == 0) {
     volume.facts.notes.push_back(fmt::format(
-        "vox_offset is 0, so the voxels are read from byte {} on, where they begin in a file "
+        "vox_offset is 0, so the voxels are read from byte {} on, where they begin in files "
         "without extensions",
         source.start));
   }

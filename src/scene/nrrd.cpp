@@ -60,13 +60,14 @@ bool parse_big_endian(const Header& header, const RawVoxels& source) {
   if (field == nullptr) {
     if (bytes_of(source.layout.type) == 1 || source.encoding == RawEncoding::text) return false;
     throw core::InputError(header.require("type").place,
-                           "values of several bytes need a field 'endian'");
+                           "values with more than one byte need the field 'endian'");
   }
   const std::string name = lower_case(field->value);
   if (name == "little") return false;
   if (name == "big") return true;
-  throw core::InputError(
-      field->place, fmt::format("endian '{}'; expected little or big", quotable(field->value)));
+  throw core::InputError(field->place,
+                         fmt::format("the byte order '{}' is unknown; expected little or big",
+                                     quotable(field->value)));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace {
 
 using Vector = Vector3;
 
-// Removes one "(a,b,c)" from the beginning of `text` and returns its numbers.
+// Removes a vector "(a,b,c)" from the beginning of `text`, and returns its numbers.
 Vector take_vector(std::string_view& text, const core::FilePlace& place) {
   const std::size_t open = text.find_first_not_of(" \t");
   const std::size_t close = text.find(')');
@@ -32,13 +32,14 @@ Vector take_vector(std::string_view& text, const core::FilePlace& place) {
   const auto words = split_words(inside);
   Vector vector{};
   if (words.size() != vector.size()) {
-    throw core::InputError(place, fmt::format("a vector of {} numbers; expected 3", words.size()));
+    throw core::InputError(place,
+                           fmt::format("the vector has {} numbers; expected 3", words.size()));
   }
   for (std::size_t c = 0; c < vector.size(); ++c) {
     const auto number = parse_number<double>(words[c]);
     if (!number || !std::isfinite(*number)) {
-      throw core::InputError(place,
-                             fmt::format("'{}'; expected a finite number", quotable(words[c])));
+      throw core::InputError(
+          place, fmt::format("found '{}'; expected a finite number", quotable(words[c])));
     }
     vector.at(c) = *number;
   }
@@ -61,7 +62,7 @@ std::array<Vector, 3> parse_directions(const Field& field, const LeftOut& left_o
   }
   if (!trimmed(text).empty()) {
     throw core::InputError(field.place,
-                           fmt::format("unexpected '{}' after three vectors", quotable(text)));
+                           fmt::format("unexpected '{}' after the three vectors", quotable(text)));
   }
   return axes;
 }
@@ -79,7 +80,7 @@ std::array<double, 3> lengths_of(const std::array<Vector, 3>& axes, const std::a
   return spacing;
 }
 
-// The words of a field that has one word per axis, without the word of the component axis.
+// Returns the words of a field with one word per axis, without the word for the component axis.
 std::vector<std::string_view> words_of_axes(std::string_view value, const LeftOut& left_out) {
   auto words = split_words(value);
   if (left_out && words.size() == 4) {
@@ -88,7 +89,7 @@ std::vector<std::string_view> words_of_axes(std::string_view value, const LeftOu
   return words;
 }
 
-// The positions at which the axes begin or end; NaN where a position is unknown.
+// Returns the positions at which the axes begin or end. Unknown positions are NaN.
 Vector parse_ends(const Field& field, const LeftOut& left_out) {
   const auto words = words_of_axes(field.value, left_out);
   Vector ends{};
@@ -100,15 +101,16 @@ Vector parse_ends(const Field& field, const LeftOut& left_out) {
     const auto number = parse_number<double>(words[i]);
     if (!number) {
       throw core::InputError(field.place,
-                             fmt::format("'{}'; expected a number", quotable(words[i])));
+                             fmt::format("found '{}'; expected a number", quotable(words[i])));
     }
     ends.at(i) = *number;
   }
   return ends;
 }
 
-// Whether the first and the last sample are at the ends of an axis. Otherwise samples are in the
-// middle of cells, which is the default of the format's own library, too.
+// Returns, for each axis, whether the first and last samples are at the ends of the axis. Otherwise
+// samples are in the middle of cells, which is also the default of the NRRD reference
+// implementation.
 std::array<bool, 3> parse_node_centred(const Field* field, const LeftOut& left_out) {
   std::array<bool, 3> node{};
   if (field == nullptr) return node;
@@ -121,14 +123,14 @@ std::array<bool, 3> parse_node_centred(const Field* field, const LeftOut& left_o
     const std::string name = lower_case(words[i]);
     node.at(i) = name == "node";
     if (node.at(i) || name == "cell" || name == "none" || name == "???") continue;
-    throw core::InputError(
-        field->place,
-        fmt::format("centering '{}' of axis {}; expected cell or node", quotable(words[i]), i));
+    throw core::InputError(field->place,
+                           fmt::format("unknown centering '{}' of axis {}; expected cell or node",
+                                       quotable(words[i]), i));
   }
   return node;
 }
 
-// Computes the spacing from the ends of the axes; nullopt if no axis has known ends.
+// Computes the spacing from the ends of the axes. Returns nullopt if no axis has known ends.
 std::optional<Vector> spacing_of_ends(const Header& header, const std::array<int, 3>& size,
                                       const LeftOut& left_out) {
   const Field* lowest = header.find("axis mins");
@@ -146,8 +148,8 @@ std::optional<Vector> spacing_of_ends(const Header& header, const std::array<int
     if (steps == 0) {
       throw core::InputError(
           highest->place,
-          fmt::format("axis {} has a single node-centred sample, so its ends determine no spacing; "
-                      "expected 'spacings'",
+          fmt::format("axis {} has a single node-centred sample, so its ends do not determine a "
+                      "spacing; expected the field 'spacings'",
                       i));
     }
     spacing.at(i) = usable_spacing(length / steps, size.at(i), highest->place);
@@ -155,8 +157,8 @@ std::optional<Vector> spacing_of_ends(const Header& header, const std::array<int
   return spacing;
 }
 
-// The orientation in letters, for a space whose axes have anatomical names, such as
-// left-posterior-superior.
+// Returns the orientation in letters if the space's axes have anatomical names, such as
+// left-posterior-superior. Otherwise returns an empty string.
 std::string orientation_of(const std::array<Vector, 3>& axes, const Field* space) {
   if (space == nullptr) return {};
   const std::string name = lower_case(space->value);
@@ -179,7 +181,7 @@ bool is_space(std::string_view kind) {
 }
 
 // Rejects colours or vectors along one of three axes, because they would be drawn as if they were
-// positions.
+// positions in space.
 void require_places(const Field& kinds) {
   const auto words = split_words(kinds.value);
   if (words.size() != 3) {
@@ -189,14 +191,15 @@ void require_places(const Field& kinds) {
     if (is_space(words[i])) continue;
     throw core::InputError(
         kinds.place,
-        fmt::format("kind '{}' of axis {}; expected domain or space, because three axes "
-                    "must be spatial; only a fourth axis may have another kind",
-                    quotable(words[i]), i));
+        fmt::format(
+            "the kind '{}' of axis {} is not spatial; expected domain or space, because three "
+            "axes must be spatial and only a fourth axis may have another kind",
+            quotable(words[i]), i));
   }
 }
 
-// Finds the component axis among four axes: the one whose kind is not spatial, otherwise the one
-// without a direction, otherwise the only one of size 1.
+// Finds the component axis among four axes. This is the axis whose kind is not spatial, or else the
+// axis without a direction, or else the only axis of size 1.
 std::size_t component_axis(const Header& header, const std::vector<std::string_view>& sizes) {
   const core::FilePlace& place = header.require("dimension").place;
   std::vector<std::size_t> found;
@@ -210,7 +213,7 @@ std::size_t component_axis(const Header& header, const std::vector<std::string_v
     }
   }
   if (const Field* directions = header.find("space directions"); found.empty() && directions) {
-    // "none" replaces a vector.
+    // The word "none" may replace a vector.
     std::size_t axis = 0;
     bool inside = false;
     for (std::size_t i = 0; i < directions->value.size(); ++i) {
@@ -229,8 +232,8 @@ std::size_t component_axis(const Header& header, const std::vector<std::string_v
   if (found.size() == 1 && found.front() < 4) return found.front();
   throw core::InputError(
       place,
-      "expected 3 axes, or 4 of which 'kinds' or 'space directions' states the one "
-      "that is not spatial, as in 'kinds: vector domain domain domain'");
+      "expected 3 axes, or 4 axes of which 'kinds' or 'space directions' identifies "
+      "the one that is not spatial, as in 'kinds: vector domain domain domain'");
 }
 
 }  // namespace
@@ -240,10 +243,11 @@ LeftOut parse_axes(const Header& header, Volume& volume, ValueLayout& layout) {
   const Field& sizes = header.require("sizes");
   const auto axes = parse_number<int>(dimension.value);
   if (axes != 3 && axes != 4) {
-    throw core::InputError(dimension.place,
-                           fmt::format("dimension '{}'; expected 3 axes, or 4 of which one is not "
-                                       "spatial",
-                                       quotable(dimension.value)));
+    throw core::InputError(
+        dimension.place,
+        fmt::format("the dimension is '{}'; expected 3 axes, or 4 axes of which one "
+                    "is not spatial",
+                    quotable(dimension.value)));
   }
   if (axes == 3) {
     if (const Field* kinds = header.find("kinds")) require_places(*kinds);
@@ -260,8 +264,9 @@ LeftOut parse_axes(const Header& header, Volume& volume, ValueLayout& layout) {
   const auto count = parse_number<std::uint32_t>(words[axis]);
   if (!count || *count == 0) {
     throw core::InputError(
-        sizes.place, fmt::format("size '{}' along axis {}; expected a whole number, 1 or more",
-                                 quotable(words[axis]), axis));
+        sizes.place,
+        fmt::format("the size is '{}' along axis {}; expected a whole number, 1 or more",
+                    quotable(words[axis]), axis));
   }
   layout.components = *count;
   for (std::size_t i = 0; i < axis; ++i) {
@@ -275,7 +280,7 @@ void parse_spacing(const Header& header, const LeftOut& left_out, Volume& volume
   const Field* directions = header.find("space directions");
   if (spacings != nullptr && directions != nullptr) {
     throw core::InputError(directions->place,
-                           "'space directions' and 'spacings' exclude each other");
+                           "'space directions' and 'spacings' are mutually exclusive");
   }
   if (directions != nullptr) {
     const std::array<Vector, 3> axes = parse_directions(*directions, left_out);
@@ -290,7 +295,8 @@ void parse_spacing(const Header& header, const LeftOut& left_out, Volume& volume
   }
 }
 
-// Units are a list in quotes: '"mm" "mm" "mm"'.
+// Returns the first unit that is not empty. Units are a list of quoted strings, such as '"mm" "mm"
+// "mm"'.
 std::string unit_of(const Header& header) {
   for (const char* name : {"space units", "units"}) {
     const Field* field = header.find(name);

@@ -1,6 +1,6 @@
 #pragma once
-// The axes of an NRRD file: which of them are spatial, and their sizes, spacing, unit and
-// orientation.
+// Interprets the axes of an NRRD file: which of them are spatial, and their sizes, spacing, unit
+// and orientation.
 
 #include <cstddef>
 #include <optional>
@@ -12,18 +12,18 @@
 
 namespace triptych::scene::nrrd {
 
-// The index of the axis that is not spatial and holds the components, if there are four axes.
-// Fields with one word per axis have a word for this axis, too.
+// If there are four axes, the index of the axis that is not spatial and holds the components.
+// Fields with one word per axis also have a word for this axis.
 using LeftOut = std::optional<std::size_t>;
 
-// Sets the sizes and, for four axes, the layout of the components. Throws InputError with file and
-// line, as all functions here do.
+// Sets the sizes and, for four axes, the layout of the components. All functions in this file throw
+// InputError with file and line.
 [[nodiscard]] LeftOut parse_axes(const Header& header, Volume& volume, ValueLayout& layout);
 
 // Sets the spacing and the orientation.
 void parse_spacing(const Header& header, const LeftOut& left_out, Volume& volume);
 
-// The first unit of the axes; empty if there is none.
+// Returns the first unit of the axes, or an empty string if there is none.
 [[nodiscard]] std::string unit_of(const Header& header);
 
 }  // namespace triptych::scene::nrrd

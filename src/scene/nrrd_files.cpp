@@ -42,13 +42,13 @@ std::int64_t parse_skip(const Field* field, std::int64_t lowest, std::string_vie
   if (field == nullptr) return 0;
   const auto count = parse_number<std::int64_t>(field->value);
   if (!count || *count < lowest) {
-    throw core::InputError(field->place,
-                           fmt::format("'{}'; expected {}", quotable(field->value), expected));
+    throw core::InputError(
+        field->place, fmt::format("found '{}'; expected {}", quotable(field->value), expected));
   }
   return *count;
 }
 
-// The position at which `count` lines from `start` on end.
+// Returns the position after `count` lines, counted from `start`.
 std::uint64_t skip_lines(const std::filesystem::path& file, std::uint64_t start, std::int64_t count,
                          const core::FilePlace& place) {
   std::ifstream in(file, std::ios::binary);
@@ -56,21 +56,21 @@ std::uint64_t skip_lines(const std::filesystem::path& file, std::uint64_t start,
   for (std::int64_t i = 0; i < count; ++i) {
     in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
     if (!in || in.eof()) {
-      throw core::InputError(
-          place, fmt::format("{} has only {} lines to skip", file.filename().string(), i));
+      throw core::InputError(place, fmt::format("{} has only {} lines that can be skipped",
+                                                file.filename().string(), i));
     }
   }
   return static_cast<std::uint64_t>(in.tellg());
 }
 
-// Returns the files that a pattern "FORMAT MIN MAX STEP" names; a dimension may follow. A plain
-// file name may also contain a '%'. nullopt if the text is not a pattern.
+// Returns the files named by a pattern "FORMAT MIN MAX STEP", which may be followed by a dimension.
+// Returns nullopt if the text is not a pattern. A plain file name may also contain a '%'.
 std::optional<std::vector<std::string>> files_of_pattern(std::string_view value,
                                                          const core::FilePlace& place) {
   constexpr std::size_t most_files = 100'000;
   auto words = split_words(value);
   if (words.size() < 4) return std::nullopt;
-  // A dimension may follow the three numbers.
+  // If four numbers follow the format, the last one is the dimension.
   std::size_t first = words.size() - 3;
   const auto is_number = [](std::string_view word) { return parse_number<int>(word).has_value(); };
   if (first >= 2 && is_number(words[first - 1])) --first;
@@ -94,7 +94,8 @@ std::optional<std::vector<std::string>> files_of_pattern(std::string_view value,
   }
   std::vector<std::string> names;
   for (std::int64_t i = lo; step > 0 ? i <= hi : i >= hi; i += step) {
-    if (names.size() == most_files) throw core::InputError(place, "more than 100000 files");
+    if (names.size() == most_files)
+      throw core::InputError(place, "the pattern names more than 100000 files");
     const std::string number = width.starts_with('0') ? fmt::format("{:0{}}", i, *digits)
                                                       : fmt::format("{:{}}", i, *digits);
     names.push_back(fmt::format("{}{}{}", name.substr(0, percent), number, name.substr(end + 1)));
@@ -102,7 +103,7 @@ std::optional<std::vector<std::string>> files_of_pattern(std::string_view value,
   return names;
 }
 
-// The files that the field names, in order.
+// Finds the files that the field names, in this order.
 void locate_files(const Header& header, const Field& data, const std::filesystem::path& file,
                   RawVoxels& source) {
   std::vector<Field> named;
@@ -116,7 +117,7 @@ void locate_files(const Header& header, const Field& data, const std::filesystem
   } else {
     named.push_back(data);
   }
-  if (named.empty()) throw core::InputError(data.place, "the pattern names no file");
+  if (named.empty()) throw core::InputError(data.place, "the pattern names no files");
   for (const Field& each : named) {
     const auto found = data_file_beside(file, each.value, each.place);
     if (source.file.empty()) {

@@ -1,5 +1,6 @@
 #pragma once
-// Locates the values of an NRRD file: in the file itself, in another file, or in several.
+// Locates the voxel values of an NRRD file, which are in the file itself, in another file, or in
+// several files.
 
 #include <filesystem>
 
@@ -8,8 +9,8 @@
 
 namespace triptych::scene::nrrd {
 
-// Finds the files, the encoding, and the bytes or lines to skip before the values. The layout of
-// the values is left for the caller to set. Throws InputError with file and line.
+// Finds the files, the encoding, and the number of bytes or lines to skip before the values. Leaves
+// the layout of the values to be set by the caller. Throws InputError with file and line.
 [[nodiscard]] RawVoxels locate(const Header& header, const std::filesystem::path& file);
 
 }  // namespace triptych::scene::nrrd

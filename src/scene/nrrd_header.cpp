@@ -11,7 +11,7 @@
 namespace triptych::scene::nrrd {
 namespace {
 
-// Headers can be long, because some key/value pairs contain whole documents.
+// Headers can be long, because a key/value pair may contain a whole document.
 constexpr std::size_t usual_header = std::size_t{1} << 16U;
 constexpr std::size_t longest_header = std::size_t{64} << 20U;
 
@@ -38,7 +38,7 @@ std::string canonical(std::string_view name) {
 
 Header::Header(const std::filesystem::path& file) : file_(file.string()) {
   std::string start = content_start(file, usual_header);
-  // Read more than the usual size only if the header does not end within it.
+  // Reads more than the usual size only if the header does not end within that size.
   const bool ends = start.find("\n\n") != std::string::npos ||
                     start.find("\n\r\n") != std::string::npos || start.size() < usual_header;
   if (!ends) start = content_start(file, longest_header);
@@ -46,7 +46,7 @@ Header::Header(const std::filesystem::path& file) : file_(file.string()) {
   const bool too_long = !data_start_ && start.size() == longest_header && find("data file") == nullptr;
   if (too_long) {
     throw core::InputError(last_line(),
-                           fmt::format("no blank line ends the header within {} bytes",
+                           fmt::format("the header is not terminated by a blank line within its first {} bytes",
                                        longest_header));
   }
 }
@@ -61,7 +61,7 @@ void Header::parse(std::string_view start) {
     const core::FilePlace place{.file = file_, .line = ++lines_};
     if (lines_ == 1) {
       if (line.size() != 8 || !line.starts_with("NRRD000") || line[7] < '1' || line[7] > '5') {
-        throw core::InputError(place, "not an NRRD file; expected NRRD0001 … NRRD0005");
+        throw core::InputError(place, "this is not an NRRD file; expected NRRD0001 … NRRD0005");
       }
     } else if (lists_files_) {
       if (!trimmed(line).empty()) files_.push_back({std::string(trimmed(line)), place});
@@ -72,7 +72,7 @@ void Header::parse(std::string_view start) {
       add(line, place);
     }
   }
-  if (lines_ == 0) throw core::InputError({.file = file_}, "is empty; expected an NRRD header");
+  if (lines_ == 0) throw core::InputError({.file = file_}, "the file is empty; expected an NRRD header");
 }
 
 void Header::add(std::string_view line, const core::FilePlace& place) {
@@ -112,7 +112,7 @@ void Header::add(std::string_view line, const core::FilePlace& place) {
   const std::string name = canonical(line.substr(0, colon));
   const bool is_field =
       name == "sample units" || std::find(known.begin(), known.end(), name) != known.end();
-  // A key may contain colons.
+  // A key may also contain colons.
   const bool is_pair = line.substr(colon).starts_with(":=") ||
                        (!is_field && line.find(":=") != std::string_view::npos);
   if (is_pair) return;

@@ -1,5 +1,5 @@
 #pragma once
-// The header of an NRRD file, field by field. nrrd.cpp interprets the fields.
+// The fields of an NRRD header. nrrd.cpp interprets them.
 
 #include <fmt/format.h>
 
@@ -20,11 +20,11 @@ struct Field {
   core::FilePlace place;
 };
 
-// The fields of a header by their canonical names.
+// The fields of a header, by their canonical names.
 class Header {
  public:
-  // Throws InputError with the line if the text is not a supported header or contains a field
-  // twice, and IoError.
+  // Reads a header. Throws InputError with the line if it is not a supported header or if a field
+  // appears twice, and IoError.
   explicit Header(const std::filesystem::path& file);
 
   [[nodiscard]] const Field* find(const std::string& name) const {
@@ -38,10 +38,10 @@ class Header {
     }
     return *field;
   }
-  // The position in the unpacked bytes after the blank line that ends the header; nullopt if there
-  // is no such line.
+  // Returns the position (in the decompressed bytes) after the blank line that ends the header, or
+  // nullopt if there is no such line.
   [[nodiscard]] std::optional<std::uint64_t> data_start() const noexcept { return data_start_; }
-  // The lines after "data file: LIST".
+  // Returns the lines after "data file: LIST".
   [[nodiscard]] const std::vector<Field>& listed_files() const noexcept { return files_; }
   [[nodiscard]] core::FilePlace last_line() const { return {.file = file_, .line = lines_}; }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The colours of particles, in each form that a set of particles can contain.
+// The colours of particles, in each of the forms that a particle set can contain.
 
 #include <array>
 #include <cstdint>
@@ -8,21 +8,21 @@
 
 namespace triptych::scene {
 
-using Rgb = std::array<double, 3>;  // not premultiplied, each in [0, 1]
+using Rgb = std::array<double, 3>;  // not premultiplied; each channel is in [0, 1]
 
-// The colour in 8 bits per channel, opaque, with red in the lowest byte. Values outside [0, 1] are
-// clamped.
+// Converts a colour to 8 bits per channel, opaque, with red in the lowest byte. Values outside [0,
+// 1] are clamped.
 [[nodiscard]] std::uint32_t rgba8_of(const Rgb& rgb);
 [[nodiscard]] std::array<float, 4> rgba32_of(const Rgb& rgb);
 
-// The colour of a hue in turns, 0 ≤ hue ≤ 1: 0 is red, ⅓ is green and ⅔ is blue.
+// Returns the colour for a hue in turns, 0 ≤ hue ≤ 1. The hue 0 is red, ⅓ is green and ⅔ is blue.
 [[nodiscard]] Rgb hue_colour(double hue, double saturation = 0.75);
 
-// Appends the colour of the particle that was appended last, in the kind of the set. Intensity is
-// clamped to [0, 1].
+// Appends the colour of the most recently appended particle, as the set's kind of colour. The
+// intensity is clamped to [0, 1].
 void append_colour(ParticleSet& set, const Rgb& rgb, double intensity);
 
-// Reserves memory for this many particles in the arrays that the kind of the set fills.
+// Reserves memory for `count` particles in the arrays that the set's kind of colour uses.
 void reserve(ParticleSet& set, std::size_t count);
 
 }  // namespace triptych::scene

@@ -33,7 +33,7 @@ GeneratedParticles parse_generated_particles(std::string_view data) {
                          : parse_number<std::uint64_t>(rest.substr(colon + 1));
   if (!count) {
     throw core::InputError(
-        fmt::format("'{}': expected generate:NAME:COUNT with a whole number", data));
+        fmt::format("'{}': expected generate:NAME:COUNT with a whole number as COUNT", data));
   }
   return {rest.substr(0, colon), *count};
 }
@@ -43,7 +43,7 @@ struct Source {
   std::uint64_t frame = 0;
 };
 
-// Finds a file with exactly this name; otherwise the text is parsed as FILE@K.
+// Finds a file with exactly this name. If there is none, parses `data` as FILE@K.
 std::optional<Source> find_source(std::string_view data,
                                   const std::vector<std::filesystem::path>& folders) {
   if (const auto file = find_file(data, folders)) return Source{*file, 0};
@@ -54,31 +54,32 @@ std::optional<Source> find_source(std::string_view data,
   if (!file) return std::nullopt;
   if (!frame) {
     throw core::InputError(
-        fmt::format("'{}': expected the number of a frame after '@', counting from 0", data));
+        fmt::format("'{}': expected a frame number after '@' (the first frame is 0)", data));
   }
   return Source{*file, *frame};
 }
 
-// Removes the byte order mark that editors put before a text. Throws InputError for text with two
-// bytes per character.
+// Removes the byte order mark that some editors put at the beginning of a file. Throws InputError
+// for UTF-16.
 std::span<const char> without_byte_order_mark(const std::vector<char>& content,
                                               const std::string& file) {
   const std::string_view text(content.data(), content.size());
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-    throw core::InputError({.file = file},
-                           "is text in UTF-16; expected ASCII or UTF-8: iconv -f "
-                           "UTF-16 -t UTF-8 IN > OUT");
+    throw core::InputError(
+        {.file = file},
+        "the text is encoded in UTF-16; expected ASCII or UTF-8; to convert it: iconv "
+        "-f UTF-16 -t UTF-8 IN > OUT");
   }
   return without_mark(text);
 }
 
-// The first letters of a content, enough to recognise a format.
+// Returns the beginning of the content, which is sufficient to recognize a format.
 std::string_view start_of(std::span<const char> content) {
   constexpr std::size_t enough = 4096;
   return {content.data(), std::min(content.size(), enough)};
 }
 
-// Lines may end with a single CR, as old Macintosh programs wrote them.
+// Converts lines that end with a single CR, which old Macintosh programs wrote.
 void end_lines_with_lf(std::vector<char>& content) {
   const bool has_lf = std::ranges::find(content, '\n') != content.end();
   if (!has_lf) std::ranges::replace(content, '\r', '\n');
@@ -87,13 +88,14 @@ void end_lines_with_lf(std::vector<char>& content) {
 ParticleSet read(const Source& source, ColourKind colour, const Progress& progress) {
   const std::string name = source.file.string();
   const bool packed = packing_of_file(source.file) != Packing::none;
-  // Unpacking counts as this share of the progress.
+  // Decompression counts as this fraction of the progress.
   const double unpacked = packed ? 0.25 : 0;
   const Progress unpacking =
       progress ? Progress([&progress, unpacked](double share) { progress(unpacked * share); })
                : Progress{};
   std::vector<char> content = read_content(source.file, unpacking);
-  if (content.empty()) throw core::InputError({.file = name}, "is empty; expected particles");
+  if (content.empty())
+    throw core::InputError({.file = name}, "the file is empty; expected particles");
   const std::span<const char> text = without_byte_order_mark(content, name);
   const ParticleFormat& format = particle_format(name, start_of(text));
   if (format.text) end_lines_with_lf(content);
@@ -119,7 +121,7 @@ ParticleSet load_particles(std::string_view data, ColourKind colour,
     std::string where;
     for (const auto& folder : folders) where += ", " + folder.string();
     throw core::IoError(
-        fmt::format("{}: not found (searched in the current folder{})", data, where));
+        fmt::format("{}: file not found (searched in the current folder{})", data, where));
   }
   ParticleSet set = read(*source, colour, progress);
   if (set.count() == 0 && set.dropped > 0) {

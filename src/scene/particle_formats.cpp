@@ -70,14 +70,16 @@ constexpr std::array<ParticleFormat, 8> formats{
      {"LAMMPS data", ".data .lmp .lammps .lmpdat", "", never, true, read_lines<read_lammps_data>},
      {"MMPLD", ".mmpld", "", begins_as_mmpld, false, read_binary_mmpld}}};
 
-// The ending that determines the format, without the ending of a compression.
+// Returns the file name ending that determines the format, ignoring the ending of a compressed
+// file.
 std::string ending_of(const std::filesystem::path& file) {
   const std::string last = lower_case(file.extension().string());
   const bool packed = last == ".gz" || last == ".bz2";
   return packed ? lower_case(file.stem().extension().string()) : last;
 }
 
-// The content of a PQR file begins like that of a PDB file, because both have the same records.
+// Returns whether files of the two formats can begin in the same way. This is true of PQR and PDB,
+// because both have the same records.
 bool begin_alike(const ParticleFormat& named, const ParticleFormat& begun) {
   return named.name == "PQR" && begun.name == "PDB";
 }
@@ -104,8 +106,8 @@ const ParticleFormat& particle_format(const std::string& file, std::string_view 
   if (begun->name == "LAMMPS dump" && named->name == "LAMMPS data") return *begun;
   throw core::InputError(
       {.file = file},
-      fmt::format("has a name for {} ({}), but its content begins like {}; if the content is "
-                  "right, change the ending to {}",
+      fmt::format("the file name's ending belongs to the format {} ({}), but the content begins like {}; if "
+                  "the content is correct, change the ending to {}",
                   named->name, ending, begun->name, split_words(begun->endings).front()));
 }
 

@@ -27,8 +27,8 @@ double cube_root(double x) {
   return exponential(logarithm(x) / 3);
 }
 
-// The radius at which the volumes of `count` spheres add up to the share `filling` of a volume.
-// Overlaps are counted twice.
+// Returns the radius at which the volumes of `count` spheres add up to the fraction `filling` of a
+// volume. Overlaps are counted twice.
 double filling_radius(double filling, double volume, double count) {
   return cube_root(filling * volume / count * 3 / (4 * std::numbers::pi));
 }
@@ -37,7 +37,8 @@ double ball_volume(double radius) {
   return 4 * std::numbers::pi / 3 * radius * radius * radius;
 }
 
-// A random position within the unit ball. Rejection sampling needs only exact functions.
+// Returns a random position in the unit ball. Rejection sampling is used because it needs only
+// exactly rounded operations.
 glm::dvec3 place_in_ball(core::Random& random) {
   for (;;) {
     glm::dvec3 place;
@@ -52,8 +53,8 @@ glm::dvec3 place_in_box(core::Random& random, const Box& box) {
   return place;
 }
 
-// A set that is being generated. Colours are drawn from a random sequence of their own, so that the
-// positions do not depend on the kind of colour.
+// A set that is being generated. Colours have a random sequence of their own, so that positions do
+// not depend on the kind of colour.
 class Maker {
  public:
   Maker(std::uint64_t count, ColourKind colour, const Progress& progress)
@@ -62,7 +63,7 @@ class Maker {
     reserve(set_, count);
   }
 
-  // Intensity rises from 0 to 1 along `axis` of the box.
+  // Makes the intensity rise from 0 to 1 along `axis` of the box.
   void colour_along(int axis, const Box& box) {
     axis_ = axis;
     box_ = box;
@@ -103,8 +104,8 @@ void uniform(Maker& maker) {
   while (maker.left() > 0) maker.add(place_in_box(maker.random(), cube), radius);
 }
 
-// The spheres of a liquid fill half of its volume. That is close to the density at which a liquid
-// of hard spheres would freeze.
+// The spheres of a liquid fill half of the liquid's volume, which is close to the density at which
+// a hard-sphere liquid freezes.
 constexpr double liquid_filling = 0.5;
 
 struct Ball {
@@ -168,8 +169,8 @@ void layer(Maker& maker) {
   }
 }
 
-// The slab below the plume. Its upper face is at y = 0. The crater is a half-ball that was removed
-// from it.
+// The slab below the plume. Its upper face is at y = 0. The crater is a hemisphere that is cut out
+// of this face.
 struct Slab {
   double half_side = 10;
   double depth = 5;
@@ -180,7 +181,8 @@ struct Slab {
   }
 };
 
-// The sites of a cubic lattice. The spheres touch, so that many depths are exactly equal.
+// Adds spheres at the sites of a cubic lattice. Adjacent spheres touch, so that many depths are
+// exactly equal.
 void add_lattice(Maker& maker, const Slab& slab, double spacing) {
   const auto across =
       static_cast<std::uint64_t>(std::max(1.0, std::floor(2 * slab.half_side / spacing)));
@@ -200,8 +202,8 @@ void add_lattice(Maker& maker, const Slab& slab, double spacing) {
   }
 }
 
-// A position in a cone that opens upwards from the crater. Squaring the random number makes low
-// positions more likely.
+// Returns a random position in a cone that opens upwards from the crater. The random number is
+// squared, so that low positions are more likely.
 glm::dvec3 place_in_plume(core::Random& random, const Slab& slab, double height) {
   const double u = random.uniform();
   const double h = height * u * u;
@@ -213,7 +215,7 @@ glm::dvec3 place_in_plume(core::Random& random, const Slab& slab, double height)
 void plume(Maker& maker) {
   static constexpr double in_slab = 0.6;
   static constexpr double height = 25;
-  static constexpr double clustered = 0.1;  // the share of draws that start a cluster
+  static constexpr double clustered = 0.1;  // the probability that a draw starts a cluster
   static constexpr std::uint64_t largest_cluster = 32;
   const Slab slab;
   maker.colour_along(1, {{-10, -slab.depth, -10}, {10, height, 10}});
@@ -241,7 +243,8 @@ void coincident(Maker& maker) {
   const std::uint64_t places = (maker.count() + copies - 1) / copies;
   maker.colour_along(2, cube);
   const double radius = filling_radius(paper_filling, cube_volume, static_cast<double>(places));
-  // Each copy restarts the same random sequence, so that equal positions are far apart in the set.
+  // Each copy restarts the same random sequence, so that particles at the same position are far
+  // apart in the set.
   for (std::uint64_t copy = 0; copy < copies; ++copy) {
     core::Random random(place_seed);
     for (std::uint64_t i = 0; i < places && maker.left() > 0; ++i) {
@@ -250,13 +253,14 @@ void coincident(Maker& maker) {
   }
 }
 
-// A wall across the front of the cube, as seen from +z, with hidden spheres behind it. The wall has
-// no gaps: in its plane, each sphere reaches beyond the corners of its square, so no ray passes
-// through. The wall consists of about `seen` spheres in complete rows. The very last sphere touches
-// the back of the cube, so that sets with equal walls have equal boxes and are seen by the same
-// cameras.
+// Creates a wall across the front of the cube, as seen from +z, and hidden spheres behind it. The
+// wall has no gaps: in its plane, each sphere extends beyond the corners of its square, so no ray
+// passes through. The wall consists of about `seen` spheres in complete rows. The very last sphere
+// touches the back of the cube. Sets with equal walls therefore have equal bounding boxes, and the
+// same cameras apply to them.
 void walled(Maker& maker, std::uint64_t seen) {
-  static constexpr double reach = 0.75;  // as a share of a square's edge; the corner is at √½
+  static constexpr double reach =
+      0.75;  // radius as a fraction of a square's edge; the corner is at √½
   maker.colour_along(2, cube);
   const auto rows =
       seen > 1 ? static_cast<std::uint64_t>(std::sqrt(static_cast<double>(seen - 1))) : 0;
@@ -271,8 +275,8 @@ void walled(Maker& maker, std::uint64_t seen) {
   }
   const auto rest = static_cast<double>(maker.left());
   const double small = rest > 1 ? filling_radius(paper_filling, cube_volume, rest) : radius;
-  // The hidden spheres are behind the plane of the wall and within its sides. A few large spheres
-  // might not fit there, so their radius is limited.
+  // The hidden spheres are behind the plane of the wall and within its sides. If there are only a
+  // few, they would be too large to fit there, so their radius is limited.
   const double hidden_radius = std::min(small, 0.05 * cube.hi.x);
   const Box behind{
       cube.lo + hidden_radius,
@@ -303,17 +307,18 @@ constexpr std::array<Generator, 7> generators{{
     {{"coincident", "every position eight times, in different colours, so that depths tie"},
      coincident},
     {{"wall", "a wall without gaps, completely visible from +z"}, wall},
-    {{"hidden", "a wall of a tenth of the particles, with the others hidden behind it"}, hidden},
+    {{"hidden", "a wall that consists of a tenth of the particles, which hides all others"},
+     hidden},
 }};
 
-// Throws InputError for an unknown name or a count that cannot be made.
+// Throws InputError for an unknown name or an unsupported count.
 const Generator& generator_of(std::string_view name, std::uint64_t count) {
   const auto found = std::ranges::find(
       generators, name, [](const Generator& generator) { return generator.info.name; });
   if (found == generators.end()) {
     std::vector<std::string_view> names;
     for (const Generator& each : generators) names.push_back(each.info.name);
-    throw core::InputError(fmt::format("unknown particle generator '{}'; there are: {}", name,
+    throw core::InputError(fmt::format("unknown particle generator '{}'; expected one of {}", name,
                                        fmt::join(names, ", ")));
   }
   if (count < 1 || count > largest_count) {

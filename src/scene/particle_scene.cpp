@@ -10,7 +10,8 @@ namespace triptych::scene {
 double depth_scale(const Box& box, const glm::dvec3& eye) {
   const glm::dvec3 outside = eye - glm::clamp(eye, box.lo, box.hi);
   const double extent = glm::length(box.hi - box.lo) + glm::length(outside);
-  // 2⁻²⁴ times the largest power of two that does not exceed the extent; 0 if there is no extent.
+  // This is 2⁻²⁴ times the largest power of two that does not exceed the extent, or 0 if there is
+  // no extent.
   return extent > 0 ? std::ldexp(1.0, std::ilogb(extent) - 24) : 0;
 }
 

@@ -6,7 +6,8 @@
 
 namespace triptych::scene {
 
-// The particles with these indices, in the same order as the indices. They keep their ids.
+// Returns the particles with these indices, in the order of the indices. The particles keep their
+// ids.
 [[nodiscard]] inline ParticleSet particle_subset(const ParticleSet& set,
                                                  std::span<const std::uint32_t> indices) {
   ParticleSet subset;

@@ -133,16 +133,17 @@ TEST(LammpsData, RefusesBrokenFiles) {
   expect_refused("a.data", data("Atoms # hybrid", rows), ":12:", "found 'hybrid'");
   expect_refused("a.data", data("Atoms # full", rows), ":14:", "expected 7 or");
   expect_refused("a.data", data("Atoms", "1 1 0.5 1 2 3\n2 1 0.5 1 2 3\n"),
-                 ":14:", "expected the style of 6 columns in a comment");
+                 ":14:", "the style of atoms with 6 columns is ambiguous");
   // The styles full and sphere, with image flags or without.
   for (const std::string row : {"1 9 1 0.1 1 2 3", "1 9 1 0.1 1 2 3 0 0 0"}) {
-    expect_refused("a.data", data("Atoms", row + "\n", "1"), ":14:", "in a comment, such as");
+    expect_refused("a.data", data("Atoms", row + "\n", "1"),
+                   ":14:", "expected a comment that names the style");
   }
   expect_refused("a.data", data("Atoms", "1 1 1 2 3 0 0 0\n", "1"), ":14:", "8 whole numbers");
   // An electron has eight columns. The last ones are its position.
   const std::string electron = "1 1 0.5 1 1.0 1.5 2.5 3.5\n";
   expect_refused("a.data", data("Atoms", electron, "1"),
-                 ":14:", "expected the style of 8 columns in a comment");
+                 ":14:", "the style of atoms with 8 columns is ambiguous");
   expect_refused("a.data", data("Atoms # atomic", electron, "1"),
                  ":14:", "image flag in x: expected a whole number, found '1.5'");
   expect_refused("a.data", data("Atoms # full", "1 9 1 0.1 1 2 3 0 0 0.5\n", "1"),

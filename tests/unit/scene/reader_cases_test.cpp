@@ -135,7 +135,7 @@ TEST(Compression, IsKnownByTheContent) {
 }
 
 TEST(Content, ThatIsOfAnotherFormatIsNamed) {
-  expect_refused("a.pdb", "data_1ABC\n#\n", ": ", "begins like mmCIF; if the content is right");
+  expect_refused("a.pdb", "data_1ABC\n#\n", ": ", "begins like mmCIF; if the content is correct");
   expect_refused("a.xyz", "ITEM: TIMESTEP\n0\n", ": ", "begins like LAMMPS dump");
   const std::string dump =
       "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id x y z\n1 0 0 0\n";
