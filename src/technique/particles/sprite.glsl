@@ -1,6 +1,6 @@
 // Computes the sprites of all techniques: a coordinate frame at a sphere's centre, and the corners of the sprite in
-// clip space. Depth is reversed with an infinite far plane: clip z is `near` everywhere, so that z/w =
-// near/distance, and nothing visible is closer than `near`. Rows are counted from the top as in Vulkan, so clip y
+// clip space. Depth is reversed with an infinite far plane: clip z is `near` everywhere, so that
+// z/w = near/distance, and nothing visible is closer than `near`. Rows are counted from the top as in Vulkan, so clip y
 // points down.
 
 struct Corner {

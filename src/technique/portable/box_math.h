@@ -1,9 +1,9 @@
-// Maths of boxes around spheres, and of the curve that orders them, in the common subset of C++, GLSL and OpenCL C,
-// like sphere_math.h. It uses only sums, products and comparisons, each of which is rounded once, so that every API
-// builds the same hierarchy.
+// Maths for boxes around spheres, and for the curve that orders the spheres, in the common subset of C++, GLSL and
+// OpenCL C, like sphere_math.h. It uses only sums, products and comparisons, each of which is rounded once, so that
+// every API builds the same hierarchy.
 
-// The lower and the upper end of a sphere along one axis of the world. The two roundings of c − r have a total
-// error of less than 2u·(|c| + r), with u = 2⁻²⁴. The box is wider than the sphere by 4u·(|c| + r).
+// The lower and upper bounds of a sphere along one axis in world space. The two roundings of c ± r have a total
+// error of less than 2u·(|c| + r), with u = 2⁻²⁴. The box extends 4u·(|c| + r) beyond the sphere on each side.
 TRI_FN float tri_box_low(float c, float r) {
   TRI_PRECISE float size = (c < 0.0f ? 0.0f - c : c) + r;
   TRI_PRECISE float low = (c - r) - 2.4e-7f * size;
@@ -27,7 +27,7 @@ TRI_FN float tri_box_highest(float nx, float ny, float nz, float lx, float ly, f
   return highest;
 }
 
-// Σ max(|l|, |h|). No point of the box is farther away from the origin than this.
+// Returns Σ max(|l|, |h|). No point of the box is farther away from the origin than this.
 TRI_FN float tri_box_reach(float lx, float ly, float lz, float hx, float hy, float hz) {
   float x = 0.0f - lx > hx ? 0.0f - lx : hx;
   float y = 0.0f - ly > hy ? 0.0f - ly : hy;
@@ -36,14 +36,14 @@ TRI_FN float tri_box_reach(float lx, float ly, float lz, float hx, float hy, flo
   return reach;
 }
 
-// The index, from 0 to 1023, of the cell that contains a coordinate, in a grid that begins at `low` and has `scale`
-// cells per unit.
+// Returns the index, from 0 to 1023, of the grid cell that contains a coordinate. The grid begins at `low` and has
+// `scale` cells per unit.
 TRI_FN int tri_grid_cell(float c, float low, float scale) {
   TRI_PRECISE float at = (c - low) * scale;
   return TRI_INT(at > 0.0f ? (at < 1023.0f ? at : 1023.0f) : 0.0f);
 }
 
-// Moves each of ten bits to three times its position.
+// Moves bit i of the lowest ten bits to position 3·i.
 TRI_FN int tri_every_third_bit(int x) {
   int spread = (x | (x << 16)) & 0x030000FF;
   spread = (spread | (spread << 8)) & 0x0300F00F;
@@ -51,9 +51,9 @@ TRI_FN int tri_every_third_bit(int x) {
   return (spread | (spread << 2)) & 0x09249249;
 }
 
-// The position of a cell of the 1024³ grid along Hilbert's curve (Skilling, Programming the Hilbert curve, 2004).
-// Successive cells on this curve are neighbours, so every run of them has a small box. Along Morton's curve, the
-// cells of a run can be far apart.
+// Returns the position of a cell of the 1024³ grid along Hilbert's curve (Skilling, Programming the Hilbert curve,
+// 2004). Successive cells on this curve are neighbours, so every run of cells has a small box. Along Morton's
+// curve, the cells of a run can be far apart.
 TRI_FN int tri_hilbert_place(int x, int y, int z) {
   int a = x;
   int b = y;

@@ -30,7 +30,7 @@
 #define TRI_TO_FLOAT(x) float(x)
 #define TRI_TO_REAL(x) real(x)
 #define TRI_MAKE_REAL2(x, y) real2(x, y)
-// Compilers evaluate this constant to the nearest double.
+// Compilers evaluate this constant expression to the nearest double.
 #define TRI_RATIO(a, b) (real(a) / real(b))
-// `precise` becomes NoContraction: a·b+c is rounded twice, as on every other backend.
+// `precise` becomes the SPIR-V decoration NoContraction: a·b+c is rounded twice, as on every other backend.
 #define TRI_PRECISE precise

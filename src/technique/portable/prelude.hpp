@@ -1,6 +1,6 @@
 #pragma once
-// The definitions that volume_math.h needs to compile as C++, for use on the host and for testing
-// it with the same vectors as in the shading languages.
+// The definitions that make volume_math.h valid C++. The host uses its functions, and tests give
+// them the same inputs as in the shading languages.
 
 #include <bit>
 #include <cmath>
@@ -33,7 +33,7 @@ using real2 = glm::vec2;
 #undef TRI_PRECISION
 }  // namespace triptych::technique::portable
 
-// Includes volume_math.h in double precision.
+// volume_math.h again, in double precision.
 namespace triptych::technique::portable::fp64 {
 using real = double;
 using real2 = glm::dvec2;

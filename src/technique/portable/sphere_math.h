@@ -4,11 +4,12 @@
 
 // ---- From world to camera space -------------------------------------------------------------------
 // The camera coordinate of a centre is axis·(P − eye). In plain floats, it has the rounding error of the *largest*
-// product, which for a narrow field of view is more than a pixel. Here products and sums carry their rounding
-// errors along (Dekker 1971; Ogita, Rump, Oishi 2005: Dot2), so the result is the same as if it had been computed
-// in twice the precision and then rounded. Axis and eye consist of two floats each: the nearest float, and the
-// rest.
+// product, which for a narrow field of view is more than a pixel. Here, the rounding errors of all products and
+// sums are computed as well and added at the end (Dekker 1971; Ogita, Rump, Oishi 2005: Dot2). The result is the
+// same as if it had been computed in twice the precision and then rounded. Axis and eye consist of two floats each:
+// the nearest float, and the rest.
 
+// The rounding error of sum = a + b.
 TRI_FN float tri_sum_error(float a, float b, float sum) {
   TRI_PRECISE float part = sum - a;
   TRI_PRECISE float whole = sum - part;
@@ -16,7 +17,7 @@ TRI_FN float tri_sum_error(float a, float b, float sum) {
   return error;
 }
 
-// The upper 12 bits of a's significand, for |a| < 2^115.
+// Returns the upper 12 bits of a's significand, for |a| < 2^115.
 TRI_FN float tri_upper_half(float a) {
   TRI_PRECISE float wide = a * 4097.0f;
   TRI_PRECISE float rest = wide - a;
@@ -24,6 +25,7 @@ TRI_FN float tri_upper_half(float a) {
   return upper;
 }
 
+// The rounding error of product = a·b.
 TRI_FN float tri_product_error(float a, float b, float product) {
   TRI_PRECISE float a_hi = tri_upper_half(a);
   TRI_PRECISE float b_hi = tri_upper_half(b);
@@ -33,7 +35,7 @@ TRI_FN float tri_product_error(float a, float b, float product) {
   return error;
 }
 
-// (axis + axis_rest)·(P − eye − eye_rest), with all vectors given by component.
+// Returns (axis + axis_rest)·(P − eye − eye_rest). All vectors are passed as components.
 TRI_FN float tri_along_axis(float px, float py, float pz, float ex, float ey, float ez, float ex_rest,
                             float ey_rest, float ez_rest, float ax, float ay, float az, float ax_rest,
                             float ay_rest, float az_rest) {
@@ -58,16 +60,16 @@ TRI_FN float tri_along_axis(float px, float py, float pz, float ex, float ey, fl
 }
 
 // ---- Ray and sphere -------------------------------------------------------------------------------
-// (c, r) is intersected with the ray through (sx, sy). With q = |d|² and m = c × d, the ray passes the centre at
-// the distance |m|/√q. The cross product keeps the precision that b² − |c|² + r² loses, because every term of m is
-// as small as the corresponding distance from the image's centre.
+// (c, r) is intersected with the ray in direction d = (sx, sy, 1). With q = |d|² and m = c × d, the ray passes the
+// centre at the distance |m|/√q. The cross product keeps the precision that b² − |c|² + r² would lose, because the
+// terms of m are no larger than distances from the centre of the image.
 
 TRI_FN float tri_ray_square(float sx, float sy) {
   TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
   return q;
 }
 
-// r²·q − |m|², which is negative or NaN if the ray misses.
+// Returns r²·q − |m|². The result is negative or NaN if the ray misses the sphere.
 TRI_FN float tri_sphere_discriminant(float cx, float cy, float cz, float r, float sx, float sy) {
   TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
   TRI_PRECISE float mx = cy - cz * sy;
@@ -77,9 +79,9 @@ TRI_FN float tri_sphere_discriminant(float cx, float cy, float cz, float r, floa
   return discriminant;
 }
 
-// The distance along the view axis of the first surface point in front of the eye, for a discriminant ≥ 0. That is
-// where the ray enters the sphere or, if this is behind the eye, where it leaves it. Not positive if the whole
-// sphere is behind the eye.
+// Returns the distance, along the view axis, of the first surface point in front of the eye, for a
+// discriminant ≥ 0. That is the point where the ray enters the sphere or, if this point is behind the eye, the
+// point where it leaves the sphere. The result is not positive if the whole sphere is behind the eye.
 TRI_FN float tri_sphere_distance(float cx, float cy, float cz, float sx, float sy, float discriminant) {
   TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
   TRI_PRECISE float b = cx * sx + cy * sy + cz;
@@ -90,27 +92,28 @@ TRI_FN float tri_sphere_distance(float cx, float cy, float cz, float sx, float s
   return distance;
 }
 
-// The cosine between the surface normal and the ray, |n·d|.
+// Returns the cosine of the angle between the surface normal and the ray, |n·d|/|d|.
 TRI_FN float tri_sphere_cosine(float r, float sx, float sy, float discriminant) {
   TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
   TRI_PRECISE float cosine = TRI_SQRT(discriminant / q) / r;
   return cosine < 1.0f ? cosine : 1.0f;
 }
 
-// Reversed depth near/Z, and 1 for everything nearer than `near`.
+// Returns the reversed depth near/Z, or 1 for everything nearer than `near`.
 TRI_FN float tri_depth(float near, float distance) {
   TRI_PRECISE float depth = near / distance;
   return depth < 1.0f ? depth : 1.0f;
 }
 
 // ---- Where a sphere lies on the image plane -------------------------------------------------------
-// Exact bounds along one axis (Mara and McGuire 2013). The sphere's silhouette is between the two tangents in the
-// plane of that axis and the view axis, at the angles φ ± β with φ = atan2(a, z) and sin β = r/√(a² + z²). The part
-// within (−90°, 90°) is in front of the eye. Returns (low, high), with ±3e38 for no bound, and low > high if
-// nothing is in front. The arithmetic is `precise`, because one kernel counts the entries that another one writes.
+// Exact bounds of a sphere along one axis of the image plane (Mara and McGuire 2013). The silhouette is between the
+// two tangents in the plane of that axis and the view axis. Their angles are φ ± β with φ = atan2(a, z) and sin
+// β = r/√(a² + z²). The part within (−90°, 90°) is in front of the eye. Returns (low, high), where ±3e38 means no
+// bound, and low > high means that nothing is in front. The arithmetic is `precise`, because one kernel counts the
+// entries that another kernel writes.
 TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
   const float huge = 3.0e38f;
-  float side = a < 0.0f ? 0.0f - a : a;  // symmetry: the axis points to the sphere's side
+  float side = a < 0.0f ? 0.0f - a : a;  // by symmetry, the axis may point to the sphere's side
   TRI_PRECISE float k2 = side * side + z * z - r * r;
   TRI_PRECISE float low = 0.0f - huge;
   TRI_PRECISE float high = huge;
@@ -122,49 +125,48 @@ TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
     high = high_z > 0.0f ? (side * k + z * r) / high_z : huge;
     if (low_z <= 0.0f) high = 0.0f - huge;
   }
-  // The components are chosen separately, because a choice between vectors keeps loops from being vectorised.
+  // The components are chosen separately, because a choice between vectors prevents loops from being vectorised.
   float first = a < 0.0f ? 0.0f - high : low;
   float second = a < 0.0f ? 0.0f - low : high;
   return TRI_MAKE_FLOAT2(first, second);
 }
 
-// Whether a sphere reaches the plane through the eye that is parallel to the image, or comes so close to it that
-// its projection has no bounds. For such a sphere, the paper's screen-aligned quad (a rectangle around projected
-// tangent points) does not exist. The quad is then the whole viewport, which makes that technique expensive for
-// close spheres. Returns −1 if the sphere is completely behind that plane, 1 if it reaches it, and 0 if it is in
-// front of it.
+// Returns −1 if the sphere is completely behind the plane through the eye that is parallel to the image, 1 if it
+// reaches this plane or comes so close to it that its projection has no bounds, and 0 if it is in front of the
+// plane. If it reaches the plane, the paper's screen-aligned quad (a rectangle around projected tangent points)
+// does not exist. The quad is then the whole viewport, which makes this technique expensive for close spheres.
 TRI_FN int tri_eye_plane(float z, float r) { return z + r <= 0.0f ? 0 - 1 : (z - r > 0.001f * r ? 0 : 1); }
 
 // ---- Sprites --------------------------------------------------------------------------------------
-// A ray-aligned sprite is perpendicular to v = c/|c|, at the distance tri_sprite_plane, just in front of the
-// sphere. Therefore every point of the sphere's front is behind the sprite, as conservative depth requires. In that
-// plane the silhouette is a circle with the radius tri_silhouette_on_plane ≤ r.
+// A ray-aligned sprite is perpendicular to v = c/|c|. Its distance is tri_sprite_plane, just in front of the
+// sphere. Therefore every visible point of the sphere is behind the sprite, as conservative depth requires. In the
+// plane of the sprite, the silhouette is a circle with the radius tri_silhouette_on_plane ≤ r.
 
-// Whether the eye is inside the sphere, or so close to it that the silhouette covers (almost) half of all
+// Returns 1 if the eye is inside the sphere, or so close to it that the silhouette covers (almost) half of all
 // directions. The sprite is then the whole viewport. d2 = |c|².
 TRI_FN int tri_surrounds(float d2, float r) { return d2 > r * r * 1.001f ? 0 : 1; }
 
 TRI_FN float tri_sprite_plane(float d, float r) { return (d - r) * 0.9990234375f; }
 
-// plane·tan α with sin α = r/d.
+// Returns plane·tan α with sin α = r/d.
 TRI_FN float tri_silhouette_on_plane(float d, float r, float plane) {
   return plane * r / TRI_SQRT((d - r) * (d + r));
 }
 
-// Half the size of a sprite with a margin of 1/64 pixel. Vertices move by less than that when they are snapped to
-// the rasterizer's grid (1/256 pixel). `pixel` is the size of a pixel on the image plane. A `scale` < 1 is an
-// injected fault, which makes the sprite smaller than the silhouette.
+// Returns half the edge length of a sprite, with a margin of 1/64 pixel. Vertices move by less than that when they
+// are snapped to the rasterizer's grid (1/256 pixel). `pixel` is the size of a pixel on the image plane. A
+// `scale` < 1 is an injected fault that makes the sprite smaller than the silhouette.
 TRI_FN float tri_sprite_radius(float d, float r, float plane, float pixel, float scale) {
   return scale < 1.0f ? scale * tri_silhouette_on_plane(d, r, plane) : r + 0.015625f * pixel * d;
 }
 
-// The radius in pixels of a sphere's silhouette: r divided by the size of a pixel at the sphere's distance. It
-// determines the number of corners.
+// Returns the radius of a sphere's silhouette in pixels: r divided by the size of a pixel at the sphere's distance.
+// The number of corners depends on it.
 TRI_FN float tri_projected_radius(float d, float r, float pixel) { return r / (d * pixel); }
 
-// The number of corners, 4…16, with the lowest cost. An N-gon around a disc of radius R covers ≈ πR²·(π/N)²/3
-// additional pixels (tan x ≈ x + x³/3), and a corner costs about as much as 64 fragments. The sum is smallest at
-// N³ = 2π³R²/(3·64) ≈ 0.323·R².
+// Returns the number of corners, 4…16, that costs the least. A polygon with N corners around a disc of radius R
+// covers ≈ πR²·(π/N)²/3 additional pixels (tan x ≈ x + x³/3), and a corner costs about as much as 64 fragments. The
+// total cost is smallest at N³ = 2π³R²/(3·64) ≈ 0.323·R².
 TRI_FN int tri_adaptive_corners(float projected_radius) {
   float cube = 0.323f * projected_radius * projected_radius;
   int corners = 4;
@@ -175,8 +177,9 @@ TRI_FN int tri_adaptive_corners(float projected_radius) {
   return corners;
 }
 
-// The cosine of an angle in turns, |turns| ≤ 1, by its series in the nearest quarter, with an error below 1e-6. The
-// languages guarantee only 2⁻¹¹ or no accuracy at all.
+// Returns the cosine of an angle in turns, |turns| ≤ 1, with an error below 1e-6. It is computed by its series in
+// the nearest quarter of a turn, because the cosine of the languages is accurate only to 2⁻¹¹, or has no guaranteed
+// accuracy.
 TRI_FN float tri_cosine_turns(float turns) {
   float a = turns < 0.0f ? 0.0f - turns : turns;  // the cosine is even
   float b = a > 0.5f ? 1.0f - a : a;              // symmetric about half a turn, so b is in 0…½

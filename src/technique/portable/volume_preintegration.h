@@ -1,27 +1,27 @@
-// Maths of quadrature preintegrated in the common subset of C++, GLSL and OpenCL C. It uses volume_math.h.
+// Maths for quadrature preintegrated, in the common subset of C++, GLSL and OpenCL C. It uses volume_math.h.
 //
 // A step is cut where the value passes an entry of the transfer function, into at most three pieces: the rest of
-// the first entry's cell, whole cells (whose integrals are tabulated, preintegration.hpp), and a part of the last
+// the first entry's cell, whole cells (whose integrals are in a table, preintegration.hpp), and a part of the last
 // entry's cell. For each piece, the optical depth D is known. Its colour is a function of y, the share of D that
-// has been passed; it is represented by its first three coefficients in the Legendre polynomials on [0, 1]:
-// c(y) = a0 + a1·P1(y) + a2·P2(y). The light of the piece is then
+// has been passed. This function is represented by its first three coefficients in the Legendre polynomials on
+// [0, 1]: c(y) = a0 + a1·P1(y) + a2·P2(y). The light of the piece is then
 //  D·∫c(y)·e^(−Dy) dy = (1 − e^(−D))·(a0 − a1·L + a2·(1 − 3L/z)),   z = D/2,  L = coth z − 1/z,
 // because ∫Pn(y)·e^(−Dy) dy = (−1)ⁿ·e^(−z)·i_n(z), where i_n are the modified spherical Bessel functions.
 //
-// Three coefficients represent the light of a piece of optical depth D with an error of R·D⁴/635, where R is the
-// range of the colour. This is accurate enough for a depth up to 1 but not for a much larger one. Whole cells that
-// are deeper (in powers of two) than TRI_DEEPEST_CHUNK are therefore processed from front to back, in chunks that
-// are not deeper, or singly, because colours are linear along one cell. When less than TRI_LEAST_LEFT of the step's
-// light is left, the rest is one chunk. This code exists only in single precision, because its tables contain
-// floats.
+// With three coefficients, the light of a piece of optical depth D has an error of R·D⁴/635, where R is the range
+// of the colour. This is accurate enough for a depth of up to 1, but not for much larger depths. Whole cells whose
+// depth (in powers of two) exceeds TRI_DEEPEST_CHUNK are therefore processed from front to back, in chunks that are
+// not deeper than that, or one by one, because colours are linear along one cell. When less than TRI_LEAST_LEFT of
+// the step's light is left, the rest is one chunk. This code exists only in single precision, because its tables
+// contain floats.
 #if TRI_PRECISION == 32
 
 #define TRI_DEEPEST_CHUNK 0.5f
 #define TRI_LEAST_LEFT 9.5367432e-7f
 
-// The mean of log2(1 − alpha) while alpha changes linearly from a to b. Let m be 1 minus the alpha in the middle,
-// and r = |b − a|/2m. The mean of ln(m·(1 − r·x)) over −1 ≤ x ≤ 1 is ln m − Σ r^2n/(2n(2n+1)). Six terms have an
-// error below r^14/(210·(1 − r²)), and below 0.038 for r = 1.
+// Returns the mean of log2(1 − alpha) while alpha changes linearly from a to b. Let m be 1 minus the alpha in the
+// middle, and r = |b − a|/2m. The mean of ln(m·(1 − r·x)) over −1 ≤ x ≤ 1 is ln m − Σ r^2n/(2n(2n+1)). With six
+// terms, the error is below r^14/(210·(1 − r²)), and it is below 0.038 for r = 1.
 TRI_FN float tri_mean_log2_1m(float a, float b) {
   float middle = 0.5f * (a + b);
   if (!(middle < 1.0f)) return -1.0e30f;
@@ -32,8 +32,8 @@ TRI_FN float tri_mean_log2_1m(float a, float b) {
   return tri_log2_1m(middle) - sum;
 }
 
-// (τb − τa)/(2·mean τ), limited to [−1, 1], while alpha changes linearly from a to b within one cell. This is the
-// relative change of extinction around its mean. mean_log2 is the result of tri_mean_log2_1m.
+// Returns (τb − τa)/(2·mean τ), limited to [−1, 1], while alpha changes linearly from a to b within one cell: the
+// relative change of the extinction τ around its mean. mean_log2 is the result of tri_mean_log2_1m.
 TRI_FN float tri_tilt(float a, float b, float mean_log2) {
   float twice_mean = -1.3862943611f * mean_log2;
   float rise = (b - a) / (1.0f - 0.5f * (a + b));
@@ -42,9 +42,9 @@ TRI_FN float tri_tilt(float a, float b, float mean_log2) {
   return rise / twice_mean;
 }
 
-// w = z/L − 3 for the optical depth 2z > 0 whose opacity is given, so that L = z/(3 + w) and 1 − 3L/z = w/(3 + w).
-// Where the definition cancels, its continued fraction z²/(5 + z²/(7 + …)) is used; five levels have a relative
-// error below 4e-7 at z = 2.
+// Returns w = z/L − 3 for the optical depth 2z > 0 with the given opacity. Therefore L = z/(3 + w) and
+// 1 − 3L/z = w/(3 + w). For small z, this definition would cancel, so the continued fraction z²/(5 + z²/(7 + …)) is
+// used; five levels have a relative error below 4e-7 at z = 2.
 TRI_FN float tri_attenuation(float z, float opacity) {
   float q = z * z;
   float near_zero = q / (5.0f + q / (7.0f + q / (9.0f + q / (11.0f + q / 13.0f))));

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t function_entries =
     std::tuple_size_v<decltype(scene::TransferFunction::entries)>;
 
-// The extremes of the four channels.
+// The smallest and largest value of each of the four channels.
 struct Extremes {
   std::array<double, 4> least;
   std::array<double, 4> largest;
@@ -32,8 +32,8 @@ struct Extremes {
   }
 };
 
-// Finds the extremes of a transfer function, which is linear between its entries, over ranges of
-// values.
+// Finds the extremes of a transfer function over a range of values. The function is linear between
+// its entries.
 class FunctionExtremes {
  public:
   explicit FunctionExtremes(const scene::TransferFunction& function) {
@@ -87,14 +87,14 @@ class FunctionExtremes {
   }
 };
 
-// x^exponent for an exponent that is a power of two. It uses multiplication, because the result of
-// std::pow depends on the C library.
+// Returns x^exponent for an exponent that is a power of two. It uses only multiplication, because
+// the result of std::pow depends on the C library.
 double power(double x, int exponent) {
   for (; exponent > 1; exponent /= 2) x *= x;
   return x;
 }
 
-// Decides for single bricks whether they may be merged.
+// Decides for one brick at a time whether its samples may be merged.
 class Merging {
  public:
   Merging(const scene::VolumeScene& scene, double adapt)
@@ -142,9 +142,9 @@ class Merging {
   double opaque_share_;      // K of the derivation
   double thin_share_ = 0;    // Y of the derivation
   double colour_range_ = 1;  // R of the derivation
-  double steepest_ = 0;      // largest cosine per range of values
+  double steepest_ = 0;      // largest cosine, divided by the range of values
 
-  // A colour that is shaded with this cosine. The larger the cosine, the brighter the result.
+  // Returns a colour after shading with this cosine. A larger cosine gives a brighter colour.
   [[nodiscard]] double lit(double colour, double cosine) const {
     if (!light_.enabled) return colour;
     return colour * (light_.ambient + light_.diffuse * cosine) +
@@ -159,7 +159,7 @@ std::vector<std::int32_t> brick_kinds(const BrickRanges& ranges, const scene::Vo
   const auto visible = brick_visibility(ranges, scene.transfer_function);
   const Merging may_merge(scene, adapt);
   std::vector<std::int32_t> kinds(visible.size());
-  // Numbers the values that fill homogeneous bricks.
+  // Assigns a number to each value that fills homogeneous bricks.
   std::unordered_map<float, std::int32_t> numbers;
   for (std::size_t b = 0; b < kinds.size(); ++b) {
     const float lo = ranges.minimum[b];
@@ -186,14 +186,14 @@ std::optional<std::string> adapt_reason(std::string_view technique, const scene:
     return fmt::format("adapt merges samples, but {} always takes every sample", technique);
   }
   if (scene.quadrature != scene::Quadrature::midpoint) {
-    return "adapt works only with quadrature midpoint, because other quadratures have no sample in "
-           "the middle of a step";
+    return "adapt works only with quadrature midpoint, because only that rule takes one sample "
+           "in the middle of each step";
   }
   if (options.skip == Skip::none) {
-    return "adapt merges the samples in a brick, but skip none uses no bricks";
+    return "adapt merges the samples in a brick, but skip=none uses no bricks";
   }
   if (options.skip == Skip::distance) {
-    return "adapt needs skip bricks, because the leaps of skip distance cross several bricks with "
+    return "adapt needs skip=bricks, because the leaps of skip=distance cross several bricks with "
            "different values";
   }
   return std::nullopt;

@@ -1,6 +1,6 @@
 #pragma once
-// Decides which bricks a ray may cross with a single sample, within an allowed error:
-// RaycastOptions::adapt.
+// Decides which bricks a ray may cross with a single sample, within an allowed error
+// (RaycastOptions::adapt).
 
 #include <cstdint>
 #include <optional>
@@ -22,32 +22,33 @@ enum class BrickKind : std::int32_t {
   homogeneous = 3
 };
 
-// Returns a BrickKind for each brick. Visible bricks (brick_visibility) are merged if that changes
-// no channel of any pixel by more than `adapt`, for all merged bricks of a ray together.
+// Returns a BrickKind for each brick. The samples in visible bricks (brick_visibility) are merged
+// if merging all such bricks along a ray changes no channel of any pixel by more than `adapt`.
 //
-// Derivation. Let a ray cross merged bricks with the opacities A' over the lengths l, with the
-// transmittances T' in front of them. In a brick, a ≤ b are the extremes of extinction per voxel,
-// and w is the range of its colours. R is the range of all possible colours. By the identity in
-// reference/composite.hpp, one crossing changes the image by at most
+// Derivation. Let a ray cross merged bricks over the lengths l. A' is the opacity of such a
+// crossing, and T' is the transmittance in front of it. In a brick, a ≤ b are the extremes of
+// extinction per voxel, and w is the range of its colours. R is the range of all possible colours.
+// By the identity in reference/composite.hpp, one crossing changes the image by at most
 //   T'·(R·|ΔA| + w·A'),   |ΔA| ≤ e^(−al) − e^(−bl) ≤ (b − a)·l·e^(−al).
 // Two facts bound the sum along the ray: Σ T'·A' ≤ 1, and Σ l ≤ L, the longest chord of the volume.
-// So half of the budget, K = adapt/2, is assigned to opacity, and the other half, Y = adapt/2L, to
-// each voxel length. Because l·a·e^(−al) ≤ 1 − e^(−al) ≤ A' and A' ≤ b·l, a brick that satisfies
+// Therefore half of the budget, K = adapt/2, is assigned to opacity, and the other half,
+// Y = adapt/2L, to each voxel length. Because l·a·e^(−al) ≤ 1 − e^(−al) ≤ A' and A' ≤ b·l, a brick
+// that satisfies
 //   R·(b − a) + (w − k)·b ≤ (K − k)·a + Y,   k = min(w, K),
 // costs at most K·T'·A' + Y·l, and the sum of these costs is at most `adapt`. A homogeneous brick
 // costs nothing for any l, and neither do several successive bricks with the same value.
 //
-// The merged and the unmerged image are from the same device. The values that it finds in a brick
-// are within the brick's range, widened by the rounding of its interpolation (16·2⁻²⁴ of the
-// largest value; none between equal voxels). `ranges` are those of brick_layout(scene,
-// Skip::bricks, adapt).
+// The derivation compares images of the same device with and without merging. The values that the
+// device finds in a brick are within the brick's range, widened by the rounding of its
+// interpolation (16·2⁻²⁴ of the largest value; no rounding between equal voxels). `ranges` are the
+// ranges for brick_layout(scene, Skip::bricks, adapt).
 //
-// Finding the extremes of the transfer function over a range of values takes O(1), with a sparse
-// table (Bender & Farach-Colton 2000) that is computed once for each function.
+// Finding the extremes of the transfer function over a range of values takes O(1), because of a
+// sparse table (Bender & Farach-Colton 2000) that is computed once for each function.
 [[nodiscard]] std::vector<std::int32_t> brick_kinds(const BrickRanges& ranges,
                                                     const scene::VolumeScene& scene, double adapt);
 
-// The reason why the technique cannot merge bricks of this scene; empty if it can or need not.
+// Returns why the technique cannot merge samples in this scene, or nullopt if it can or need not.
 [[nodiscard]] std::optional<std::string> adapt_reason(std::string_view technique,
                                                       const scene::VolumeScene& scene,
                                                       const RaycastOptions& options);

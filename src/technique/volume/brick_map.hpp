@@ -1,5 +1,5 @@
 #pragma once
-// The brick map that kernels read.
+// The brick map, which kernels read to skip empty space.
 
 #include <cstdint>
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace triptych::technique {
 
-// Makes the map. For Skip::bricks it contains 1 or 0 for each brick, or with `adapt` its
-// brick_kinds. For Skip::distance it contains brick_reach. For Skip::none it is one word that is
-// not read.
+// Creates the map. For Skip::bricks it contains 1 or 0 for each brick or, if `adapt` is not 0, the
+// result of brick_kinds. For Skip::distance it contains the result of brick_reach. For Skip::none
+// it is one word that is never read.
 [[nodiscard]] std::vector<std::int32_t> brick_map(const scene::VolumeScene& scene, Skip skip,
                                                   double adapt = 0);
-// The same map, made from existing ranges, which are those of brick_layout(scene, skip, adapt).
+// Creates the same map from existing ranges for brick_layout(scene, skip, adapt).
 [[nodiscard]] std::vector<std::int32_t> brick_map(const BrickRanges& ranges,
                                                   const scene::VolumeScene& scene, Skip skip,
                                                   double adapt);

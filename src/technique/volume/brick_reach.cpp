@@ -12,8 +12,8 @@ class ReachGrid {
   ReachGrid(const std::array<int, 3>& counts, std::span<const std::uint32_t> visible)
       : counts_(counts), visible_(visible), reach_(visible.size(), std::ranges::max(counts)) {}
 
-  // Shortens the reach of the brick (x, y, z) according to 13 of its neighbours: those before it in
-  // memory order (side −1) or those after it (side +1).
+  // Shortens the reach of the brick (x, y, z) according to 13 of its neighbours: the neighbours
+  // before it in memory order (side −1) or after it (side +1).
   void relax(int x, int y, int z, int side) {
     const std::size_t here = index(x, y, z);
     for (int neighbour = 1; neighbour <= 13; ++neighbour) {

@@ -1,5 +1,5 @@
 #pragma once
-// The distance over which a ray may leap from a brick without reading the next one.
+// Computes how far a ray may leap from a brick without reading the map in between.
 
 #include <array>
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace triptych::technique {
 
-// For each brick (x fastest), the distance to the nearest brick of the other kind. It is positive
-// for a visible brick and negative for an invisible one. The distance is the largest of the
-// distances along the three axes. If there is no brick of the other kind, it is the grid's longest
-// edge. `visible` comes from technique::brick_visibility.
+// Returns, for each brick (x fastest), the distance to the nearest brick of the other kind, in
+// bricks. It is positive for a visible brick and negative for an invisible brick. The distance is
+// the largest of the distances along the three axes. If there is no brick of the other kind, it is
+// the grid's longest edge. `visible` is the result of technique::brick_visibility.
 [[nodiscard]] std::vector<std::int32_t> brick_reach(const std::array<int, 3>& counts,
                                                     std::span<const std::uint32_t> visible);
 

@@ -14,7 +14,7 @@ struct Span {
   int end;
 };
 
-// The voxels of brick b, with its border, along an axis with n voxels.
+// Returns the range of voxels of brick b, including its border, along an axis with n voxels.
 Span with_border(int b, int n, const BrickLayout& layout) {
   return {std::max(0, b * layout.edge - layout.border),
           std::min(n, (b + 1) * layout.edge + layout.border + (layout.of_cells ? 1 : 0))};
@@ -31,8 +31,8 @@ struct Range {
   }
 };
 
-// Merges the ranges of `lines` neighbours that are `stride` apart into those of the bricks along an
-// axis.
+// Merges the ranges of lines of voxels into the ranges of bricks along one axis. There are `lines`
+// lines along this axis; the ranges of a line are `stride` adjacent elements.
 void gather(std::span<const Range> from, std::size_t stride, int lines, int bricks,
             const BrickLayout& layout, std::span<Range> to) {
   for (int b = 0; b < bricks; ++b) {
@@ -67,8 +67,9 @@ std::vector<Range> slice_ranges(const scene::VoxelGrid& grid, const BrickLayout&
   return result;
 }
 
-// Calls visit(range) for every brick (x fastest) until it returns false. It works axis by axis, so
-// that the cost of a wide border is proportional to its width and not to the cube of its width.
+// Calls visit(range) for every brick (x fastest) until it returns false. The ranges are merged axis
+// by axis, so that the cost of a wide border is proportional to its width and not to the cube of
+// its width.
 template <typename Visit>
 void visit_bricks(const scene::VoxelGrid& grid, const BrickLayout& layout, Visit visit) {
   const std::array<int, 3> bricks = brick_counts(grid.size, layout);
@@ -91,8 +92,8 @@ void visit_bricks(const scene::VoxelGrid& grid, const BrickLayout& layout, Visit
   }
 }
 
-// Whether a transfer function gives any opacity to a range of values. Each query takes O(1), with a
-// prefix sum.
+// Finds out whether a transfer function gives any opacity to a range of values. Each query takes
+// O(1), because it uses a prefix sum.
 class OpaqueRanges {
  public:
   explicit OpaqueRanges(const scene::TransferFunction& function) {
@@ -101,7 +102,7 @@ class OpaqueRanges {
     }
   }
 
-  // The range is widened by one table entry on each side.
+  // Whether any value in the range, widened by one table entry on each side, has any opacity.
   [[nodiscard]] bool touches(const Range& range) const {
     const std::size_t first = entry(range.minimum, -1);
     const std::size_t last = entry(range.maximum, 2);
@@ -111,7 +112,8 @@ class OpaqueRanges {
  private:
   static constexpr int entries = 256;
 
-  // The entry that is `beyond` entries after the last one whose centre is below the value.
+  // Returns the entry that is `beyond` entries after the last entry whose centre is below the
+  // value.
   [[nodiscard]] static std::size_t entry(float value, int beyond) {
     const int below = static_cast<int>(std::floor(static_cast<double>(value) * entries - 0.5));
     return static_cast<std::size_t>(std::clamp(below + beyond, 0, entries - 1));

@@ -15,33 +15,35 @@ namespace triptych::technique {
 struct BrickLayout {
   int edge = 8;
   int border = 1;  // voxels beyond the brick that its samples may read
-  // Whether bricks begin at voxel centres instead of half a voxel before. A brick then consists of
-  // edge³ cells of trilinear interpolation and has (edge + 1)³ voxels of its own.
+  // Whether bricks begin at voxel centres instead of half a voxel before them. A brick then
+  // consists of edge³ cells of trilinear interpolation, whose corners are (edge + 1)³ voxels.
   bool of_cells = false;
 
   bool operator==(const BrickLayout&) const = default;
 };
 
-// The layout with which skipping does not change the image. Below, s is the step in voxels.
+// Returns the layout with which skipping does not change the image. s is the step in voxels.
 //
 //   - Skip::bricks. A midpoint sample inside a brick reads at most one voxel beyond the brick's
-//     faces, which includes rounding of up to half a voxel. A preintegrated step whose middle is
-//     inside reads s/2 farther: ⌊s/2 + ¾⌋ more voxels, with a quarter of a voxel for rounding.
+//     faces. This includes rounding of up to half a voxel. A preintegrated step whose middle is
+//     inside the brick reads s/2 farther: ⌊s/2 + ¾⌋ more voxels, which allows a quarter of a voxel
+//     for rounding.
 //   - Skip::distance. Leaps make small bricks affordable, and bricks of cells fit as tightly as
 //     possible: a midpoint sample reads only voxels of the brick itself, and a preintegrated step
-//     reads ⌈s/2⌉ voxels beyond. If rounding moves a sample across a face, the other voxels have a
-//     weight as small as that rounding, at most 1e-3, which is covered by the table entry by which
-//     visibility is widened. The edge is 2. It is doubled while the map would take more than 128
-//     MiB.
-//   - Quadrature::cells reads only the eight voxels of a cell, so it uses bricks of cells for both.
+//     reads ⌈s/2⌉ voxels beyond it. If rounding moves a sample across a face, the voxels behind the
+//     face have a weight that is as small as the rounding, at most 1e-3. Visibility is widened by
+//     one table entry, which covers this. The edge is 2 cells. It is doubled until the map takes at
+//     most 128 MiB.
+//   - Quadrature::cells reads only the eight voxels of a cell, so it uses bricks of cells for both
+//     kinds of skipping.
 //   - `adapt` (RaycastOptions): shading reads one more voxel, which must be included in the range
-//     where samples are merged.
+//     of a brick whose samples may be merged.
 [[nodiscard]] BrickLayout brick_layout(const scene::VolumeScene& scene, Skip skip,
                                        double adapt = 0);
 
 [[nodiscard]] std::array<int, 3> brick_counts(const std::array<int, 3>& size,
                                               const BrickLayout& layout);
-// The size of brick_map in bytes, with one word for each brick.
+// Returns the size of brick_map in bytes, with one word for each brick.
 [[nodiscard]] std::uint64_t brick_map_bytes(const std::array<int, 3>& size,
                                             const BrickLayout& layout);
 
@@ -53,15 +55,15 @@ struct BrickRanges {
 };
 [[nodiscard]] BrickRanges brick_ranges(const scene::VoxelGrid& grid, const BrickLayout& layout);
 
-// Contains 1 for a brick if the transfer function gives any opacity to a value of the brick's
-// range, widened by one table entry on each side, and 0 if every sample is completely transparent.
-// A prefix sum over the table makes this O(1) for each brick. Only this has to be repeated for a
-// new transfer function.
+// Returns 1 for each brick if the transfer function gives any opacity to a value in the brick's
+// range, widened by one table entry on each side, and 0 if every sample in the brick is completely
+// transparent. A prefix sum over the table makes this O(1) for each brick. For a new transfer
+// function, only this function has to be called again.
 [[nodiscard]] std::vector<std::uint32_t> brick_visibility(const BrickRanges& ranges,
                                                           const scene::TransferFunction& function);
 
-// Whether brick_visibility is 0 for any brick. The search stops at the first such brick, which is
-// soon found if there is any empty space, because a corner of the box is usually empty.
+// Returns whether brick_visibility is 0 for any brick. The search stops at the first such brick. If
+// there is any empty space, this brick is found soon, because a corner of the box is usually empty.
 [[nodiscard]] bool any_brick_is_empty(const scene::VolumeScene& scene, const BrickLayout& layout);
 
 }  // namespace triptych::technique

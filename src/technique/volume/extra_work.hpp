@@ -1,23 +1,23 @@
 #pragma once
-// Injects a slowdown by real work: a part of the image is drawn again in the same launch, because a
-// separate launch would cost more than its share of the work.
+// Injects a slowdown that consists of real work: a part of the image is drawn again in the same
+// launch, because a separate launch would cost more than its share of the work.
 
 #include <vector>
 
 namespace triptych::technique {
 
-// The tiles in which work is repeated.
+// The size of the tiles that are drawn again, in pixels.
 inline constexpr int extra_tile_width = 16;
 inline constexpr int extra_tile_height = 8;
 
-// The first column of a grid that draws something again. It is the argument `again` of
-// tri_drawn_column (portable/volume_math.h).
+// The first column of a launch that draws something again: the argument `again` of tri_drawn_column
+// (portable/volume_math.h).
 [[nodiscard]] constexpr int again_from(int width) {
   return (width + extra_tile_width - 1) / extra_tile_width * extra_tile_width;
 }
 
-// The number of columns of a grid that draws an image of `width` columns and repeats 1/stride of
-// it. For stride 0 it is `width`.
+// The number of columns of a launch that draws an image of `width` columns and repeats 1/stride of
+// it. If stride is 0, nothing is repeated.
 [[nodiscard]] constexpr int drawn_columns(int width, int stride) {
   if (stride == 0) return width;
   const int tiles = again_from(width) / extra_tile_width;
@@ -30,7 +30,7 @@ inline constexpr int extra_tile_height = 8;
   return (width + again) * height;
 }
 
-// The same tiles as rectangles of the image, for techniques that draw into a target.
+// The repeated tiles as rectangles of the image, for techniques that draw into a render target.
 struct ExtraTile {
   int x, y, width, height;
 };

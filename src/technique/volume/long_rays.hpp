@@ -9,10 +9,11 @@
 
 namespace triptych::technique {
 
-// The largest number of cells of a ray with quadrature cells. A ray crosses at most as many planes
-// of voxels as all axes have together. It needs one iteration for each cell and for each piece of a
-// cell, of which a kink or an extremum adds one. Half of all iterations are reserved for cells with
-// more pieces. `more` is the number of loop iterations within a piece.
+// The number of loop iterations that a ray may need with quadrature cells, and the limit of this
+// number. A ray crosses at most as many planes of voxels as all axes have together. It needs one
+// iteration for each cell and one for each piece of a cell; a kink or an extremum adds a piece.
+// Half of all iterations that drivers allow are reserved for cells with more pieces. `more` is the
+// number of loop iterations within a piece.
 inline constexpr std::int64_t most_cell_passes = 32'768;
 [[nodiscard]] inline std::int64_t cell_passes(const scene::VolumeScene& scene, int more) {
   const auto [nx, ny, nz] = scene.grid->size;
@@ -25,14 +26,14 @@ inline constexpr std::int64_t most_cell_passes = 32'768;
   return glm::length(box.hi - box.lo) / scene.step_world();
 }
 
-// Whether rays may take so many samples that one iteration of the raycaster's loop must take
-// several (TRI_LONG_RAYS of raycast.glsl). llvmpipe and lavapipe of Mesa 22.3 allow an invocation
-// 65,535 iterations of all its loops together, and then end the loops without an error. A sample
-// needs one iteration, with shading one more for each squaring of the highlight. A step that may be
-// too deep for one look-up needs another one to find its chunk. Half of all iterations are reserved
-// for the loops over bricks. The form for long rays is not always used, because sixteen copies of a
-// sample's code compile slowly. With quadrature cells only the loop of the highlight is unrolled
-// (raycast_reason).
+// Returns whether rays may take so many samples that each iteration of the raycaster's loop must
+// take several of them (TRI_LONG_RAYS in raycast.glsl). The reason is that llvmpipe and lavapipe of
+// Mesa 22.3 allow an invocation 65,535 iterations of all its loops together, and then end the loops
+// without an error. A sample needs one iteration and, with shading, one more for each squaring of
+// the highlight. A step that may be too deep for one look-up needs another iteration to find its
+// chunk. Half of the allowed iterations are reserved for the loops over bricks. The code for long
+// rays is not always used, because it contains sixteen copies of a sample's code and compiles
+// slowly. With quadrature cells, only the loop of the highlight is unrolled (raycast_reason).
 [[nodiscard]] inline bool has_long_rays(const scene::VolumeScene& scene) {
   const int squarings = std::countr_zero(static_cast<unsigned>(scene.shading.exponent));
   if (scene.quadrature == scene::Quadrature::cells) {
@@ -44,10 +45,10 @@ inline constexpr std::int64_t most_cell_passes = 32'768;
   return most_samples(scene) * loops > most_passes;
 }
 
-// The reason why shaders cannot draw such rays in parts of a volume: their loop takes one sample
-// per iteration.
+// The reason for which shaders reject such rays if a volume is drawn in parts: their loop then
+// takes one sample per iteration.
 inline constexpr std::string_view long_rays_in_parts =
-    "a ray through a volume in parts may not need more samples than the number of loop iterations "
+    "a ray through a volume in parts would need more samples than the number of loop iterations "
     "that some drivers allow: use a longer step";
 
 }  // namespace triptych::technique

@@ -3,10 +3,11 @@
 
 namespace triptych::technique {
 
-// The `form` of tri_opacity_by_form (portable/volume_math.h) for a step: 0 in general, k > 0 for
-// 2^(1−k) voxels, k < 0 for 2^−k voxels. It is a compile-time constant of kernels
-// (TRI_OPACITY_FORM), because roots and squares cost a fraction of a logarithm and an exponential.
-// Beyond three roots or two squares, the general form is as fast and more accurate.
+// Returns the `form` of tri_opacity_by_form (portable/volume_math.h) for a step: k > 0 for 2^(1−k)
+// voxels, k < 0 for 2^−k voxels, and 0 for any other step. It is a compile-time constant of kernels
+// (TRI_OPACITY_FORM), because square roots and squares cost a fraction of a logarithm and an
+// exponential. With more than three square roots or two squares, the general form is as fast and
+// more accurate.
 [[nodiscard]] inline int opacity_form(double step_voxels) {
   int exponent = 0;
   if (std::frexp(step_voxels, &exponent) != 0.5) return 0;

@@ -20,7 +20,8 @@ std::size_t depth_of(scene::VoxelFormat format) {
   return format == scene::VoxelFormat::f32 ? 1 : 2;
 }
 
-// The voxels before and after a face between voxels along an axis, clamped to the volume.
+// The indices of the voxels before and after a face between voxels along an axis, clamped to the
+// volume.
 std::size_t before(std::size_t face, int voxels) {
   return std::min(face == 0 ? 0 : face - 1, static_cast<std::size_t>(voxels) - 1);
 }
@@ -28,8 +29,9 @@ std::size_t after(std::size_t face, int voxels) {
   return std::min(face, static_cast<std::size_t>(voxels) - 1);
 }
 
-// Writes the texels from `texel` on, one row of cells after the other. Copies have a constant size,
-// because a texel would otherwise take eight calls of memcpy.
+// Writes all texels from index `texel` on, one row of cells after the other. The number of bytes of
+// a voxel is a template parameter, because memcpy then has a constant size and is inlined;
+// otherwise each texel would need eight calls.
 template <std::size_t voxel_bytes, std::size_t layers>
 void fill_rows(const scene::VoxelGrid& grid, std::size_t texel, std::span<std::byte> out) {
   const auto cells = cells_of(grid.size);
@@ -95,8 +97,8 @@ std::optional<std::string> packed_reason(std::uint64_t cells, const RaycastBuffe
   constexpr std::uint64_t word = 4;
   const std::uint64_t needed = std::max({cells, buffers.bricks / word, buffers.table / (4 * word)});
   if (needed <= most.texels) return std::nullopt;
-  return fmt::format("sampler packed needs {} texels in one buffer; {} = {}", needed, most.name,
-                     most.texels);
+  return fmt::format("sampler packed needs {} texels in one buffer, but {} is {}", needed,
+                     most.name, most.texels);
 }
 
 bool packs_by_default(const std::array<int, 3>& size, scene::VoxelFormat format,

@@ -16,11 +16,12 @@ int cells_of(const scene::VolumeScene& scene) {
   return scene.grid->size[2] + 1;
 }
 
-// The number of cells in a part in addition to those of its samples.
+// The number of cells that a part has in addition to the cells of its samples.
 int overlap(const scene::VolumeScene& scene) {
   constexpr double widened_and_rounded = 2;
   double cells = widened_and_rounded + (scene.shading.enabled ? 1 : 0);
-  // A step is a number of smallest spacings, and the spacing along z is not smaller.
+  // A step is given in units of the smallest spacing, and the spacing along z is not smaller than
+  // that.
   if (scene.quadrature == scene::Quadrature::preintegrated) cells += std::ceil(scene.step_voxels);
   return static_cast<int>(std::min(cells, static_cast<double>(cells_of(scene))));
 }
@@ -36,8 +37,8 @@ std::vector<Part> slabs(const scene::VolumeScene& scene, int thickness) {
   return parts;
 }
 
-// Orders the parts: first the one that contains the eye or is nearest to it, then the others on
-// either side, in the order of their distance.
+// Orders the parts: first the part that contains the eye or is nearest to it, then all other parts
+// on either side of it, in the order of their distance from the eye.
 std::vector<Part> front_to_back(std::vector<Part> parts, const scene::VolumeScene& scene) {
   const double eye = scene.camera.eye.z / scene.grid->spacing[2] + 0.5;
   const auto before = std::ranges::find_if(
@@ -58,15 +59,15 @@ std::optional<std::string> why_whole_only(std::string_view technique,
   }
   if (options.sampler == Sampler::hardware) {
     return "a volume is drawn in parts only by sampler manual or packed, because a device's own "
-           "sampler would round differently";
+           "sampler would round differently in each part";
   }
   return std::nullopt;
 }
 
 bool is_read(const Part& part, const scene::VolumeScene& scene, const RaycastOptions& options,
              std::span<const std::int32_t> map) {
-  // Without leaps, a ray that steps from brick to brick may take a last sample beyond its exit if
-  // the brick is visible.
+  // Without leaps, a ray that steps from brick to brick may take one last sample beyond its exit
+  // from a visible brick.
   if (options.skip != Skip::distance) return true;
   const BrickLayout layout = brick_layout(scene, options.skip, options.adapt);
   const auto counts = brick_counts(scene.grid->size, layout);
@@ -113,14 +114,14 @@ Cut cut_into_parts(std::string_view technique, const scene::VolumeScene& scene,
   const int cells = cells_of(scene);
   if (layers.whole <= room.bytes) return {};
   const std::string too_large =
-      fmt::format("the volume takes {} bytes, but {} is {}", layers.whole, room.limit, room.bytes);
+      fmt::format("the volume needs {} bytes, but {} is {}", layers.whole, room.limit, room.bytes);
   if (const auto reason = why_whole_only(technique, options)) {
     return {.parts = {}, .reason = too_large + "; " + *reason};
   }
   const int thinnest = 2 * overlap(scene) + 1;
   if (layers.bytes_of(thinnest) > room.bytes) {
     return {.parts = {},
-            .reason = fmt::format("{}; its thinnest part takes {}", too_large,
+            .reason = fmt::format("{}; its thinnest part needs {}", too_large,
                                   layers.bytes_of(thinnest))};
   }
   const int most_held = static_cast<int>(room.bytes / layers.bytes) - layers.more;

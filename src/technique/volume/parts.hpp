@@ -1,8 +1,8 @@
 #pragma once
-// Volumes of which a device stores only one part at a time. The parts are slabs along z. They are
-// drawn one after the other, outwards from the eye, so that each ray passes them from front to
+// Draws volumes of which a device stores only one part at a time. The parts are slabs along z. They
+// are drawn one after the other, outwards from the eye, so that each ray passes them from front to
 // back. Rays, samples and bricks are those of the whole volume; only fetches count layers from the
-// beginning of the part. The image therefore has the same bits as that of the whole volume.
+// beginning of the part. The image is therefore bit-identical to that of the whole volume.
 
 #include <array>
 #include <cstddef>
@@ -19,19 +19,19 @@
 namespace triptych::technique {
 
 // A range of cells along z, numbered as in packed_cells.hpp: cell c is between the slices c − 1 and
-// c, clamped to the edge, and there is one more cell than slices.
+// c, clamped to the edge. There is one more cell than slices.
 struct Part {
-  int begin = 0;  // the pass takes the samples in the cells from `begin` to `end`
+  int begin = 0;  // the pass takes the samples in the cells from `begin` to `end` (exclusive)
   int end = 0;
-  int first_held = 0;  // the cells on the device, which these samples may read
+  int first_held = 0;  // the cells that the device stores, because these samples may read them
   int end_held = 0;
 
   [[nodiscard]] int held() const noexcept { return end_held - first_held; }
   bool operator==(const Part&) const = default;
 };
 
-// How a backend stores cells: in layers of `bytes` bytes each. A part has at most `more` more
-// layers than cells. `whole` is the size of the whole volume.
+// Describes how a backend stores cells: in layers of `bytes` bytes each. A part has at most `more`
+// more layers than cells. `whole` is the size of the whole volume in bytes.
 struct Layers {
   std::uint64_t bytes = 0;
   int more = 0;
@@ -40,18 +40,18 @@ struct Layers {
   [[nodiscard]] std::uint64_t bytes_of(int cells) const {
     return bytes * static_cast<std::uint64_t>(cells + more);
   }
-  // The number of bytes for the largest part, or for the whole volume if there are no parts.
+  // Returns the size of the largest part in bytes, or of the whole volume if there are no parts.
   [[nodiscard]] std::uint64_t room_for(std::span<const Part> parts) const;
 };
 // The layers for plain slices.
 [[nodiscard]] Layers slice_layers(const std::array<int, 3>& size, scene::VoxelFormat format);
 // The layers for Sampler::packed.
 [[nodiscard]] Layers packed_layers(const std::array<int, 3>& size, scene::VoxelFormat format);
-// The layers for a device that stores everything except packed cells as slices of an image.
+// Returns packed_layers for Sampler::packed, and slice_layers for every other sampler.
 [[nodiscard]] Layers layers_of(const scene::VolumeScene& scene, const RaycastOptions& options);
 
-// The memory that the voxels on a device may take, and the name of the limit. It is the device's
-// own limit, or the budget of the options if that is less.
+// The number of bytes of device memory that voxels may take, and the name of this limit: the
+// device's own limit, or the budget in the options if that is lower.
 struct Room {
   std::uint64_t bytes = 0;
   std::string limit;
@@ -60,27 +60,29 @@ struct Room {
 
 struct Cut {
   std::vector<Part> parts;  // in the order of their passes; empty if the whole volume fits
-  // The reason why the volume can be drawn neither as a whole nor in parts.
+  // The reason why the volume can be drawn neither as a whole nor in parts, if there is one.
   std::optional<std::string> reason;
 };
-// A part contains cells in addition to those of its samples: one for rounding, with shading one for
-// gradients, and as many as a preintegrated step may be long. The first part takes the samples of
-// one more cell on either side, because rounding may put a ray's first sample behind the eye.
+// Cuts the volume into parts that fit. A part contains more cells than those of its samples: one
+// for rounding, with shading one for gradients, and as many as a preintegrated step may be long.
+// The first part takes the samples of one more cell on either side, because rounding may put a
+// ray's first sample behind the eye.
 [[nodiscard]] Cut cut_into_parts(std::string_view technique, const scene::VolumeScene& scene,
                                  const RaycastOptions& options, const Layers& layers,
                                  const Room& room);
 
-// The number of cells in the largest part.
+// Returns the number of cells in the largest part.
 [[nodiscard]] int most_held(std::span<const Part> parts);
 
-// The slices that the cells of a part need. The first one is slice first_held − 1, or slice 0.
+// The slices that the cells of a part need. The first slice is slice first_held − 1, or slice 0 if
+// that is negative.
 struct Slices {
   std::span<const std::byte> bytes;
   int count = 0;
 };
 [[nodiscard]] Slices slices_of(const Part& part, const scene::VoxelGrid& grid);
 
-// The parameters of kernels that draw parts. They are stored after the raycast_parameters.
+// The parameters of kernels that draw parts. They are stored directly after the raycast_parameters.
 struct PartParameters {
   std::int32_t begin, end, first_held, held;  // see Part
   std::int32_t pass;                          // counted from 0
@@ -91,16 +93,16 @@ struct PartParameters {
 struct PartPass {
   Part part;
   PartParameters parameters;
-  // Whether any brick near the part is visible. Otherwise, leaps skip all its voxels, so they need
-  // not be on the device.
+  // Whether any brick near the part is visible. If not, leaps skip all voxels of the part, so they
+  // need not be on the device.
   bool read = true;
 };
-// `map` is the brick_map of scene and options.
+// Returns the passes in order. `map` is the brick_map for this scene and these options.
 [[nodiscard]] std::vector<PartPass> part_passes(std::span<const Part> parts,
                                                 const scene::VolumeScene& scene,
                                                 const RaycastOptions& options,
                                                 std::span<const std::int32_t> map);
-// The number of bytes of voxels that must be uploaded, over all passes.
+// Returns the number of bytes of voxels that must be uploaded in all passes together.
 [[nodiscard]] std::uint64_t moved_bytes(std::span<const PartPass> passes, const Layers& layers);
 
 // The largest number of bytes of state that a kernel keeps for a ray between two passes.

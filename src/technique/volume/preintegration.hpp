@@ -9,22 +9,23 @@
 
 namespace triptych::technique {
 
-// The table contains, for each pair of the 256 entries of the transfer function, the path that runs
-// linearly through whole cells from the first entry to the second. The pair (from, to) is at
+// For each pair of the 256 entries of the transfer function, the table describes the path that runs
+// linearly through whole cells from the first entry to the second. The pair (from, to) is at index
 // texels_per_pair·(256·from + to):
 //   [0] = (depth, a0), [1] = (a1, 0), [2] = (a2, 0).
-// depth is −Σ log2(1 − alpha), averaged per cell. Multiplied by the length of a cell in voxels, it
-// is the optical depth in powers of two. a0, a1 and a2 are the first Legendre coefficients of the
-// colour as a function of the share of the depth that has been passed; without any depth, they
-// represent the colour of the entry `from`. An entry of opacity 1 counts as 8192 per voxel, which
-// hides everything behind 1/64 voxel of it. The table is computed in double precision, so only the
-// rounding to float is lost. It depends on the transfer function but not on the step.
+// `depth` is −Σ log2(1 − alpha), averaged over each cell. Multiplied by the length of a cell in
+// voxels, it is the optical depth in powers of two. a0, a1 and a2 are the first Legendre
+// coefficients of the colour as a function of the share of the depth that has been passed. For a
+// path without any depth, they represent the colour of the entry `from`. An entry of opacity 1
+// counts as an optical depth of 8192 per voxel, of which 1/64 voxel hides everything behind it. The
+// table is computed in double precision, so only the rounding to float is lost. It depends on the
+// transfer function but not on the step.
 inline constexpr std::size_t texels_per_pair = 3;
 [[nodiscard]] std::vector<std::array<float, 4>> preintegrated_pairs(
     const scene::TransferFunction& function);
 
-// TRI_PREINTEGRATED of the raycasters: 0 for another quadrature; 1 if all whole cells of any step
-// can be processed at once; 2 if they may be too deep for that (TRI_DEEPEST_CHUNK).
+// TRI_PREINTEGRATED of the raycasters: 0 for any other quadrature, 1 if all whole cells of any step
+// can be processed at once, or 2 if they may be too deep for that (TRI_DEEPEST_CHUNK).
 [[nodiscard]] int preintegration_form(const scene::VolumeScene& scene);
 
 }  // namespace triptych::technique

@@ -13,11 +13,12 @@ namespace triptych::technique {
 using QuadratureTable = std::vector<std::array<float, 4>>;
 
 // The table for quadrature cells. Row i, 0 ≤ i ≤ 256, contains the smallest kink ≥ i, the largest
-// kink < i (scene/kinks.hpp), and the first entry ≥ i with any opacity, or ±3·10³⁸ if there is
-// none.
+// kink < i (scene/kinks.hpp), and the first entry ≥ i that has any opacity. A number that does not
+// exist is represented by ±3·10³⁸.
 [[nodiscard]] QuadratureTable kink_table(const scene::TransferFunction& function);
 
-// Returns preintegrated_pairs, kink_table, or one row that is not read.
+// Returns preintegrated_pairs, kink_table, or one row that is never read, depending on the scene's
+// quadrature.
 [[nodiscard]] QuadratureTable quadrature_table(const scene::VolumeScene& scene);
 [[nodiscard]] std::uint64_t quadrature_table_bytes(scene::Quadrature quadrature);
 

@@ -1,13 +1,13 @@
 #pragma once
 // The history of one pixel. A special build of the raycasters (TRI_TRACE) records every sample of
-// the pixel's ray. It counts like the counting build and has the same control flow.
+// the pixel's ray. It counts like the build with counters and has the same control flow.
 //
-// The records are in the buffer of the counters, after the counters of all pixels. The eighth word
+// The records are stored in the counter buffer, after the counters of all pixels. The eighth word
 // of a pixel's counters, which is otherwise unused, contains the index of the word at which the
-// pixel's records begin. For all other pixels it keeps the value that counters are filled with. The
-// first word at that index is the number of records for which there is room, and the second one the
-// number of records that the ray would have written. technique/volume/raycast/trace.glsl and
-// backends/opencl/trace.cl write the records.
+// pixel's records begin. For all other pixels, this word keeps its initial value. The first word at
+// that index is the capacity in records, and the second word is the number of records that the ray
+// would have written. technique/volume/raycast/trace.glsl and backends/opencl/trace.cl write the
+// records.
 
 #include <array>
 #include <cstddef>
@@ -19,8 +19,8 @@ namespace triptych::technique {
 
 inline constexpr std::size_t ray_trace_records = 1U << 16U;
 inline constexpr std::size_t ray_trace_record_words = 16;
-// There are two words before the records, and two after them because uploads are multiples of 16
-// bytes.
+// There are two words before the records, and two words after them because the size of an upload
+// must be a multiple of 16 bytes.
 inline constexpr std::size_t ray_trace_words = 4 + ray_trace_records * ray_trace_record_words;
 
 // The contents of a record.
@@ -29,14 +29,15 @@ enum class TracedKind : std::uint8_t {
   step = 2     // a step of quadrature preintegrated, or a part of one
 };
 
-// All numbers are the device's, stored as floats, so those in double precision are rounded.
+// All numbers are those that the device computed, stored as floats. Numbers in double precision are
+// rounded.
 struct TracedSample {
   TracedKind kind = TracedKind::sample;
-  std::array<float, 3> place{};     // position in voxels; the middle of a step
-  float value = 0;                  // normalised; at the end of a step
-  float front = 0;                  // at the beginning of a step
+  std::array<float, 3> place{};     // position in voxels; for a step, its middle
+  float value = 0;                  // normalised value; for a step, the value at its end
+  float front = 0;                  // for a step, the value at its beginning
   std::array<float, 4> colour{};    // not premultiplied, after shading; opacity per voxel length
-  float length = 0;                 // length that it covers, in voxel lengths
+  float length = 0;                 // length that the sample covers, in voxel lengths
   float opacity = 0;                // opacity of that length
   float transmittance = 0;          // transmittance after the sample
   std::array<float, 3> gathered{};  // premultiplied colour after the sample
@@ -44,15 +45,15 @@ struct TracedSample {
 
 struct RayTrace {
   std::vector<TracedSample> samples;  // in the order in which the device took them
-  std::uint64_t written = 0;          // total number of records, including those without room
+  std::uint64_t written = 0;          // total number of records, including those that did not fit
 };
 
-// The initial content of the buffer for a frame that records the history of pixel (x, y), for an
-// image with `pixels` pixels in rows of `width`.
+// Returns the initial content of the counter buffer for a frame that records the history of pixel
+// (x, y), in an image with `pixels` pixels in rows of `width`.
 [[nodiscard]] std::vector<std::uint32_t> ray_trace_words_for(int x, int y, int width,
                                                              std::size_t pixels);
 
-// Reads the records from the words after the counters of all pixels.
+// Reads the records from `words`, which begin after the counters of all pixels.
 [[nodiscard]] RayTrace read_ray_trace(std::span<const std::uint32_t> words);
 
 }  // namespace triptych::technique

@@ -42,10 +42,10 @@ std::optional<std::string> buffer_reason(const RaycastBuffers& buffers, std::uin
            {{"picture", buffers.picture},
             {"counters", buffers.counters},
             {"brick map", buffers.bricks},
-            {"table of its quadrature", buffers.table},
-            {"pauses of rays", buffers.pauses}})) {
+            {"quadrature table", buffers.table},
+            {"paused rays", buffers.pauses}})) {
     if (bytes <= most) continue;
-    return fmt::format("the raycaster needs {} bytes for its {}; {} = {}", bytes, name, limit,
+    return fmt::format("the raycaster needs {} bytes for its {}, but {} is {}", bytes, name, limit,
                        most);
   }
   return std::nullopt;

@@ -15,7 +15,7 @@ namespace triptych::technique {
 // The size of each buffer in bytes.
 struct RaycastBuffers {
   std::uint64_t picture = 0;   // includes the output of injected work (extra_work.hpp)
-  std::uint64_t counters = 0;  // of the counting frame
+  std::uint64_t counters = 0;  // only for frames with counters
   std::uint64_t bricks = 0;    // one word for each brick; exists even if nothing is skipped
   std::uint64_t table = 0;     // table of the quadrature (quadrature_table.hpp)
   std::uint64_t pauses = 0;    // state of rays, if the volume is drawn in parts (parts.hpp)
@@ -26,12 +26,12 @@ struct RaycastBuffers {
 [[nodiscard]] RaycastBuffers raycast_buffers(const scene::VolumeScene& scene,
                                              const RaycastOptions& options);
 
-// The number of bytes for the state of rays between two passes.
+// Returns the number of bytes for the state of all rays between two passes.
 [[nodiscard]] std::uint64_t pauses_bytes(const scene::VolumeScene& scene,
                                          const RaycastOptions& options);
 
-// The reason why a device cannot draw, which names the first buffer of more than `most` bytes;
-// `limit` is the API's name of that limit. Empty if all buffers fit.
+// Returns why a device cannot draw, naming the first buffer of more than `most` bytes, or nullopt
+// if all buffers fit. `limit` is the API's name for that limit.
 [[nodiscard]] std::optional<std::string> buffer_reason(const RaycastBuffers& buffers,
                                                        std::uint64_t most, std::string_view limit);
 

@@ -29,8 +29,9 @@ std::array<Real, 4> pack(const glm::dvec3& v, double w) {
   return pack<Real>(v.x, v.y, v.z, w);
 }
 
-// A texel of a UNORM texture is k/maximum, rounded to float. In single precision the division is
-// part of the scale. In double precision the shader recovers k, which is exact.
+// Returns the factors that convert a texel to a normalised value. A texel of a UNORM texture is
+// k/maximum, rounded to float. In single precision, the scale includes the factor `maximum`. In
+// double precision, the shader recovers k, which is exact.
 template <class Real>
 std::array<Real, 4> value_map(const scene::VoxelGrid& grid, double stored_maximum, double plane) {
   if constexpr (sizeof(Real) == sizeof(double)) {
@@ -49,8 +50,8 @@ BasicRaycastParameters<Real> parameters_of(const scene::VolumeScene& scene,
   const BrickLayout layout = brick_layout(scene, options.skip);
   const auto bricks = brick_counts(grid.size, layout);
   const double plane = ray_plane(scene);
-  // A step that is longer than a cell cuts no cell, so the images of all such steps are identical
-  // to the last bit.
+  // A step that is longer than a cell does not cut any cell, so it is replaced by 1. The images of
+  // all such steps are therefore bit-identical.
   const bool cells = scene.quadrature == scene::Quadrature::cells;
   const double step_voxels = cells ? std::min(scene.step_voxels, 1.0) : scene.step_voxels;
   const scene::Shading& light = scene.shading;
@@ -78,12 +79,13 @@ std::vector<std::byte> bytes_of(const BasicRaycastParameters<Real>& parameters) 
   return {bytes.begin(), bytes.end()};
 }
 
-// The reason why quadrature cells cannot draw the scene. An iteration of the raycaster's loop
-// processes one piece of a cell; long_rays.hpp explains why the number of iterations is limited.
+// Returns why quadrature cells cannot draw the scene, or nullopt. An iteration of the raycaster's
+// loop processes one piece of a cell; long_rays.hpp explains why the number of iterations is
+// limited.
 std::optional<std::string> cells_reason(const scene::VolumeScene& scene,
                                         const RaycastOptions& options) {
   if (options.sampler == Sampler::hardware) {
-    return "quadrature cells reads voxels without filtering, so it needs sampler manual or packed";
+    return "quadrature cells needs sampler manual or packed, because it reads voxels unfiltered";
   }
   if (cell_passes(scene, 0) <= most_cell_passes) return std::nullopt;
   return fmt::format(
@@ -92,13 +94,14 @@ std::optional<std::string> cells_reason(const scene::VolumeScene& scene,
       cell_passes(scene, 0));
 }
 
-// Samples are counted in 32-bit integers. Only extremely flat voxels would need more samples,
-// without any benefit.
+// Returns why the rays of the scene have too many samples, or nullopt. Samples are counted in
+// 32-bit integers. Only extremely flat voxels would need more samples, and they would not benefit
+// from them.
 std::optional<std::string> count_reason(const scene::VolumeScene& scene) {
   const double samples = most_samples(scene);
   if (samples < 1 << 30) return std::nullopt;
   return fmt::format(
-      "rays would take up to {:.2g} samples, but devices count only to 2³⁰: use a longer step",
+      "rays would need up to {:.2g} samples, but devices count only to 2³⁰: use a longer step",
       samples);
 }
 
@@ -134,20 +137,21 @@ Sampler sampler(std::string_view name) {
   if (name == "hardware") return Sampler::hardware;
   if (name == "manual") return Sampler::manual;
   if (name == "packed") return Sampler::packed;
-  throw core::InputError(fmt::format("sampler '{}': expected hardware, manual or packed", name));
+  throw core::InputError(
+      fmt::format("unknown sampler '{}'; expected hardware, manual or packed", name));
 }
 
 Skip skip(std::string_view name) {
   if (name == "none") return Skip::none;
   if (name == "bricks") return Skip::bricks;
   if (name == "distance") return Skip::distance;
-  throw core::InputError(fmt::format("skip '{}': expected none, bricks or distance", name));
+  throw core::InputError(fmt::format("unknown skip '{}'; expected none, bricks or distance", name));
 }
 
 Precision precision(std::string_view name) {
   if (name == "fp32") return Precision::fp32;
   if (name == "fp64") return Precision::fp64;
-  throw core::InputError(fmt::format("precision '{}': expected fp32 or fp64", name));
+  throw core::InputError(fmt::format("unknown precision '{}'; expected fp32 or fp64", name));
 }
 
 std::optional<std::string> raycast_reason(std::string_view technique,
@@ -158,8 +162,8 @@ std::optional<std::string> raycast_reason(std::string_view technique,
   const bool only_fetches = !technique::technique(technique).picture;
   if (only_fetches && !midpoint) {
     return fmt::format(
-        "{} is a bound for the midpoint rule: its fetches and look-ups are not those of "
-        "quadrature {}",
+        "{} is a lower bound only for quadrature midpoint, because quadrature {} fetches and looks "
+        "up other data",
         technique, quadrature);
   }
   if (scene.quadrature == scene::Quadrature::cells) {
@@ -170,12 +174,13 @@ std::optional<std::string> raycast_reason(std::string_view technique,
   if (auto reason = adapt_reason(technique, scene, options)) return reason;
   if (options.precision == Precision::fp32) return std::nullopt;
   if (only_fetches) {
-    return fmt::format("{} is a bound for precision fp32, because it hardly computes anything",
-                       technique);
+    return fmt::format(
+        "{} is a lower bound only for precision fp32, because it computes almost nothing",
+        technique);
   }
   if (!midpoint) {
     return fmt::format(
-        "quadrature {} computes only in single precision; precision fp64 needs quadrature midpoint",
+        "quadrature {} exists only in single precision; precision fp64 needs quadrature midpoint",
         quadrature);
   }
   if (options.sampler == Sampler::hardware) {

@@ -1,5 +1,5 @@
 #pragma once
-// The options of volume raycasting, and the parameters of the kernels of every API.
+// The options for volume raycasting, and the parameters of the kernels on every API.
 
 #include <array>
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace triptych::technique {
 
-// How voxels are interpolated: by the device's sampler; by the kernel, from eight voxels that it
-// loads one by one; or by the kernel, from a cell that contains all eight (packed_cells.hpp).
+// How voxels are interpolated: by the device's sampler; by the kernel, which loads eight voxels one
+// by one; or by the kernel, which loads a cell that contains all eight voxels (packed_cells.hpp).
 enum class Sampler : std::uint8_t { hardware, manual, packed };
 // How empty space is skipped: not at all; by a walk from brick to brick; or by leaps over whole
 // cubes of bricks of one kind, up to the nearest brick of the other kind (brick_reach.hpp).
@@ -31,7 +31,7 @@ enum class Precision : std::uint8_t { fp32, fp64 };
 [[nodiscard]] Precision precision(std::string_view name);  // throws InputError
 
 // Faults that can be injected to prove that the gate finds them. They are compile-time constants of
-// kernels, so an unchanged kernel contains no trace of them.
+// kernels, so a kernel without a fault contains no code for them.
 enum class Fault : std::uint8_t {
   none = 0,
   half_voxel_shift = 1,     // the volume is read half a voxel too far along x
@@ -45,11 +45,11 @@ enum class Fault : std::uint8_t {
 struct RaycastOptions {
   Sampler sampler = Sampler::manual;
   Skip skip = Skip::distance;
-  double ert = 1.0 / 512;  // rays end below this transmittance; never if 0
-  double adapt = 0;        // allowed error of merging samples within bricks (brick_kinds.hpp)
+  double ert = 1.0 / 512;  // transmittance below which rays end; 0: rays never end early
+  double adapt = 0;        // allowed error due to merging samples within bricks (brick_kinds.hpp)
   Precision precision = Precision::fp32;
-  // The bytes of device memory for voxels. A larger volume is drawn in parts (parts.hpp). 0 means
-  // the limits of the device.
+  // The number of bytes of device memory for voxels. A larger volume is drawn in parts (parts.hpp).
+  // If it is 0, only the limits of the device count.
   std::uint64_t budget = 0;
   Fault fault = Fault::none;
   // 1/extra_work_stride of the image is drawn a second time (volume/extra_work.hpp). This injects a
@@ -57,15 +57,15 @@ struct RaycastOptions {
   int extra_work_stride = 0;
 };
 
-// The reason why the technique cannot draw this scene with these options on any device; empty if it
-// can.
+// Returns why the technique cannot draw this scene with these options on any device, or nullopt if
+// it can.
 [[nodiscard]] std::optional<std::string> raycast_reason(std::string_view technique,
                                                         const scene::VolumeScene& scene,
                                                         const RaycastOptions& options);
 
-// Has the same layout as parameters.glsl (std140) and parameters.cl, with numbers only in groups of
-// four. Real is float, or double for Precision::fp64. Lengths along a ray are in steps, and
-// positions are in voxels (voxel centres at i+½).
+// The layout is the same as in parameters.glsl (std140) and parameters.cl, with numbers only in
+// groups of four. Real is float, or double for Precision::fp64. Lengths along a ray are in steps,
+// and positions are in voxels (voxel centres are at i+½).
 template <class Real>
 struct BasicRaycastParameters {
   using Four = std::array<Real, 4>;
@@ -91,27 +91,27 @@ static_assert(offsetof(RaycastParameters, volume_size) == std::size_t{8} * 16);
 static_assert(sizeof(BasicRaycastParameters<double>) == std::size_t{8} * 32 + std::size_t{3} * 16);
 static_assert(offsetof(BasicRaycastParameters<double>, volume_size) == std::size_t{8} * 32);
 
-// The distance from the eye along the view axis, in world units, of the plane on which rays begin.
-// If the eye is far away, the plane passes through the box's nearest corner: float coordinates of a
-// distant eye would have errors of voxels, while a point on the plane is as accurate as the box
-// itself. 0 means that rays begin at the eye.
+// Returns the distance from the eye, along the view axis and in world units, of the plane on which
+// rays begin, or 0 if rays begin at the eye. If the eye is far away, the plane passes through the
+// box's nearest corner. The reason is that float coordinates of a distant eye would have errors of
+// whole voxels, while a point on the plane is as accurate as the box itself.
 [[nodiscard]] double ray_plane(const scene::VolumeScene& scene);
-// The distance from which on rays begin on that plane, in diagonals of the box. For a closer eye,
-// the error is less than 1e-4 of the box's size.
+// If the eye is farther away than this, rays begin on that plane. The unit is the diagonal of the
+// box. For a closer eye, the error is less than 1e-4 of the box's size.
 inline constexpr double far_in_diagonals = 16;
 
-// The bytes of the parameters in the precision of the options. The stored integer of a u8 or u16
-// grid reaches a shader unchanged (buffer) or divided by its maximum (UNORM texture). Accordingly,
-// `stored_maximum` is 1, or 255 or 65535.
+// Returns the bytes of the parameters, in the precision of the options. A u8 or u16 voxel reaches
+// the shader either as its stored integer (buffer) or divided by the largest integer (UNORM
+// texture). `stored_maximum` is 1 in the first case, and 255 or 65535 in the second case.
 [[nodiscard]] std::vector<std::byte> raycast_parameters(const scene::VolumeScene& scene,
                                                         const RaycastOptions& options,
                                                         double stored_maximum);
 
-// The counters that a counting kernel writes for each pixel, in this order.
+// The counters that a kernel with counters writes for each pixel, in this order.
 inline constexpr std::array<std::string_view, 7> raycast_counters{
     "rays_hit",       "samples",         "samples_nonzero", "bricks_visited",
     "bricks_skipped", "rays_terminated", "samples_saved"};
-// The number of unsigned 32-bit integers per pixel in the buffer of the counters. The eighth is
+// The number of unsigned 32-bit integers per pixel in the counter buffer. The eighth integer is
 // padding.
 inline constexpr std::size_t raycast_counter_stride = 8;
 

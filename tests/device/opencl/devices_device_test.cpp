@@ -127,7 +127,7 @@ TEST(OpenClDevices, LimitsAreReasonsWithBothNumbers) {
     const auto large = device.unsupported(make_work("speed_of_light", scene));
     ASSERT_TRUE(large);
     const std::uint64_t bytes = 68'820'189'192 * scene::bytes_of(grid.format);  // 4098³ voxels
-    EXPECT_THAT(*large, HasSubstr(fmt::format("the volume takes {} bytes", bytes)));
+    EXPECT_THAT(*large, HasSubstr(fmt::format("the volume needs {} bytes", bytes)));
     EXPECT_THAT(*large, HasSubstr("cannot draw a volume in parts"));
 
     scene = make_scene({.width = 1'000'000, .height = 1'000});

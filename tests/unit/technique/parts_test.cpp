@@ -103,11 +103,11 @@ TEST(Parts, AreRefusedWithTheReason) {
         .reason.value_or("");
   };
   EXPECT_EQ(reason("raycast", Sampler::manual, 5),
-            "the volume takes 102 bytes, but theLimit is 5; its thinnest part takes 6");
+            "the volume needs 102 bytes, but theLimit is 5; its thinnest part needs 6");
   EXPECT_EQ(reason("raycast", Sampler::manual, 6), "");
   EXPECT_EQ(
       reason("raycast_fragment", Sampler::manual, 50),
-      "the volume takes 102 bytes, but theLimit is 50; raycast_fragment cannot draw a volume in "
+      "the volume needs 102 bytes, but theLimit is 50; raycast_fragment cannot draw a volume in "
       "parts");
   EXPECT_NE(reason("raycast", Sampler::hardware, 50).find("by sampler manual or packed"),
             std::string::npos);

@@ -57,14 +57,14 @@ TEST(RaycastBuffers, TheOneThatIsTooLargeIsNamed) {
   };
   EXPECT_EQ(reason(Skip::distance), "");
   EXPECT_EQ(reason(Skip::distance, 4),
-            "the raycaster needs 67108864 bytes for its brick map; theLimit = 33554432");
+            "the raycaster needs 67108864 bytes for its brick map, but theLimit is 33554432");
   EXPECT_EQ(reason(Skip::bricks), "");
   scene.width = 2048;
   scene.height = 2048;
   EXPECT_EQ(reason(Skip::bricks), "");
   scene.width = 2049;
   EXPECT_EQ(reason(Skip::bricks),
-            "the raycaster needs 134283264 bytes for its counters; theLimit = 134217728");
+            "the raycaster needs 134283264 bytes for its counters, but theLimit is 134217728");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Shared by all raycasters: rays, values of the field, the transfer function, shading, counters and accumulated
-// light. Positions are in voxels, and lengths along the ray are in steps.
+// Code shared by all raycasters: rays, values of the field, the transfer function, shading, counters and
+// accumulated light. Positions are in voxels, and lengths along the ray are in steps.
 
 const int fault_half_voxel_shift = 1;
 const int fault_flipped_axis = 2;
@@ -7,7 +7,7 @@ const int fault_extra_sample = 3;
 const int fault_uncorrected_opacity = 4;
 const int fault_coarse_filter = 5;
 
-// These are counted only if TRI_COUNT is 1; the compiler removes them from the timed build.
+// These variables are used only if TRI_COUNT is 1; the compiler removes them from the timed build.
 uint count_samples = 0u;
 uint count_nonzero = 0u;
 uint count_bricks_visited = 0u;
@@ -15,8 +15,8 @@ uint count_bricks_skipped = 0u;
 uint count_terminated = 0u;
 
 #if TRI_COUNT
-// Writes technique::raycast_counters of the pixel. `saved` is the number of samples of the lattice that were not
-// taken.
+// Writes technique::raycast_counters of the pixel. `saved` is the number of samples that the ray did not have to
+// take.
 void store_counts(ivec2 pixel, bool hit, uint saved) {
   int at = 8 * (pixel.y * u.viewport.x + pixel.x);
   counters[at] = hit ? 1u : 0u;
@@ -29,11 +29,11 @@ void store_counts(ivec2 pixel, bool hit, uint saved) {
 }
 #endif
 
-// The parameters that every sample needs, loaded once per ray. Compilers that do not move loads out of loops would
-// otherwise load a uniform inside the loop for every sample.
+// The parameters that every sample needs, loaded once per ray. Otherwise, compilers that do not move loads out of
+// loops would load a uniform for every sample.
 struct Grid {
   real3 inverse_size;
-  ivec3 last;           // largest index per axis
+  ivec3 last;           // largest voxel index per axis
   real2 value_map;
   real stored_maximum;  // only in double precision, for voxels that are integers; otherwise 0
 };
@@ -53,8 +53,8 @@ Grid load_grid() {
 
 #else
 
-// The stored value of a voxel. A texel of u8 or u16 is its integer divided by the largest integer, rounded to
-// float. In double precision this function returns the integer itself.
+// Returns the stored value of a voxel. A texel of u8 or u16 is its integer divided by the largest integer, rounded
+// to float. In double precision, the integer itself is recovered.
 real voxel(Grid grid, ivec3 at) {
 #if TRI_PARTS
   at.z = clamp(at.z - max(u.part.z - 1, 0), 0, u.part.w);
@@ -66,7 +66,8 @@ real voxel(Grid grid, ivec3 at) {
   return texel;
 }
 
-// Trilinear interpolation in the shader: texels floor(q) and floor(q)+1 with q = p − ½, clamped to the edge.
+// Trilinear interpolation in the shader: voxels floor(q) and floor(q)+1 along each axis, with q = p − ½, clamped to
+// the edge.
 real fetch_manual(Grid grid, real3 p) {
   real3 q = p - 0.5;
   real3 base = floor(q);
@@ -97,7 +98,7 @@ real fetch_hardware(Grid grid, real3 p) {
   return textureLod(volume_texture, vec3(p * grid.inverse_size), 0.0).r;
 }
 
-// The normalised value at p.
+// Returns the normalised value at p.
 real field(Grid grid, real3 p) {
   if (TRI_FAULT == fault_half_voxel_shift) p.x += 0.5;
   if (TRI_FAULT == fault_flipped_axis) p.y = real(grid.last.y + 1) - p.y;
@@ -105,7 +106,8 @@ real field(Grid grid, real3 p) {
   return stored * grid.value_map.x + grid.value_map.y;
 }
 
-// Central differences: the normalised values one voxel after p minus those one voxel before p, for each axis.
+// Returns central differences: for each axis, the normalised value one voxel after p minus the value one voxel
+// before p.
 real3 rises(Grid grid, real3 p) {
   return real3(field(grid, p + real3(1, 0, 0)) - field(grid, p - real3(1, 0, 0)),
                field(grid, p + real3(0, 1, 0)) - field(grid, p - real3(0, 1, 0)),
@@ -128,7 +130,7 @@ real3 shade(Grid grid, real3 colour, real3 p, real3 d) {
   real cosine = abs(dot(g, d)) / max(sqrt(dot(g, g)), u.ray_up.w);
   real highlight = cosine;
 #if TRI_LONG_RAYS
-  // Compilers unroll a loop of constant length, so that its iterations do not count towards the limit (raycast()).
+  // Compilers unroll a loop of constant length, so its iterations do not count towards the limit (see raycast()).
   for (int i = 0; i < 31; ++i) highlight *= i < u.volume_size.w ? highlight : 1.0;
 #else
   // The 0 is written as an expression that depends on the sample, as in skips(). Otherwise lavapipe (Mesa 22.3)

@@ -1,7 +1,8 @@
-// Fetches from technique::packed_cells. One or two loads return the eight voxels around a position.
+// Fetches from the buffer that technique::fill_packed_cells fills. One or two loads return the eight voxels around
+// a position.
 
 struct Corners {
-  real4 lower, upper;  // by z: (x, y), (x+1, y), (x, y+1), (x+1, y+1)
+  real4 lower, upper;  // for the lower and the upper z: (x, y), (x+1, y), (x, y+1), (x+1, y+1)
 };
 
 // A position, given by its cell and the position within the cell.
@@ -10,8 +11,9 @@ struct Place {
   real3 f;
 };
 
-// Up to half a voxel beyond the outermost voxel centres, p + ½ is not negative, so truncation equals floor.
-// Clamping to the far end of the last cell keeps the reads of a position beyond the volume inside the buffer.
+// For positions up to half a voxel beyond the outermost voxel centres, p + ½ is not negative, so truncation equals
+// floor. Positions beyond the volume are clamped to the far end of the last cell, so that they read inside the
+// buffer.
 Place place_of(Grid grid, real3 p) {
   if (TRI_FAULT == fault_half_voxel_shift) p.x += 0.5;
   if (TRI_FAULT == fault_flipped_axis) p.y = real(grid.last.y + 1) - p.y;
@@ -41,9 +43,9 @@ ivec4 halves_of(uvec2 words) {
   return ivec4(words.x & 65535u, words.x >> 16, words.y & 65535u, words.y >> 16);
 }
 
-// Converts half floats that are neither negative nor subnormal. Their bits are those of a float that is smaller by
-// a factor of 2¹¹². The result is `precise`, because a compiler that applied the factor later would interpolate
-// denormals.
+// Converts half floats that are neither negative nor subnormal. If their bits are interpreted as a float, the float
+// is too small by a factor of 2¹¹². The multiplication is `precise`, because a compiler that applied the factor
+// later would interpolate denormals.
 vec4 floats_of(uvec2 words) {
   precise vec4 floats = uintBitsToFloat(uvec4(halves_of(words)) << 13) * 5192296858534827628530496329220096.0;
   return floats;
@@ -58,7 +60,8 @@ Corners corners_of(Grid grid, int index) {
   return Corners(real4(uintBitsToFloat(texel)), real4(uintBitsToFloat(above)));
 }
 
-// The differences between the corners of the cells `front` and `back`. For integers, they have no rounding error.
+// Returns the differences between the corners of the cells `front` and `back`. For integers, they have no rounding
+// error.
 Corners corners_between(Grid grid, int back, int front) {
   if (TRI_VOXEL_BITS == 8 || TRI_VOXEL_BITS == 16) {
     uvec4 a = texelFetch(cell_texels, back);
@@ -79,20 +82,21 @@ real trilinear(Corners corners, real3 f) {
   return y.x + f.x * (y.y - y.x);
 }
 
-// The normalised value at p.
+// Returns the normalised value at p.
 real field(Grid grid, real3 p) {
   Place place = place_of(grid, p);
   real stored = trilinear(corners_of(grid, cell_index(grid, place.cell)), place.f);
   return stored * grid.value_map.x + grid.value_map.y;
 }
 
-// Central differences: the normalised values one voxel after p minus those one voxel before p, for each axis. Both
-// positions are at the same place in their cells. There are no cells beyond the outermost ones, where all values
-// are constant along the axis.
+// Returns central differences: for each axis, the normalised value one voxel after p minus the value one voxel
+// before p. Both positions are at the same place in their cells. Beyond the outermost cells, where there is no
+// other cell, all values are constant along the axis.
 real3 rises(Grid grid, real3 p) {
   Place place = place_of(grid, p);
-  // With a step of more than a voxel (for which no form is positive), the last sample may be so far beyond the exit
-  // that even one voxel before it all values are constant. place_of clamps to a position that is not quite as far.
+  // If a step is longer than a voxel (TRI_OPACITY_FORM is then not positive), the last sample may be so far beyond
+  // the exit that all values are constant even one voxel before it. place_of() clamps it to a position that is not
+  // quite as far.
   if (TRI_OPACITY_FORM < 1 && TRI_FAULT == 0) place.f = clamp(p + 0.5 - real3(place.cell), real3(0.0), real3(1.0));
   ivec3 strides = cell_strides(grid);
   int here = cell_index(grid, place.cell);

@@ -1,11 +1,11 @@
 // The layout is the same as that of technique::RaycastParameters (raycast_parameters.hpp), which explains each
 // field. The backend's prelude defines TRI_BINDING(n) and the compile-time constants
-//   TRI_MANUAL_SAMPLER, TRI_SHADING, TRI_SPEED_OF_LIGHT, TRI_FAULT, TRI_PREINTEGRATED, TRI_LEAPS, TRI_ADAPT,
-//   TRI_VOXEL_BITS (technique::voxel_bits, for integers),
+//   TRI_MANUAL_SAMPLER, TRI_SHADING, TRI_SPEED_OF_LIGHT, TRI_FAULT, TRI_PREINTEGRATED
+//   (technique::preintegration_form), TRI_LEAPS, TRI_ADAPT, TRI_VOXEL_BITS (technique::voxel_bits),
 // which may be specialization constants, and the macros TRI_PRECISION (bits of a `real`: 32 or 64), TRI_COUNT (0 or
 // 1), TRI_LONG_RAYS (0 or 1: technique::has_long_rays), TRI_PACKED (0 or 1: technique::Sampler::packed) and
-// TRI_PARTS (0 or 1: technique::Part). If it also defines the macro TRI_OPACITY_FORM, that is
-// technique::opacity_form of the step. TRI_PREINTEGRATED is technique::preintegration_form.
+// TRI_PARTS (0 or 1: technique::Part). It may also define the macro TRI_OPACITY_FORM, which is
+// technique::opacity_form of the step.
 #ifndef TRI_OPACITY_FORM
 #define TRI_OPACITY_FORM 0
 #endif
@@ -27,10 +27,10 @@ layout(std140) TRI_BINDING(0) uniform Parameters {
 #endif
 } u;
 
-// transfer_entry reads one of the 256 entries. brick_at is 1 for a visible brick and 0 for another one. With
-// TRI_LEAPS it is the brick's technique::brick_reach, and with TRI_ADAPT its technique::BrickKind. quadrature_entry
-// reads technique::quadrature_table. The devices for which sampler packed is intended access storage buffers lane
-// by lane, but the texels of a buffer as vectors.
+// transfer_entry(i) reads one of the 256 entries. brick_at(i) is 1 for a visible brick and 0 for an invisible one.
+// With TRI_LEAPS it is the brick's technique::brick_reach, and with TRI_ADAPT its technique::BrickKind.
+// quadrature_entry(i) reads technique::quadrature_table. With TRI_PACKED all data are texels, because the devices
+// for which sampler packed is intended access storage buffers lane by lane, but texel buffers as vectors.
 #if TRI_PACKED
 TRI_BINDING(1) uniform usamplerBuffer cell_texels;  // technique::fill_packed_cells
 TRI_BINDING(2) uniform samplerBuffer transfer_texels;

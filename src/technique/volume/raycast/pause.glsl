@@ -1,11 +1,12 @@
-// The state of a ray between two passes over parts of the volume. The device stores one part at a time
+// The state of a ray between two passes over the parts of a volume, of which the device stores one at a time
 // (technique::Part).
 
 struct Pause {
   real4 light;   // premultiplied colour, transmittance
-  ivec4 where;   // the brick or the cell where the ray continues; w: 1 if the run is to be merged
-  ivec4 run;     // the next sample, the end of its run, and 1 if early termination has ended the ray
-  vec4 times;    // for cells: where the ray continues, where the run of visible bricks ends, where it ends
+  ivec4 where;   // the brick or the cell where the ray continues; w: 1 if the current run is to be merged
+  ivec4 run;     // the next sample, the end of its run, and 1 if the ray has been terminated early
+  // only for cells, positions on the ray: where it continues, the end of the run of visible bricks, its end
+  vec4 times;
   uvec4 counts;  // samples, samples_nonzero, bricks_visited, bricks_skipped
 };
 layout(std430) TRI_BINDING(7) buffer Pauses { Pause pauses[]; };

@@ -1,18 +1,17 @@
 // Quadrature preintegrated: the value is linear along each step, from front to back
 // (portable/volume_preintegration.h, technique::preintegrated_pairs).
 //
-// Cut is the state of a step that is processed in several parts, because its whole cells are too deep for one
-// look-up.
+// The state of a step that is processed in several parts, because its whole cells are too deep for one look-up.
 struct Cut {
-  float per_cell;  // voxels per cell; 0 if the step has not begun
-  float left;      // share of the light at the step's front that is left
+  float per_cell;  // voxels per cell; 0 if no part of the step has been processed
+  float left;      // share of the light at the front of the step that is left
 };
 
 #if TRI_PRECISION == 32
 
 // Composites a piece of the step behind `gathered`, which contains premultiplied colour and opacity. `depth` is the
-// piece's optical depth in powers of two. a0 … a2 are the coefficients of its colour as a function of the share of
-// that depth.
+// piece's optical depth in powers of two. a0, a1 and a2 are the Legendre coefficients of its colour as a function
+// of the share of that depth.
 void add_piece(inout vec4 gathered, float depth, vec3 a0, vec3 a1, vec3 a2) {
   float opacity = tri_1m_exp2(-depth);
   float z = 0.3465735903 * depth;
@@ -25,8 +24,8 @@ void add_piece(inout vec4 gathered, float depth, vec3 a0, vec3 a1, vec3 a2) {
   }
 }
 
-// Adds the piece from position a to b among the entries, within the cell that begins with entry `cell`. The
-// function is constant beyond the first and the last entry.
+// Adds the piece between the positions a and b among the entries, within the cell that begins with entry `cell`.
+// The transfer function is constant before the first entry and after the last.
 void add_part_of_cell(inout vec4 gathered, int cell, float a, float b, float length) {
   vec4 lower = transfer_entry(max(cell, 0));
   vec4 rise = transfer_entry(min(cell + 1, 255)) - lower;
@@ -40,7 +39,7 @@ void add_part_of_cell(inout vec4 gathered, int cell, float a, float b, float len
             (0.5 - 0.1 * square) * change.rgb, (tilt * (0.071428571 * square - 0.16666667)) * change.rgb);
 }
 
-// The optical depth of the whole cells from entry `first` to `last`.
+// Returns the optical depth of the whole cells from entry `first` to `last`, in powers of two.
 float depth_of_cells(int first, int last, float per_cell) {
   return per_cell * quadrature_entry(3 * (256 * first + last)).x;
 }
@@ -56,9 +55,9 @@ bool are_too_deep(int first, int last, float per_cell) {
   return abs(last - first) > 1 && depth_of_cells(first, last, per_cell) > TRI_DEEPEST_CHUNK;
 }
 
-// The entry up to which cells that are too deep together are processed at once. The search starts with the number
-// of cells that would not be too deep if all were equal, and halves it until they are not too deep. It returns at
-// least one cell.
+// Returns the last entry of the next chunk, for cells that are too deep to be processed at once. The search starts
+// with the number of cells that would not be too deep if all of them were equal, and halves this number until the
+// chunk is not too deep. The chunk has at least one cell.
 int end_of_chunk(int first, int last, float per_cell) {
   int direction = last > first ? 1 : -1;
   float share = TRI_DEEPEST_CHUNK / depth_of_cells(first, last, per_cell);
@@ -73,17 +72,17 @@ int end_of_chunk(int first, int last, float per_cell) {
   return first + direction * taken;
 }
 
-// The premultiplied colour and opacity of a step of `length` voxels from value `front` to `back`. With
-// TRI_PREINTEGRATED 2 it processes the next part of the step: if `cut` has not begun afterwards, the step is
-// complete, otherwise it continues from the new `front`. Each part is an iteration of the loop over steps and not
-// of a loop in this function, because the number of iterations is limited (raycast()).
+// Returns the premultiplied colour and opacity of a step of `length` voxels from value `front` to `back`. If
+// TRI_PREINTEGRATED is 2, it processes only the next part of the step: afterwards, the step is complete if
+// cut.per_cell is 0; otherwise it continues from the new `front`. Each part is an iteration of the loop over steps
+// and not of a loop in this function, because the number of iterations is limited (see raycast()).
 vec4 preintegrated(inout float front, float back, float length, inout Cut cut) {
   // NaN is treated as the lowest value, as in the midpoint rule.
   float from = front * 256.0 - 0.5;
   float to = back * 256.0 - 0.5;
   from = from > -0.75 ? min(from, 255.75) : -0.75;
   to = to > -0.75 ? min(to, 255.75) : -0.75;
-  bool begun = TRI_PREINTEGRATED == 2 && cut.per_cell > 0.0;  // whether the step continues from an entry
+  bool begun = TRI_PREINTEGRATED == 2 && cut.per_cell > 0.0;  // whether the step continues at an entry
   int first_cell = int(floor(from));
   int last_cell = int(floor(to));
   bool one_cell = first_cell == last_cell;

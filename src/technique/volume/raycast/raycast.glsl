@@ -1,11 +1,11 @@
-// Front-to-back raycasting of one pixel. Vulkan and GL share this code, for compute and fragment shaders. Positions
-// are in voxels, and lengths along the ray are in steps: sample i is at p0 + (i+½)·g.
+// Front-to-back raycasting of one pixel. Vulkan and OpenGL share this code, and so do compute and fragment shaders.
+// Positions are in voxels, and lengths along the ray are in steps: sample i is at p0 + (i+½)·g.
 
 #include "volume/raycast/field.glsl"
 #include "volume/raycast/walk.glsl"
 
-// Adds one sample at p with the colour and opacity c. It covers a whole step if `whole` is set, otherwise a share
-// of one.
+// Adds one sample at p with the colour and opacity c. It covers `steps` voxel lengths, which is a whole step if
+// `whole` is set.
 void add_classified(inout Light light, Grid grid, Ray ray, real4 c, real3 p, bool whole, real steps) {
   if (TRI_COUNT == 1) count_samples++;
   if (TRI_SPEED_OF_LIGHT == 1) {
@@ -40,10 +40,10 @@ void add_sample(inout Light light, Grid grid, Ray ray, real3 p, bool whole, real
 // The state of a ray.
 struct March {
   Light light;
-  real front;         // value where the next step begins or continues; only with TRI_PREINTEGRATED
+  real front;         // value at the point where the next step begins or continues; only with TRI_PREINTEGRATED
   int i;              // index of the next sample
   int stop;           // end of the run of visible samples
-  int count;          // end of the ray; 0, like `stop`, after the ray has ended
+  int count;          // end of the ray; 0, like `stop`, once the ray has ended
   bool last_visible;  // whether the ray's last sample is in the run
 };
 
@@ -52,7 +52,7 @@ struct March {
 void advance_segment(inout March m, inout Cut cut, Grid grid, Ray ray, real step_voxels) {
   real end = min(real(m.i + 1), ray.steps);
   real back = field(grid, ray.p0 + end * ray.g);
-  // Because of an injected fault, this can differ from the distance between begin and end.
+  // With an injected fault, this can differ from the distance between the two ends of the step.
   real length = step_voxels * tri_step_share(ray.steps, m.i);
   bool fresh = TRI_PREINTEGRATED != 2 || cut.per_cell == 0.0;
   if (TRI_PREINTEGRATED == 2 && m.light.transmittance == 0.0) cut.left = 0.0;  // no iterations for invisible parts
@@ -80,7 +80,7 @@ void advance_segment(inout March m, inout Cut cut, Grid grid, Ray ray, real step
 }
 #endif
 
-// Ends the ray if nothing behind can be visible any more.
+// Ends the ray if nothing behind this point can be visible any more.
 void end_in_the_dark(inout March m, real enough) {
   if (TRI_SPEED_OF_LIGHT == 0 && m.light.transmittance < enough) {
     if (TRI_COUNT == 1) count_terminated = 1u;
@@ -90,7 +90,7 @@ void end_in_the_dark(inout March m, real enough) {
   }
 }
 
-// Takes the i-th sample or step.
+// Takes sample m.i, or the next step or part of a step.
 void advance(inout March m, inout Cut cut, Grid grid, Ray ray, real step_voxels, real enough) {
 #if TRI_PRECISION == 32
   if (TRI_PREINTEGRATED != 0) advance_segment(m, cut, grid, ray, step_voxels);
@@ -129,8 +129,8 @@ void advance_two(inout March m, Grid grid, Ray ray, real step_voxels, real enoug
 }
 #endif
 
-// Takes all samples of the run as one sample in the middle of their chord (technique::brick_kinds), but not before
-// the first of them, which may be the ray's last and partial sample.
+// Takes all samples of the run as a single sample in the middle of their chord (technique::brick_kinds), but not
+// before the first sample of the run, which may be the ray's last and partial sample.
 void advance_merged(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
   real begin = real(m.i);
   real end = min(real(m.stop), ray.steps);
@@ -146,15 +146,16 @@ void advance_merged(inout March m, Grid grid, Ray ray, real step_voxels, real en
 
 #else
 
-// The premultiplied RGBA of the pixel. Three properties of compilers for processors determine the form of these
-// loops.
+// Returns the premultiplied RGBA of the pixel. Three properties of compilers for CPUs determine the structure of
+// these loops.
 //
-// First, these compilers run a block of rays through both sides of a condition. The opacity of the partial last
-// step must therefore not be next to that of a whole step, so the last sample is taken after the loops. Second,
-// llvmpipe of Mesa 22.3 continues to compute the values of a ray that has left a loop while its neighbours have
-// not, with loads that return 0. A loop may therefore be left only at its head, where every variable still has the
-// value of the last iteration. Third, it allows an invocation 65,535 iterations of all its loops together, however
-// they are nested. If rays may be longer (technique::has_long_rays), an iteration takes sixteen samples.
+// First, these compilers execute both sides of a condition for a block of rays. The opacity of the partial last
+// step should therefore not be computed next to that of a whole step, so the last sample is taken after the loops.
+// Second, llvmpipe of Mesa 22.3 continues to compute the values of a ray that has left a loop as long as
+// neighbouring rays have not, with loads that return 0. A loop may therefore be left only at its head, where every
+// variable still has the value of the last iteration. Third, llvmpipe allows an invocation 65,535 iterations of all
+// its loops together, however they are nested. If rays may be longer (technique::has_long_rays), one iteration
+// takes sixteen samples.
 vec4 raycast(ivec2 pixel) {
 #if TRI_TRACE
   begin_trace(pixel);
@@ -182,7 +183,7 @@ vec4 raycast(ivec2 pixel) {
     }
     if (TRI_ADAPT == 1 && merged && m.i < m.stop) advance_merged(m, grid, ray, step_voxels, enough);
     m.last_visible = m.stop == m.count && m.i < m.stop;
-    // A partial step along which the value is linear is the same work as a whole one, so it needs no special
+    // If the value is linear along a step, a partial step is the same work as a whole step, so it needs no special
     // treatment.
     if (TRI_PREINTEGRATED == 0) m.stop = min(m.stop, last);
     if (TRI_PREINTEGRATED != 0) m.front = field(grid, ray.p0 + real(m.i) * ray.g);

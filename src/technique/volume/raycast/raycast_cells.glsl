@@ -1,12 +1,13 @@
 // Quadrature cells (scene::Quadrature): the ray goes from cell to cell. A cell is the space between eight voxel
-// centres, in which the field along the ray is a cubic polynomial. The time of a crossing is computed from a cell's
-// index and not accumulated, so the contribution of a cell does not depend on the previous cells, and skipping
-// changes no bit. This code exists only in single precision. The loops follow the rules about compilers in
-// raycast.glsl.
+// centres, in which the field along the ray is a cubic polynomial. The position on the ray where it crosses a plane
+// is computed from a cell's index and not accumulated. The contribution of a cell therefore does not depend on the
+// previous cells, and skipping does not change any bit. This code exists only in single precision. The structure of
+// its loops follows from the properties of compilers that raycast.glsl describes. "Times" are positions on the ray,
+// in steps.
 #include "volume/raycast/field.glsl"
 
 // The data of a ray that the walk needs. Cell i is between the voxels i and i+1. The first cell (−1) and the last
-// one are the half voxels at the faces of the volume, where values are clamped.
+// cell are the half voxels at the faces of the volume, where values are clamped.
 struct Way {
   vec3 p0;         // where the ray enters the volume, relative to the first voxel's centre
   vec3 g;          // one step, in voxels
@@ -29,8 +30,9 @@ vec3 entries(Way way, ivec3 cell) { return crossings(way, cell + 1 - way.forward
 vec3 exits(Way way, ivec3 cell) { return crossings(way, cell + way.forward); }
 float least(vec3 v) { return min(v.x, min(v.y, v.z)); }
 
-// The cell after the nearest one of the planes, which are crossed at the times `at`. On the other axes, the index
-// is that of the cell that contains the ray there, computed from the same times that a walk would compare.
+// Returns the cell behind the nearest of the planes, which the ray crosses at the times `at`. On the other axes,
+// the index is that of the cell that contains the ray at this time, determined from the same times that a walk
+// would compare.
 ivec3 cell_behind(Way way, ivec3 planes, vec3 at) {
   float t = least(at);
   ivec3 direction = 2 * way.forward - 1;
@@ -41,11 +43,12 @@ ivec3 cell_behind(Way way, ivec3 planes, vec3 at) {
   return crossed * (planes - 1 + way.forward) + (1 - crossed) * cell;
 }
 
-// The polynomial c.x + c.y·s + c.z·s² + c.w·s³.
+// Returns c.x + c.y·s + c.z·s² + c.w·s³.
 float cubic(vec4 c, float s) { return c.x + s * (c.y + s * (c.z + s * c.w)); }
 
-// The cubic that gives the position among the transfer function's entries along the ray in a cell, for 0 ≤ s ≤ 1.
-// The local coordinates of the ray are from a to a + b. The eight voxels are interpolated along x, then y, then z.
+// Returns the cubic that gives the position among the transfer function's entries along the ray in a cell, for
+// 0 ≤ s ≤ 1. The coordinates of the ray within the cell run from a to a + b. The eight voxels are interpolated
+// along x, then y, then z.
 vec4 cubic_of_cell(Grid grid, ivec3 cell, vec3 a, vec3 b) {
   if (TRI_FAULT == fault_half_voxel_shift) a.x += 0.5;
   if (TRI_FAULT == fault_coarse_filter) a = floor(a * 256.0 + 0.5) / 256.0;
@@ -79,11 +82,12 @@ vec4 cubic_of_cell(Grid grid, ivec3 cell, vec3 a, vec3 b) {
   return c;
 }
 
-// A row of technique::kink_table: the smallest kink ≥ i, the largest kink < i, and the first visible entry ≥ i.
+// Returns a row of technique::kink_table: the smallest kink ≥ i, the largest kink < i, and the first visible
+// entry ≥ i.
 vec4 kink_row(float i) { return quadrature_entry(int(clamp(i, 0.0, 256.0))); }
 
-// Whether any value in the cell has opacity. It tests the range from the smallest to the largest Bernstein
-// coefficient of the cubic.
+// Returns whether any value in the cell has opacity. The test uses the range between the smallest and the largest
+// Bernstein coefficient of the cubic, which contains all values.
 bool shows(vec4 c) {
   vec4 b = vec4(c.x, c.x + c.y / 3.0, c.x + (2.0 * c.y + c.z) / 3.0, c.x + c.y + c.z + c.w);
   float lowest = clamp(min(min(b.x, b.y), min(b.z, b.w)), 0.0, 255.0);
@@ -91,21 +95,21 @@ bool shows(vec4 c) {
   return kink_row(floor(lowest)).z <= ceil(highest);
 }
 
-// The extrema of the cubic in ascending order; greater than 1 if there are none.
+// Returns the positions of the cubic's extrema in ascending order, or positions greater than 1 if there are none.
 vec2 extrema(vec4 c) {
   float discriminant = c.z * c.z - 3.0 * c.w * c.y;
   if (!(discriminant > 0.0)) return vec2(2.0);
-  // Compute both roots from the sum that does not cancel.
+  // Compute both roots from the sum in which nothing cancels.
   float q = 0.0 - (c.z + (c.z < 0.0 ? -1.0 : 1.0) * sqrt(discriminant));
   float e = c.w == 0.0 ? 2.0 : q / (3.0 * c.w);
   float f = q == 0.0 ? 2.0 : c.y / q;
   return vec2(min(e, f), max(e, f));
 }
 
-// The position where the cubic has the value `value`, between `from` and `to`. The cubic is monotone there and has
-// the values at_from and at_to at the ends. The search starts on the parabola with these values and the cubic's
-// slope at `from`, which is also correct next to an extremum. It continues with Newton's method, or with bisection
-// if that leaves the bracket.
+// Returns the position between `from` and `to` where the cubic has the value `value`. The cubic is monotone there
+// and has the values at_from and at_to at the two ends. The search starts on the parabola with these values and
+// with the cubic's slope at `from`, which is a good start even next to an extremum. It continues with Newton's
+// method, or with bisection if a Newton step leaves the bracket.
 float where_it_is(vec4 c, float value, float from, float to, float at_from, float at_to) {
   bool rising = at_to > at_from;
   float r = (value - at_from) / (at_to - at_from);
@@ -121,7 +125,7 @@ float where_it_is(vec4 c, float value, float from, float to, float at_from, floa
   return s;
 }
 
-// The extinction −log2(1 − alpha). An opacity of 1 counts as 8192.
+// Returns the extinction −log2(1 − alpha). An opacity of 1 counts as an extinction of 8192.
 float extinction(float alpha) { return alpha < 1.0 ? 0.0 - tri_log2_1m(alpha) : 8192.0; }
 
 // Adds a piece of `length` voxels with the colours at its two points (reference/cell_rule.hpp explains the
@@ -142,13 +146,13 @@ void add_piece(inout Light light, vec4 a, vec4 b, float length) {
   }
 }
 
-// Adds the piece between s and `next` of the ray in a cell. The cell is between the times `begin` and `end`, in
-// steps.
+// Adds the piece of the ray between s and `next`, which are positions within the cell from 0 to 1. The ray is in
+// the cell from time `begin` to time `end`.
 void add_part(inout Light light, Grid grid, Ray ray, vec4 c, float s, float next, float begin, float end,
               float step_voxels) {
   float middle = 0.5 * (s + next);
   float apart = 0.2886751346 * (next - s);
-  // The argument of transfer() is a value whose position is 256·x − ½.
+  // transfer() expects a value; the value at position p is (p + ½)/256.
   vec4 a = transfer((cubic(c, middle - apart) + 0.5) / 256.0);
   vec4 b = transfer((cubic(c, middle + apart) + 0.5) / 256.0);
   if (TRI_COUNT == 1) count_samples += 2u;
@@ -164,7 +168,7 @@ void add_part(inout Light light, Grid grid, Ray ray, vec4 c, float s, float next
   }
 }
 
-// Adds the cell between the times `begin` and `end`.
+// Adds the cell that the ray crosses from time `begin` to time `end`.
 void add_cell(inout Light light, Grid grid, Ray ray, Way way, ivec3 cell, float begin, float end,
               float step_voxels) {
   vec4 c = cubic_of_cell(grid, cell, way.p0 + begin * way.g - vec3(cell), (end - begin) * way.g);
@@ -172,18 +176,19 @@ void add_cell(inout Light light, Grid grid, Ray ray, Way way, ivec3 cell, float 
   float part = 1.0;
   float from = c.x;
   float start = 0.0;  // start of the piece
-  // The position that the loop has reached. It starts at the end if nothing is visible.
+  // The position in the cell that the loop has reached. The loop is skipped if nothing in the cell is visible.
   float s = end > begin && shows(c) ? 0.0 : 1.0;
   while (s < 1.0) {
-    // Stop at the end of the part, at an extremum (between extrema the value is monotone), or at a kink.
+    // Stop at the end of the part of the cell, at an extremum (because values are monotone between extrema), or at
+    // a kink.
     float stop = min(part / u.shading.w, 1.0);
     bool whole = !(turn.x > s && turn.x < stop) && !(turn.y > s && turn.y < stop);
     if (turn.y > s && turn.y < stop) stop = turn.y;
     if (turn.x > s && turn.x < stop) stop = turn.x;
     float to = cubic(c, stop);
     float kink = to > from ? kink_row(floor(from) + 1.0).x : kink_row(ceil(from)).y;
-    // llvmpipe (Mesa 22.3) also runs helper invocations outside of the triangle, and these read 0 for a kink. They
-    // must make progress, because the other invocations of the block wait for them.
+    // llvmpipe (Mesa 22.3) also runs helper invocations outside the triangle, which read 0 for a kink. They must
+    // make progress nevertheless, because the other invocations of the block wait for them.
     bool cut = to > from ? kink > from && kink < to : kink < from && kink > to;
     float next = cut ? where_it_is(c, kink, s, stop, from, to) : stop;
     if (cut || whole) {
@@ -196,8 +201,8 @@ void add_cell(inout Light light, Grid grid, Ray ray, Way way, ivec3 cell, float 
   }
 }
 
-// The content of the brick map for a cell: whether its brick is visible, and the planes through which the ray
-// leaves the region for which that is true. Planes at the volume's own faces include the half cells there.
+// What the brick map contains for a cell: whether its brick is visible, and the planes through which the ray leaves
+// the region in which all bricks are alike. Planes at the faces of the volume include the half cells there.
 struct Around {
   bool visible;
   ivec3 planes;
@@ -220,7 +225,7 @@ Around look_around(Way way, Grid grid, ivec3 cell) {
 
 #include "volume/raycast/pause.glsl"
 
-// Restores the state of the ray. `cell` is the cell where it continues.
+// Restores the state of the ray. It continues in `cell`.
 void resume(inout Light light, inout ivec3 cell, inout vec3 times, int place) {
   Pause pause = pauses[place];
   light = Light(pause.light.xyz, pause.light.w);
@@ -236,8 +241,8 @@ void pause_here(Light light, ivec3 cell, vec3 times, int place) {
 
 #endif
 
-// The premultiplied RGBA of the pixel. For a volume in parts, it is the light so far, and `place` is the index of
-// the pixel's Pause.
+// Returns the premultiplied RGBA of the pixel. For a volume in parts, it is the light that has been gathered so
+// far, and `place` is the index of the pixel's Pause.
 #if TRI_PARTS
 vec4 raycast_part(ivec2 pixel, int place) {
 #else
@@ -254,7 +259,7 @@ vec4 raycast(ivec2 pixel) {
   bool skipping = u.brick_grid.w > min(0, int(ray.steps));
   ivec3 cell = clamp(ivec3(floor(way.p0)), ivec3(-1), grid.last);
   float begin = 0.0;
-  float seen = skipping ? 0.0 : 3.0e38;  // up to here all bricks are visible
+  float seen = skipping ? 0.0 : 3.0e38;  // all bricks up to this time are visible
   float end = ray.steps;
 #if TRI_PARTS
   vec3 times = vec3(begin, seen, end);

@@ -1,14 +1,15 @@
-// Like raycast(), but for parts of a volume (technique::Part). It processes the samples in the part that the device
-// stores, one by one, with the same expressions, so that the result has the same bits.
+// The same as raycast(), but for a volume in parts (technique::Part). It processes the samples in the part that the
+// device stores, one by one and with the same expressions, so that the result is bit-identical.
 #include "volume/raycast/pause.glsl"
 
-// Whether the voxels around the ray at the position `along`, in steps from its beginning, belong to the part.
+// Returns whether the part contains the voxels around the ray at the position `along`, in steps from the ray's
+// beginning.
 bool is_here(Grid grid, Ray ray, real along) {
   real z = ray.p0.z + along * ray.g.z;
   return cell_is_here(int(clamp(z + 0.5, 0.0, real(grid.last.z + 1))));
 }
 
-// The position of the next sample or step.
+// Returns the position of the next sample or step on the ray.
 real next_along(March m, Ray ray, bool merged) {
   real begin = real(m.i);
   if (TRI_PREINTEGRATED != 0) return begin;
@@ -52,7 +53,7 @@ void take_next(inout March m, inout Cut cut, inout bool fresh, bool merged, int 
   }
 }
 
-// The premultiplied RGBA of the pixel so far. `place` is the index of the pixel's Pause.
+// Returns the premultiplied RGBA of the pixel so far. `place` is the index of the pixel's Pause.
 vec4 raycast_part(ivec2 pixel, int place) {
 #if TRI_TRACE
   begin_trace(pixel);

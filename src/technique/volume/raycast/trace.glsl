@@ -1,17 +1,18 @@
-// Records the history of one pixel, in the build for this purpose (technique/volume/ray_trace.hpp).
+// Records the history of one pixel. Only a special build contains this code (technique/volume/ray_trace.hpp).
 
 uint trace_place = 0xFFFFFFFFu;
 real traced_value = 0.0;
 real traced_front = 0.0;
 real traced_opacity = 0.0;
 
-// Devices also run helper invocations outside of the triangle, which may be outside of the image.
+// Devices also run helper invocations outside the triangle, whose pixels may be outside the image.
 void begin_trace(ivec2 pixel) {
   ivec2 inside = min(pixel, u.viewport.xy - 1);
   trace_place = counters[8 * (inside.y * u.viewport.x + inside.x) + 7];
 }
 
-// Records a sample. `kind` is technique::TracedKind. The values and the opacity must have been set before.
+// Records a sample. `kind` is technique::TracedKind. traced_value, traced_front and traced_opacity must have been
+// set before.
 void trace(uint kind, real3 place, real4 colour, real steps, Light light) {
   real opacity = traced_opacity;
   traced_opacity = 0.0;

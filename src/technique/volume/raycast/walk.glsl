@@ -1,5 +1,5 @@
 // A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed from the brick's
-// index and not accumulated, so that they do not drift: the ray leaves brick b through a face of axis a at
+// index and not accumulated, so that they do not drift: along axis a, the ray leaves brick b at
 // first[a] + b[a]·spacing[a].
 struct Walk {
   ivec3 brick;
@@ -7,8 +7,8 @@ struct Walk {
   real3 first;      // in steps
   real3 spacing;    // in steps; 0 if the ray never crosses a face of this axis
   real3 at;         // where the ray crosses the brick's far face of each axis, in steps
-  real leave;       // where it leaves the brick: the smallest component of `at`
-  bool visible;     // also true outside the grid: if rounding leads there, the rest of the ray is sampled
+  real leave;       // where the ray leaves the brick: the smallest component of `at`
+  bool visible;     // also true outside the grid, so that the rest of the ray is sampled if rounding leads there
   int kind;         // technique::BrickKind of a visible brick, with TRI_ADAPT
   bool outside;
   ivec3 size;       // bricks per axis
@@ -49,15 +49,15 @@ void next_brick(inout Walk walk) {
   enter(walk);
 }
 
-// The first sample that is beyond the brick, but at most `limit`. A sample within rounding of the face may be
+// Returns the first sample beyond the brick, but at most `limit`. A sample that is within rounding of a face may be
 // assigned to either side, because the brick's border of one voxel covers half a voxel of error.
 int samples_before(Walk walk, int limit) {
   return walk.outside || !(walk.leave < real(limit)) ? limit : clamp(int(ceil(walk.leave - 0.5)), 0, limit);
 }
 
 // Narrows [begin, end) to the next run of visible bricks of one kind at or after `begin`. The result is empty at
-// the end of the ray. `merged` is set if the run is to be taken as one sample. A brick of kind 2 is a run of its
-// own.
+// the end of the ray. `merged` is set if the run is to be taken as one sample. Each brick of kind 2
+// (technique::BrickKind::merged) forms its own run.
 ivec2 next_run(inout Walk walk, int begin, int end, out bool merged) {
   while (begin < end && !walk.visible) {
     begin = max(begin, samples_before(walk, end));
@@ -75,12 +75,12 @@ ivec2 next_run(inout Walk walk, int begin, int end, out bool merged) {
   return ivec2(begin, stop);
 }
 
-// Leaps over whole cubes of bricks of one kind (technique::Skip::distance). Each leap starts from the position of
-// its own sample, so errors do not accumulate.
+// Leaps over whole cubes of bricks of one kind (technique::Skip::distance). Each leap starts from the exact
+// position of a sample, so errors do not accumulate.
 struct Leaps {
-  real3 p0;    // where the ray enters, relative to the first voxel's centre, where bricks begin
+  real3 p0;    // where the ray enters, relative to the first voxel's centre, which is where bricks begin
   real3 inverse_g;
-  real edge;   // of a brick, in voxels
+  real edge;   // edge of a brick, in voxels
   real inverse_edge;
   ivec3 size;  // bricks per axis
 };
@@ -96,9 +96,9 @@ Leaps make_leaps(Ray ray) {
   return leaps;
 }
 
-// The brick_reach of the brick that contains sample i, and the first sample after it that is beyond the cube of
-// bricks of the same kind, but at most `end`. A sample within rounding of a face may be assigned to either side, as
-// in a walk.
+// Whether the brick that contains sample i is visible, and the first sample beyond the cube of bricks of the same
+// kind (technique::brick_reach), but at most `end`. A sample that is within rounding of a face may be assigned to
+// either side, as in a walk.
 struct Leap {
   bool visible;
   int next;
@@ -115,13 +115,14 @@ Leap leap(Leaps leaps, Ray ray, int i, int end) {
                              leaps.inverse_g.z < 0.0 ? back : reach);
   real3 at = (real3(face) * leaps.edge - leaps.p0) * leaps.inverse_g;
   real leave = min(at.x, min(at.y, at.z));
-  // No brick has the reach 0, but llvmpipe (Mesa 22.3) also runs helper invocations outside of the triangle, and
-  // these read 0. They would go from sample to sample, and all other invocations of the block would wait for them.
+  // No brick has the reach 0, but llvmpipe (Mesa 22.3) also runs helper invocations outside the triangle, which
+  // read 0. Without this condition, they would go from sample to sample, and all other invocations of the block
+  // would wait for them.
   int next = reach > 0 && leave < real(end) ? int(ceil(leave - 0.5)) : end;
   return Leap(signed_reach > 0, clamp(next, i + 1, end));
 }
 
-// The same as next_run, but with leaps.
+// Does the same as next_run, but with leaps.
 ivec2 next_run_by_leaps(Leaps leaps, Ray ray, int begin, int end) {
   Leap ahead = Leap(false, begin);
   while (begin < end && !ahead.visible) {
@@ -145,10 +146,10 @@ ivec2 next_run_by_leaps(Leaps leaps, Ray ray, int begin, int end) {
   return ivec2(begin, stop);
 }
 
-// Whether there is anything to skip. With leaps, the reach of a single brick reveals whether the whole volume is
-// visible. The 0 is written as an expression that depends on the ray: for a condition on parameters alone, lavapipe
-// (Mesa 22.3) would compile a separate shader with the parameters' values inlined in every submission, which takes
-// up to 1.5 ms.
+// Returns whether there is anything to skip. With leaps, the reach of a single brick reveals whether all bricks are
+// of the same kind. The 0 is written as an expression that depends on the ray: for a condition on parameters alone,
+// lavapipe (Mesa 22.3) would compile a separate shader with the parameters' values inlined in every submission,
+// which takes up to 1.5 ms.
 bool skips(Ray ray) {
   int longest = max(u.brick_grid.x, max(u.brick_grid.y, u.brick_grid.z));
   int nothing = min(0, int(ray.steps));
