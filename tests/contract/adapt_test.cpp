@@ -1,5 +1,5 @@
-// Samples that are merged within bricks: images stay within the budget, fewer samples are taken,
-// and for V1 each ray takes a single sample.
+// Tests merging samples within bricks: images stay within the budget, fewer samples are taken, and
+// for V1 each ray takes a single sample.
 
 #include <cmath>
 
@@ -17,13 +17,13 @@ technique::RaycastOptions& options_of(measure::Work& work) {
   return std::get<VolumeWork>(work.scene).options;
 }
 
-// Samples are merged in the bricks of a walk.
+// Selects skip=bricks, because samples are merged within the bricks of a walk.
 measure::Work walking(measure::Work work) {
   options_of(work).skip = technique::Skip::bricks;
   return work;
 }
 
-// A generated volume, mostly with several bricks of one value.
+// Returns work with a generated volume in which most bricks have a single value.
 measure::Work generated(const measure::Device& device, std::string_view name,
                         scene::VolumeScene scene) {
   return walking(
@@ -39,7 +39,7 @@ core::Image bound_without_budget(const measure::Device& device, const measure::W
   return reference::render_volume(volume.scene, model).bound_image();
 }
 
-TEST(Adapt, PicturesStayWithinTheBudget) {
+TEST(Adapt, ImagesStayWithinTheBudget) {
   on_every_driver([](measure::Device& device) {
     for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
       for (const std::string_view function : scene::transfer_function_presets()) {
@@ -59,8 +59,9 @@ TEST(Adapt, PicturesStayWithinTheBudget) {
   });
 }
 
-// Two images of one device, each of which is exact except for rounding, may differ by the budget.
-TEST(Adapt, MovesADevicesOwnPictureByItsBudget) {
+// Two images from the same device may differ by no more than the budget, because each is exact
+// except for round-off.
+TEST(Adapt, ImagesOfOneDeviceDifferByAtMostTheBudget) {
   on_every_driver([](measure::Device& device) {
     for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
       for (const double adapt : {1.0 / 255, 1.0 / 8}) {
@@ -80,7 +81,7 @@ TEST(Adapt, MovesADevicesOwnPictureByItsBudget) {
   });
 }
 
-TEST(Adapt, TakesFewerSamplesAndSavesTheRest) {
+TEST(Adapt, TakesFewerSamplesAndCountsTheSavedOnes) {
   on_every_driver([](measure::Device& device) {
     for (const std::string_view name : {"uniform_box", "mandelbulb"}) {
       SCOPED_TRACE(name);
@@ -98,9 +99,9 @@ TEST(Adapt, TakesFewerSamplesAndSavesTheRest) {
   });
 }
 
-// In a homogeneous box, merging adds no error for any budget, so the bound is that of rounding
-// only.
-TEST(Adapt, V1IsExactWithOneSampleARay) {
+// In a homogeneous box, merging adds no error whatever the budget is, so the bound only contains
+// round-off.
+TEST(Adapt, V1IsExactWithOneSamplePerRay) {
   on_every_driver([](measure::Device& device) {
     for (const double step : {0.125, 0.3, 1.0, 7.7}) {
       SCOPED_TRACE(step);
@@ -115,14 +116,14 @@ TEST(Adapt, V1IsExactWithOneSampleARay) {
                    .scene = VolumeWork{.scene = analytic.scene,
                                        .options = {.sampler = sampler, .ert = 0, .adapt = 1e-9}}});
       const record::Counts counts = counts_of(device, work);
-      // The middle of the last step may be outside of the box, where there is no brick.
+      // The middle of the last step may lie outside of the box, where there are no bricks.
       EXPECT_LE(counts.at("samples"), 2 * counts.at("rays_hit"));
       expect_closed_form(device, work, analytic);
     }
   });
 }
 
-TEST(Adapt, OtherWaysOfSkippingAreRefusedWithTheReason) {
+TEST(Adapt, OtherSkipModesAreRejectedWithAReason) {
   on_every_driver([](measure::Device& device) {
     measure::Work work = generated(device, "uniform_box", small_scene("haze"));
     options_of(work).adapt = 1e-3;

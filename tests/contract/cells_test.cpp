@@ -1,6 +1,6 @@
-// Quadrature cells on real devices: it is exact if the field has no kink, stays within its bound
-// everywhere, draws the same bits for every way of skipping, and is closer to the limit than the
-// midpoint rule with an eighth of its step.
+// Tests the quadrature `cells` on real devices. It is exact if the field has no kinks, stays within
+// its bound everywhere, gives bit-identical images for all skip modes, and is closer to the limit
+// than the midpoint rule with an eighth of its step size.
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +59,7 @@ TEST(Cells, StayWithinTheirBound) {
   });
 }
 
-// A table with an opacity of 1, jumps, and a peak of one entry.
+// Uses a table with an opacity of 1, with jumps, and with a peak that is one entry wide.
 TEST(Cells, SteepTransferFunctionsStayWithinTheBound) {
   on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = cells_scene("haze");
@@ -71,7 +71,7 @@ TEST(Cells, SteepTransferFunctionsStayWithinTheBound) {
   });
 }
 
-TEST(Cells, SkippingChangesNoBit) {
+TEST(Cells, SkippingIsBitIdentical) {
   on_every_driver([](measure::Device& device) {
     for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
       for (const std::string_view function : scene::transfer_function_presets()) {
@@ -94,7 +94,7 @@ TEST(Cells, SkippingChangesNoBit) {
   });
 }
 
-TEST(Cells, RealVolumesStayWithinTheBoundAndKeepTheirBits) {
+TEST(Cells, RealVolumesStayWithinTheBoundAndAreBitIdentical) {
   const auto files = real_volumes();
   if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with volumes/";
   on_every_driver([&](measure::Device& device) {
@@ -110,7 +110,8 @@ TEST(Cells, RealVolumesStayWithinTheBoundAndKeepTheirBits) {
   });
 }
 
-// V1 has one value, one piece in each cell and a constant integrand, so only rounding remains.
+// In V1, there is one value, one piece per cell and a constant integrand, so only round-off
+// remains.
 TEST(Cells, V1IsExact) {
   on_every_driver([](measure::Device& device) {
     reference::AnalyticOptions options;
@@ -126,8 +127,8 @@ TEST(Cells, V1IsExact) {
   });
 }
 
-// A rule of second order would need steps of a hundredth.
-TEST(Cells, AreNearerToTheLimitThanManySamples) {
+// A second-order rule would need a step size of one hundredth.
+TEST(Cells, AreCloserToTheLimitThanManySamples) {
   on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = cells_scene("surfaces");
     measure::Work work = cells_work(scene::generate_volume("mandelbulb", {40, 40, 40}), scene);
@@ -146,10 +147,10 @@ TEST(Cells, AreNearerToTheLimitThanManySamples) {
   });
 }
 
-// Some drivers end loops after 65,535 passes without an error, and a highlight needed several
-// passes for each point. The bound with shading is too wide to show that, so the image is compared
-// with the reference image itself.
-TEST(Cells, ManyShadedPiecesAreAllTaken) {
+// Some drivers silently end loops after 65,535 iterations, and a highlight used to need several
+// iterations for each point. The bound with shading is too wide to reveal that fault, so the image
+// is compared with the reference image directly.
+TEST(Cells, AllOfManyShadedPiecesAreDrawn) {
   on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = cells_scene("haze");
     scene.shading.enabled = true;
@@ -167,7 +168,7 @@ TEST(Cells, ManyShadedPiecesAreAllTaken) {
   });
 }
 
-TEST(Cells, AreRefusedWhereTheyCannotBeDrawn) {
+TEST(Cells, AreRejectedWhereTheyCannotBeDrawn) {
   on_every_driver([](measure::Device& device) {
     const measure::Work work =
         cells_work(scene::generate_volume("uniform_box", {8, 8, 8}), cells_scene("haze"));

@@ -1,4 +1,4 @@
-// The requirements of measure/contract/backend.hpp for every API.
+// Tests what measure/contract/backend.hpp requires of every API.
 
 #include <cstdlib>
 #include <set>
@@ -14,24 +14,24 @@ measure::Work some_work(const measure::Device& device) {
                       small_scene("haze"));
 }
 
-TEST(Contract, ListingTwiceGivesTheSame) {
+TEST(Contract, ListingTwiceGivesTheSameDevices) {
   const auto backend = backend_under_test();
   const measure::Listing once = backend->list();
   const measure::Listing again = backend->list();
   EXPECT_EQ(once.devices, again.devices);
   std::set<std::string> ids;
   for (const record::Device& device : once.devices) {
-    EXPECT_TRUE(ids.insert(device.id).second) << device.id << " is there twice";
+    EXPECT_TRUE(ids.insert(device.id).second) << device.id << " is listed twice";
     EXPECT_TRUE(device.id.starts_with(std::string(backend->api()) + ":")) << device.id;
     EXPECT_EQ(device.driver_version.find('\n'), std::string::npos);
   }
 }
 
-TEST(Contract, ADeviceThatIsNotThereIsNotSupported) {
+TEST(Contract, AMissingDeviceIsNotSupported) {
   EXPECT_THROW(static_cast<void>(backend_under_test()->open("none:such")), core::NotSupported);
 }
 
-TEST(Contract, AFrameIsTimedAndTheSameEveryTime) {
+TEST(Contract, FramesAreTimedAndRepeatable) {
   on_every_device([](measure::Device& device) {
     const measure::Work work = some_work(device);
     ASSERT_EQ(device.unsupported(work), std::nullopt);
@@ -47,7 +47,7 @@ TEST(Contract, AFrameIsTimedAndTheSameEveryTime) {
   });
 }
 
-TEST(Contract, CountingChangesNeitherPictureNorItself) {
+TEST(Contract, CountingIsRepeatableAndLeavesTheImageUnchanged) {
   on_every_device([](measure::Device& device) {
     const auto prepared = device.prepare(some_work(device));
     static_cast<void>(prepared->frame(measure::Purpose::timing));
@@ -61,9 +61,9 @@ TEST(Contract, CountingChangesNeitherPictureNorItself) {
   });
 }
 
-TEST(Contract, OtherDeviceCodeHasAnotherHash) {
+TEST(Contract, DifferentDeviceCodeHasADifferentHash) {
   on_every_device([](measure::Device& device) {
-    if (device.info().api == "null") GTEST_SKIP() << "a script has no device code";
+    if (device.info().api == "null") GTEST_SKIP() << "scripted devices have no device code";
     measure::Work work = some_work(device);
     const std::string hash = device.prepare(work)->kernel_hash();
     EXPECT_FALSE(hash.empty());
@@ -73,13 +73,13 @@ TEST(Contract, OtherDeviceCodeHasAnotherHash) {
   });
 }
 
-TEST(Contract, AVolumeBeyondEveryLimitIsRefusedWithBothNumbers) {
+TEST(Contract, AVolumeBeyondEveryLimitIsRejectedWithBothNumbers) {
   on_every_device([](measure::Device& device) {
-    if (device.info().api == "null") GTEST_SKIP() << "a script has no limits";
+    if (device.info().api == "null") GTEST_SKIP() << "scripted devices have no limits";
     measure::Work work = some_work(device);
     auto& volume = std::get<measure::VolumeWork>(work.scene);
     scene::VoxelGrid grid = *volume.scene.grid;
-    grid.size = {1, 1, 1 << 20};  // never uploaded, because it is refused before that
+    grid.size = {1, 1, 1 << 20};  // never allocated, because the device rejects it first
     volume.scene.grid = std::make_shared<const scene::VoxelGrid>(std::move(grid));
     volume.options.sampler = technique::Sampler::hardware;
     const auto reason = device.unsupported(work);
@@ -91,7 +91,7 @@ TEST(Contract, AVolumeBeyondEveryLimitIsRefusedWithBothNumbers) {
 }  // namespace
 }  // namespace triptych::contract
 
-// The null backend has devices only if it has a script.
+// The null backend has devices only if it is given a script.
 int main(int argc, char** argv) {
   ::setenv("TRIPTYCH_NULL_SCRIPT", "{}", 0);
   ::setenv("POCL_PTHREAD_MIN_WGS", "1", 0);

@@ -1,5 +1,6 @@
-// The counting build does the same work as the timed build: compares the counters with what the
-// image of the timed build shows about its samples, and the images of both builds with each other.
+// Checks that the counting build does the same work as the timed build. Compares the counters with
+// the number of samples that the timed build's image reveals, and the images of the two builds with
+// each other.
 
 #include <cmath>
 
@@ -14,7 +15,7 @@ using technique::Skip;
 
 constexpr std::array all_skips{Skip::none, Skip::bricks, Skip::distance};
 
-// Every entry is red, so that the sum of speed_of_light is the number of samples.
+// Makes every table entry red, so that the sum computed by speed_of_light is the number of samples.
 scene::TransferFunction reddened(std::string_view name) {
   scene::TransferFunction function = scene::load_transfer_function(name);
   for (auto& entry : function.entries) entry[0] = 1;
@@ -41,7 +42,7 @@ void expect_sum_as_counted(measure::Device& device, measure::Work work) {
   }
 }
 
-TEST(CountedAsTimed, SpeedOfLightSumsAsManySamplesAsItCounts) {
+TEST(CountedAsTimed, SpeedOfLightCountsTheSamplesItSums) {
   on_every_driver([](measure::Device& device) {
     for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
       for (const std::string_view function : scene::transfer_function_presets()) {
@@ -56,7 +57,7 @@ TEST(CountedAsTimed, SpeedOfLightSumsAsManySamplesAsItCounts) {
   });
 }
 
-// Walls of one voxel, perpendicular to each axis.
+// Returns a volume with walls that are one voxel thick and perpendicular to the axes.
 scene::Volume walls() {
   constexpr int side = 64;
   scene::Volume volume{.name = "walls", .size = {side, side, side}, .range_hi = 255};
@@ -71,9 +72,10 @@ scene::Volume walls() {
   return volume;
 }
 
-// A sample on a face between two bricks belongs to the brick ahead if rays walk, and to the upper
-// brick if they leap. For rays in the negative direction of an axis, these are different bricks.
-TEST(CountedAsTimed, SamplesOnFacesOfBricks) {
+// A sample on the face between two bricks belongs to the next brick along the ray if rays walk, and
+// to the brick with the higher index if they leap. For rays in the negative direction of an axis,
+// these are two different bricks.
+TEST(CountedAsTimed, SamplesOnBrickFacesAreCountedAsDrawn) {
   on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = small_scene("surfaces");
     scene.transfer_function = reddened("surfaces");
@@ -95,13 +97,14 @@ TEST(CountedAsTimed, SamplesOnFacesOfBricks) {
 }
 
 // Derives the number of steps from the image of a volume with one opacity per voxel length, drawn
-// with early termination: the transmittance is that of a number of whole steps and, if the ray did
-// not end early, of a partial step.
+// with early termination. The transmittance results from a number of whole steps and, if the ray
+// did not terminate early, from a partial step.
 struct Tally {
   std::uint64_t rays_hit = 0;
   std::uint64_t terminated = 0;
   std::uint64_t samples = 0;
-  std::uint64_t doubtful = 0;  // rays whose last step has almost no length, so it may be missing
+  // rays whose last step has almost no length, so it may not be counted
+  std::uint64_t doubtful = 0;
 };
 
 Tally tally_of(const core::Image& image, double alpha, double step_voxels, double ert) {
@@ -123,7 +126,7 @@ Tally tally_of(const core::Image& image, double alpha, double step_voxels, doubl
   return tally;
 }
 
-TEST(CountedAsTimed, RaysEndWhereTheCountingBuildEndsThem) {
+TEST(CountedAsTimed, RaysEndAtTheSameStepInBothBuilds) {
   constexpr double alpha = 0.03125;
   constexpr double ert = 0.6;
   on_every_driver([&](measure::Device& device) {
@@ -168,7 +171,7 @@ void expect_one_picture(measure::Device& device, const measure::Work& work) {
   EXPECT_EQ(prepared->image(), timed);
 }
 
-TEST(CountedAsTimed, VolumesHaveOnePicture) {
+TEST(CountedAsTimed, BothBuildsDrawTheSameVolumeImage) {
   on_every_driver([](measure::Device& device) {
     measure::Work work = default_work(device, scene::generate_volume("mandelbulb", {37, 41, 23}),
                                       small_scene("surfaces"));
@@ -190,9 +193,9 @@ TEST(CountedAsTimed, VolumesHaveOnePicture) {
   });
 }
 
-// If the promise of conservative depth is broken, the image shows what was rejected early. The
-// counting build has to reject it too.
-TEST(CountedAsTimed, SpheresHaveOnePictureThoughTheyAreRejectedEarly) {
+// If a shader violates its declaration of conservative depth, the image shows what was rejected
+// early. The counting build has to reject the same fragments.
+TEST(CountedAsTimed, BothBuildsRejectTheSameFragmentsEarly) {
   on_every_driver([](measure::Device& device) {
     ParticleWork work = studded_wall();
     for (const bool conservative : {false, true}) {
@@ -207,10 +210,10 @@ TEST(CountedAsTimed, SpheresHaveOnePictureThoughTheyAreRejectedEarly) {
   });
 }
 
-// If a program rejects fragments early in its own code, it does not count them.
+// A program that rejects fragments early in its own code does not count them.
 TEST(CountedAsTimed, FragmentsRejectedEarlyAreNotCounted) {
   on_every_driver([](measure::Device& device) {
-    // On the other APIs, the rasterizer belongs to the driver.
+    // On other APIs, the rasterizer is part of the driver.
     if (device.info().api != "opencl") return;
     ParticleWork work = generated_work("uniform", 20000, "orbit_y:1/8", 96);
     work.scene.radius_scale = 3;

@@ -6,7 +6,7 @@
 
 namespace triptych::contract {
 
-// The files of $TRIPTYCH_DATA/FOLDER, sorted; none if the variable is not set.
+// Returns the files in $TRIPTYCH_DATA/NAME, sorted; empty if the variable is not set.
 inline std::vector<std::filesystem::path> real_files(const char* name) {
   std::vector<std::filesystem::path> files;
   const char* root = std::getenv("TRIPTYCH_DATA");

@@ -1,5 +1,5 @@
-// Voxels that are stored as half floats: within the bound of the rounded data, the same image if
-// nothing is rounded, and half of the memory of floats.
+// Tests voxels stored as half floats: images are within the bound for the rounded data, they are
+// unchanged if nothing is rounded, and half floats need half the memory of floats.
 
 #include <algorithm>
 #include <cmath>
@@ -28,8 +28,8 @@ measure::Work work_of(const char* data, VoxelFormat format, Sampler sampler) {
                          .options = {.sampler = sampler, .skip = technique::Skip::none, .ert = 0}}};
 }
 
-// Tests floats and 16-bit integers with both techniques and each way of reading voxels.
-TEST(Halves, StayWithinTheBoundOfTheDataThatTheyRound) {
+// Tests float and 16-bit integer volumes with both techniques and every sampler.
+TEST(Halves, StayWithinTheBoundOfTheRoundedData) {
   on_every_driver([](measure::Device& device) {
     double unpaid = 0;
     for (const char* data : {"marschner_lobb", "nested_shells"}) {
@@ -63,15 +63,15 @@ TEST(Halves, StayWithinTheBoundOfTheDataThatTheyRound) {
         }
       }
     }
-    EXPECT_GT(unpaid, 1);  // without the rounding of voxels, the bound is too narrow
+    EXPECT_GT(unpaid, 1);  // the bound is too narrow if it ignores the rounding of voxels
   });
 }
 
-// Halves of bytes stay within the bound of bytes, because halves store bytes exactly. For
-// quadrature cells and for OpenCL's buffers, both formats reach the kernel as the same integers, so
-// the counts are equal. On OpenCL, whose compilers do not change arithmetic, the bits are equal,
-// too.
-TEST(Halves, OfBytesAreTheSamePictureAndWork) {
+// An 8-bit volume stored as half floats stays within the bound of 8-bit voxels, because half floats
+// represent 8-bit values exactly. In the quadrature `cells` and in OpenCL's buffers, both formats
+// reach the kernel as the same integers, so the counts are equal. In OpenCL, whose compilers do not
+// reorder arithmetic, the images are also bit-identical.
+TEST(Halves, OfBytesGiveTheSameImageAndCounts) {
   on_every_driver([](measure::Device& device) {
     const bool opencl = device.info().api == "opencl";
     for (const Sampler sampler : {Sampler::manual, Sampler::packed}) {
@@ -100,7 +100,7 @@ TEST(Halves, OfBytesAreTheSamePictureAndWork) {
   });
 }
 
-TEST(Halves, TakeHalfTheMemoryOfFloats) {
+TEST(Halves, NeedHalfTheMemoryOfFloats) {
   on_every_driver([](measure::Device& device) {
     const auto bytes_held = [&](VoxelFormat format) {
       const auto prepared = device.prepare(work_of("marschner_lobb", format, Sampler::manual));
@@ -115,7 +115,7 @@ TEST(Halves, TakeHalfTheMemoryOfFloats) {
     };
     const std::uint64_t saved = bytes_held(VoxelFormat::f32) - bytes_held(VoxelFormat::f16);
     const std::uint64_t expected = 2 * voxels(device.info().api == "opencl" ? 2 : 0);
-    if (device.info().api == "vulkan") {  // counts the padding of the image's rows
+    if (device.info().api == "vulkan") {  // memory use includes the padding of the image's rows
       EXPECT_NEAR(static_cast<double>(saved), static_cast<double>(expected),
                   0.25 * static_cast<double>(expected));
     } else {

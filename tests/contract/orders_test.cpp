@@ -1,5 +1,5 @@
-// V1–V7 and V9 on real devices: the images converge to the closed forms with the order that the
-// quadrature must have.
+// Tests the problems V1–V7 and V9 on real devices: the images converge to the closed-form solutions
+// with the expected order of the quadrature.
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ measure::Work work_of(const measure::Device& device, const scene::VolumeScene& s
                           .ert = 0}}};
 }
 
-// The root mean square of the difference from `exact(x, y)` over pixels and channels.
+// Returns the root mean square of the difference from `exact(x, y)` over all pixels and channels.
 template <class Exact>
 double rms_error(const core::Image& image, const Exact& exact) {
   double sum = 0;
@@ -56,7 +56,7 @@ double order_on(measure::Device& device, AnalyticProblem problem, int size) {
   return test::fitted_order(steps, errors);
 }
 
-TEST(Orders, V1IsExactForEveryStep) {
+TEST(Orders, V1IsExactForEveryStepSize) {
   on_every_driver([](measure::Device& device) {
     for (const double step : {0.125, 0.3, 1.0, 2.0, 7.7, 100.0}) {
       SCOPED_TRACE(step);
@@ -75,8 +75,8 @@ TEST(Orders, SmoothProblemsAreOfSecondOrder) {
   });
 }
 
-// The order against the limit image of the grid, for scenes whose grid differs from their closed
-// form.
+// Returns the order of convergence to the limit image of the grid, for scenes whose grid differs
+// from their closed-form solution.
 double order_against_limit(measure::Device& device, AnalyticProblem problem, int size) {
   reference::AnalyticScene analytic = scene_of(problem, size, 1);
   const core::Image exact = reference::render_volume_converged(analytic.scene, 1e-7).image();
@@ -103,9 +103,9 @@ TEST(Orders, V7IsLimitedByItsFaces) {
   });
 }
 
-// The shaded image of a device compared with the true gradient of the wave. The differences are
-// those between the device's lattice and the limit of the step, between the bound and the lattice,
-// and between central differences and the gradient.
+// Compares the shaded image of a device with the true gradient of the wave. The error has three
+// parts: between the device's samples and the limit for small steps, between the limit and the
+// grid, and between central differences and the gradient.
 double wave_error_on(measure::Device& device, int size) {
   const reference::AnalyticScene analytic = scene_of(AnalyticProblem::v9_wave, size, 0.25);
   constexpr double tolerance = 1e-7;
@@ -131,7 +131,7 @@ double wave_error_on(measure::Device& device, int size) {
   return rms_error(image, [&](int x, int y) { return analytic.exact(x, y).rgba; });
 }
 
-TEST(Orders, V9GradientIsOfSecondOrderInTheVoxelSize) {
+TEST(Orders, V9GradientIsOfSecondOrderInVoxelSize) {
   on_every_driver([](measure::Device& device) {
     std::vector<double> spacings;
     std::vector<double> errors;

@@ -1,4 +1,4 @@
-// The counters are consistent with each other and reproduce the paper's finding.
+// Tests that the counters are consistent with each other and reproduce the paper's result.
 
 #include <algorithm>
 
@@ -32,7 +32,7 @@ TEST(ParticleCounters, AddUp) {
         const record::Counts counts = counted(device, whole);
         EXPECT_NEAR(static_cast<double>(counts.at("visible_ids")), static_cast<double>(visible),
                     0.01 * static_cast<double>(visible) + 2);
-        // Techniques with rays leave no cells out.
+        // Techniques that trace rays cull no cells.
         if (!counts.contains("particles_submitted")) return;
         EXPECT_EQ(counts.at("particles_submitted") + counts.at("particles_culled"), 20000U);
         EXPECT_EQ(counts.at("particles_culled") > 0, culling == Culling::frustum);
@@ -48,12 +48,12 @@ TEST(ParticleCounters, AddUp) {
   });
 }
 
-// Sprites of every shape cover the disc of a sphere, so all keep the same fragments. A polygon with
-// more corners wastes fewer fragments (S6). Tiles process no fragment behind a hit.
+// Sprites of every shape cover the sphere's disc, so all keep the same number of fragments. A
+// polygon with more corners wastes fewer fragments (S6). Tiles process no fragment behind a hit.
 TEST(ParticleCounters, SpritesOfEveryShapeKeepTheSameFragments) {
   on_every_driver([](measure::Device& device) {
     ParticleWork work = generated_work("uniform", 100, "orbit_y:1/8", 256);
-    work.scene.radius_scale = 2;  // large enough for more than four corners
+    work.scene.radius_scale = 2;  // large enough for polygons with more than four corners
     work.options.corners = 8;
     std::map<std::string, record::Counts> counts;
     with_every_technique(device, work, [&](const measure::Work& whole) {
@@ -76,8 +76,8 @@ TEST(ParticleCounters, SpritesOfEveryShapeKeepTheSameFragments) {
   });
 }
 
-// A sphere that fills the image, and spheres behind its surface each of which alone would fill the
-// image, too.
+// Returns a sphere that fills the image, and more spheres behind its surface, each of which alone
+// would fill the image as well.
 ParticleWork covered_crowd(int crowd) {
   std::vector<std::array<double, 4>> spheres{{0, 0, -20, 20}};
   core::Random random(7);
@@ -88,16 +88,16 @@ ParticleWork covered_crowd(int crowd) {
   return particle_work(particles_of(spheres), looking({0, 0, 5}, {0, 0, 0}, 10), 64, 64);
 }
 
-// A ray skips everything that is behind the surface that it has found. The bound on the number of
-// visited nodes follows from the scene. Every box crosses every beam, because every sphere fills
-// the image. Boxes around the large sphere begin at its front, 5 in front of the eye; all others
-// begin behind 7.9, and the surface that all pixels show is at most 5.1 away. Each beam visits the
-// nearer child first, so it goes straight to the leaf of the large sphere, which takes as many
-// nodes as there are levels. From then on, shaders skip all other boxes. OpenCL's tiles update
-// their farthest depth after every eighth sphere and a leaf has four, so a second leaf may come
-// before that, with at most as many nodes on its way. The sibling of each of these nodes was tested
-// before the depths were known, so it may be visited, too, but nothing below it. The sum is 4 nodes
-// for each level. A beam has at least 8 pixels.
+// A ray skips everything behind the surface that it has already found. The bound on the number of
+// visited nodes follows from the scene. Every box intersects every beam, because every sphere fills
+// the image. Boxes around the large sphere begin at its front, 5 in front of the eye. All other
+// boxes begin beyond 7.9, and the visible surface is at most 5.1 away. Each beam visits the nearer
+// child first, so it descends directly to the leaf of the large sphere, which takes as many nodes
+// as the tree has levels. After that, shaders skip all other boxes. OpenCL's tiles, however, update
+// their farthest depth only after every eighth sphere, and a leaf has four, so a second leaf may be
+// visited first, with at most as many nodes on the way to it. The sibling of each of these nodes
+// was tested before the depths were known, so it may be visited too, but nothing below it. In
+// total, that is 4 nodes per level. A beam has at least 8 pixels.
 TEST(ParticleCounters, RaysVisitOnlyWhatTheyMayHit) {
   constexpr std::uint64_t levels = 11;
   constexpr std::uint64_t most_beams = 64 * 64 / 8;
@@ -115,8 +115,8 @@ TEST(ParticleCounters, RaysVisitOnlyWhatTheyMayHit) {
     EXPECT_LE(counts.at("nodes_visited"), most_nodes);
     EXPECT_GE(counts.at("boxes_tested"), 2 * counts.at("nodes_visited"));
     EXPECT_EQ(counts.at("visible_ids"), 1U);
-    // With the fault that the farthest surface wins, nothing is behind the surface that was found,
-    // so all boxes are visited.
+    // With the fault that makes the farthest surface win, nothing is behind the surface that was
+    // found, so all boxes are visited.
     const record::Counts faulty = counts_with(technique::ParticleFault::reversed_depth);
     if (faulty.empty()) return;
     EXPECT_GT(faulty.at("nodes_visited"), most_nodes);
@@ -129,10 +129,10 @@ std::uint64_t fragments_of(measure::Device& device, std::string technique, Parti
   return device.unsupported(whole) ? 0 : counted(device, whole).at("fragments");
 }
 
-// The finding of the paper (section 6.3): from outside, both kinds of quads have the same
-// fragments. With the camera among the spheres, the screen-aligned quad has ten times as many,
-// because spheres that reach the plane of the eye have no bounded projection.
-TEST(ParticleCounters, ScreenAlignedQuadsAreCostlyAmongTheSpheres) {
+// This is the paper's result (section 6.3). From outside, both kinds of quads produce the same
+// fragments. With the camera among the spheres, screen-aligned quads produce ten times as many,
+// because the projection of a sphere that intersects the plane of the eye is unbounded.
+TEST(ParticleCounters, ScreenAlignedQuadsAreExpensiveAmongTheSpheres) {
   on_every_driver([](measure::Device& device) {
     const auto ratio = [&](const char* camera) {
       const ParticleWork work = generated_work("uniform", 3000, camera, 96);
@@ -140,7 +140,7 @@ TEST(ParticleCounters, ScreenAlignedQuadsAreCostlyAmongTheSpheres) {
       return static_cast<double>(fragments_of(device, "quad_screen", work)) / ray;
     };
     if (fragments_of(device, "quad_screen", generated_work("uniform", 10, "orbit_y:1/8", 8)) == 0) {
-      return;  // no geometry shaders
+      return;  // the device has no geometry shaders
     }
     EXPECT_NEAR(ratio("orbit_y:1/8"), 1, 0.1);
     EXPECT_GT(ratio("path_z:8/10"), 10);

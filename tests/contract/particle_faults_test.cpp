@@ -1,4 +1,4 @@
-// The image reveals each injected fault, with every technique that implements it.
+// Tests that images reveal each injected fault, with every technique that implements the fault.
 
 #include "measure/protocol/injected_fault.hpp"
 #include "particle_scenes.hpp"
@@ -11,9 +11,9 @@ struct Injected {
   ParticleWork work;
 };
 
-// A fault, and a scene in which it is visible. A small sprite needs spheres that `tiles` does not
-// search for in whole tiles, ties need coincident spheres, and a lost border needs spheres that
-// reach several tiles.
+// A fault and a scene that reveals it. The fault "small sprite" needs spheres that `tiles` does not
+// test in whole tiles, ties need coincident spheres, and a lost border needs spheres that overlap
+// several tiles.
 std::vector<Injected> faults() {
   std::vector<Injected> all;
   all.push_back({"small_sprite", generated_work("uniform", 10000, "orbit_y:1/8", 200)});
@@ -26,7 +26,7 @@ std::vector<Injected> faults() {
   return all;
 }
 
-TEST(ParticleFaults, EveryOneIsCaughtByThePicture) {
+TEST(ParticleFaults, EveryFaultChangesTheImage) {
   on_every_driver([](measure::Device& device) {
     for (const Injected& injected : faults()) {
       SCOPED_TRACE(injected.name);
@@ -36,16 +36,18 @@ TEST(ParticleFaults, EveryOneIsCaughtByThePicture) {
       with_every_technique(device, injected.work, [&](const measure::Work& whole) {
         measure::Work faulty = whole;
         measure::inject(injected.name, faulty);
-        if (device.unsupported(faulty)) return;  // the technique has nothing that could be broken
+        // the technique does not contain the code that this fault would break
+        if (device.unsupported(faulty)) return;
         EXPECT_FALSE(accuracy::compare(draw(device, faulty), expected, bound).within_bound());
       });
     }
   });
 }
 
-// This fault rejects by the back of a sphere instead of its front. If a driver does not reject
-// early, the image cannot reveal the fault, so the tests of each backend examine the shader.
-TEST(ParticleFaults, TheWrongSenseIsCaughtWhereFragmentsAreRejectedEarly) {
+// This fault makes the early test use the back of a sphere instead of its front. If a driver does
+// not reject fragments early, the image cannot reveal the fault. Therefore each backend's own tests
+// examine the shader.
+TEST(ParticleFaults, TheWrongSenseIsFoundWhereFragmentsAreRejectedEarly) {
   on_every_driver([](measure::Device& device) {
     ParticleWork work = studded_wall();
     work.options.conservative_depth = true;
@@ -64,8 +66,8 @@ TEST(ParticleFaults, TheWrongSenseIsCaughtWhereFragmentsAreRejectedEarly) {
   });
 }
 
-// An injected slowdown adds work, but the image stays the same.
-TEST(ParticleFaults, AnInjectedSlowdownChangesNoPixel) {
+// An injected slowdown adds work but does not change the image.
+TEST(ParticleFaults, AnInjectedSlowdownLeavesTheImageUnchanged) {
   on_every_driver([](measure::Device& device) {
     const ParticleWork work = generated_work("uniform", 3000, "orbit_y:1/8", 96);
     with_every_technique(device, work, [&](const measure::Work& whole) {

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes of spheres for the contract tests, and the checks for each of their images.
+// Scenes of spheres for the contract tests, and the checks of their images.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -68,9 +68,9 @@ inline reference::SphereTruth truth_of(const ParticleWork& work) {
                                    particles_suite::error_model(work.scene, work.options.ray));
 }
 
-// A wall, which is the front of a huge sphere, and small spheres that are half inside it. Once the
-// wall is drawn, the front of each small sphere is closer than the contents of its tile, and its
-// back is farther.
+// Returns a wall, which is the front of a huge sphere, and small spheres that are half embedded in
+// it. Once the wall is drawn, the front of each small sphere is closer than what its tile contains,
+// and its back is farther away.
 inline ParticleWork studded_wall() {
   std::vector<std::array<double, 4>> spheres{{0, 0, -1000, 1000}};
   core::Random random(11);
@@ -80,7 +80,8 @@ inline ParticleWork studded_wall() {
   return particle_work(particles_of(spheres), looking({0, 0, 5}, {0, 0, 0}, 60), 96, 96);
 }
 
-// Checks every id and depth that is certain, and the colours.
+// Checks the colours, and every id and depth that the reference renderer can determine with
+// certainty.
 inline void expect_true(const core::Image& image, const reference::SphereTruth& truth) {
   const auto result = accuracy::compare(image, truth.image(), truth.bound_image());
   const auto& first = result.first_wrong;
@@ -93,7 +94,7 @@ inline void expect_true(const core::Image& image, const reference::SphereTruth& 
       << ' ' << result.worst.y << ": " << result.worst.error << " allowed " << result.worst.bound;
 }
 
-// Runs `body` with every technique that the device supports.
+// Runs `body` for every technique that the device supports.
 template <typename Body>
 void with_every_technique(measure::Device& device, const ParticleWork& work, const Body& body) {
   for (const std::string& technique : particle_techniques()) {

@@ -1,5 +1,5 @@
-// Compares spheres drawn by every technique with the reference image, and checks the options that
-// must not change the image.
+// Compares spheres drawn by every technique with the reference image, and tests that certain
+// options do not change the image.
 
 #include "scene/particles.hpp"
 
@@ -28,8 +28,8 @@ struct View {
   scene::Camera camera;
 };
 
-// A sphere of radius 1 at the origin with a small neighbour, seen from all positions from which
-// common kinds of sprites lose pixels.
+// Returns views of a sphere of radius 1 at the origin with a small neighbour, from all kinds of
+// positions in which common sprite methods lose pixels.
 std::vector<View> difficult_views() {
   const std::vector<std::array<double, 4>> one{{0, 0, 0, 1}, {1.2, 0.3, 0.1, 0.2}};
   const glm::dvec3 side = glm::normalize(glm::dvec3{1, 0.5, 2});
@@ -75,7 +75,7 @@ TEST(Particles, EveryStructureIsTrue) {
   });
 }
 
-TEST(Particles, EveryColourIsTrueWhereverItIsLookedUp) {
+TEST(Particles, ColoursAreCorrectWhereverTheyAreLookedUp) {
   on_every_driver([](measure::Device& device) {
     for (const auto colour :
          {scene::ColourKind::rgba8, scene::ColourKind::rgba32, scene::ColourKind::intensity}) {
@@ -90,7 +90,7 @@ TEST(Particles, EveryColourIsTrueWhereverItIsLookedUp) {
   });
 }
 
-TEST(Particles, ARayMadeAtTheVerticesIsTrue) {
+TEST(Particles, RaysComputedAtVerticesAreCorrect) {
   on_every_driver([](measure::Device& device) {
     for (const View& view : difficult_views()) {
       SCOPED_TRACE(view.name);
@@ -98,8 +98,8 @@ TEST(Particles, ARayMadeAtTheVerticesIsTrue) {
       work.options.ray = technique::ComputedAt::vertex;
       expect_all_true(device, work);
     }
-    // Many small sprites. The rasterizer's grid moves them most, so the error of a plane of rays
-    // that is used outside its own triangle exceeds the bound here.
+    // Uses many small sprites. The rasterizer's grid displaces these the most. If the plane of rays
+    // of a triangle were used outside that triangle, its error would exceed the bound here.
     ParticleWork many =
         generated_work("uniform", 4000, "orbit_y:1/8", 160, scene::ColourKind::intensity);
     many.options.ray = technique::ComputedAt::vertex;
@@ -109,7 +109,7 @@ TEST(Particles, ARayMadeAtTheVerticesIsTrue) {
 
 // The options for ties, culling, conservative depth and corners determine how the image is drawn,
 // but must not change it.
-TEST(Particles, AllTechniquesAndOptionsDrawTheSameBits) {
+TEST(Particles, AllTechniquesAndOptionsAreBitIdentical) {
   on_every_driver([](measure::Device& device) {
     for (const char* camera : {"orbit_y:1/8", "path_z:7/8"}) {
       SCOPED_TRACE(camera);
@@ -126,7 +126,7 @@ TEST(Particles, AllTechniquesAndOptionsDrawTheSameBits) {
             options.conservative_depth = conservative;
             options.corners = 5;
             const auto prepared = device.prepare(work);
-            // Occlusion culling remembers the previous frame.
+            // Occlusion culling depends on the previous frame.
             for (int frame = 0; frame < 3; ++frame) {
               static_cast<void>(prepared->frame(measure::Purpose::timing));
             }
@@ -142,8 +142,8 @@ TEST(Particles, AllTechniquesAndOptionsDrawTheSameBits) {
   });
 }
 
-// A hierarchy that is built or fitted again in every frame finds the same spheres.
-TEST(Particles, StructuresBuiltInEveryFrameDrawTheSameBits) {
+// A hierarchy that is rebuilt or refitted in every frame must lead to the same spheres.
+TEST(Particles, StructuresBuiltInEveryFrameAreBitIdentical) {
   using technique::Structure;
   on_every_driver([](measure::Device& device) {
     const ParticleWork plain = generated_work("coincident", 8000, "path_z:7/8", 96);
@@ -165,8 +165,8 @@ TEST(Particles, StructuresBuiltInEveryFrameDrawTheSameBits) {
   });
 }
 
-// The spheres on one pixel have the same depth, so none excludes the others, and there are more
-// nodes than one dispatch may visit on Mesa's software devices.
+// All spheres on one pixel have the same depth, so none of them occludes the others, and there are
+// more nodes than one dispatch may visit on Mesa's software devices.
 TEST(Particles, ABeamThroughManyEqualSpheresFindsTheFirst) {
   on_every_driver([](measure::Device& device) {
     std::vector<std::array<double, 4>> spheres(60000, {0, 0, 0, 1});
@@ -184,7 +184,7 @@ TEST(Particles, ABeamThroughManyEqualSpheresFindsTheFirst) {
   });
 }
 
-TEST(Particles, TheOrderInTheFileChangesNothing) {
+TEST(Particles, TheOrderInTheFileDoesNotMatter) {
   on_every_driver([](measure::Device& device) {
     const ParticleWork work = generated_work("coincident", 3000, "orbit_y:1/8", 64);
     scene::ParticleSet shuffled = *work.scene.particles;
@@ -203,7 +203,7 @@ TEST(Particles, TheOrderInTheFileChangesNothing) {
   });
 }
 
-TEST(Particles, AnyNumberOfThemIsDrawn) {
+TEST(Particles, AnyNumberOfParticlesIsDrawn) {
   on_every_driver([](measure::Device& device) {
     for (const std::uint64_t count : {1U, 63U, 64U, 65U, 511U, 513U}) {
       SCOPED_TRACE(count);
@@ -214,7 +214,7 @@ TEST(Particles, AnyNumberOfThemIsDrawn) {
   });
 }
 
-TEST(Particles, EveryShapeOfAPictureIsDrawn) {
+TEST(Particles, EveryImageShapeIsDrawn) {
   on_every_driver([](measure::Device& device) {
     for (const auto& [width, height] :
          std::vector<std::pair<int, int>>{{1, 1}, {1, 40}, {40, 1}, {17, 13}, {130, 65}}) {
@@ -227,7 +227,7 @@ TEST(Particles, EveryShapeOfAPictureIsDrawn) {
   });
 }
 
-TEST(Particles, RepeatsAreTheSameBits) {
+TEST(Particles, RepeatedFramesAreBitIdentical) {
   on_every_driver([](measure::Device& device) {
     const ParticleWork work = generated_work("plume", 5000, "orbit_y:1/8", 64);
     with_every_technique(device, work, [&](const measure::Work& whole) {
@@ -252,14 +252,15 @@ ParticleWork jump_of_the_eye() {
   return work;
 }
 
-// In the first frame after the jump, everything that is known about hidden cells is wrong.
-TEST(Particles, AfterAJumpOfTheEyeNothingIsStale) {
+// In the first frame after the jump, the stored set of hidden cells is completely wrong.
+TEST(Particles, ACameraJumpLeavesNothingStale) {
   const ParticleWork work = jump_of_the_eye();
   on_every_driver([&](measure::Device& device) { expect_all_true(device, work); });
 }
 
-// The counts are those of the state that frames settle into, however many were drawn before.
-TEST(Particles, AfterAJumpOfTheEyeCountsAreThoseOfLaterFrames) {
+// Counts must describe the state into which frames settle, no matter how many frames were drawn
+// before.
+TEST(Particles, CountsAfterACameraJumpAreThoseOfLaterFrames) {
   const ParticleWork work = jump_of_the_eye();
   on_every_driver([&](measure::Device& device) {
     with_every_technique(device, work, [&](const measure::Work& whole) {
@@ -275,9 +276,9 @@ TEST(Particles, AfterAJumpOfTheEyeCountsAreThoseOfLaterFrames) {
   });
 }
 
-// The image is wider than textures and points may be. Every device that draws a narrow one must
-// draw it, or refuse it with a reason that contains the requested size.
-TEST(Particles, APictureOverADevicesLimitIsRefusedOrDrawn) {
+// The image is larger than textures and points may be. A device must either draw it correctly, or
+// reject it with a reason that contains the requested size.
+TEST(Particles, AnImageBeyondTheLimitsIsRejectedOrDrawn) {
   on_every_driver([](measure::Device& device) {
     const scene::Camera camera = looking({0, 0, 3}, {0, 0, 0}, 0.005);
     const auto work_of_width = [&](int width) {
@@ -299,8 +300,8 @@ TEST(Particles, APictureOverADevicesLimitIsRefusedOrDrawn) {
   });
 }
 
-// Invalid particles are dropped, which does not affect their neighbours.
-TEST(Particles, WhatIsNoSphereIsDropped) {
+// Invalid particles are dropped, and that must not affect their neighbours.
+TEST(Particles, InvalidSpheresAreDropped) {
   const double nan = std::nan("");
   const double inf = std::numeric_limits<double>::infinity();
   const scene::ParticleSet set = particles_of({{0, 0, 0, 1},
@@ -317,7 +318,7 @@ TEST(Particles, WhatIsNoSphereIsDropped) {
   });
 }
 
-TEST(Particles, RealFilesAreTrue) {
+TEST(Particles, RealFilesMatchTheReference) {
   const auto files = real_particles();
   if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with particles/";
   on_every_driver([&](measure::Device& device) {

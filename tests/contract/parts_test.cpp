@@ -1,4 +1,5 @@
-// A volume that is drawn in parts gives the same bits and the same counts as the whole volume.
+// Tests that drawing a volume in parts gives a bit-identical image and the same counts as drawing
+// the whole volume.
 
 #include "technique/volume/parts.hpp"
 
@@ -15,8 +16,8 @@ using scene::Quadrature;
 using technique::Sampler;
 using technique::Skip;
 
-// From outside; from inside along the parts, across them, and towards the last one; and from so far
-// away that rays begin on a plane in front of the volume.
+// Cameras outside of the volume; inside it, looking along the parts, across them and towards the
+// last part; and so far away that rays begin on a plane in front of the volume.
 std::vector<scene::Camera> cameras(const scene::Box& box) {
   const glm::dvec3 size = box.hi - box.lo;
   const auto at = [&](double x, double y, double z) { return glm::dvec3(x, y, z) * size; };
@@ -31,7 +32,7 @@ measure::VolumeWork& volume_of(measure::Work& work) {
   return std::get<measure::VolumeWork>(work.scene);
 }
 
-// The size of the largest layout of the voxels.
+// Returns the size in bytes of the largest voxel layout.
 double whole_bytes(const measure::VolumeWork& work) {
   const scene::VoxelGrid& grid = *work.scene.grid;
   if (work.options.sampler == Sampler::packed) {
@@ -60,7 +61,8 @@ Drawn drawn(measure::Device& device, const measure::Work& work) {
   return result;
 }
 
-// Draws with about one n-th of the voxels on the device, for each n.
+// For each n in `shares`, draws the volume with about 1/n of its voxels on the device, and compares
+// the result with the whole volume.
 void expect_the_whole(measure::Device& device, measure::Work work, std::vector<int> shares) {
   volume_of(work).options.budget = 0;
   const Drawn whole = drawn(device, work);
@@ -75,7 +77,7 @@ void expect_the_whole(measure::Device& device, measure::Work work, std::vector<i
   }
 }
 
-// The samplers with which the device draws parts.
+// Returns the samplers with which the device can draw volumes in parts.
 std::vector<Sampler> samplers(measure::Device& device, measure::Work work) {
   std::vector<Sampler> able;
   for (const Sampler sampler : {Sampler::manual, Sampler::packed}) {
@@ -95,8 +97,8 @@ measure::Work work_of(std::string_view generator, scene::VolumeScene scene) {
           .scene = measure::VolumeWork{.scene = std::move(scene), .options = {}}};
 }
 
-// Looks from every side if rays leap, and from inside if they walk. Without `all`, looks from
-// inside, and only with leaps.
+// With `all`, draws from every side with leaps and from inside with walks. Without it, draws only
+// from inside and with leaps.
 void expect_the_whole_by_every_skip(measure::Device& device, measure::Work& work, bool all) {
   const auto views = cameras(volume_of(work).scene.box());
   for (const Skip skip : {Skip::none, Skip::bricks, Skip::distance}) {
@@ -111,9 +113,10 @@ void expect_the_whole_by_every_skip(measure::Device& device, measure::Work& work
   }
 }
 
-// One sampler draws every skip and view without shading and another one with it, because building
-// the pipelines takes most of the time. With everything(), each sampler draws all of them.
-TEST(Parts, HaveTheBitsAndTheCountsOfTheWhole) {
+// One sampler draws all skip modes and views without shading, and another one draws them with
+// shading, because building the pipelines takes most of the time. With everything(), each sampler
+// draws all combinations.
+TEST(Parts, MatchTheWholeVolumeInImageAndCounts) {
   on_every_driver([](measure::Device& device) {
     for (const Quadrature quadrature :
          {Quadrature::midpoint, Quadrature::preintegrated, Quadrature::cells}) {
@@ -138,7 +141,7 @@ TEST(Parts, HaveTheBitsAndTheCountsOfTheWhole) {
 
 // Tests every voxel format, rays that end early or never, and steps that are longer than the cells
 // of a part.
-TEST(Parts, OfEveryFormatAndStep) {
+TEST(Parts, MatchTheWholeVolumeForEveryFormatAndStep) {
   on_every_driver([](measure::Device& device) {
     for (const std::string_view generator : {"sparse_field", "frequency_box"}) {
       for (const Quadrature quadrature : {Quadrature::midpoint, Quadrature::preintegrated}) {
@@ -163,7 +166,7 @@ TEST(Parts, OfEveryFormatAndStep) {
   });
 }
 
-TEST(Parts, WithMergedBricksOrInDoublePrecision) {
+TEST(Parts, MatchWithMergedBricksOrDoublePrecision) {
   on_every_driver([](measure::Device& device) {
     measure::Work work = work_of("nested_shells", small_scene("haze"));
     const measure::Work plain = work;
@@ -181,9 +184,9 @@ TEST(Parts, WithMergedBricksOrInDoublePrecision) {
   });
 }
 
-// A walk has no brick for a last sample behind the exit, so it reads that sample, even if no part
-// has moved its voxels to the device.
-TEST(Parts, ThatShowNothingAreReadWhereAWalkReadsThem) {
+// A walk has no brick for a last sample behind the exit, so it reads that sample even if no part
+// has uploaded its voxels.
+TEST(Parts, InvisiblePartsAreReadIfAWalkReadsThem) {
   on_every_driver([](measure::Device& device) {
     scene::Volume volume{.size = {16, 16, 64}, .type = scene::ScalarType::u8, .range_hi = 255};
     for (int i = 0; i < 16 * 16 * 64; ++i) {
@@ -206,7 +209,7 @@ TEST(Parts, ThatShowNothingAreReadWhereAWalkReadsThem) {
   });
 }
 
-TEST(Parts, AreWithinTheTruthsBound) {
+TEST(Parts, StayWithinTheBound) {
   on_every_driver([](measure::Device& device) {
     measure::Work work = work_of("mandelbulb", small_scene("surfaces"));
     for (const Sampler sampler : samplers(device, work)) {
@@ -217,8 +220,9 @@ TEST(Parts, AreWithinTheTruthsBound) {
   });
 }
 
-// These volumes have no budget, but they are deeper than the images of many devices can be.
-TEST(Parts, OfWhatNoImageHoldsAreWithinTheTruthsBound) {
+// These volumes have no memory budget, but they are deeper than the images that many devices
+// support.
+TEST(Parts, VolumesDeeperThanAnyImageStayWithinTheBound) {
   on_every_driver([](measure::Device& device) {
     scene::Volume volume{.size = {5, 4, 5000}, .type = scene::ScalarType::u8, .range_hi = 100};
     for (int i = 0; i < 5 * 4 * 5000; ++i) volume.voxels.push_back(std::byte(i * 37 % 101));
@@ -236,8 +240,8 @@ TEST(Parts, OfWhatNoImageHoldsAreWithinTheTruthsBound) {
   });
 }
 
-// The reason for the refusal contains both numbers and a remedy.
-TEST(Parts, ThatCannotBeAreRefused) {
+// The reason contains both numbers and a remedy.
+TEST(Parts, ImpossiblePartsAreRejectedWithAReason) {
   on_every_driver([](measure::Device& device) {
     measure::Work work = work_of("mandelbulb", small_scene("surfaces"));
     auto& options = volume_of(work).options;

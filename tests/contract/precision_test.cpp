@@ -1,5 +1,5 @@
-// Precision fp64 on real devices: it stays within its own bound, which single precision exceeds,
-// and is refused if a part of the path is in single precision.
+// Tests precision=fp64 on real devices: images stay within its own bound, which single precision
+// exceeds, and fp64 is rejected if any step of the computation is in single precision.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 using measure::VolumeWork;
 
-// The default path of the suite: voxels in their own format, interpolated in the kernel.
+// Uses the suite's default path: voxels in the volume's own format, interpolated in the kernel.
 measure::Work fp64_work(const char* data, scene::VolumeScene scene) {
   scene::Volume volume = scene::generate_volume(data, {40, 40, 40});
   const scene::VoxelFormat native = scene::lossless_format(volume.type);
@@ -24,7 +24,7 @@ measure::Work fp64_work(const char* data, scene::VolumeScene scene) {
                                           .precision = technique::Precision::fp64}}};
 }
 
-// Tests voxels of all three types, both techniques, both ways of skipping, and no skipping.
+// Tests all three voxel types, both techniques, both skip modes, and no skipping.
 TEST(Precision, DoubleStaysWithinItsOwnBound) {
   int drawn = 0;
   on_every_driver([&](measure::Device& device) {
@@ -48,10 +48,10 @@ TEST(Precision, DoubleStaysWithinItsOwnBound) {
       }
     }
   });
-  if (drawn == 0) GTEST_SKIP() << "no device has double precision";
+  if (drawn == 0) GTEST_SKIP() << "no device supports double precision";
 }
 
-// The bound would prove nothing if single precision kept it, too.
+// The bound would prove nothing if single precision stayed within it too.
 TEST(Precision, SingleIsNotWithinTheBoundOfDouble) {
   on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = small_scene("haze");
@@ -69,7 +69,7 @@ TEST(Precision, SingleIsNotWithinTheBoundOfDouble) {
   });
 }
 
-TEST(Precision, IsRefusedWithTheReasonWhereAPartIsInSinglePrecision) {
+TEST(Precision, IsRejectedIfAnyStepIsInSinglePrecision) {
   on_every_driver([](measure::Device& device) {
     const auto reason = [&](const auto& change) {
       measure::Work work = fp64_work("marschner_lobb", small_scene("haze"));

@@ -1,5 +1,5 @@
-// Quadrature preintegrated on real devices: it is exact if the field is linear along every step, of
-// second order elsewhere, and within its bound everywhere.
+// Tests the quadrature `preintegrated` on real devices. It is exact if the field is linear along
+// every step, of second order elsewhere, and within its bound everywhere.
 
 #include <algorithm>
 #include <cmath>
@@ -42,10 +42,10 @@ double rms_error(const core::Image& image, const reference::AnalyticScene& analy
   return std::sqrt(sum / (4.0 * static_cast<double>(image.pixel_count())));
 }
 
-// The remaining error is the rounding of positions, values and sums. Its root mean square is that
-// of V1, which has no other error either (1.3e-7), and the curvature of the table within an entry:
-// table_error in the header of the problems, 1e-6 for the worst pixel. A midpoint with the same
-// step has an error of 1e-4 or more.
+// The remaining error consists of two parts. The first is the round-off in positions, values and
+// sums; its root mean square is that of V1, which has no other error (1.3e-7). The second is the
+// curvature of the table within an entry: table_error in the header of the problems, 1e-6 for the
+// worst pixel. The midpoint rule with the same step size has an error of 1e-4 or more.
 TEST(Preintegrated, V3IsExactForEveryStepUpToItsPlateaus) {
   on_every_driver([](measure::Device& device) {
     for (const double step : {0.125, 0.3, 0.5, 1.0}) {
@@ -106,8 +106,8 @@ TEST(Preintegrated, StaysWithinItsBound) {
   });
 }
 
-// Whole cells of the table are taken in pieces. Without that, these steps had errors of up to 0.3,
-// which exceeded their bound.
+// Long steps are split at whole cells of the table. Without that, these steps had errors of up to
+// 0.3, which exceeded their bound.
 TEST(Preintegrated, OpaqueStepsAreExact) {
   on_every_driver([](measure::Device& device) {
     for (const double step : {2.0, 64.0}) {
@@ -130,7 +130,7 @@ TEST(Preintegrated, OpaqueStepsAreExact) {
   });
 }
 
-// A table with an opacity of 1, jumps, and a peak of one entry.
+// Uses a table with an opacity of 1, with jumps, and with a peak that is one entry wide.
 TEST(Preintegrated, SteepTransferFunctionsStayWithinTheBound) {
   on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = small_scene("haze");
@@ -144,7 +144,7 @@ TEST(Preintegrated, SteepTransferFunctionsStayWithinTheBound) {
   });
 }
 
-TEST(Preintegrated, SpeedOfLightRefusesIt) {
+TEST(Preintegrated, SpeedOfLightRejectsIt) {
   on_every_driver([](measure::Device& device) {
     measure::Work work =
         preintegrated_work(device, preintegrated_scene(AnalyticProblem::v1_constant, 8, 1).scene);

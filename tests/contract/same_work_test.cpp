@@ -1,5 +1,6 @@
-// Configurations that the suites call equivalent in a scene (measure::Suite::plain) are the same
-// work on every device: the same counts and the same bits.
+// Tests that configurations that the suites declare as equivalent in a scene
+// (measure::Suite::plain) do the same work on every device: the counts are equal and the images are
+// bit-identical.
 
 #include "measure/contract/equivalents.hpp"
 #include "particle_scenes.hpp"
@@ -21,7 +22,7 @@ void expect_same_work(measure::Device& device, const measure::Work& a, const mea
   EXPECT_EQ(draw(device, a), draw(device, b));
 }
 
-TEST(SameWork, LeapsOverAFullVolume) {
+TEST(SameWork, LeapsInAVolumeWithoutEmptyBricks) {
   on_every_driver([](measure::Device& device) {
     const measure::Work without = [&] {
       measure::Work work = full_volume(device);
@@ -38,7 +39,7 @@ TEST(SameWork, LeapsOverAFullVolume) {
   });
 }
 
-TEST(SameWork, EndingRaysThatNeverGetSoDark) {
+TEST(SameWork, EarlyTerminationThatNoRayReaches) {
   on_every_driver([](measure::Device& device) {
     const measure::Work never = full_volume(device);
     const core::Image picture = draw(device, never);
@@ -54,7 +55,7 @@ TEST(SameWork, EndingRaysThatNeverGetSoDark) {
   });
 }
 
-TEST(SameWork, ConservativeDepthOfSpheresApart) {
+TEST(SameWork, ConservativeDepthWithoutOverlaps) {
   on_every_driver([](measure::Device& device) {
     const ParticleWork work =
         particle_work(particles_of({{-1.5, 0, 0, 0.4}, {1.5, 0.3, 0.5, 0.3}, {0, -1.2, -1, 0.2}}),

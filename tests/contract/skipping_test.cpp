@@ -1,5 +1,5 @@
-// Skipping empty space changes no bit. This is tested for every generator, both transfer functions,
-// with and without shading, both quadratures, and every real volume.
+// Tests that skipping empty space gives bit-identical images, for every generator, both transfer
+// functions, with and without shading, both quadratures, and every real volume.
 
 #include "data_folder.hpp"
 #include "under_test.hpp"
@@ -21,7 +21,7 @@ void expect_same_bits(measure::Device& device, measure::Work work) {
   }
 }
 
-TEST(Skipping, GeneratedVolumesHaveTheSameBits) {
+TEST(Skipping, GeneratedVolumesAreBitIdentical) {
   on_every_driver([](measure::Device& device) {
     for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
       for (const std::string_view function : scene::transfer_function_presets()) {
@@ -42,7 +42,7 @@ TEST(Skipping, GeneratedVolumesHaveTheSameBits) {
   });
 }
 
-TEST(Skipping, RealVolumesHaveTheSameBits) {
+TEST(Skipping, RealVolumesAreBitIdentical) {
   const auto files = real_volumes();
   if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with volumes/";
   on_every_driver([&](measure::Device& device) {
@@ -58,10 +58,10 @@ TEST(Skipping, RealVolumesHaveTheSameBits) {
   });
 }
 
-// A perfect method would take exactly the samples with non-zero opacity. Every mode of skipping
-// must take all of them, and leaps over smaller bricks must take no more of the other samples than
-// a walk takes.
-TEST(Skipping, TakesWhatAnOracleDoesAndLittleMore) {
+// A perfect method would take exactly the samples with non-zero opacity. Every skip mode must take
+// all of these samples, and leaps over smaller bricks must not take more other samples than a walk
+// does.
+TEST(Skipping, TakesAllVisibleSamplesAndFewOthers) {
   const auto files = real_volumes();
   if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with volumes/";
   on_every_driver([&](measure::Device& device) {

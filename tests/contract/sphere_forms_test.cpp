@@ -1,5 +1,5 @@
-// Closed forms for spheres (reference/sphere_closed_forms.hpp), checked with every technique on
-// every device without the reference renderer in between.
+// Compares every technique on every device directly with closed-form solutions for spheres
+// (reference/sphere_closed_forms.hpp), without using the reference renderer.
 
 #include <algorithm>
 #include <numbers>
@@ -31,13 +31,13 @@ double pixels_with_ids(const core::Image& image) {
       image.ids, [](std::uint32_t id) { return id != core::Image::no_particle; }));
 }
 
-// The number of pixel centres within a convex outline differs from its area by a few times the root
-// of its length (as for a lattice with random edges).
+// Returns the expected error: the number of pixel centres within a convex outline differs from its
+// area by a few times the square root of the outline's length (as for a lattice with random edges).
 double lattice_error(double length) {
   return 2 * std::sqrt(length) + 2;
 }
 
-TEST(SphereForms, S1TheSilhouetteIsTheEllipse) {
+TEST(SphereForms, S1SilhouettesAreEllipses) {
   on_every_driver([](measure::Device& device) {
     const double focal = 0.5 * side / std::tan(80 * pi / 360);  // in pixels
     for (const double theta : {0.0, 0.25, 0.5}) {
@@ -56,10 +56,10 @@ TEST(SphereForms, S1TheSilhouetteIsTheEllipse) {
   });
 }
 
-// From a distance of 200,000 radii, rays are parallel within 1e-5. The integrand falls to 0 like a
-// root at the rim: pixels there, over which the value changes by R^½, have an error below R^−3/2 of
-// the mean.
-TEST(SphereForms, S3TheMeanCosineOfADiscIsTwoThirds) {
+// From a distance of 200,000 radii, rays are parallel to within 1e-5. At the rim, the integrand
+// falls to 0 like a square root. The pixels there, over which the value changes by R^½, have an
+// error below R^−3/2 of the mean.
+TEST(SphereForms, S3TheMeanCosineOverADiscIsTwoThirds) {
   on_every_driver([](measure::Device& device) {
     const double radius_px = 60;
     const double fov = 2 * std::atan(side / (2 * radius_px) / 2e5) * 180 / pi;
@@ -77,8 +77,8 @@ TEST(SphereForms, S3TheMeanCosineOfADiscIsTwoThirds) {
   });
 }
 
-// The boundary of two equal spheres: a pixel that shows one of them is on its side of the bisecting
-// plane, except within the error of depth.
+// Tests the boundary between two equal spheres: a pixel that shows one of them lies on that
+// sphere's side of the bisecting plane, up to the error of depth.
 TEST(SphereForms, S4EqualSpheresMeetInTheBisectingPlane) {
   on_every_driver([](measure::Device& device) {
     const std::array<glm::dvec3, 2> centres{glm::dvec3{-0.3, 0.1, 0.2}, glm::dvec3{0.4, 0, -0.1}};
@@ -86,7 +86,7 @@ TEST(SphereForms, S4EqualSpheresMeetInTheBisectingPlane) {
     const ParticleWork work = white_spheres({{centres[0].x, centres[0].y, centres[0].z, 0.8},
                                              {centres[1].x, centres[1].y, centres[1].z, 0.8}},
                                             camera);
-    const double rounding = 24 * 0x1.0p-24 * 7;  // for depth, see tolerance.hpp
+    const double rounding = 24 * 0x1.0p-24 * 7;  // for depth, as explained in tolerance.hpp
     with_every_technique(device, work, [&](const measure::Work& whole) {
       const core::Image image = draw(device, whole);
       for (int y = 0; y < side; ++y) {
@@ -106,15 +106,16 @@ TEST(SphereForms, S4EqualSpheresMeetInTheBisectingPlane) {
   });
 }
 
-// Centres are distributed over a square whose middle is in view, so that discs reach in from
-// outside as they would on a torus. The share that remains free has a standard deviation of less
-// than √(s·(1−s)·4πr²/A), because points within 2r of each other are free together.
-TEST(SphereForms, S5RandomDiscsLeaveTheirShare) {
+// The centres are distributed over a square whose central part is in view, so that discs reach in
+// from outside as they would on a torus. The share of the image that remains uncovered has a
+// standard deviation of less than √(s·(1−s)·4πr²/A), because only points within 2r of each other
+// are correlated.
+TEST(SphereForms, S5RandomDiscsLeaveTheExpectedShareUncovered) {
   on_every_driver([](measure::Device& device) {
     constexpr int discs = 400;
     constexpr double distance = 1e4;
     constexpr double radius = 0.05;
-    const double fov = 2 * std::atan(0.9 / distance) * 180 / pi;  // for the square [−1, 1]²
+    const double fov = 2 * std::atan(0.9 / distance) * 180 / pi;  // views the square [−1, 1]²
     core::Random random(21);
     std::vector<std::array<double, 4>> spheres;
     for (int i = 0; i < discs; ++i) {
@@ -129,11 +130,11 @@ TEST(SphereForms, S5RandomDiscsLeaveTheirShare) {
   });
 }
 
-// The ratio of the fragments of an N-gon to those of its disc. The polygon is larger than necessary
-// by 1/64 pixel and by perspective, which are both below a thousandth here. Its edges are
-// horizontal, vertical or at 45°, so a whole edge may be on one side of the pixel centres: half a
-// pixel for each pixel of its outline, 8R at most.
-TEST(SphereForms, S6PolygonsWasteWhatTheirTightnessSays) {
+// Computes the ratio between the fragments of an N-gon and those of its disc. The polygon is
+// enlarged by 1/64 pixel and by perspective, both of which are below a thousandth here. Some of its
+// edges are horizontal, vertical or at 45°, so a whole edge may lie on one side of the pixel
+// centres. That is half a pixel for each pixel of the outline, at most 8R.
+TEST(SphereForms, S6PolygonsWasteTheExpectedFragments) {
   on_every_driver([](measure::Device& device) {
     const double radius_px = 60;
     const double fov = 2 * std::atan(side / (2 * radius_px) / 1e3) * 180 / pi;

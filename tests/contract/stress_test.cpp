@@ -1,4 +1,4 @@
-// The parts of the stress catalogue that need more than a single image: a hundred transfer
+// The cases of the stress catalogue that need more than a single image: a hundred transfer
 // functions, a hundred repeats, denormals.
 
 #include <algorithm>
@@ -43,7 +43,7 @@ core::Image draw_skipping(measure::Device& device, measure::Work work, technique
   return draw(device, work);
 }
 
-// Case 28: skipping changes no bit, whatever the function is.
+// Case 28: skipping does not change a bit, whatever the transfer function is.
 TEST(Stress, AHundredTransferFunctions) {
   const auto edit = stress_data("stress:edit:1");
   on_every_device([&](measure::Device& device) {
@@ -57,8 +57,8 @@ TEST(Stress, AHundredTransferFunctions) {
   });
 }
 
-// Case 55, with and without early termination.
-TEST(Stress, AHundredRepeatsHaveTheSameBits) {
+// Case 55: tested with and without early termination.
+TEST(Stress, AHundredRepeatsAreBitIdentical) {
   on_every_device([](measure::Device& device) {
     for (const technique::Technique& technique : technique::catalogue()) {
       measure::Work work = work_of(device, stress_scene(*stress_data("stress:asymmetric")));
@@ -76,9 +76,9 @@ TEST(Stress, AHundredRepeatsHaveTheSameBits) {
   });
 }
 
-// Case 18: the time that denormals would cost is not visible in a count of instructions
-// (scene/denormals.hpp).
-TEST(Stress, NoDenormalIsGivenToADevice) {
+// Case 18: denormals may cost time, but an instruction count cannot show that
+// (scene/denormals.hpp). Therefore devices must not receive any.
+TEST(Stress, NoDenormalsReachADevice) {
   const auto is_denormal = [](float value) {
     return value != 0 && std::abs(value) < std::numeric_limits<float>::min();
   };

@@ -1,5 +1,5 @@
-// Compares images with the reference image within the derived bound, on the default path and on
-// every other path.
+// Tests that images differ from the reference image by no more than the derived bound, on the
+// default path and on every other path.
 
 #include <cmath>
 
@@ -36,8 +36,8 @@ TEST(Truth, EveryPathStaysWithinItsBound) {
   });
 }
 
-// The last sample of a ray may be voxels behind the exit, where the field is constant and has no
-// gradient.
+// The last sample of a ray may lie several voxels behind the exit, where the field is constant and
+// has no gradient.
 TEST(Truth, ShadedLongStepsStayWithinTheBound) {
   on_every_device([](measure::Device& device) {
     for (const technique::Sampler sampler :
@@ -57,8 +57,8 @@ TEST(Truth, ShadedLongStepsStayWithinTheBound) {
   });
 }
 
-// A device with a wrong sampler must fail, and must not get a bound that is wide enough to pass.
-TEST(Truth, NoSamplerWidensItsBoundBeyondWhatAFilterMayErrBy) {
+// A device with a faulty sampler must fail, rather than get a bound that is wide enough to pass.
+TEST(Truth, NoSamplerWidensItsBoundBeyondTheAllowedFilterError) {
   on_every_device([](measure::Device& device) {
     for (const scene::VoxelFormat format : {scene::VoxelFormat::u8, scene::VoxelFormat::u16,
                                             scene::VoxelFormat::f32, scene::VoxelFormat::f16}) {

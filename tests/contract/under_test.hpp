@@ -1,6 +1,6 @@
 #pragma once
-// The beginning of every contract test: the backend, and each of its devices, opened one after the
-// other.
+// What all contract tests begin with: the backend, and a loop that opens each of its devices, one
+// after another.
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ namespace triptych::contract {
 
 [[nodiscard]] std::unique_ptr<measure::Backend> backend_under_test();
 
-// Runs `body` on every device. If there is none, the test is skipped with the reasons of the
-// backend.
+// Runs `body` on every device. If there is no device, skips the test and prints the backend's
+// reasons.
 inline void on_devices(const std::function<void(measure::Device&)>& body, bool one_per_driver) {
   const auto backend = backend_under_test();
   measure::Listing listing = backend->list();
@@ -39,14 +39,15 @@ inline void on_every_device(const std::function<void(measure::Device&)>& body) {
   on_devices(body, false);
 }
 
-// Whether the nightly run asks for every combination on every device (TRIPTYCH_EVERY_DEVICE).
+// Returns whether the nightly run requests every combination on every device
+// (TRIPTYCH_EVERY_DEVICE).
 inline bool everything() {
   const char* const every = std::getenv("TRIPTYCH_EVERY_DEVICE");
   return every != nullptr && *every != '\0';
 }
 
-// Runs `body` on one device of each driver, or on every device if everything() is asked for. This
-// is for results that depend only on the driver and the backend, not on how a device is opened.
+// Runs `body` on one device per driver, or on every device if everything() is true. Used for
+// results that depend only on the driver and the backend, not on how a device is opened.
 inline void on_every_driver(const std::function<void(measure::Device&)>& body) {
   on_devices(body, !everything());
 }
@@ -55,7 +56,7 @@ inline record::Counts counts_of(measure::Device& device, const measure::Work& wo
   return device.prepare(work)->frame(measure::Purpose::counters).counts;
 }
 
-// The scene on the default path of the device.
+// Returns work that draws the scene on the device's default path.
 inline measure::Work default_work(const measure::Device& device, scene::Volume volume,
                                   scene::VolumeScene scene) {
   const measure::VolumePath path =
@@ -68,7 +69,7 @@ inline measure::Work default_work(const measure::Device& device, scene::Volume v
               measure::VolumeWork{.scene = std::move(scene), .options = {.sampler = path.sampler}}};
 }
 
-// The image of one frame.
+// Returns the image of one frame.
 inline core::Image draw(measure::Device& device, const measure::Work& work) {
   const auto prepared = device.prepare(work);
   static_cast<void>(prepared->frame(measure::Purpose::timing));

@@ -1,5 +1,5 @@
 #pragma once
-// Compares the image of a volume with the reference image.
+// Compares images of volumes with reference images.
 
 #include <cmath>
 
@@ -10,7 +10,8 @@
 
 namespace triptych::contract {
 
-// Every channel of every pixel must be within the bound that is derived for the device's path.
+// Checks that every channel of every pixel is within the bound that is derived for the device's
+// path.
 inline void expect_within_bound(measure::Device& device, const measure::Work& work) {
   const auto& volume = std::get<measure::VolumeWork>(work.scene);
   const measure::VolumePath path{volume.scene.grid->format, volume.options.sampler};
@@ -28,8 +29,8 @@ inline void expect_within_bound(measure::Device& device, const measure::Work& wo
   }
 }
 
-// Every channel of every pixel must be within the closed form's own error plus the bound of fp32,
-// without early termination.
+// Checks that every channel of every pixel differs from the closed-form solution by no more than
+// the solution's own error plus the bound of fp32, without early termination.
 inline void expect_closed_form(measure::Device& device, const measure::Work& work,
                                const reference::AnalyticScene& analytic) {
   const core::Image image = draw(device, work);
@@ -47,7 +48,7 @@ inline void expect_closed_form(measure::Device& device, const measure::Work& wor
   }
 }
 
-// The largest ratio of a channel's error to the bound of its pixel.
+// Returns the largest ratio of a channel's error to the bound of its pixel.
 inline double share_of_bound(const core::Image& image, const reference::Truth& truth) {
   double largest = 0;
   for (std::size_t i = 0; i < truth.rgba.size(); ++i) {

@@ -1,4 +1,4 @@
-// Windows and logarithms of values in the units of the data, on every API.
+// Tests value windows and logarithmic mappings in the units of the data, on every API.
 
 #include <cmath>
 #include <cstring>
@@ -10,8 +10,8 @@
 namespace triptych::contract {
 namespace {
 
-// A field whose logarithm has `decades` decades over the values of a generated one, so that almost
-// all of its voxels are in the lowest percent of the range.
+// Returns a field whose values span `decades` decades, so that almost all of its voxels are in the
+// lowest percent of the range. Its logarithm is a generated volume.
 scene::Volume long_tail(double decades) {
   scene::Volume volume = scene::generate_volume("mandelbulb", {40, 40, 40});
   scene::Volume tail{.name = "tail", .size = volume.size, .type = scene::ScalarType::f32};
@@ -63,9 +63,10 @@ TEST(Window, EveryMappingStaysWithinItsBound) {
   });
 }
 
-// The logarithm removes the tail, except for the rounding of the floats: 2⁻²⁴ of a value is 2⁻²⁴/ln
-// 10⁴ of the range of its logarithm, and storing that rounds by another 2⁻²⁵.
-TEST(Window, ALogarithmShowsWhatALongTailHides) {
+// The logarithm removes the long tail up to the rounding of floats. A rounding error of 2⁻²⁴ of a
+// value becomes 2⁻²⁴/ln 10⁴ of the range of the logarithm, and storing the logarithm rounds by
+// another 2⁻²⁵.
+TEST(Window, ALogarithmRevealsWhatALongTailHides) {
   on_every_device([](measure::Device& device) {
     const core::Image hidden =
         draw(device, default_work(device, long_tail(4), small_scene("haze")));

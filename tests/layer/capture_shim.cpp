@@ -1,5 +1,5 @@
-// Replaces RenderDoc and records when captures begin and end: the entries of its table that
-// FrameCapture calls.
+// Replaces RenderDoc and prints when captures begin and end. Implements only the entries of
+// RenderDoc's function table that FrameCapture calls.
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -25,8 +25,8 @@ std::uint32_t end(void*, void*) {
 }  // namespace
 
 extern "C" int RENDERDOC_GetAPI(int version, void** functions) {
-  // Positions in renderdoc_app.h 1.1.2: 11 SetCaptureFilePathTemplate, 19 StartFrameCapture, 21
-  // EndFrameCapture.
+  // Indices in the function table of renderdoc_app.h 1.1.2: 11 SetCaptureFilePathTemplate, 19
+  // StartFrameCapture, 21 EndFrameCapture.
   static std::array<void*, 23> table{};
   table[11] = reinterpret_cast<void*>(&set_file);
   table[19] = reinterpret_cast<void*>(&begin);

@@ -13,12 +13,12 @@
 namespace triptych::layer {
 namespace {
 
-// The next layer below an instance or a device. The loader returns the commands of the instance
-// that this layer uses only until vkCreateInstance has finished; after that it returns the layer's
-// own.
+// The next layer below this one, for an instance or a device. This layer must look up the instance
+// commands that it needs while vkCreateInstance runs. Afterwards, the loader would return this
+// layer's own functions.
 struct Link {
   VkInstance instance = VK_NULL_HANDLE;
-  VkDevice device = VK_NULL_HANDLE;  // null: for an instance
+  VkDevice device = VK_NULL_HANDLE;  // null if this is the link of an instance
   PFN_vkGetInstanceProcAddr instance_command = nullptr;
   PFN_vkGetDeviceProcAddr device_command = nullptr;
   std::map<std::string_view, PFN_vkVoidFunction> taken = {};
@@ -26,7 +26,8 @@ struct Link {
 
 struct State {
   std::mutex mutex;
-  std::map<const void*, Link> links;  // by the dispatch table that a handle begins with
+  // the key is the dispatch table pointer at the beginning of a handle
+  std::map<const void*, Link> links;
   bool refused = false;
 };
 
@@ -54,7 +55,7 @@ void remove_link(const void* key) {
   state().links.erase(key);
 }
 
-// The part of a create info that belongs to the loader, which passes it in pNext.
+// Finds the loader's create info in the pNext chain.
 template <class Info>
 Info* loader_info(const void* next, VkStructureType type) {
   for (auto* each = static_cast<const VkBaseInStructure*>(next); each != nullptr;
@@ -99,7 +100,7 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
   auto* loader = loader_info<VkLayerInstanceCreateInfo>(
       info->pNext, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
   if (!known_limit(change().name) && !known_fault(change().name)) {
-    std::fprintf(stderr, "layer: TRIPTYCH_LAYER=%s is no limit and no fault\n",
+    std::fprintf(stderr, "layer: TRIPTYCH_LAYER=%s is neither a limit nor a fault\n",
                  change().name.c_str());
     return VK_ERROR_INITIALIZATION_FAILED;
   }

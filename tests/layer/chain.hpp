@@ -1,5 +1,5 @@
 #pragma once
-// The position of the layer between the loader and the driver.
+// The connection of the layer with the loader and the driver.
 
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan_core.h>
@@ -12,7 +12,8 @@ namespace triptych::layer {
 
 // A command that the layer replaces.
 struct Hook {
-  std::string_view change;  // the fault for which it is replaced; empty: for every lowered limit
+  // the fault for which it is replaced; empty if it is replaced for every lowered limit
+  std::string_view change;
   std::string_view command;
   PFN_vkVoidFunction function;
 };
@@ -22,8 +23,8 @@ template <class Function>
   return {change, command, reinterpret_cast<PFN_vkVoidFunction>(function)};
 }
 
-// The same command of the next layer or of the driver. `handle` is an instance, physical device,
-// device, queue or command buffer.
+// Returns the function for this command in the next layer or in the driver. `handle` is an
+// instance, physical device, device, queue or command buffer.
 [[nodiscard]] PFN_vkVoidFunction next_of(const void* handle, const char* command);
 
 template <class Command>
@@ -31,8 +32,8 @@ template <class Command>
   return reinterpret_cast<Command>(next_of(handle, command));
 }
 
-// Prints a line on stderr with the use that a device with this limit would not accept. From then
-// on, every submission fails.
+// Prints a line to stderr about a use that a device with this limit would reject. From then on,
+// every submission fails.
 VkResult refuse(std::string_view what);
 
 [[nodiscard]] std::span<const Hook> description_hooks();
@@ -44,7 +45,7 @@ VkResult refuse(std::string_view what);
 [[nodiscard]] std::span<const Hook> query_fault_hooks();
 [[nodiscard]] std::span<const Hook> submission_hooks();
 
-// Runs the faults that occur when a device is destroyed.
+// Performs the faults that occur when a device is destroyed.
 void end_device();
 
 }  // namespace triptych::layer

@@ -1,5 +1,5 @@
 #pragma once
-// The request in TRIPTYCH_LAYER: one limit with its value, or one fault.
+// The change that TRIPTYCH_LAYER requests: one limit with its value, or one fault.
 
 #include <cstdint>
 #include <string>
@@ -9,10 +9,10 @@ namespace triptych::layer {
 
 struct Change {
   std::string name;
-  double value = 0;  // 0 if none was given
+  double value = 0;  // 0 if no value was given
 };
 
-// Parsed from `name` or `name=value` in TRIPTYCH_LAYER.
+// Returns the change, parsed from TRIPTYCH_LAYER, which has the form `name` or `name=value`.
 [[nodiscard]] const Change& change();
 
 [[nodiscard]] bool asked(std::string_view name);

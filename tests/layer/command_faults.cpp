@@ -1,4 +1,4 @@
-// Faults of a driver that executes commands wrongly: draws, dispatches, copies and clears.
+// Driver faults in the execution of commands: draws, dispatches, copies and clears.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -9,7 +9,7 @@
 namespace triptych::layer {
 namespace {
 
-// Draws one instance fewer, or one vertex fewer if there is only one instance.
+// Draws one instance less or, if there is only one instance, one vertex less.
 VKAPI_ATTR void VKAPI_CALL short_draw(VkCommandBuffer commands, std::uint32_t vertices,
                                       std::uint32_t instances, std::uint32_t first_vertex,
                                       std::uint32_t first_instance) {
@@ -66,7 +66,7 @@ void clear_depth(std::vector<VkClearValue>& values) {
   if (values.size() > 1) values.back().depthStencil.depth = 0.5F;
 }
 
-// Leaves out the last 64 bytes of a copy.
+// Omits the last 64 bytes of a copy.
 VKAPI_ATTR void VKAPI_CALL short_copy(VkCommandBuffer commands, VkBuffer from, VkBuffer to,
                                       std::uint32_t count, const VkBufferCopy* regions) {
   std::vector<VkBufferCopy> changed(regions, regions + count);
@@ -77,7 +77,7 @@ VKAPI_ATTR void VKAPI_CALL short_copy(VkCommandBuffer commands, VkBuffer from, V
   next<PFN_vkCmdCopyBuffer>(commands, "vkCmdCopyBuffer")(commands, from, to, count, changed.data());
 }
 
-// Copies each row from the row below.
+// Copies each row of the image from the row below it.
 VKAPI_ATTR void VKAPI_CALL image_row(VkCommandBuffer commands, VkImage image, VkImageLayout layout,
                                      VkBuffer buffer, std::uint32_t count,
                                      const VkBufferImageCopy* regions) {
@@ -91,7 +91,7 @@ VKAPI_ATTR void VKAPI_CALL image_row(VkCommandBuffer commands, VkImage image, Vk
       commands, image, layout, buffer, count, changed.data());
 }
 
-// Replaces the second slice of a volume by a copy of the first.
+// Replaces the second slice of a volume by a copy of the first slice.
 VKAPI_ATTR void VKAPI_CALL volume_slice(VkCommandBuffer commands, VkBuffer buffer, VkImage image,
                                         VkImageLayout layout, std::uint32_t count,
                                         const VkBufferImageCopy* regions) {

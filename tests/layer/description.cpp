@@ -45,7 +45,7 @@ constexpr std::array<Named<VkBool32 Features::*>, 9> features_named{{
     {"shaderFloat64", &Features::shaderFloat64},
 }};
 
-// Limits that have their own rules for lowering, here or in memory.cpp and queues.cpp.
+// The limits that are lowered by special code, either here or in memory.cpp and queues.cpp.
 constexpr std::array<std::string_view, 15> others{
     "maxComputeWorkGroupSize", "maxComputeWorkGroupCount",
     "maxFramebufferWidth",     "pointSizeRange",
@@ -68,8 +68,8 @@ VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice physical,
   lower(properties->limits);
 }
 
-// Gives the device a name for which no baselines are stored; with a fault, it only gets a version
-// for which none are stored.
+// Gives the device a name for which there are no baselines. If a fault is simulated, changes only
+// the driver version, to one for which there are no baselines.
 void rename(VkPhysicalDeviceDriverProperties& driver) {
   if (!known_limit(change().name)) {
     driver.driverInfo[change().name.copy(driver.driverInfo, VK_MAX_DRIVER_INFO_SIZE - 1)] = '\0';
@@ -110,8 +110,9 @@ VKAPI_ATTR void VKAPI_CALL features2(VkPhysicalDevice physical,
   lower(features->features);
 }
 
-// `linearFilter` removes linear filtering for formats with one channel, which volumes have.
-// `floatDepth` removes D32_SFLOAT, which a device with X8_D24_UNORM_PACK32 need not have.
+// `linearFilter` removes linear filtering from single-channel formats, which volumes use.
+// `floatDepth` removes D32_SFLOAT, which a device that supports X8_D24_UNORM_PACK32 need not
+// support.
 VKAPI_ATTR void VKAPI_CALL format_properties(VkPhysicalDevice physical, VkFormat format,
                                              VkFormatProperties* properties) {
   next<PFN_vkGetPhysicalDeviceFormatProperties>(physical, "vkGetPhysicalDeviceFormatProperties")(

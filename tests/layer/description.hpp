@@ -1,5 +1,5 @@
 #pragma once
-// Changes the properties that the device reports about itself: one of them is lowered.
+// Changes what the device reports about itself: lowers one of its properties.
 
 #include <vulkan/vulkan_core.h>
 
@@ -7,13 +7,13 @@
 
 namespace triptych::layer {
 
-// Whether the layer lowers a limit with this name.
+// Returns whether the layer can lower a limit with this name.
 [[nodiscard]] bool known_limit(std::string_view name);
 
 void lower(VkPhysicalDeviceLimits& limits);
 void lower(VkPhysicalDeviceFeatures& features);
 
-// Whether an application enables the feature that the layer hides.
+// Returns whether an application enables the feature that the layer hides.
 [[nodiscard]] bool enables_hidden(const VkPhysicalDeviceFeatures& features);
 
 }  // namespace triptych::layer

@@ -1,5 +1,5 @@
-// A fault that appears when a device is calibrated or closed is a finding about that device, and
-// everything else is still measured.
+// Tests that a fault which occurs while a device is calibrated or closed becomes a finding about
+// that device, and that everything else is still measured.
 #include <gmock/gmock.h>
 
 #include <regex>
@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// One configuration for each kind of work.
+// Selects one configuration for each kind of work.
 constexpr const char* few = "--set data=generate:mandelbulb:40";
 
 struct DeviceFaultCase {
@@ -47,7 +47,7 @@ class DeviceFaults : public LayerTest {
   }
 };
 
-TEST_F(DeviceFaults, AreFindingsByNameAndTheRestIsMeasured) {
+TEST_F(DeviceFaults, AreReportedAndTheRestIsMeasured) {
   for (const DeviceFaultCase& each : device_faults()) {
     SCOPED_TRACE(each.change);
     EXPECT_THAT(layered.time(each.change, "volume", few).output, HasSubstr(" 0 failed"));
@@ -57,12 +57,12 @@ TEST_F(DeviceFaults, AreFindingsByNameAndTheRestIsMeasured) {
   }
 }
 
-TEST_F(DeviceFaults, NoneIsFoundWithoutAFault) {
+TEST_F(DeviceFaults, NoFindingWithoutAFault) {
   EXPECT_EQ(layered.time("", "volume", few).code, 0);
   EXPECT_THAT(unwrapped(judged().output), Not(HasSubstr("the device's clock")));
 }
 
-// The layer leaks 24 MB with each compute pipeline, and every configuration creates two pipelines.
+// The layer leaks 24 MB per compute pipeline, and every configuration creates two pipelines.
 TEST_F(DeviceFaults, MemoryThatGrowsWithEveryConfigurationIsAFinding) {
   for (const char* change : {"leak", ""}) {
     const std::string store = fmt::format("memory{}.sqlite", change);
@@ -81,19 +81,19 @@ TEST_F(DeviceFaults, MemoryThatGrowsWithEveryConfigurationIsAFinding) {
   }
 }
 
-TEST_F(DeviceFaults, ADeviceThatIsLostSaysAfterHowManySubmissions) {
+TEST_F(DeviceFaults, ALostDeviceReportsTheSubmission) {
   const test::Result drawn = layered.draw("lost_after=40", "volume");
   EXPECT_THAT(unwrapped(drawn.output), HasSubstr("submission 41 of this process"));
 }
 
-TEST_F(DeviceFaults, AChangedRoundingModeIsTheDriversFault) {
+TEST_F(DeviceFaults, AChangedRoundingModeIsAttributedToTheDriver) {
   const test::Result drawn = layered.draw("rounding", "volume");
   EXPECT_THAT(unwrapped(drawn.output),
               HasSubstr("changed the floating-point mode of this process"));
   EXPECT_THAT(unwrapped(drawn.output), HasSubstr("rounds upward"));
 }
 
-TEST_F(DeviceFaults, ACrashLeavesItsStack) {
+TEST_F(DeviceFaults, ACrashLeavesAStackTrace) {
   static_cast<void>(layered.time("crashing_statistics", "volume", few));
   EXPECT_THAT(unwrapped(judged().output), HasSubstr("libtriptych_layer.so("));
 }

@@ -1,5 +1,5 @@
-// Drivers with a fault: each fault is found, is reported as few causes, and is attributed to the
-// driver, while everything else is right.
+// Tests that each fault of a driver is found, is reported as few causes, and is attributed to the
+// driver, while everything else still passes.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -16,9 +16,9 @@ using testing::HasSubstr;
 struct Fault {
   const char* name;
   const char* plan;
-  const char* told;  // the first cause that is reported
+  const char* told;  // the first reported cause
   int causes = 1;
-  // Some configurations lose all pixels. This is detected before images are compared.
+  // Some configurations lose all pixels, which is detected before images are compared.
   bool undrawn = false;
 };
 
@@ -52,8 +52,8 @@ const std::vector<Fault>& faults() {
   return all;
 }
 
-// The number of causes on the last screen, each of which follows an empty line, and of those that
-// are only on the page.
+// Returns the number of causes: those on the last screen, each of which follows an empty line, plus
+// those that are shown only on the page.
 int causes_in(const std::string& screen) {
   const std::regex cause("\n\n  ✗ ");
   int causes = static_cast<int>(std::distance(
@@ -65,14 +65,14 @@ int causes_in(const std::string& screen) {
   return causes;
 }
 
-// The text of the screen on one line, because line breaks depend on the width.
+// Joins the lines of the screen into one, because line breaks depend on the width.
 std::string unwrapped(const std::string& screen) {
   return std::regex_replace(screen, std::regex("\\s+"), " ");
 }
 
 class DriverFaults : public LayerTest {
  protected:
-  // Checks every fault that one plan finds.
+  // Checks every fault that the plan detects.
   void check(std::string_view plan) const {
     const test::Result accepted = layered.accept(plan);
     ASSERT_EQ(accepted.code, 0) << accepted.output;
@@ -92,15 +92,15 @@ class DriverFaults : public LayerTest {
   }
 };
 
-TEST_F(DriverFaults, InVolumes) {
+TEST_F(DriverFaults, AreFoundInVolumes) {
   check(volume);
 }
 
-TEST_F(DriverFaults, InParticles) {
+TEST_F(DriverFaults, AreFoundInParticles) {
   check(particles);
 }
 
-TEST_F(DriverFaults, AreToldFromOurOwn) {
+TEST_F(DriverFaults, AreDistinguishedFromFaultsOfTriptych) {
   const std::string devices = "--device vulkan:lavapipe --device opencl:pocl";
   const test::Result accepted = layered.accept(particles, devices);
   if (accepted.output.find("no device matches opencl:pocl") != std::string::npos) {
@@ -114,7 +114,7 @@ TEST_F(DriverFaults, AreToldFromOurOwn) {
   EXPECT_THAT(ours, testing::Not(HasSubstr("the driver is at fault")));
 }
 
-TEST_F(DriverFaults, InQueriesAreToldOfTheDevice) {
+TEST_F(DriverFaults, InQueriesAreReportedByDevices) {
   const auto of_vulkan = [&](std::string_view fault) {
     const std::string all = layered.run(fault, "devices --device vulkan:lavapipe").output;
     return all.substr(std::min(all.find("vulkan:lavapipe"), all.size()));

@@ -1,5 +1,6 @@
-// Faults of an OpenGL driver, chosen by TRIPTYCH_SHIM. LD_LIBRARY_PATH makes the loader find this
-// EGL library before that of the system, and it returns its own functions.
+// Simulates the fault of an OpenGL driver that TRIPTYCH_SHIM selects. Because of LD_LIBRARY_PATH,
+// the loader finds this EGL library before the system's. The library returns its own functions
+// instead of the driver's.
 #include <EGL/egl.h>
 #include <dlfcn.h>
 
@@ -7,7 +8,7 @@
 #include <map>
 #include <string_view>
 
-// Parts of the GL headers, which would declare more than is needed here.
+// Repeats a few declarations, because the GL headers would declare conflicting functions.
 using GLenum = unsigned int;
 using GLuint = unsigned int;
 using GLint = int;
@@ -44,13 +45,14 @@ std::map<GLuint, int>& uses_of_programs() {
   return uses;
 }
 
-// A driver reuses the names of deleted programs for new ones, so a new program counts as unused.
+// Drivers reuse the names of deleted programs, so a newly linked program counts as unused.
 void link(GLuint program) {
   uses_of_programs().erase(program);
   gl_function<void(GLuint)>("glLinkProgram")(program);
 }
 
-// A program works correctly when it is used for the first time.
+// Returns whether the program was used before. A program works correctly when it is used for the
+// first time.
 bool repeated() {
   GLint program = 0;
   gl_function<void(GLenum, GLint*)>("glGetIntegerv")(gl_current_program, &program);
@@ -77,8 +79,8 @@ void draw_instanced_once(GLenum mode, GLint first, GLsizei count, GLsizei instan
                                                                               instances);
 }
 
-// A driver that compiles on another machine and does not report a failure there: every command
-// succeeds, but nothing is drawn.
+// Simulates a driver whose compilation fails without being reported: every command succeeds, but
+// nothing is drawn.
 void dispatch_never(GLuint, GLuint, GLuint) {}
 void draw_never(GLenum, GLint, GLsizei) {}
 

@@ -1,5 +1,5 @@
-// The command `features`: it probes what no scene needs, and finds faults that no other check
-// finds.
+// Tests the command `features`, which probes features that no scene uses, and finds faults that no
+// other check finds.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -16,7 +16,7 @@ using testing::Not;
 
 class Features : public LayerTest {};
 
-TEST_F(Features, AreRightOrSkippedWithTheReason) {
+TEST_F(Features, AreCorrectOrSkippedWithAReason) {
   const test::Result result = layered.run("", "features --device vulkan:lavapipe");
   EXPECT_EQ(result.code, 0) << result.output;
   for (const char* each :
@@ -27,8 +27,8 @@ TEST_F(Features, AreRightOrSkippedWithTheReason) {
   EXPECT_THAT(result.output, HasSubstr("10000000 instances"));
 }
 
-// The probe that uses the broken feature finds each fault.
-TEST_F(Features, AreWrongWithAFault) {
+// Each fault is found by the probe that uses the broken feature.
+TEST_F(Features, FaultsAreFoundByTheirProbe) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"short_dispatch", "work-groups"},
       {"push_off_by_one", "dynamic-offsets"},
@@ -42,14 +42,14 @@ TEST_F(Features, AreWrongWithAFault) {
   }
 }
 
-TEST_F(Features, OfALostDeviceNameTheSubmission) {
+TEST_F(Features, ALostDeviceReportsTheSubmission) {
   const test::Result result =
       layered.run("lost_after=12", "features --device vulkan:lavapipe --only work-groups");
   EXPECT_EQ(result.code, 1) << result.output;
   EXPECT_THAT(result.output, HasSubstr("submission 13 of this process"));
 }
 
-TEST(FeaturesOfOtherApis, AreRight) {
+TEST(FeaturesOfOtherApis, AreCorrect) {
   const Layered layered;
   for (const char* device : {"gl:llvmpipe-egl", "opencl:pocl"}) {
     const test::Result result = layered.run("", fmt::format("features --device {}", device));

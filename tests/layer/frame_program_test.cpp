@@ -1,5 +1,5 @@
-// `render --in-process` and `--dump`: they draw one frame, and write a C program that draws it
-// again.
+// Tests `render --in-process` and `--dump`, which draw one frame and write a C program that draws
+// the same frame again.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -66,27 +66,27 @@ const std::vector<std::string>& frames() {
   return all;
 }
 
-TEST_F(FramePrograms, OfVulkan) {
+TEST_F(FramePrograms, VulkanProgramsDrawTheSamePixel) {
   for (const std::string& each : frames()) {
     expect_same_pixel("vulkan:lavapipe", "-lvulkan", "", each);
   }
   expect_same_pixel("vulkan:lavapipe", "-lvulkan", "", "--set sampler=packed");
 }
 
-TEST_F(FramePrograms, OfOpengl) {
+TEST_F(FramePrograms, OpenglProgramsDrawTheSamePixel) {
   for (const std::string& each : frames()) {
     expect_same_pixel("gl:llvmpipe-egl", "-lEGL -lOpenGL", "", each);
   }
   expect_same_pixel("gl:llvmpipe-egl", "-lEGL -lOpenGL", "", "--set sampler=packed");
 }
 
-TEST_F(FramePrograms, OfOpencl) {
+TEST_F(FramePrograms, OpenclProgramsDrawTheSamePixel) {
   for (const std::string& each : frames()) {
     expect_same_pixel("opencl:pocl", "-lOpenCL", "Portable", each);
   }
 }
 
-TEST_F(FramePrograms, DumpsListWhatTheDriverWasGiven) {
+TEST_F(FramePrograms, DumpsListAllDriverInputs) {
   const test::Result rendered = render("opencl:pocl", "");
   if (rendered.output.find("no device") != std::string::npos) GTEST_SKIP() << "needs PoCL";
   std::ifstream file(folder_.path() / "dump" / "what-was-given.txt");
@@ -97,7 +97,7 @@ TEST_F(FramePrograms, DumpsListWhatTheDriverWasGiven) {
   EXPECT_THAT(list, HasSubstr("buffer-"));
 }
 
-// Public tools accept the device code of every API.
+// Public tools must accept the device code of every API.
 TEST_F(FramePrograms, DumpsCompileWithPublicTools) {
   std::vector<std::string> devices{"vulkan:lavapipe", "gl:llvmpipe-egl"};
   if (in_folder("command -v clang").code == 0) devices.emplace_back("opencl:pocl");
@@ -110,7 +110,7 @@ TEST_F(FramePrograms, DumpsCompileWithPublicTools) {
   }
 }
 
-// Uses a replacement for RenderDoc that records its calls.
+// Uses a replacement for RenderDoc that prints the calls it receives.
 TEST_F(FramePrograms, OneFrameIsCaptured) {
   const test::Result rendered = in_folder(fmt::format(
       "LD_PRELOAD='{}' TRIPTYCH_NULL_SCRIPT={{}} '{}' render volume --device null:scripted "

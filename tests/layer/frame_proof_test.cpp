@@ -1,4 +1,4 @@
-// Drivers that report frames as finished although they did not draw them.
+// Tests drivers that report frames as finished although they did not draw them.
 #include <gmock/gmock.h>
 
 #include "tests/layer/layered.hpp"
@@ -17,11 +17,11 @@ class UndrawnFrames : public LayerTest {
   }
 };
 
-TEST_F(UndrawnFrames, OfCommandsThatAreExecutedOnlyOnce) {
+TEST_F(UndrawnFrames, CommandsExecutedOnlyOnceAreFound) {
   for (const char* plan : {"volume", "particles"}) expect_all_found("once_only", plan);
 }
 
-TEST_F(UndrawnFrames, AmongTimedOnes) {
+TEST_F(UndrawnFrames, AreFoundAmongTimedFrames) {
   const test::Result timed =
       layered.time("once_only", "volume", "--set sampler=manual --set technique=raycast");
   EXPECT_THAT(timed.output, HasSubstr("that it did not draw"));

@@ -1,5 +1,5 @@
 #pragma once
-// Runs the program on lavapipe with the layer.
+// Runs Triptych on lavapipe with the layer.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,13 +16,13 @@
 
 namespace triptych::layer {
 
-// The names of the suites that are drawn with the layer.
+// The names of the plans, which are also the names of their suites.
 inline constexpr const char* volume = "volume";
 inline constexpr const char* particles = "particles";
 
 class Layered {
  public:
-  // `change` is the value of TRIPTYCH_LAYER; empty: the driver without changes.
+  // `change` is the value of TRIPTYCH_LAYER. If it is empty, the driver is not changed.
   [[nodiscard]] test::Result run(std::string_view change, const std::string& arguments) const {
     const std::string layer =
         change.empty() ? std::string()
@@ -59,7 +59,7 @@ class Layered {
                                file_of(plan), plan));
   }
 
-  // Also measures times and statistics, for the part that `choice` selects.
+  // Measures also times and statistics, for the configurations that `choice` selects.
   [[nodiscard]] test::Result time(std::string_view change, std::string_view plan,
                                   std::string_view choice) const {
     return run(change, fmt::format("run {} --device 'vulkan:*' --verbose --store timed.sqlite {}",

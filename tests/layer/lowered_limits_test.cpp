@@ -1,5 +1,5 @@
-// Devices with lower limits than lavapipe must have correct images and counters, or a skip with its
-// reason.
+// Tests that devices with lower limits than lavapipe either produce correct images and counters, or
+// skip the configuration with a reason.
 #include <gmock/gmock.h>
 
 #include <vector>
@@ -22,7 +22,7 @@ struct Lowered {
 };
 
 // The lowest values that the specification allows. If a small image could not reach such a limit,
-// the value is even lower.
+// the value is lowered further.
 const std::vector<Lowered>& lowered() {
   static const std::vector<Lowered> all{
       {"maxImageDimension1D=4096", volume},
@@ -84,7 +84,7 @@ int count(const std::string& text, const std::string& part) {
 
 class LoweredLimits : public LayerTest {
  protected:
-  // Checks every row of one plan.
+  // Checks every row that belongs to the plan.
   void check(std::string_view plan) const {
     const test::Result accepted = layered.accept(plan);
     ASSERT_EQ(accepted.code, 0) << accepted.output;
@@ -103,21 +103,21 @@ class LoweredLimits : public LayerTest {
   }
 };
 
-TEST_F(LoweredLimits, OfVolumes) {
+TEST_F(LoweredLimits, AreHandledForVolumes) {
   check(volume);
 }
 
-TEST_F(LoweredLimits, OfParticles) {
+TEST_F(LoweredLimits, AreHandledForParticles) {
   check(particles);
 }
 
-TEST_F(LoweredLimits, WithoutStatisticsTheRestIsMeasured) {
+TEST_F(LoweredLimits, TheRestIsMeasuredWithoutStatistics) {
   const test::Result timed = layered.time("pipelineStatisticsQuery", volume, draws);
   EXPECT_EQ(timed.code, 0) << timed.output;
   EXPECT_THAT(timed.output, Not(HasSubstr("layer: refused")));
 }
 
-TEST_F(LoweredLimits, WithoutClockTimesAreOfTheWall) {
+TEST_F(LoweredLimits, WallTimeIsUsedWithoutADeviceClock) {
   const test::Result timed = layered.time("timestampValidBits=0", volume, draws);
   EXPECT_EQ(timed.code, 0) << timed.output;
   EXPECT_THAT(timed.output, Not(HasSubstr("layer: refused")));
@@ -125,12 +125,12 @@ TEST_F(LoweredLimits, WithoutClockTimesAreOfTheWall) {
   EXPECT_THAT(timed.output, Not(HasSubstr(" ms (device)")));
 }
 
-// Tests the layer itself: it hides properties of the driver, and refuses use beyond a limit, which
-// the program does not do.
-TEST_F(LoweredLimits, UseBeyondALimitIsRefused) {
+// Tests the layer itself: it hides properties of the driver, and rejects uses beyond a limit, which
+// Triptych does not attempt.
+TEST_F(LoweredLimits, UseBeyondALimitIsRejected) {
   EXPECT_THAT(layered.draw("noSuchLimit", volume).output, HasSubstr("no device matches vulkan:*"));
   const std::string unasked = layered.draw("maxImageDimension1D=128", volume).output;
-  // The text is vkCreateImage, or Device::createImage with a newer Vulkan-Hpp.
+  // Newer versions of Vulkan-Hpp report Device::createImage instead of vkCreateImage.
   EXPECT_THAT(unasked, HasSubstr("reateImage returned ErrorUnknown"));
   EXPECT_THAT(layered.draw("maxPerStageResources=12", particles).output,
               testing::ContainsRegex("[.]tiles[.][^ ]*[.]v64: failed: "));

@@ -1,4 +1,4 @@
-// Memory as on a graphics card: the host cannot access the device's memory.
+// Simulates the memory of a graphics card: the host cannot access device memory.
 #include <algorithm>
 #include <array>
 #include <mutex>
@@ -10,7 +10,7 @@
 namespace triptych::layer {
 namespace {
 
-// The memory types that the program sees. The driver has only type 0 for both.
+// The memory types that Triptych sees. The driver has only type 0 for both.
 enum Type : std::uint32_t { on_device, on_host, types };
 
 std::mutex mutex;
@@ -26,7 +26,7 @@ VKAPI_ATTR void VKAPI_CALL memory_properties(VkPhysicalDevice physical,
       physical, memory);
   if (asked("memoryHeapSize")) memory->memoryHeaps[0].size = asked_number();
   if (asked("emptyHeap")) {
-    // A heap of 0 bytes comes first, as some drivers list it.
+    // A heap of 0 bytes comes first, as in the lists of some drivers.
     memory->memoryHeapCount = memory->memoryTypeCount = 2;
     memory->memoryHeaps[1] = memory->memoryHeaps[0];
     memory->memoryHeaps[1].flags = 0;
@@ -62,7 +62,7 @@ VKAPI_ATTR VkResult VKAPI_CALL allocate(VkDevice device, const VkMemoryAllocateI
                                         const VkAllocationCallbacks* allocator,
                                         VkDeviceMemory* memory) {
   if (asked("memoryHeapSize") && info->allocationSize > asked_number()) {
-    return refuse("vkAllocateMemory: more than the heap has");
+    return refuse("vkAllocateMemory: more than the size of the heap");
   }
   if (asked("maxMemoryAllocationSize") && info->allocationSize > asked_number()) {
     return VK_ERROR_OUT_OF_DEVICE_MEMORY;
@@ -89,7 +89,7 @@ VKAPI_ATTR VkResult VKAPI_CALL map(VkDevice device, VkDeviceMemory memory, VkDev
                                    VkDeviceSize size, VkMemoryMapFlags flags, void** data) {
   {
     const std::lock_guard lock(mutex);
-    if (unseen.contains(memory)) return refuse("vkMapMemory of memory that the host cannot see");
+    if (unseen.contains(memory)) return refuse("vkMapMemory of memory that the host cannot access");
   }
   return next<PFN_vkMapMemory>(device, "vkMapMemory")(device, memory, offset, size, flags, data);
 }

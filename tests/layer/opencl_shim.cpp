@@ -1,5 +1,5 @@
-// Faults of an OpenCL driver, chosen by TRIPTYCH_SHIM. It is preloaded (LD_PRELOAD), so that the
-// program calls these functions instead of those of the loader.
+// Simulates the fault of an OpenCL driver that TRIPTYCH_SHIM selects. The library is preloaded
+// (LD_PRELOAD), so that Triptych calls its functions instead of the loader's.
 #ifndef CL_TARGET_OPENCL_VERSION
 #define CL_TARGET_OPENCL_VERSION 120
 #endif
@@ -26,10 +26,11 @@ Function* real(const char* name) {
 
 std::mutex mutex;
 std::map<cl_kernel, int> launches;
-std::set<cl_event> abnormal;  // never removed: a handle that is used again also belongs to a launch
-std::set<cl_event> late;      // launches that nobody has waited for by their event
+std::set<cl_event> abnormal;  // never removed, because a reused handle also belongs to a launch
+std::set<cl_event> late;      // launches whose event nobody has waited for
 
-// Whether the fault affects this launch of a kernel: it affects all launches except the first.
+// Returns whether the fault affects this launch of a kernel. It affects every launch except the
+// first.
 bool repeated(cl_kernel kernel) {
   const std::lock_guard lock(mutex);
   return ++launches[kernel] > 1;
@@ -61,7 +62,7 @@ clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensi
   return code;
 }
 
-// Imitates drivers that complete events only after clFinish has returned.
+// Simulates drivers that complete events only after clFinish has returned.
 extern "C" CL_API_ENTRY cl_int CL_API_CALL clWaitForEvents(cl_uint count, const cl_event* events) {
   const cl_int code = real<decltype(clWaitForEvents)>("clWaitForEvents")(count, events);
   const std::lock_guard lock(mutex);

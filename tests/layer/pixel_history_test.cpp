@@ -1,4 +1,5 @@
-// `render --pixel` finds the first operation of a device that differs from the reference.
+// Tests that `render --pixel` finds the first operation in which a device differs from the
+// reference renderer.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +15,8 @@ namespace {
 
 struct Traced {
   int code = 0;
-  std::string operation;  // the operation of the first difference; empty if there is none
+  // the operation with the first difference; empty if there is no difference
+  std::string operation;
   std::string output;
 };
 
@@ -44,7 +46,7 @@ class PixelHistories : public testing::TestWithParam<const char*> {
   test::TemporaryFolder folder_;
 };
 
-TEST_P(PixelHistories, DoNotDifferOnACorrectDevice) {
+TEST_P(PixelHistories, ShowNoDifferenceOnACorrectDevice) {
   for (const char* each :
        {"--set skip=none --set shading=gradient", "--set sampler=manual --set step=0.5",
         "--set quadrature=preintegrated --set step=4", "--set budget=0.01 --set sampler=manual",
@@ -54,7 +56,7 @@ TEST_P(PixelHistories, DoNotDifferOnACorrectDevice) {
   }
 }
 
-TEST_P(PixelHistories, NameTheOperationWithAFault) {
+TEST_P(PixelHistories, NameTheFaultyOperation) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"--inject half_voxel_shift", "interpolated value"},
       {"--inject coarse_filter", "interpolated value"},

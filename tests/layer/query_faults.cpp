@@ -1,4 +1,4 @@
-// Faults of a driver in its measurements: time stamps and pipeline statistics.
+// Driver faults in measurements: timestamps and pipeline statistics.
 #include <algorithm>
 #include <array>
 #include <csignal>
@@ -35,17 +35,18 @@ void zero(std::span<std::uint64_t> values) {
   std::ranges::fill(values, 0);
 }
 
-// A clock whose ticks are ten times shorter than the driver reports.
+// Simulates a clock whose ticks are ten times as long as the driver reports.
 void slow(std::span<std::uint64_t> values) {
   values.back() = values.front() + (values.back() - values.front()) / 10;
 }
 
-// These faults do not change a result. Their functions are empty and only identify them.
+// These faults do not change a result. Their functions are empty and serve only to identify the
+// faults.
 void crash(std::span<std::uint64_t>) {}
 void not_ready(std::span<std::uint64_t>) {}
 void untouched(std::span<std::uint64_t>) {}
 
-// Lets `Spoil` change the 64-bit results of one type of query.
+// Calls `Spoil` to change the 64-bit results of queries of the given type.
 template <VkQueryType type, auto Spoil>
 VKAPI_ATTR VkResult VKAPI_CALL query_results(VkDevice device, VkQueryPool pool, std::uint32_t first,
                                              std::uint32_t count, std::size_t size, void* data,

@@ -9,11 +9,11 @@
 namespace triptych::layer {
 namespace {
 
-// The pool that was created last. The program uses only one.
+// Whether the most recently created command pool supports graphics. Triptych uses only one pool.
 std::atomic<bool> pool_draws = true;
 
-// With `computeFamilyFirst`, the first queue family is one that can neither draw nor write time
-// stamps.
+// With `computeFamilyFirst`, the first queue family is one that supports neither graphics nor
+// timestamps.
 bool one_more() {
   return asked("computeFamilyFirst");
 }

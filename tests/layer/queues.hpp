@@ -1,5 +1,5 @@
 #pragma once
-// Queue families that the driver does not have.
+// Simulates queue families that the driver does not have.
 
 #include <vulkan/vulkan_core.h>
 
@@ -7,7 +7,7 @@
 
 namespace triptych::layer {
 
-// The queues of the device, with the families of the driver.
+// Returns the queues to create, with the driver's own queue family indices.
 [[nodiscard]] std::vector<VkDeviceQueueCreateInfo> queues_of_driver(const VkDeviceCreateInfo& info);
 
 }  // namespace triptych::layer

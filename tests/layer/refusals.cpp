@@ -1,4 +1,4 @@
-// Refuses use beyond what a device with lowered limits reports.
+// Rejects uses that exceed what a device with lowered limits reports.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ std::mutex mutex;
 std::map<VkImageView, VkFormat> formats;
 std::set<VkSampler> linear;
 
-// Whether `used` exceeds the limit that was lowered, which is then reported.
+// Returns whether `used` exceeds the lowered limit, and reports it if so.
 bool exceeds(std::string_view limit, std::uint64_t used, std::string_view command) {
   if (!asked(limit) || used <= asked_number()) return false;
   refuse(fmt::format("{}: {} exceeds {} = {}", command, used, limit, asked_number()));

@@ -1,4 +1,4 @@
-// Drivers of OpenCL and OpenGL that have a fault.
+// Tests OpenCL and OpenGL drivers that have a fault.
 #include <gmock/gmock.h>
 
 #include <regex>
@@ -26,7 +26,7 @@ class Shims : public testing::Test {
     return draw(fmt::format("LD_PRELOAD='{}' TRIPTYCH_SHIM={}", TRIPTYCH_OPENCL_SHIM, fault),
                 "opencl:pocl", plan);
   }
-  // Whether the gate finds every configuration of the last draw() wrong.
+  // Returns whether the gate finds that every configuration of the last draw() is wrong.
   [[nodiscard]] bool every_image_is_wrong(std::string_view plan) const {
     const test::Result judged = test::run_command(
         fmt::format("cd '{}' && TRIPTYCH_DATA= '{}' gate '{}/{}.yaml' --check image --baselines "
@@ -58,7 +58,7 @@ TEST_F(Shims, OpenclKernelsThatRunOnlyOnceAreFound) {
   }
 }
 
-TEST_F(Shims, OpenclKernelsThatEndAbnormallyAreNamed) {
+TEST_F(Shims, OpenclKernelsThatEndAbnormallyAreReported) {
   for (const char* plan : {"volume", "particles"}) {
     const test::Result drawn = opencl("abnormal_end", plan);
     if (lacks_device(drawn)) GTEST_SKIP() << "needs PoCL";
@@ -69,7 +69,7 @@ TEST_F(Shims, OpenclKernelsThatEndAbnormallyAreNamed) {
   }
 }
 
-TEST_F(Shims, OpenclLaunchesThatAreRefusedNameTheKernelAndThePlace) {
+TEST_F(Shims, RejectedOpenclLaunchesNameKernelAndSourceLocation) {
   const test::Result drawn = opencl("refused_launch", "volume");
   if (lacks_device(drawn)) GTEST_SKIP() << "needs PoCL";
   EXPECT_THAT(drawn.output, HasSubstr("clEnqueueNDRangeKernel returned CL_OUT_OF_RESOURCES"));
@@ -77,8 +77,8 @@ TEST_F(Shims, OpenclLaunchesThatAreRefusedNameTheKernelAndThePlace) {
   EXPECT_THAT(drawn.output, HasSubstr("volume_frames.cpp"));
 }
 
-// Everything is measured, and the feature probe names the fault.
-TEST_F(Shims, OpenclEventsThatAreCompletedLateAreAWrongFeature) {
+// Everything must be measured, and the feature probe must report the fault.
+TEST_F(Shims, LateOpenclEventsFailTheFeatureProbe) {
   const test::Result drawn = opencl("late_events", "volume");
   if (lacks_device(drawn)) GTEST_SKIP() << "needs PoCL";
   EXPECT_THAT(drawn.output, HasSubstr(" 0 failed"));
@@ -100,7 +100,7 @@ class GlShims : public Shims {
   }
 };
 
-TEST_F(GlShims, WithoutAFaultAllIsMeasured) {
+TEST_F(GlShims, EverythingIsMeasuredWithoutAFault) {
   const test::Result drawn = gl("none", "volume");
   if (lacks_device(drawn)) GTEST_SKIP() << "needs llvmpipe";
   EXPECT_THAT(drawn.output, HasSubstr(" 0 failed"));
@@ -110,20 +110,20 @@ TEST_F(GlShims, CommandsThatAreExecutedOnlyOnceAreFound) {
   for (const char* plan : {"volume", "particles"}) {
     const test::Result drawn = gl("once_only", plan);
     if (lacks_device(drawn)) GTEST_SKIP() << "needs llvmpipe";
-    // With occlusion culling, frames are drawn before the first one that counts. The frames that
-    // count therefore show only the cleared background, which is a wrong image.
+    // With occlusion culling, some frames are drawn before the first measured frame. The measured
+    // frames therefore show only the cleared background, which is a wrong image.
     EXPECT_TRUE(every_image_is_wrong(plan)) << plan << '\n' << drawn.output;
   }
 }
 
-TEST_F(GlShims, ProgramsThatWereNeverCompiledAreNotTakenForWrongImages) {
+TEST_F(GlShims, UncompiledProgramsAreNotReportedAsWrongImages) {
   const test::Result drawn = gl("never_compiled", "volume");
   if (lacks_device(drawn)) GTEST_SKIP() << "needs llvmpipe";
   EXPECT_THAT(drawn.output, HasSubstr(" 0 measured"));
   EXPECT_THAT(drawn.output, HasSubstr("was not drawn: none of"));
 }
 
-TEST_F(GlShims, AFrameInProcessThatWasNotDrawnIsNotKept) {
+TEST_F(GlShims, AnUndrawnInProcessFrameIsNotSaved) {
   const test::Result drawn = test::run_command(
       fmt::format("cd '{}' && LD_LIBRARY_PATH='{}' TRIPTYCH_SHIM=never_compiled '{}' render volume "
                   "--in-process --device gl:llvmpipe-egl --set viewport=16 --out frame",
@@ -133,7 +133,7 @@ TEST_F(GlShims, AFrameInProcessThatWasNotDrawnIsNotKept) {
   EXPECT_THAT(drawn.output, Not(HasSubstr("image.exr")));
 }
 
-TEST_F(GlShims, AnInfoLogOfANegativeLengthIsRead) {
+TEST_F(GlShims, AnInfoLogWithNegativeLengthIsRead) {
   const test::Result drawn = gl("negative_log", "volume");
   if (lacks_device(drawn)) GTEST_SKIP() << "needs llvmpipe";
   EXPECT_THAT(drawn.output, HasSubstr("glCompileShader returned GL_FALSE"));

@@ -5,7 +5,7 @@
 namespace triptych::layer {
 namespace {
 
-// Numbers of the SPIR-V specification.
+// Opcodes from the SPIR-V specification.
 enum Op : std::uint32_t {
   op_entry_point = 15,
   op_execution_mode = 16,
@@ -25,7 +25,7 @@ enum Op : std::uint32_t {
 };
 constexpr std::uint32_t local_size = 17;
 constexpr std::uint32_t workgroup = 4;
-constexpr std::uint32_t uniform = 2;  // where SPIR-V 1.0 has storage buffers
+constexpr std::uint32_t uniform = 2;  // the storage class in which SPIR-V 1.0 has storage buffers
 constexpr std::uint32_t storage_buffer = 12;
 constexpr std::size_t header_words = 5;
 

@@ -1,5 +1,5 @@
-// `render --pixel` for particles tests spheres one by one, and finds the smallest set with which
-// the pixel is wrong.
+// Tests `render --pixel` for particles, which tests spheres one by one and finds the smallest set
+// for which the pixel is wrong.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -29,7 +29,7 @@ class SpriteHistories : public testing::TestWithParam<const char*> {
   test::TemporaryFolder folder_;
 };
 
-TEST_P(SpriteHistories, DoNotDifferOnACorrectDevice) {
+TEST_P(SpriteHistories, ShowNoDifferenceOnACorrectDevice) {
   for (const char* technique : {"quad_instanced", "tiles", "bvh"}) {
     const test::Result result = trace(fmt::format("--set technique={}", technique));
     EXPECT_EQ(result.code, 0) << result.output;
@@ -37,7 +37,8 @@ TEST_P(SpriteHistories, DoNotDifferOnACorrectDevice) {
   }
 }
 
-// With reversed depth, each sphere alone is right. Two spheres are needed to reveal the fault.
+// With reversed depth, each sphere is drawn correctly on its own. Two spheres are needed to reveal
+// the fault.
 TEST_P(SpriteHistories, FindTheSpheresThatAreWrongTogether) {
   const test::Result result = trace("--set technique=quad_instanced --inject reversed_depth");
   EXPECT_EQ(result.code, 1);

@@ -1,4 +1,4 @@
-// Faults of a driver that uses states wrongly: pipelines and samplers.
+// Driver faults in the use of state: pipelines and samplers.
 #include <array>
 #include <cstring>
 #include <vector>
@@ -17,7 +17,7 @@ VkResult make_pipelines(VkDevice device, VkPipelineCache cache,
       device, cache, static_cast<std::uint32_t>(infos.size()), infos.data(), allocator, pipelines);
 }
 
-// Replaces vkCreateGraphicsPipelines: `Spoil` changes the state `member` of each pipeline.
+// Replaces vkCreateGraphicsPipelines. `Spoil` changes the state `member` of each pipeline.
 template <auto member, auto Spoil>
 VKAPI_ATTR VkResult VKAPI_CALL spoiled(VkDevice device, VkPipelineCache cache, std::uint32_t count,
                                        const VkGraphicsPipelineCreateInfo* infos,
@@ -35,7 +35,7 @@ VKAPI_ATTR VkResult VKAPI_CALL spoiled(VkDevice device, VkPipelineCache cache, s
   return make_pipelines(device, cache, changed, allocator, pipelines);
 }
 
-// Changes only one pipeline, because the program creates one at a time.
+// Changes only one pipeline per call, because Triptych creates pipelines one at a time.
 void half_pixel(VkPipelineViewportStateCreateInfo& state) {
   static thread_local VkViewport viewport;
   viewport = state.pViewports[0];
@@ -68,7 +68,7 @@ void lost_alpha(VkPipelineColorBlendStateCreateInfo& state) {
   state.pAttachments = targets.data();
 }
 
-// Specialization constants keep their default values.
+// Ignores specialization constants, so that they keep their default values.
 VKAPI_ATTR VkResult VKAPI_CALL unspecialized(VkDevice device, VkPipelineCache cache,
                                              std::uint32_t count,
                                              const VkComputePipelineCreateInfo* infos,

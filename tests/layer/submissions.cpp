@@ -1,4 +1,4 @@
-// Faults of a driver that loses submissions, crashes when it ends, or changes its process.
+// Drivers that lose submissions, crash at exit, or change the state of the process.
 #include <array>
 #include <atomic>
 #include <cfenv>
@@ -30,8 +30,9 @@ VKAPI_ATTR VkResult VKAPI_CALL begin_commands(VkCommandBuffer commands,
   return next<PFN_vkBeginCommandBuffer>(commands, "vkBeginCommandBuffer")(commands, info);
 }
 
-// `once_only`: recorded commands are executed only when they are submitted for the first time.
-// `lost_frames=n`: every n-th submission is not executed.
+// Returns whether a submission is skipped. With `once_only`, recorded commands are executed only
+// when they are submitted for the first time. With `lost_frames=n`, every n-th submission is
+// skipped.
 bool is_left_out(VkCommandBuffer commands, int number) {
   if (asked("once_only")) {
     const std::lock_guard lock(mutex);
@@ -79,10 +80,10 @@ struct AtExit {
 };
 const AtExit at_exit;
 
-// Without this, a compiler could remove an allocation whose address nobody can see.
+// Without this variable, a compiler could remove an allocation whose address is never used.
 void* volatile last_leak = nullptr;
 
-// Allocates host memory for every pipeline and never frees it.
+// Allocates host memory for every pipeline, and never frees it.
 void leak() {
   constexpr std::size_t bytes = std::size_t{24} << 20U;
   void* lost = std::malloc(bytes);

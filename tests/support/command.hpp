@@ -11,7 +11,7 @@
 namespace triptych::test {
 
 struct Result {
-  int code = -1;       // 128 plus the number of the signal that ended it
+  int code = -1;       // exit code, or 128 plus the number of the signal that ended the command
   std::string output;  // stdout and stderr together
 };
 

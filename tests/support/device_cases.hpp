@@ -1,5 +1,5 @@
 #pragma once
-// The devices and scenes for tests on real devices, for every API.
+// Devices and scenes for tests on real devices, for every API.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 
 namespace triptych::test {
 
-// Runs `check(device)` for each device of this machine. If there is none, the test is skipped with
+// Runs `check(device)` for each available device. If there is no device, skips the test and prints
 // the reasons.
 template <class Check>
 void for_each_device_of(const measure::Backend& backend, Check&& check) {
@@ -65,14 +65,14 @@ inline measure::Work make_work(std::string_view technique, scene::VolumeScene sc
   return {std::string(technique), measure::VolumeWork{std::move(scene), options}};
 }
 
-// The image of one timed frame.
+// Returns the image of one timed frame.
 inline core::Image picture(measure::Device& device, const measure::Work& work) {
   const auto prepared = device.prepare(work);
   static_cast<void>(prepared->frame(measure::Purpose::timing));
   return prepared->image();
 }
 
-// The result is infinite if the sizes differ or a value is not finite.
+// Returns the largest difference. It is infinite if the sizes differ or if a value is not finite.
 inline double largest_difference(const core::Image& a, const core::Image& b) {
   if (a.width != b.width || a.height != b.height) return std::numeric_limits<double>::infinity();
   double largest = 0;
@@ -85,7 +85,7 @@ inline double largest_difference(const core::Image& a, const core::Image& b) {
   return largest;
 }
 
-// A frame draws the same image for any purpose, and so does a timed frame after the others.
+// Checks that frames for all purposes draw the same image, and that a later timed frame does too.
 inline void expect_one_picture(measure::Prepared& prepared) {
   using measure::Purpose;
   static_cast<void>(prepared.frame(Purpose::timing));

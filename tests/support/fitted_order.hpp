@@ -1,5 +1,5 @@
 #pragma once
-// The order of convergence of errors.
+// Computes the order of convergence from a series of errors.
 
 #include <cmath>
 #include <cstddef>
@@ -7,7 +7,8 @@
 
 namespace triptych::test {
 
-// The least-squares slope of log error over log size, where the size is a step or a voxel.
+// Returns the least-squares slope of log(error) over log(size), where the size is a step size or
+// voxel size.
 inline double fitted_order(const std::vector<double>& sizes, const std::vector<double>& errors) {
   double sx = 0;
   double sy = 0;

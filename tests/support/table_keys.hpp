@@ -1,5 +1,5 @@
 #pragma once
-// The requirements for the keys of both suites.
+// The requirements on the keys of reference and limit images, in both suites.
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 
 namespace triptych::test {
 
-// If the file of a transfer function changes, the keys of the reference image and of the limit
-// change. `configuration` names a.rgba, which the suite finds in `folder`.
+// Checks that the keys of the reference image and of the limit image change if the transfer
+// function's file changes. `configuration` names a.rgba, which the suite finds in `folder`.
 inline void expect_keys_to_follow_the_table(measure::SuiteWithTruth& suite,
                                             const measure::Configuration& configuration,
                                             const TemporaryFolder& folder) {

@@ -1,5 +1,5 @@
 #pragma once
-// A separate folder for a test. It is removed with everything in it.
+// A temporary folder for a test. It is removed together with its contents.
 
 #include <cstddef>
 #include <filesystem>
@@ -27,7 +27,7 @@ class TemporaryFolder : public core::TemporaryFolder {
   std::filesystem::path write(const std::string& name, std::span<const std::byte> bytes) const {
     return write(name, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   }
-  // The content of a file in the folder; empty if there is no such file.
+  // Returns the content of a file in the folder; empty if there is no such file.
   [[nodiscard]] std::string read(const std::string& name) const {
     std::ifstream in(path() / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};

@@ -1,7 +1,7 @@
 #pragma once
-// Whether a text is well-formed XML, as far as needed for our output: elements are closed in order,
-// attributes are in double quotes and appear once, entities are known, and there are no control
-// characters.
+// Checks whether a string is well-formed XML, as far as Triptych's output needs it: elements are
+// closed in order, attributes are in double quotes and appear once, entities are known, and there
+// are no control characters.
 
 #include <cctype>
 #include <set>
@@ -15,7 +15,8 @@ class XmlCheck {
  public:
   explicit XmlCheck(std::string_view text) : rest_(text) {}
 
-  // Empty if it is well-formed; otherwise what is wrong, and the text that follows it.
+  // Returns an empty string if the document is well-formed; otherwise what is wrong and the text
+  // that follows.
   [[nodiscard]] std::string fault() {
     while (fault_.empty() && !rest_.empty()) {
       if (rest_.front() == '<') {
@@ -54,7 +55,7 @@ class XmlCheck {
     while (take(" ") || take("\n")) {
     }
   }
-  // Reads one character of a text that ends at `end`.
+  // Reads one character of text or of a value that ends at `end`.
   void character(char end) {
     const char c = rest_.front();
     if (c == '<' && end != '<') return fail("'<' in a value");
@@ -109,7 +110,7 @@ class XmlCheck {
   return XmlCheck(text).fault();
 }
 
-// Strange names must appear as text in the output of a program.
+// Strings with special characters, which must appear as plain text in the program's output.
 inline const std::vector<std::string>& hostile_strings() {
   static const std::vector<std::string> all{"<script>alert(1)</script>",
                                             "\" onload=\"x",

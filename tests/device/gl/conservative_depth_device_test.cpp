@@ -1,5 +1,5 @@
-// The shader source declares conservative depth if, and only if, the option is on. The image cannot
-// show this, because a driver that ignores the declaration draws the same image.
+// Tests that the shader source declares conservative depth exactly when the option is on. The image
+// cannot show this, because a driver that ignores the declaration draws the same image.
 #include <gmock/gmock.h>
 
 #include <memory>
@@ -21,15 +21,15 @@ std::unique_ptr<Context> any_context() {
     try {
       for (const Candidate& candidate : candidates()) return candidate.open(false);
     } catch (const core::Error&) {
-      continue;  // the test reports that no context could be opened
+      continue;  // the test reports if no context can be opened
     }
   }
   return nullptr;
 }
 
-TEST(ConservativeDepth, IsPromisedWhereItIsOnAndOnlyThere) {
+TEST(ConservativeDepth, IsDeclaredExactlyWhenItIsOn) {
   const auto context = any_context();
-  if (context == nullptr) GTEST_SKIP() << "no OpenGL context can be made";
+  if (context == nullptr) GTEST_SKIP() << "no OpenGL context can be created";
   const Current current(*context);
   const auto pixel_stage = [&](const ParticleConstants& constants) {
     return particle_stages(context->gl(), constants,

@@ -1,4 +1,4 @@
-// Listing and opening devices, and the properties that a device reports.
+// Tests listing and opening devices, and the properties that devices report.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ std::vector<std::string> ids(const measure::Listing& listing) {
   return result;
 }
 
-TEST(GlDevices, ListingTwiceIsTheSame) {
+TEST(GlDevices, ListingTwiceGivesTheSameDevices) {
   const auto backend = backend_under_test();
   const measure::Listing first = backend->list();
   const measure::Listing second = backend->list();
@@ -32,13 +32,13 @@ TEST(GlDevices, ListingTwiceIsTheSame) {
   EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), all.size());
   for (const std::string& id : all) {
     EXPECT_THAT(id, MatchesRegex("gl:[a-z0-9_]+.*"));
-    // The machine has only one processor, so llvmpipe must be listed once, in however many ways EGL
-    // offers it.
+    // The machine has only one processor, so llvmpipe must be listed once, no matter in how many
+    // ways EGL offers it.
     EXPECT_FALSE(id.starts_with("gl:llvmpipe") && id.ends_with("#2")) << id;
   }
 }
 
-TEST(GlDevices, WhatIsListedOpensAsListed) {
+TEST(GlDevices, ListedDevicesCanBeOpened) {
   const auto backend = backend_under_test();
   for (const record::Device& each : backend->list().devices) {
     EXPECT_EQ(backend->open(each.id)->info(), each);
@@ -47,10 +47,11 @@ TEST(GlDevices, WhatIsListedOpensAsListed) {
   }
 }
 
-// tests/device/gl/CMakeLists.txt removes one extension after the other from GL 3.3.
-TEST(GlDevices, AnExtensionThatIsMissingIsTheReason) {
+// tests/device/gl/CMakeLists.txt runs this test several times with GL 3.3, each time without
+// another extension.
+TEST(GlDevices, AnExtensionThatIsMissingIsNamed) {
   const char* without = std::getenv("MESA_EXTENSION_OVERRIDE");
-  if (without == nullptr) GTEST_SKIP() << "no extension is taken away";
+  if (without == nullptr) GTEST_SKIP() << "MESA_EXTENSION_OVERRIDE removes no extension";
   const auto backend = backend_under_test();
   const std::vector<record::Device> devices = backend->list().devices;
   EXPECT_FALSE(devices.empty());
@@ -72,8 +73,8 @@ TEST(GlDevices, AnUnknownDeviceIsNotSupported) {
   }
 }
 
-// Both libraries keep the current context of a thread in the same variable.
-TEST(GlDevices, TwoOpenAtOnceDoNotDisturbEachOther) {
+// EGL and OSMesa store the thread's current context in the same variable.
+TEST(GlDevices, TwoOpenDevicesDoNotAffectEachOther) {
   const auto backend = backend_under_test();
   const std::vector<std::string> all = ids(backend->list());
   if (all.size() < 2) GTEST_SKIP() << "fewer than two OpenGL devices";
@@ -90,7 +91,7 @@ TEST(GlDevices, TwoOpenAtOnceDoNotDisturbEachOther) {
   EXPECT_LT(largest_difference(on_b->image(), alone), 1e-4);
 }
 
-TEST(GlDevices, TheDefaultPathIsAsExactAsInterpolatingByHand) {
+TEST(GlDevices, TheDefaultPathIsAsExactAsManualInterpolation) {
   for_each_device([](const measure::Device& device) {
     for (const auto native : {scene::VoxelFormat::u8, scene::VoxelFormat::u16}) {
       const measure::VolumePath path = device.default_path({native});
@@ -118,7 +119,7 @@ TEST(GlDevices, TheDefaultPathIsAsExactAsInterpolatingByHand) {
   });
 }
 
-TEST(GlDevices, LimitsAreReasonsWithBothNumbers) {
+TEST(GlDevices, ExceededLimitsAreReportedWithBothNumbers) {
   for_each_device([](const measure::Device& device) {
     scene::VolumeScene scene = make_scene({});
     auto grid = *scene.grid;
@@ -140,8 +141,8 @@ TEST(GlDevices, LimitsAreReasonsWithBothNumbers) {
   });
 }
 
-// Frames that are not counted and skip nothing reach neither limit.
-TEST(GlDevices, CountersAndBrickMapsFitAStorageBlock) {
+// Frames that count nothing and skip nothing reach neither limit.
+TEST(GlDevices, CountersAndBrickMapsMustFitIntoAStorageBlock) {
   static constexpr const char* limit = "GL_MAX_SHADER_STORAGE_BLOCK_SIZE";
   for_each_device([](const measure::Device& device) {
     const double most = std::stod(device.info().limits.at(limit));
@@ -158,7 +159,7 @@ TEST(GlDevices, CountersAndBrickMapsFitAStorageBlock) {
       if (most < 0x1p27) {
         EXPECT_THAT(reason, AllOf(HasSubstr("brick map"), HasSubstr(limit)));
       } else {
-        EXPECT_EQ(reason, "");  // here bricks have more cells
+        EXPECT_EQ(reason, "");  // here, bricks have more cells
       }
       EXPECT_FALSE(
           device.unsupported(make_work("raycast", scene, {.skip = technique::Skip::bricks})));

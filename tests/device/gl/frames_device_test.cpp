@@ -1,4 +1,4 @@
-// Frames for timing, statistics and counters.
+// Tests frames for timing, for statistics and for counters.
 #include <gmock/gmock.h>
 
 #include <set>
@@ -15,7 +15,7 @@ using measure::Purpose;
 constexpr std::array<std::string_view, 3> techniques{"raycast", "raycast_fragment",
                                                      "speed_of_light"};
 
-TEST(GlFrames, TimesAreThereAndTheDeviceTakesNoLongerThanTheWall) {
+TEST(GlFrames, DeviceTimeDoesNotExceedWallTime) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : techniques) {
       const auto prepared = device.prepare(make_work(technique, make_scene({})));
@@ -31,7 +31,7 @@ TEST(GlFrames, TimesAreThereAndTheDeviceTakesNoLongerThanTheWall) {
   });
 }
 
-TEST(GlFrames, EveryPurposeDrawsTheSamePicture) {
+TEST(GlFrames, EveryPurposeDrawsTheSameImage) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : techniques) {
       SCOPED_TRACE(technique);
@@ -75,7 +75,7 @@ TEST(GlFrames, CountersAddUp) {
   });
 }
 
-TEST(GlFrames, StatisticsTellTheStagesInUseAndNoOthers) {
+TEST(GlFrames, StatisticsCoverExactlyTheStagesInUse) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : techniques) {
       auto counts =
@@ -92,8 +92,8 @@ TEST(GlFrames, StatisticsTellTheStagesInUseAndNoOthers) {
         }
       } else {
         EXPECT_FALSE(counts.contains("vertex_invocations"));
-        // Groups of 8×8 are complete, so padding counts. softpipe 22.3.6 counts groups instead of
-        // invocations.
+        // Work groups of 8×8 are always complete, so invocations outside of the image count too.
+        // softpipe 22.3.6 counts work groups instead of invocations.
         if (counts.contains("compute_invocations")) {
           const bool groups = device.info().driver == "softpipe";
           EXPECT_EQ(counts["compute_invocations"], groups ? 5U * 4U : 40U * 32U);
@@ -103,7 +103,7 @@ TEST(GlFrames, StatisticsTellTheStagesInUseAndNoOthers) {
   });
 }
 
-TEST(GlFrames, ExtraWorkIsDoneAndLeavesThePictureAlone) {
+TEST(GlFrames, ExtraWorkIsDoneAndLeavesTheImageUnchanged) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : techniques) {
       const scene::VolumeScene scene = make_scene({});
@@ -127,7 +127,7 @@ TEST(GlFrames, ExtraWorkIsDoneAndLeavesThePictureAlone) {
   });
 }
 
-TEST(GlFrames, PreparedWorksTakeTurns) {
+TEST(GlFrames, SeveralPreparedWorksCanAlternate) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : techniques) {
       const auto a = device.prepare(make_work(technique, make_scene({})));
@@ -147,7 +147,7 @@ TEST(GlFrames, PreparedWorksTakeTurns) {
   });
 }
 
-TEST(GlFrames, TheKernelHashTellsBuildsApart) {
+TEST(GlFrames, TheKernelHashDistinguishesBuilds) {
   for_each_device([](measure::Device& device) {
     std::set<std::string> hashes;
     const auto add = [&](std::string_view technique, const technique::RaycastOptions& options) {
@@ -164,7 +164,7 @@ TEST(GlFrames, TheKernelHashTellsBuildsApart) {
     EXPECT_EQ(hashes.size(), 5U);
     add("raycast", {.skip = technique::Skip::bricks});
     EXPECT_EQ(hashes.size(), 6U);
-    // Options that are switched at run time need no further build.
+    // Options that are switched at run time need no additional build.
     add("raycast", {.skip = technique::Skip::none, .ert = 0});
     EXPECT_EQ(hashes.size(), 6U);
   });

@@ -1,5 +1,5 @@
 #pragma once
-// The devices of the API, opened as the tests need them.
+// Opens the devices of the API for the tests in this folder.
 
 #include <array>
 #include <cstdlib>
@@ -18,7 +18,7 @@ using test::make_work;
 using test::picture;
 using test::SceneOptions;
 
-// Contexts are debug contexts, so that a test fails for any message of the driver.
+// Uses debug contexts, so that a test fails if the driver reports any error message.
 inline std::unique_ptr<measure::Backend> backend_under_test() {
   setenv("TRIPTYCH_GL_DEBUG", "1", 1);
   return make_backend();

@@ -1,5 +1,5 @@
 #pragma once
-// The particles for the tests in this folder.
+// Sets of particles for the tests in this folder.
 
 #include <array>
 #include <memory>
@@ -16,7 +16,7 @@ inline constexpr std::array<std::string_view, 8> particle_techniques{
     "quad_screen",  "quad_ray",         "quad_instanced", "quad_tess",
     "polygon_tess", "polygon_adaptive", "point",          "tiles"};
 
-// Spheres x, y, z, r, with colours that depend on their numbers.
+// Returns particles from x, y, z and r, with colours that depend on their indices.
 inline std::shared_ptr<const scene::ParticleSet> set_of(
     const std::vector<std::array<double, 4>>& spheres) {
   scene::ParticleSet set;
@@ -47,7 +47,7 @@ inline scene::ParticleScene generated(std::string_view data,
   return scene;
 }
 
-// Seen from `eye` along -z.
+// Returns a scene seen from `eye` along -z.
 inline scene::ParticleScene seen_from(const std::vector<std::array<double, 4>>& spheres,
                                       const glm::dvec3& eye, double fov_y_deg) {
   scene::ParticleScene scene = scene_of(set_of(spheres));

@@ -1,4 +1,4 @@
-// The counts and times of particle frames, and the frames that are refused.
+// Tests the counts and times of particle frames, and which frames are rejected.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::uint64_t covered(const core::Image& image) {
       std::ranges::count_if(image.ids, [](auto id) { return id != core::Image::no_particle; }));
 }
 
-// The corners of the sprite of one sphere.
+// Returns the number of corners of one sphere's sprite.
 std::uint64_t corners_of(std::string_view technique) {
   if (technique == "point") return 1;
   if (technique == "polygon_tess") return 8;
@@ -36,7 +36,7 @@ std::uint64_t corners_of(std::string_view technique) {
   return 4;
 }
 
-TEST(GlParticleFrames, ASingleSphereIsCountedAsItIs) {
+TEST(GlParticleFrames, ASingleSphereIsCountedCorrectly) {
   for_each_device([](measure::Device& device) {
     // The camera is so far away that a ray-aligned sprite is hardly larger than the silhouette.
     const scene::ParticleScene scene = seen_from({{0, 0, -60, 3}}, {0, 0, 0}, 7.5);
@@ -55,14 +55,14 @@ TEST(GlParticleFrames, ASingleSphereIsCountedAsItIs) {
                         Contains(Pair("vertices", corners_of(technique)))));
       EXPECT_EQ(counts.at("fragments"),
                 counts.at("fragments_kept") + counts.at("fragments_discarded"));
-      // A square around a disc of k pixels has 4/π·k pixels, an octagon 1.05·k.
+      // A square around a disc of k pixels has 4/π·k pixels, and an octagon has 1.05·k.
       const double share = static_cast<double>(counts.at("fragments")) / static_cast<double>(kept);
       EXPECT_NEAR(share, technique == "polygon_tess" ? 1.05 : 1.27, 0.15);
     });
   });
 }
 
-TEST(GlParticleFrames, CullingIsCounted) {
+TEST(GlParticleFrames, CulledParticlesAreCounted) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene =
         generated("generate:uniform:20000", scene::ColourKind::rgba8, "path_z:7/8");
@@ -85,7 +85,7 @@ TEST(GlParticleFrames, CullingIsCounted) {
   });
 }
 
-TEST(GlParticleFrames, EveryPurposeDrawsTheSamePicture) {
+TEST(GlParticleFrames, EveryPurposeDrawsTheSameImage) {
   for_each_device([](measure::Device& device) {
     for_each_technique(device, [&](std::string_view technique) {
       const auto prepared =
@@ -105,7 +105,7 @@ TEST(GlParticleFrames, EveryPurposeDrawsTheSamePicture) {
   });
 }
 
-TEST(GlParticleFrames, StatisticsTellTheStagesInUseAndNoOthers) {
+TEST(GlParticleFrames, StatisticsCoverExactlyTheStagesInUse) {
   for_each_device([](measure::Device& device) {
     if (device.info().driver != "llvmpipe") return;
     const auto statistics = [&](std::string_view technique) {
@@ -129,7 +129,7 @@ TEST(GlParticleFrames, StatisticsTellTheStagesInUseAndNoOthers) {
   });
 }
 
-// Large spheres in front of small ones, in separate cells.
+// Returns large spheres in front of small ones, in separate cells.
 scene::ParticleScene large_before_small() {
   std::vector<std::array<double, 4>> spheres;
   for (int i = 0; i < 400; ++i) spheres.push_back({0.01 * (i % 20), 0.01 * (i / 20.0), -4, 1});
@@ -139,7 +139,7 @@ scene::ParticleScene large_before_small() {
   return seen_from(spheres, {0, 0, 0}, 60);
 }
 
-// The number of work groups of 64 that a frame has in addition to those that resolve tiles.
+// Returns the number of work groups of 64 that a frame has in addition to those that resolve tiles.
 std::uint64_t groups_of_other_passes(const scene::ParticleScene& scene,
                                      const technique::TileRounds& rounds) {
   constexpr std::uint64_t group = 64;
@@ -166,17 +166,17 @@ std::uint64_t invocations(measure::Device& device, const scene::ParticleScene& s
 struct InOnePlace {
   double radius;
   std::size_t spheres;
-  std::uint64_t tiles;  // the number of tiles that each of them may reach
+  std::uint64_t tiles;  // the number of tiles that each sphere may overlap
   bool at_once;
 };
 
-// Spheres in 45×38 pixels, which are 9 tiles: 32 invocations for each tile that they may reach, and
-// none for others. Small spheres are drawn when they are sorted, and a few large ones by the last
-// pass.
-TEST(GlParticleFrames, ATileThatHoldsNothingIsNotResolved) {
+// Draws spheres in an image of 45×38 pixels, which has 9 tiles. There must be 32 invocations for
+// each tile that a sphere may overlap, and none for other tiles. Small spheres are drawn while they
+// are sorted, and a few large spheres are drawn by the last pass.
+TEST(GlParticleFrames, EmptyTilesAreNotResolved) {
   for_each_device([](measure::Device& device) {
     if (device.info().driver != "llvmpipe")
-      return;  // the only one known to count invocations exactly
+      return;  // the only driver known to count invocations exactly
     for (const auto& [radius, count, tiles, at_once] :
          {InOnePlace{1, 1, 0, true}, {8, 1, 4, true}, {8, 40, 4, false}, {40, 40, 9, false}}) {
       const scene::ParticleScene scene =
@@ -194,8 +194,8 @@ TEST(GlParticleFrames, ATileThatHoldsNothingIsNotResolved) {
   });
 }
 
-// With large spheres before small ones, no round resolves more than all 9 tiles, and the last one
-// resolves none.
+// If large spheres come before small ones, no round resolves more than all 9 tiles, and the last
+// round resolves none.
 TEST(GlParticleFrames, RoundsWithoutLargeSpheresAreNotFilled) {
   for_each_device([](measure::Device& device) {
     if (device.info().driver != "llvmpipe") return;
@@ -212,7 +212,7 @@ TEST(GlParticleFrames, RoundsWithoutLargeSpheresAreNotFilled) {
   });
 }
 
-// Two clusters in one cell each: one in the middle of the image, one at its right edge.
+// Returns two clusters of one cell each: one in the middle of the image, and one at its right edge.
 scene::ParticleScene one_cell_at_the_edge() {
   std::vector<std::array<double, 4>> spheres;
   for (int i = 0; i < 1200; ++i) {
@@ -222,7 +222,7 @@ scene::ParticleScene one_cell_at_the_edge() {
   return seen_from(spheres, {-5, 0, 0}, 47.9);
 }
 
-TEST(GlParticleFrames, InjectedFaultsChangeThePicture) {
+TEST(GlParticleFrames, InjectedFaultsChangeTheImage) {
   for_each_device([](measure::Device& device) {
     for_each_technique(device, [&](std::string_view technique) {
       const auto draw = [&](const scene::ParticleScene& scene, ParticleFault fault) {
@@ -260,7 +260,7 @@ TEST(GlParticleFrames, ReversedDepthLeavesTheBackground) {
   });
 }
 
-TEST(GlParticleFrames, WhatATechniqueDoesNotHaveIsRefusedWithTheReason) {
+TEST(GlParticleFrames, UnsupportedOptionsAreRejectedWithAReason) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = seen_from({{0, 0, -3, 1}}, {0, 0, 0}, 60);
     const auto reason = [&](std::string_view technique, const ParticleOptions& options) {
@@ -288,12 +288,12 @@ TEST(GlParticleFrames, WhatATechniqueDoesNotHaveIsRefusedWithTheReason) {
   });
 }
 
-TEST(GlParticleFrames, ConservativeDepthIsAnotherBuild) {
+TEST(GlParticleFrames, ConservativeDepthIsASeparateBuild) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = seen_from({{0, 0, -3, 1}}, {0, 0, 0}, 60);
     for_each_technique(device, [&](std::string_view technique) {
       if (technique == "tiles")
-        return;  // tiles always reject by every front, with or without the option
+        return;  // tiles always reject by the front of every sphere, with or without the option
       const auto hash = [&](const ParticleOptions& options) {
         return device.prepare(particle_work(technique, scene, options))->kernel_hash();
       };

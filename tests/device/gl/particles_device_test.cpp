@@ -1,4 +1,5 @@
-// Compares spheres with the reference image within the suite's bound, and with each other.
+// Compares images of spheres with the reference image within the suite's bound, and with each
+// other.
 #include <fmt/format.h>
 
 #include <limits>
@@ -16,7 +17,7 @@ using technique::Culling;
 using technique::ParticleFault;
 using technique::ParticleOptions;
 
-// The pixels that differ from the reference image.
+// The numbers of pixels that differ from the reference image.
 struct Wrong {
   int ids = 0;
   int depths = 0;
@@ -54,7 +55,7 @@ Wrong compared(const core::Image& image, const reference::SphereTruth& truth) {
   return wrong;
 }
 
-TEST(GlParticles, EveryTechniqueHoldsTheBound) {
+TEST(GlParticles, EveryTechniqueStaysWithinTheBound) {
   for_each_device([](measure::Device& device) {
     for (const ColourKind colour : {ColourKind::rgba8, ColourKind::rgba32, ColourKind::intensity}) {
       const scene::ParticleScene scene = generated("generate:uniform:700", colour);
@@ -109,8 +110,8 @@ TEST(GlParticles, AwkwardCamerasLoseNoPixel) {
   });
 }
 
-// Some spheres are larger than the points of any known device, and are in front of others that are
-// not.
+// Some of the spheres are larger than the points of any known device, and they are in front of
+// smaller ones.
 TEST(GlParticles, SpheresLargerThanPointsAreDrawn) {
   scene::ParticleScene scene =
       seen_from({{0, 0, -3, 1.6}, {1.5, 0.2, -2, 0.2}, {-1.4, -1.2, -2.5, 0.3}}, {0, 0, 0}, 70);
@@ -124,10 +125,10 @@ TEST(GlParticles, SpheresLargerThanPointsAreDrawn) {
   });
 }
 
-// A sphere that the plane of the eye cuts and that is visible only on the right. The sprite of
-// `point` is as large as what the sphere covers, whether the device's points are large enough or
-// not.
-TEST(GlParticles, APointThatReachesTheEyesPlaneIsNotTheWholeViewport) {
+// Draws a sphere that intersects the plane of the eye and is visible only on the right. The sprite
+// of `point` must be only as large as the sphere's projection, regardless of whether the device's
+// points are large enough.
+TEST(GlParticles, APointAcrossTheEyePlaneDoesNotFillTheViewport) {
   for_each_device([](measure::Device& device) {
     scene::ParticleScene scene = seen_from({{1.5, 0, -0.9, 1}}, {0, 0, 0}, 60);
     scene.width = 600;
@@ -141,7 +142,7 @@ TEST(GlParticles, APointThatReachesTheEyesPlaneIsNotTheWholeViewport) {
   });
 }
 
-TEST(GlParticles, RaysMadeAtTheVerticesHoldTheirBound) {
+TEST(GlParticles, RaysComputedAtVerticesStayWithinTheirBound) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = generated("generate:droplets:400");
     const reference::SphereTruth truth = truth_of(scene, ComputedAt::vertex);
@@ -153,7 +154,7 @@ TEST(GlParticles, RaysMadeAtTheVerticesHoldTheirBound) {
   });
 }
 
-TEST(GlParticles, AllTechniquesDrawTheSameBits) {
+TEST(GlParticles, AllTechniquesAreBitIdentical) {
   for_each_device([](measure::Device& device) {
     for (const char* data : {"generate:uniform:3000", "generate:coincident:800"}) {
       const scene::ParticleScene scene = generated(data);
@@ -165,7 +166,7 @@ TEST(GlParticles, AllTechniquesDrawTheSameBits) {
   });
 }
 
-TEST(GlParticles, OptionsThatDecideNothingLeaveEveryBit) {
+TEST(GlParticles, OptionsWithoutEffectOnTheImageAreBitIdentical) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene =
         generated("generate:plume:5000", ColourKind::rgba8, "path_y:3/4");
@@ -187,8 +188,8 @@ TEST(GlParticles, OptionsThatDecideNothingLeaveEveryBit) {
   });
 }
 
-// A wall hides most particles: cells are left out, and no bit of the image changes.
-TEST(GlParticles, WhatIsHiddenIsNotMissed) {
+// A wall hides most particles. Cells must be culled, and not a bit of the image may change.
+TEST(GlParticles, CullingHiddenCellsIsBitIdentical) {
   for_each_device([](measure::Device& device) {
     scene::ParticleScene scene = generated("generate:uniform:30000");
     scene.radius_scale = 2.5;
@@ -203,7 +204,8 @@ TEST(GlParticles, WhatIsHiddenIsNotMissed) {
         EXPECT_EQ(prepared->image(), plain) << i;
       }
       const record::Counts counts = prepared->frame(measure::Purpose::counters).counts;
-      // softpipe's compute shaders do not see the draws before them, so no cell counts as hidden.
+      // softpipe's compute shaders do not see the results of earlier draws, so no cell counts as
+      // hidden.
       if (device.info().driver != "softpipe") {
         EXPECT_GT(counts.at("cells_culled"), counts.at("cells") / 20);
       }
@@ -213,7 +215,7 @@ TEST(GlParticles, WhatIsHiddenIsNotMissed) {
   });
 }
 
-TEST(GlParticles, NothingAndNextToNothing) {
+TEST(GlParticles, ScenesWithNoOrFewParticles) {
   for_each_device([](measure::Device& device) {
     for_each_technique(device, [&](std::string_view technique) {
       for (const std::vector<std::array<double, 4>>& spheres :

@@ -1,4 +1,5 @@
-// Compares images with the reference image within the suite's bound, and with each other.
+// Compares images of volumes with the reference image within the suite's bound, and with each
+// other.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -15,16 +16,16 @@ using technique::RaycastOptions;
 using technique::Sampler;
 using technique::Skip;
 
-// The pixels outside of the bound, and the error of the worst one.
+// The number of pixels outside of the bound, and the error of the worst pixel.
 struct Verdict {
   int outside = 0;
   double worst = 0;
 };
 
-// The model of the suite. An 8-bit filter also rounds its result. That error does not become
-// smaller with the difference of the voxels, and the probe, which uses full differences, cannot
-// distinguish it from an error of the weights. So the error that the probe found is allowed for
-// both.
+// Returns the suite's error model. An 8-bit filter also rounds its result. That rounding error does
+// not shrink with the difference between voxels, and the probe, which uses the largest possible
+// difference, cannot distinguish it from an error in the weights. Therefore the error found by the
+// probe is allowed for both.
 reference::ErrorModel error_model(const scene::VolumeScene& scene, double ert,
                                   double filter_error) {
   reference::ErrorModel model =
@@ -50,7 +51,7 @@ Verdict against_truth(measure::Device& device, std::string_view technique,
   return verdict;
 }
 
-TEST(GlPictures, EveryFormatAndSamplerHoldsTheBound) {
+TEST(GlPictures, EveryFormatAndSamplerStaysWithinTheBound) {
   for_each_device([](measure::Device& device) {
     for (const VoxelFormat voxel :
          {VoxelFormat::u8, VoxelFormat::u16, VoxelFormat::f32, VoxelFormat::f16}) {
@@ -67,7 +68,7 @@ TEST(GlPictures, EveryFormatAndSamplerHoldsTheBound) {
   });
 }
 
-TEST(GlPictures, ShadingAndStepsHoldTheBound) {
+TEST(GlPictures, ShadingAndStepsStayWithinTheBound) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : picture_techniques) {
       for (const double step : {0.25, 1.0, 7.0, 1000.0}) {
@@ -78,7 +79,7 @@ TEST(GlPictures, ShadingAndStepsHoldTheBound) {
   });
 }
 
-TEST(GlPictures, AwkwardVolumesHoldTheBound) {
+TEST(GlPictures, AwkwardVolumesStayWithinTheBound) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : picture_techniques) {
       for (const char* size : {"1x1x1", "2x2x2", "23x23x1", "1x1x17", "7x11x13"}) {
@@ -97,15 +98,15 @@ TEST(GlPictures, AwkwardVolumesHoldTheBound) {
   });
 }
 
-TEST(GlPictures, AwkwardCamerasHoldTheBound) {
+TEST(GlPictures, AwkwardCamerasStayWithinTheBound) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : picture_techniques) {
       scene::VolumeScene scene =
           make_scene({.data = "generate:gradient_box:24", .transfer_function = "haze"});
       const double edge = scene.box().hi.x;
       const glm::dvec3 centre{edge / 2, edge / 2, edge / 2};
-      // The view is along an axis, with an odd number of pixels, so that the middle rays have
-      // components of 0.
+      // The view is along an axis and has an odd number of pixels, so that the middle rays have
+      // components of exactly 0.
       for (const glm::dvec3 eye :
            {centre, glm::dvec3{0, 0, 0}, glm::dvec3{edge, centre.y, edge},
             glm::dvec3{centre.x, centre.y, 2 * edge}, glm::dvec3{centre.x, centre.y, -edge}}) {
@@ -129,7 +130,7 @@ TEST(GlPictures, AwkwardCamerasHoldTheBound) {
   });
 }
 
-TEST(GlPictures, SkippingLeavesEveryBit) {
+TEST(GlPictures, SkippingIsBitIdentical) {
   for_each_device([](measure::Device& device) {
     for (const char* data : {"generate:mandelbulb:40", "generate:sparse_field:37",
                              "generate:nested_shells:32", "generate:frequency_box:24"}) {
@@ -150,7 +151,7 @@ TEST(GlPictures, SkippingLeavesEveryBit) {
   });
 }
 
-TEST(GlPictures, FragmentAndComputeAgreeWithinRounding) {
+TEST(GlPictures, FragmentAndComputeDifferOnlyByRounding) {
   for_each_device([](measure::Device& device) {
     for (const bool shading : {false, true}) {
       const scene::VolumeScene scene = make_scene({.width = 40, .height = 24, .shading = shading});
@@ -162,7 +163,7 @@ TEST(GlPictures, FragmentAndComputeAgreeWithinRounding) {
   });
 }
 
-TEST(GlPictures, RepeatsHaveTheSameBits) {
+TEST(GlPictures, RepeatedFramesAreBitIdentical) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : picture_techniques) {
       const auto prepared = device.prepare(make_work(technique, make_scene({})));
@@ -176,8 +177,9 @@ TEST(GlPictures, RepeatsHaveTheSameBits) {
   });
 }
 
-TEST(GlPictures, InjectedFaultsLeaveTheBound) {
-  // A sampler with an error of more than 8 bits would have a bound that hides faults.
+TEST(GlPictures, InjectedFaultsExceedTheBound) {
+  // If the sampler's error were larger than the rounding to 8 bits, the bound would be so wide that
+  // it hides faults.
   constexpr double coarse = 1.0 / 64;
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : picture_techniques) {

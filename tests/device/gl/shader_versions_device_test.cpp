@@ -1,6 +1,6 @@
-// Every shader conforms to the GLSL version that its first line names. A driver may accept more
-// than that, but the reference compiler does not. tests/device/gl/CMakeLists.txt runs this for
-// several versions of GL.
+// Tests that every shader conforms to the GLSL version that its first line names. A driver may
+// accept newer features, but the reference compiler does not. tests/device/gl/CMakeLists.txt runs
+// this test for several versions of GL.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -17,7 +17,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-// Sources, with the suffix from which the compiler recognizes their stage.
+// Shader sources, each with the file suffix from which the compiler recognizes the stage.
 using Sources = std::set<std::pair<std::string, std::string>>;
 
 std::string suffix_of(GLint type) {
@@ -28,7 +28,7 @@ std::string suffix_of(GLint type) {
   return suffixes.at(type);
 }
 
-// All shaders in the context. Each exists as long as a program uses it.
+// Adds all shaders of the context. Each shader exists as long as a program uses it.
 void add_sources(const Api& gl, Sources& sources) {
   constexpr GLuint highest_name = 1000;
   for (GLuint name = 1; name < highest_name; ++name) {
@@ -82,7 +82,7 @@ std::vector<measure::Work> particle_works() {
   return works;
 }
 
-// The sources that a device compiles for these works, for timing and for counting.
+// Returns the sources that a device compiles for these works, both for timing and for counting.
 Sources sources_of(const Candidate& candidate, const std::vector<measure::Work>& works) {
   std::unique_ptr<Context> context = candidate.open(false);
   Context& kept = *context;
@@ -107,8 +107,8 @@ void replace_first(std::string& text, std::string_view what, std::string_view wi
   if (const auto at = text.find(what); at != std::string::npos) text.replace(at, what.size(), with);
 }
 
-// The text of a shader in a form that the reference compiler accepts. That compiler knows storage
-// blocks, compute shaders and `precise` only from GLSL 4.30 on, without the extensions that add
+// Changes a shader so that the reference compiler accepts it. That compiler supports storage
+// blocks, compute shaders and `precise` only from GLSL 4.30 on, not through the extensions that add
 // them to 3.30, and gl_BaseInstanceARB only from 4.50 on.
 std::string as_it_knows_it(std::string text) {
   replace_first(text, "#version 330", "#version 430");
@@ -116,8 +116,9 @@ std::string as_it_knows_it(std::string text) {
   return text;
 }
 
-// The reason why the reference compiler refuses one of the shaders; empty if it does not. All
-// shaders are compiled at once, because starting the compiler takes longer than compiling.
+// Returns the reason why the reference compiler rejects one of the shaders; empty if it accepts all
+// of them. All shaders are compiled in one run, because starting the compiler takes longer than
+// compiling.
 std::string refusal(const Sources& sources) {
   const test::TemporaryFolder folder;
   std::string command = TRIPTYCH_GLSLANG;
@@ -129,7 +130,7 @@ std::string refusal(const Sources& sources) {
   return result.code == 0 ? std::string() : result.output;
 }
 
-TEST(GlShaderVersions, EveryShaderIsInTheVersionItNames) {
+TEST(GlShaderVersions, ShadersConformToTheVersionTheyName) {
   std::vector<measure::Work> works = volume_works();
   std::ranges::move(particle_works(), std::back_inserter(works));
   for (const Candidate& candidate : egl_candidates()) {

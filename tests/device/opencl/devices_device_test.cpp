@@ -1,4 +1,4 @@
-// Listing and opening devices, and the properties that a device reports.
+// Tests listing and opening devices, and the properties that devices report.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 using testing::MatchesRegex;
 
-TEST(OpenClDevices, ListingTwiceIsTheSame) {
+TEST(OpenClDevices, ListingTwiceGivesTheSameDevices) {
   const auto backend = make_backend();
   const measure::Listing first = backend->list();
   EXPECT_EQ(first.devices, backend->list().devices);
@@ -27,8 +27,8 @@ TEST(OpenClDevices, ListingTwiceIsTheSame) {
   EXPECT_FALSE(first.devices.empty() && first.broken.empty());
 }
 
-// Clover without hardware and rusticl without its environment variable list no device.
-TEST(OpenClDevices, AnEmptyPlatformIsNamedAndCostsOnlyItself) {
+// Clover without hardware and rusticl without its environment variable list no devices.
+TEST(OpenClDevices, AnEmptyPlatformIsReportedAndAffectsNothingElse) {
   const measure::Listing listing = make_backend()->list();
   for (const measure::Broken& each : listing.broken) {
     EXPECT_THAT(each.what, testing::StartsWith("OpenCL "));
@@ -45,7 +45,7 @@ TEST(OpenClDevices, AnEmptyPlatformIsNamedAndCostsOnlyItself) {
   EXPECT_GE(listing.devices.size() + listing.broken.size(), platforms);
 }
 
-TEST(OpenClDevices, WhatIsListedOpensAsListed) {
+TEST(OpenClDevices, ListedDevicesCanBeOpened) {
   const auto backend = make_backend();
   for (const record::Device& each : backend->list().devices) {
     EXPECT_EQ(backend->open(each.id)->info(), each);
@@ -55,7 +55,7 @@ TEST(OpenClDevices, WhatIsListedOpensAsListed) {
   }
 }
 
-TEST(OpenClDevices, WhatChangesGeneratedCodeIsPartOfTheIdentity) {
+TEST(OpenClDevices, VariablesThatChangeCodeBelongToTheDevice) {
   const auto environment_with = [](const char* value) {
     setenv("POCL_WORK_GROUP_METHOD", value, 1);
     setenv("POCL_PTHREAD_MIN_WGS", "1", 1);
@@ -66,7 +66,7 @@ TEST(OpenClDevices, WhatChangesGeneratedCodeIsPartOfTheIdentity) {
   for (const record::Device& each : environment_with("loops")) {
     EXPECT_THAT(each.environment,
                 testing::Contains(testing::Pair("POCL_WORK_GROUP_METHOD", "loops")));
-    EXPECT_EQ(each.environment.count("POCL_PTHREAD_MIN_WGS"), 0U);  // set by the program itself
+    EXPECT_EQ(each.environment.count("POCL_PTHREAD_MIN_WGS"), 0U);  // set by Triptych itself
     if (each.driver == "pocl") {
       EXPECT_FALSE(each.cpu_features.empty());
     }
@@ -90,7 +90,7 @@ TEST(OpenClDevices, DriversHaveShortNames) {
   EXPECT_EQ(driver_of(""), "unknown");
 }
 
-TEST(OpenClDevices, TheDefaultPathIsAsExactAsInterpolatingByHand) {
+TEST(OpenClDevices, TheDefaultPathIsAsExactAsManualInterpolation) {
   for_each_device([](const measure::Device& device) {
     for (const auto native : {scene::VoxelFormat::u8, scene::VoxelFormat::u16}) {
       const measure::VolumePath path = device.default_path({native});
@@ -99,7 +99,7 @@ TEST(OpenClDevices, TheDefaultPathIsAsExactAsInterpolatingByHand) {
     for (const auto voxel :
          {scene::VoxelFormat::u8, scene::VoxelFormat::u16, scene::VoxelFormat::f32}) {
       const double error = device.filter_weight_error({voxel, technique::Sampler::hardware});
-      // The coarsest known sampler rounds its results to 8 bits, more than once.
+      // The coarsest known sampler rounds its results to 8 bits more than once.
       EXPECT_LT(error, voxel == scene::VoxelFormat::u8 ? 2 : 0.01);
       std::printf("%s %s sampler error %.3g\n", device.info().id.c_str(),
                   std::string(scene::name_of(voxel)).c_str(), error);
@@ -108,7 +108,7 @@ TEST(OpenClDevices, TheDefaultPathIsAsExactAsInterpolatingByHand) {
   });
 }
 
-TEST(OpenClDevices, LimitsAreReasonsWithBothNumbers) {
+TEST(OpenClDevices, ExceededLimitsAreReportedWithBothNumbers) {
   for_each_device([](const measure::Device& device) {
     scene::VolumeScene scene = make_scene({});
     auto grid = *scene.grid;

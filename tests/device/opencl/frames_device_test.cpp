@@ -1,4 +1,4 @@
-// Frames for timing, statistics and counters.
+// Tests frames for timing, for statistics and for counters.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -18,7 +18,7 @@ namespace {
 using measure::Purpose;
 constexpr std::array<std::string_view, 2> techniques{"raycast", "speed_of_light"};
 
-TEST(OpenClFrames, TimesAreThereAndTheDeviceTakesNoLongerThanTheWall) {
+TEST(OpenClFrames, DeviceTimeDoesNotExceedWallTime) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : techniques) {
       const auto prepared = device.prepare(make_work(technique, make_scene({})));
@@ -29,13 +29,13 @@ TEST(OpenClFrames, TimesAreThereAndTheDeviceTakesNoLongerThanTheWall) {
       }
       EXPECT_TRUE(frame.counts.empty());
       EXPECT_FALSE(prepared->frame(Purpose::counters).device_ns);
-      // OpenCL has no pipeline statistics. They are absent, not zero.
+      // OpenCL has no pipeline statistics. They must be absent rather than zero.
       EXPECT_TRUE(prepared->frame(Purpose::statistics).counts.empty());
     }
   });
 }
 
-TEST(OpenClFrames, EveryPurposeDrawsTheSamePicture) {
+TEST(OpenClFrames, EveryPurposeDrawsTheSameImage) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : techniques) {
       SCOPED_TRACE(technique);
@@ -45,7 +45,7 @@ TEST(OpenClFrames, EveryPurposeDrawsTheSamePicture) {
   });
 }
 
-TEST(OpenClFrames, ExtraWorkLeavesThePicture) {
+TEST(OpenClFrames, ExtraWorkLeavesTheImageUnchanged) {
   for_each_device([](measure::Device& device) {
     const scene::VolumeScene scene = make_scene({.width = 200, .height = 200});
     const technique::RaycastOptions options{.skip = technique::Skip::none, .ert = 0};
@@ -60,7 +60,8 @@ TEST(OpenClFrames, ExtraWorkLeavesThePicture) {
   });
 }
 
-// The samples and hits of the scene, counted on the host with the formulas of the kernel.
+// The numbers of samples and hits of the scene, computed on the host with the formulas of the
+// kernel.
 struct Expected {
   std::uint64_t rays_hit = 0;
   std::uint64_t samples = 0;
@@ -88,7 +89,7 @@ Expected count_on_host(const scene::VolumeScene& scene) {
   return expected;
 }
 
-TEST(OpenClFrames, CountersEqualACountOnTheHost) {
+TEST(OpenClFrames, CountersMatchTheHost) {
   for_each_device([](measure::Device& device) {
     const scene::VolumeScene scene =
         make_scene({.camera = "random:3", .width = 61, .height = 47, .step_voxels = 0.37});
@@ -98,7 +99,8 @@ TEST(OpenClFrames, CountersEqualACountOnTheHost) {
       const auto counts =
           device.prepare(make_work(technique, scene, options))->frame(Purpose::counters).counts;
       EXPECT_EQ(counts.at("rays"), 61U * 47U);
-      // A chord that is a whole number of steps within rounding may count one more or one less.
+      // If the length of a ray is a whole number of steps up to round-off, its count may differ by
+      // one.
       const auto off =
           static_cast<double>(counts.at("samples")) - static_cast<double>(expected.samples);
       EXPECT_LE(std::abs(off), 1e-4 * static_cast<double>(expected.samples));
@@ -111,7 +113,7 @@ TEST(OpenClFrames, CountersEqualACountOnTheHost) {
   });
 }
 
-TEST(OpenClFrames, SkippingAndTerminationSaveWhatTheyDoNotTake) {
+TEST(OpenClFrames, SamplesTakenAndSavedAddUp) {
   for_each_device([](measure::Device& device) {
     const scene::VolumeScene scene = make_scene({.data = "generate:sparse_field:64"});
     const auto count = [&](technique::Skip skip, double ert) {
@@ -133,7 +135,7 @@ TEST(OpenClFrames, SkippingAndTerminationSaveWhatTheyDoNotTake) {
   });
 }
 
-TEST(OpenClFrames, TheHashIsOfTheDeviceCodeAlone) {
+TEST(OpenClFrames, TheHashCoversOnlyTheDeviceCode) {
   for_each_device([](measure::Device& device) {
     const auto hash = [&](const SceneOptions& scene, const technique::RaycastOptions& options) {
       return device.prepare(make_work("raycast", make_scene(scene), options))->kernel_hash();
@@ -149,15 +151,15 @@ TEST(OpenClFrames, TheHashIsOfTheDeviceCodeAlone) {
   });
 }
 
-TEST(OpenClFrames, WhatIsNotSupportedIsNotPrepared) {
+TEST(OpenClFrames, UnsupportedWorkIsNotPrepared) {
   for_each_device([](measure::Device& device) {
     EXPECT_THROW(static_cast<void>(device.prepare(make_work("no_such_technique", make_scene({})))),
                  core::NotSupported);
   });
 }
 
-// The host pauses between two commands, while the device's clock continues.
-TEST(OpenClFrames, WhatLiesBetweenLaunchesIsPartOfTheirTime) {
+// The host pauses between two commands while the device's clock continues.
+TEST(OpenClFrames, TimeBetweenLaunchesIsIncluded) {
   constexpr std::chrono::milliseconds pause{20};
   constexpr double pause_ns = std::chrono::duration<double, std::nano>(pause).count();
   for (const Found& each : find_devices().found) {

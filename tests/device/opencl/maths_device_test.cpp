@@ -1,4 +1,4 @@
-// The portable maths gives the same results in OpenCL C and in C++.
+// Tests that the portable maths gives the same results in OpenCL C and in C++.
 #include <algorithm>
 #include <bit>
 #include <cstdio>
@@ -42,7 +42,8 @@ struct Vector {
   float y;
 };
 
-// Opacities and steps: the ends, the smallest one, the largest one below 1, and seeded ones.
+// Returns pairs of opacity and step length: the extremes, the smallest value, the largest value
+// below 1, and seeded random values.
 std::vector<Vector> vectors() {
   std::vector<Vector> all;
   for (const float alpha : {0.0F, 0x1p-30F, 0x1p-24F, 0x1p-20F, 0.25F, 0.5F, 1 - 0x1p-24F}) {
@@ -100,7 +101,7 @@ std::vector<float> on_device(const Found& found, const std::vector<Vector>& in) 
   });
 }
 
-// The distance in units in the last place; 0 for equal bits, and for +0 and −0.
+// Returns the distance in units in the last place. It is 0 for identical bits, and for +0 and −0.
 std::int64_t ulps(float a, float b) {
   if (a == b) return 0;
   const auto ordered = [](float x) {
@@ -110,7 +111,7 @@ std::int64_t ulps(float a, float b) {
   return std::llabs(ordered(a) - ordered(b));
 }
 
-TEST(OpenClMaths, EqualsTheHosts) {
+TEST(OpenClMaths, MatchesTheHost) {
   const std::vector<Vector> in = vectors();
   const std::vector<float> host = expected(in);
   for (const Found& found : find_devices().found) {
@@ -119,13 +120,14 @@ TEST(OpenClMaths, EqualsTheHosts) {
     std::int64_t worst = 0;
     for (std::size_t i = 0; i < host.size(); ++i) worst = std::max(worst, ulps(host[i], device[i]));
     std::printf("%s: %lld ulp\n", found.info.id.c_str(), static_cast<long long>(worst));
-    // Only additions, products, divisions and roots. A processor rounds all of them as IEEE 754
-    // requires. Other devices may have errors of 2.5 ulp in divisions and 3 ulp in roots.
+    // The functions use only additions, products, divisions and square roots. A processor rounds
+    // all of these as IEEE 754 requires. Other devices may have errors of 2.5 ulp in divisions and
+    // 3 ulp in square roots.
     EXPECT_LE(worst, found.info.driver == "pocl" ? 0 : 8);
   }
 }
 
-TEST(OpenClPrograms, ABuildThatFailsShowsTheCompilersLog) {
+TEST(OpenClPrograms, AFailedBuildReportsTheCompilerLog) {
   for (const Found& found : find_devices().found) {
     SCOPED_TRACE(found.info.id);
     const cl::Context context(found.device);
@@ -145,7 +147,7 @@ TEST(OpenClPrograms, ABuildThatFailsShowsTheCompilersLog) {
   }
 }
 
-TEST(OpenClErrors, KnowTheCodesName) {
+TEST(OpenClErrors, ContainTheNameOfTheCode) {
   EXPECT_EQ(code_name(CL_INVALID_KERNEL_ARGS), "CL_INVALID_KERNEL_ARGS");
   EXPECT_EQ(code_name(-1234), "error -1234");
   EXPECT_THROW(checked([] { throw cl::Error(CL_DEVICE_NOT_AVAILABLE, "clFinish"); }),
@@ -153,7 +155,7 @@ TEST(OpenClErrors, KnowTheCodesName) {
   try {
     checked([] { throw cl::Error(CL_INVALID_VALUE, "clFinish"); });
   } catch (const core::DeviceLost&) {
-    ADD_FAILURE() << "not every error is a lost device";
+    ADD_FAILURE() << "an invalid value was reported as a lost device";
   } catch (const core::ApiError& error) {
     EXPECT_NE(std::string(error.what()).find("clFinish returned CL_INVALID_VALUE at maths_device"),
               std::string::npos)

@@ -1,5 +1,5 @@
 #pragma once
-// The devices of the API, opened as the tests need them.
+// Opens the devices of the API for the tests in this folder.
 
 #include <cstdlib>
 #include <memory>
@@ -16,8 +16,8 @@ using test::make_work;
 using test::picture;
 using test::SceneOptions;
 
-// Sets the environment in which the program starts its workers. Without it, PoCL runs small
-// launches on one thread.
+// Sets the environment in which Triptych starts its workers. Without it, PoCL runs small launches
+// on a single thread.
 inline std::unique_ptr<measure::Backend> backend_under_test() {
   setenv("POCL_PTHREAD_MIN_WGS", "1", 0);
   return make_backend();

@@ -1,5 +1,5 @@
 #pragma once
-// Spheres for the tests in this folder, and the comparison of their images.
+// Scenes of spheres for the tests in this folder, and comparisons of their images.
 
 #include <array>
 #include <cmath>
@@ -37,7 +37,7 @@ inline scene::ParticleScene scene_of(scene::ParticleSet set, const scene::Camera
   return scene;
 }
 
-// Seen from `eye` along -z.
+// Returns a scene seen from `eye` along -z.
 inline scene::ParticleScene seen_from(const Spheres& spheres, const glm::dvec3& eye,
                                       double fov_y_deg, int width = 97, int height = 83) {
   scene::ParticleSet set;
@@ -71,8 +71,8 @@ inline reference::SphereTruth truth_of(const scene::ParticleScene& scene) {
       scene, particles_suite::error_model(scene, technique::ComputedAt::pixel));
 }
 
-// The number of certain pixels whose id or depth differs from the reference image, and of pixels
-// whose colour differs by more than their bound.
+// Returns the number of wrong pixels: certain pixels whose id or depth differs from the reference
+// image, and pixels whose colour differs by more than the bound.
 inline int wrong_pixels(const core::Image& image, const reference::SphereTruth& truth) {
   int wrong = 0;
   for (std::size_t i = 0; i < truth.ids.size(); ++i) {

@@ -1,5 +1,5 @@
-// Tests of spheres that concern only OpenCL. The contract tests check that every technique of every
-// backend is right.
+// Tests of spheres that apply only to OpenCL. The contract tests check the images of every
+// technique in every backend.
 #include <algorithm>
 #include <limits>
 
@@ -14,9 +14,9 @@ using technique::Culling;
 using technique::ParticleFault;
 using technique::ParticleOptions;
 
-// Large particles are sorted into coarse tiles, small ones into fine tiles: one that fills the
-// view, some that reach many tiles, and many of a few pixels, in an image that ends within a coarse
-// tile.
+// Large particles are sorted into coarse tiles, and small particles into fine tiles. The scene has
+// one particle that fills the view, some that overlap many tiles, and many that cover a few pixels.
+// The image ends within a coarse tile.
 scene::ParticleScene small_and_large() {
   Spheres spheres{{0, 0, -30, 12}, {2, 1, -9, 1.5}, {-3, -2, -8, 2}, {0.2, 0.1, -2, 0.3}};
   for (int i = 0; i < 600; ++i) {
@@ -28,7 +28,7 @@ scene::ParticleScene small_and_large() {
   return seen_from(spheres, {0, 0, 0}, 70, 301, 211);
 }
 
-TEST(OpenClParticles, SmallAndLargeOnesMeet) {
+TEST(OpenClParticles, SmallAndLargeParticlesMixCorrectly) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = small_and_large();
     const core::Image first = picture(device, make_work("tiles", scene));
@@ -39,28 +39,28 @@ TEST(OpenClParticles, SmallAndLargeOnesMeet) {
   });
 }
 
-// By the fill rule, a rectangle that is the viewport covers each of its pixels once, and a smaller
-// one covers the pixels whose centres are inside.
-TEST(OpenClParticles, SpritesCoverThePixelsTheyShould) {
+// By the fill rule, a rectangle that equals the viewport covers each of its pixels exactly once,
+// and a smaller rectangle covers the pixels whose centres are inside.
+TEST(OpenClParticles, SpritesFollowTheFillRule) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene around = seen_from({{0, 0, 0, 1}}, {0.2, 0.1, 0.3}, 60);
     for (const std::string_view technique : particle_techniques) {
       EXPECT_EQ(counters(device, make_work(technique, around)).at("fragments"), 97U * 83U)
           << technique;
     }
-    // On the axis, the edge of the silhouette is at tan α, where sin α = r/d. Pixels have a width
-    // of 2·tan(fov/2)/83.
+    // On the axis, the edge of the silhouette is at tan α, where sin α = r/d. Pixels are
+    // 2·tan(fov/2)/83 wide.
     const scene::ParticleScene one = seen_from({{0, 0, -4, 1}}, {0, 0, 0}, 60);
     const double edge = std::tan(std::asin(0.25)) * 83 / (2 * std::tan(std::acos(-1.0) / 6));
-    // The number is odd, because the centre of a pixel is on the axis.
+    // The number is odd, because the centre of one pixel is on the axis.
     const double pixels = 2 * std::floor(edge + 1.0 / 64) + 1;
     const auto counts = counters(device, make_work("quad_screen", one));
     EXPECT_EQ(static_cast<double>(counts.at("fragments")), pixels * pixels);
     EXPECT_EQ(counts.at("vertices"), 4U);
     EXPECT_EQ(counts.at("sprites"), 1U);
     EXPECT_EQ(counts.at("visible_ids"), 1U);
-    // S6: an n-gon around a disc has n·tan(π/n)/π times its area. The disc has the radius of the
-    // sphere and is just in front of it, where the silhouette is smaller.
+    // S6: the area of an n-gon around a disc is n·tan(π/n)/π times the area of the disc. The disc
+    // has the radius of the sphere and lies just in front of it, where the silhouette is smaller.
     const double silhouette = 3 * (1 - 1.0 / 1024) * std::tan(std::asin(0.25));
     double before = std::numeric_limits<double>::infinity();
     for (const int corners : {4, 5, 8, 16, 32}) {
@@ -77,7 +77,7 @@ TEST(OpenClParticles, SpritesCoverThePixelsTheyShould) {
   });
 }
 
-TEST(OpenClParticles, OcclusionLeavesCellsOutAndNoBitsChange) {
+TEST(OpenClParticles, OcclusionCullsCellsAndIsBitIdentical) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = generated("uniform", 60000, "orbit_y:1/8", 128);
     for (const std::string_view technique : {"tiles", "polygon_adaptive"}) {
@@ -92,14 +92,14 @@ TEST(OpenClParticles, OcclusionLeavesCellsOutAndNoBitsChange) {
       EXPECT_EQ(prepared->image(), plain);
       EXPECT_GT(counts.at("cells_culled"), 0U);
       EXPECT_LT(counts.at("particles_submitted"), 60000U);
-      // The counts are the same, whatever was drawn before.
+      // The counts do not depend on what was drawn before.
       EXPECT_EQ(counters(device, make_work(technique, scene, {.culling = Culling::occlusion})),
                 counts);
     }
   });
 }
 
-TEST(OpenClParticles, CountingAndRepeatedWorkLeaveThePicture) {
+TEST(OpenClParticles, CountingAndExtraWorkLeaveTheImageUnchanged) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = generated("uniform", 60000, "orbit_y:1/8", 200);
     for (const std::string_view technique : {"tiles", "quad_instanced"}) {
@@ -117,8 +117,8 @@ TEST(OpenClParticles, CountingAndRepeatedWorkLeaveThePicture) {
   });
 }
 
-// A dense cluster in the middle, and one between 93 and 99 % of the way to the edge of the screen,
-// in separate cells.
+// Returns a dense cluster in the middle, and a second one at 93 to 99 % of the distance to the edge
+// of the screen. Each has its own cells.
 scene::ParticleScene at_the_edge() {
   Spheres spheres;
   for (int i = 0; i < 2000; ++i) {
@@ -136,8 +136,8 @@ struct Injected {
   bool conservative_depth = false;
 };
 
-// The image reveals each fault.
-TEST(OpenClParticles, InjectedFaultsAreSeen) {
+// Each fault must change the image.
+TEST(OpenClParticles, InjectedFaultsChangeTheImage) {
   const std::vector<scene::ParticleScene> scenes{generated("coincident", 4000, "path_z:7/8"),
                                                  generated("uniform", 60000, "random:5"),
                                                  at_the_edge(), small_and_large()};
@@ -170,7 +170,7 @@ TEST(OpenClParticles, InjectedFaultsAreSeen) {
   });
 }
 
-TEST(OpenClParticles, WhatCannotBeDrawnIsRefused) {
+TEST(OpenClParticles, UnsupportedWorkIsRejected) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = seen_from({{0, 0, -4, 1}}, {0, 0, 0}, 60);
     EXPECT_EQ(device.unsupported(make_work("tiles", scene)), std::nullopt);
@@ -198,7 +198,7 @@ TEST(OpenClParticles, WhatCannotBeDrawnIsRefused) {
   });
 }
 
-TEST(OpenClParticles, NoneGiveTheBackground) {
+TEST(OpenClParticles, NoParticlesGiveTheBackground) {
   for_each_device([](measure::Device& device) {
     for (const Spheres& spheres : {Spheres{}, Spheres{{0, 0, 5, 1}}}) {
       for (const Culling culling : {Culling::none, Culling::frustum, Culling::occlusion}) {

@@ -1,4 +1,4 @@
-// Compares images with the reference image, and with each other.
+// Compares images of volumes with the reference image, and with each other.
 #include <gmock/gmock.h>
 
 #include <cstdio>
@@ -28,11 +28,12 @@ constexpr std::array<Path, 7> paths{{{VoxelFormat::u8, Sampler::manual},
                                      {VoxelFormat::f16, Sampler::manual}}};
 
 struct Distance {
-  double error = 0;  // the largest of all channels
-  double share = 0;  // the largest share of the bound of a pixel
+  double error = 0;  // the largest error of all channels
+  double share = 0;  // the largest ratio of an error to the bound of its pixel
 };
 
-// The result is infinite if the sizes differ or a value is not finite.
+// Returns the distance from the reference image. It is infinite if the sizes differ or if a value
+// is not finite.
 Distance from_truth(const core::Image& image, const reference::Truth& truth) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   if (image.width != truth.width || image.height != truth.height) return {infinite, infinite};
@@ -46,7 +47,7 @@ Distance from_truth(const core::Image& image, const reference::Truth& truth) {
   return distance;
 }
 
-// Draws and compares. The bound of the reference image is that of the suite.
+// Draws the scene and compares it with the reference image, within the suite's bound.
 Distance against_truth(measure::Device& device, const scene::VolumeScene& scene,
                        const technique::RaycastOptions& options) {
   const reference::ErrorModel model = volume_suite::error_model(
@@ -57,7 +58,7 @@ Distance against_truth(measure::Device& device, const scene::VolumeScene& scene,
                     reference::render_volume(scene, model));
 }
 
-TEST(OpenClPictures, AreWithinTheBoundOfTheTruth) {
+TEST(OpenClPictures, StayWithinTheBound) {
   for_each_device([](measure::Device& device) {
     for (const auto& [voxel, sampler] : paths) {
       Distance worst;
@@ -87,7 +88,7 @@ TEST(OpenClPictures, AreWithinTheBoundOfTheTruth) {
   });
 }
 
-TEST(OpenClPictures, SkippingLeavesEveryBit) {
+TEST(OpenClPictures, SkippingIsBitIdentical) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view data :
          {"generate:mandelbulb:40", "generate:sparse_field:67x31x40", "generate:nested_shells:33",
@@ -108,8 +109,8 @@ TEST(OpenClPictures, SkippingLeavesEveryBit) {
   });
 }
 
-// A volume of one voxel, one of one layer, and one of one row; viewports that are not multiples of
-// a work group.
+// Tests a volume of one voxel, one of one layer and one of one row, and viewports that are not
+// multiples of the work-group size.
 TEST(OpenClPictures, ThinVolumesAndOddViewports) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view data : {"generate:uniform_box:1", "generate:gradient_box:9x9x1",
@@ -133,7 +134,7 @@ TEST(OpenClPictures, ThinVolumesAndOddViewports) {
   });
 }
 
-TEST(OpenClPictures, FromInsideAndAlongTheAxes) {
+TEST(OpenClPictures, CamerasInsideAndAlongAxes) {
   for_each_device([](measure::Device& device) {
     scene::VolumeScene scene = make_scene({.transfer_function = "haze", .width = 17, .height = 17});
     struct View {
@@ -141,7 +142,7 @@ TEST(OpenClPictures, FromInsideAndAlongTheAxes) {
       glm::dvec3 forward;
     };
     // Viewports have odd sizes, so that the ray of the middle pixel has components of exactly 0.
-    // The second eye is on the plane of a slab, the third in a corner.
+    // The second eye is on a face plane of the volume, and the third is in a corner.
     for (const auto& [eye, forward] :
          {View{{20, 20, 20}, {0, 0, -1}}, View{{0, 20, 60}, {0, 0, -1}}, View{{0, 0, 0}, {0, 0, 1}},
           View{{-30, 20, 20}, {1, 0, 0}}, View{{20, 20, 90}, {0, 0, 1}}}) {
@@ -158,7 +159,7 @@ TEST(OpenClPictures, FromInsideAndAlongTheAxes) {
   });
 }
 
-TEST(OpenClPictures, ARayThatMissesIsBackgroundToTheBit) {
+TEST(OpenClPictures, RaysThatMissShowExactlyTheBackground) {
   for_each_device([](measure::Device& device) {
     scene::VolumeScene scene = make_scene({});
     scene.camera.forward = -scene.camera.forward;
@@ -168,7 +169,7 @@ TEST(OpenClPictures, ARayThatMissesIsBackgroundToTheBit) {
   });
 }
 
-TEST(OpenClPictures, EarlyTerminationErrsByNoMoreThanItsBudget) {
+TEST(OpenClPictures, EarlyTerminationStaysWithinItsErrorBudget) {
   for_each_device([](measure::Device& device) {
     const scene::VolumeScene scene = make_scene({.data = "generate:nested_shells:48"});
     const core::Image whole = picture(device, make_work("raycast", scene, {.ert = 0}));
@@ -182,13 +183,13 @@ TEST(OpenClPictures, EarlyTerminationErrsByNoMoreThanItsBudget) {
   });
 }
 
-TEST(OpenClPictures, AnInjectedFaultIsOutsideTheBound) {
+TEST(OpenClPictures, InjectedFaultsExceedTheBound) {
   for_each_device([](measure::Device& device) {
     for (const Sampler sampler : {Sampler::manual, Sampler::hardware}) {
       for (const Fault fault : {Fault::half_voxel_shift, Fault::flipped_axis, Fault::extra_sample,
                                 Fault::uncorrected_opacity, Fault::coarse_filter}) {
-        // With haze, an additional sample beyond the far face is visible. With surfaces, the steep
-        // edges show weights that are slightly wrong.
+        // With haze, an additional sample beyond the far face is visible. With surfaces, steep
+        // edges reveal slightly wrong weights.
         const bool subtle = fault == Fault::coarse_filter;
         const scene::VolumeScene scene =
             make_scene({.data = "generate:frequency_box:40",
@@ -203,7 +204,7 @@ TEST(OpenClPictures, AnInjectedFaultIsOutsideTheBound) {
   });
 }
 
-TEST(OpenClPictures, AHundredFramesHaveTheSameBits) {
+TEST(OpenClPictures, AHundredFramesAreBitIdentical) {
   for_each_device([](measure::Device& device) {
     const auto prepared = device.prepare(make_work("raycast", make_scene({.shading = true})));
     static_cast<void>(prepared->frame(measure::Purpose::timing));

@@ -1,4 +1,4 @@
-// The SPIR-V that is used for drawing, and not only its source, declares conservative depth.
+// Tests that the compiled SPIR-V, and not only its source, declares conservative depth.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-// From the SPIR-V specification.
+// Values from the SPIR-V specification.
 constexpr std::uint32_t op_execution_mode = 16;
 constexpr std::uint32_t depth_replacing = 12;
 constexpr std::uint32_t depth_greater = 14;
@@ -30,8 +30,8 @@ std::set<std::uint32_t> execution_modes(std::string_view code) {
   return modes;
 }
 
-// Both the timed build and the counting build declare it.
-TEST(ConservativeDepth, IsPromisedWhereItIsOnAndOnlyThere) {
+// Both the timed build and the counting build must declare it.
+TEST(ConservativeDepth, IsDeclaredExactlyWhenItIsOn) {
   for (const std::string build : {"", "_counting"}) {
     SCOPED_TRACE(build);
     const auto modes = [&](const std::string& name) {

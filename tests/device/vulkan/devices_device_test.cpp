@@ -1,4 +1,4 @@
-// Listing and opening devices, and their limits.
+// Tests listing and opening devices, and their limits.
 #include <gmock/gmock.h>
 
 #include <regex>
@@ -45,7 +45,7 @@ TEST(VulkanDevices, VariablesThatChangeCodeBelongToTheDevice) {
   }
 }
 
-TEST(VulkanDevices, ALoaderWithoutDriversIsBrokenNotFatal) {
+TEST(VulkanDevices, ALoaderWithoutDriversIsReportedAsBroken) {
   setenv("VK_ICD_FILENAMES", "/nonexistent.json", 1);
   setenv("VK_DRIVER_FILES", "/nonexistent.json", 1);
   const measure::Listing listing = make_backend()->list();
@@ -62,7 +62,7 @@ TEST(VulkanDevices, UnknownDevicesAreNotSupported) {
   EXPECT_THROW(static_cast<void>(backend->open("vulkan:none")), core::NotSupported);
 }
 
-TEST(VulkanDevices, DriversThatLeaveWorkOutAreNotOpened) {
+TEST(VulkanDevices, DriversThatSkipWorkAreNotOpened) {
   const auto backend = make_backend();
   for (const record::Device& each : backend->list().devices) {
     if (each.driver != "llvmpipe") continue;
@@ -79,7 +79,8 @@ TEST(VulkanDevices, TheDefaultPathFiltersExactly) {
       EXPECT_EQ(device.filter_weight_error({native, Sampler::manual}), 0);
     }
     if (device.info().driver != "llvmpipe") return;
-    // Among the exact samplers, cells of eight voxels are the fastest, up to a gigabyte.
+    // Among the exact samplers, cells of eight voxels are the fastest, but only for volumes of up
+    // to a gigabyte.
     EXPECT_EQ(device.default_path({VoxelFormat::u8}).sampler, Sampler::packed);
     EXPECT_EQ(device.default_path({VoxelFormat::u8}).voxel, VoxelFormat::u8);
     for (const measure::VolumeKind& other :
@@ -88,12 +89,12 @@ TEST(VulkanDevices, TheDefaultPathFiltersExactly) {
       EXPECT_EQ(device.default_path(other).sampler, Sampler::hardware);
       EXPECT_EQ(device.default_path(other).voxel, VoxelFormat::f32);
     }
-    // Linear sampling of eight-bit voxels is quantised to eight bits there.
+    // There, linear sampling of 8-bit voxels is quantised to 8 bits.
     EXPECT_GT(device.filter_weight_error({VoxelFormat::u8, Sampler::hardware}), 1e-3);
   });
 }
 
-TEST(VulkanDevices, LimitsAreNamedWithBothNumbers) {
+TEST(VulkanDevices, ExceededLimitsAreReportedWithBothNumbers) {
   for_each_device([](measure::Device& device) {
     const std::string limit = device.info().limits.at("maxImageDimension3D");
     const int beyond = std::stoi(limit) + 1;

@@ -1,4 +1,4 @@
-// Tests the results of a frame other than its image: times, counters, pipeline statistics.
+// Tests the results of frames other than images: times, counters and pipeline statistics.
 #include <gmock/gmock.h>
 
 #include <cstdint>
@@ -18,7 +18,7 @@ record::Counts counters(measure::Device& device, std::string_view technique,
   return device.prepare(make_work(technique, scene, options))->frame(Purpose::counters).counts;
 }
 
-// The samples on the lattice of every ray, in double precision.
+// Counts the samples of every ray in double precision.
 struct Lattice {
   std::uint64_t rays_hit = 0;
   std::uint64_t samples = 0;
@@ -46,7 +46,7 @@ Lattice count_lattice(const scene::VolumeScene& scene) {
   return lattice;
 }
 
-TEST(VulkanFrames, CountersEqualACountOnTheHost) {
+TEST(VulkanFrames, CountersMatchTheHost) {
   for_each_device([](measure::Device& device) {
     const scene::VolumeScene scene = make_scene({.camera = "random:4", .step_voxels = 0.3});
     const Lattice expected = count_lattice(scene);
@@ -56,7 +56,7 @@ TEST(VulkanFrames, CountersEqualACountOnTheHost) {
       EXPECT_EQ(counts.at("rays"),
                 static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height));
       EXPECT_EQ(counts.at("rays_hit"), expected.rays_hit);
-      // A ray whose length is a whole number of steps within rounding may have one sample more.
+      // A ray whose length is a whole number of steps up to round-off may have one more sample.
       EXPECT_NEAR(static_cast<double>(counts.at("samples")), static_cast<double>(expected.samples),
                   1e-4 * static_cast<double>(expected.samples));
       EXPECT_EQ(counts.at("bricks_visited"), 0U);
@@ -66,7 +66,7 @@ TEST(VulkanFrames, CountersEqualACountOnTheHost) {
   });
 }
 
-TEST(VulkanFrames, WhatIsSkippedIsSavedAndNothingVisibleIs) {
+TEST(VulkanFrames, OnlyInvisibleSamplesAreSkipped) {
   for_each_device([](measure::Device& device) {
     const scene::VolumeScene scene = make_scene({.data = "generate:sparse_field:48"});
     for (const std::string_view technique : picture_techniques) {
@@ -84,7 +84,7 @@ TEST(VulkanFrames, WhatIsSkippedIsSavedAndNothingVisibleIs) {
   });
 }
 
-TEST(VulkanFrames, ComputeAndFragmentCountAlike) {
+TEST(VulkanFrames, ComputeAndFragmentCountEqually) {
   for_each_device([](measure::Device& device) {
     const scene::VolumeScene scene = make_scene({.data = "generate:nested_shells:40"});
     EXPECT_EQ(counters(device, "raycast", scene, {}),
@@ -92,7 +92,7 @@ TEST(VulkanFrames, ComputeAndFragmentCountAlike) {
   });
 }
 
-TEST(VulkanFrames, StatisticsAreExactAndStayTheSame) {
+TEST(VulkanFrames, StatisticsAreExactAndRepeatable) {
   for_each_device([](measure::Device& device) {
     if (device.info().limits.at("pipelineStatisticsQuery") == "no") GTEST_SKIP();
     const auto compute = device.prepare(make_work("raycast", make_scene()));
@@ -100,7 +100,7 @@ TEST(VulkanFrames, StatisticsAreExactAndStayTheSame) {
     std::uint64_t fragments = 0;
     for (int repeat = 0; repeat < 3; ++repeat) {
       const record::Counts of_compute = compute->frame(Purpose::statistics).counts;
-      // Tiles of 8×8 pixels over 37×26.
+      // An image of 37×26 pixels has 5×4 tiles of 8×8 pixels.
       EXPECT_EQ(of_compute, (record::Counts{{"compute_invocations", 5U * 4U * 64U}}));
       const record::Counts of_draw = draw->frame(Purpose::statistics).counts;
       EXPECT_EQ(of_draw.at("input_assembly_vertices"), 3U);
@@ -108,9 +108,9 @@ TEST(VulkanFrames, StatisticsAreExactAndStayTheSame) {
       EXPECT_EQ(of_draw.at("vertex_invocations"), 3U);
       EXPECT_EQ(of_draw.at("clipping_invocations"), 1U);
       EXPECT_GE(of_draw.at("clipping_primitives"), 1U);
-      // The number depends on how the driver counts, which the judge checks. For 37×26 pixels,
-      // lavapipe of Mesa 22.3 counts all of them and helper invocations, and that of Mesa 25.0.7
-      // counts 957.
+      // The number depends on how the driver counts, which the gate judges separately. For 37×26
+      // pixels, lavapipe of Mesa 22.3 counts all of them and also helper invocations, whereas
+      // lavapipe of Mesa 25.0.7 counts 957.
       EXPECT_GT(of_draw.at("fragment_invocations"), 0U);
       if (repeat == 0) fragments = of_draw.at("fragment_invocations");
       EXPECT_EQ(of_draw.at("fragment_invocations"), fragments);
@@ -120,7 +120,7 @@ TEST(VulkanFrames, StatisticsAreExactAndStayTheSame) {
   });
 }
 
-TEST(VulkanFrames, TimesAreOfTimedFramesOnly) {
+TEST(VulkanFrames, OnlyTimedFramesHaveTimes) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : {"raycast", "raycast_fragment", "speed_of_light"}) {
       const auto prepared = device.prepare(make_work(technique, make_scene()));
@@ -134,12 +134,12 @@ TEST(VulkanFrames, TimesAreOfTimedFramesOnly) {
   });
 }
 
-TEST(VulkanFrames, AWholeRenderPassIsTimedByTheDevice) {
+TEST(VulkanFrames, DeviceTimeCoversTheWholeRenderPass) {
   for_each_device([](measure::Device& device) {
     const auto prepared =
         device.prepare(make_work("raycast_fragment", make_scene({.width = 256, .height = 256})));
-    static_cast<void>(prepared->frame(Purpose::timing));  // the first frame compiles
-    // The best of several frames, because a busy machine may wake up the thread late.
+    static_cast<void>(prepared->frame(Purpose::timing));  // the first frame compiles shaders
+    // Takes the best of several frames, because a busy machine may wake up the thread late.
     double of_wall = 0;
     for (int i = 0; i < 20; ++i) {
       const measure::Frame frame = prepared->frame(Purpose::timing);
@@ -151,7 +151,7 @@ TEST(VulkanFrames, AWholeRenderPassIsTimedByTheDevice) {
   });
 }
 
-TEST(VulkanFrames, EveryPurposeAndExtraWorkLeaveThePicture) {
+TEST(VulkanFrames, PurposeAndExtraWorkLeaveTheImageUnchanged) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : picture_techniques) {
       const core::Image plain = picture(device, make_work(technique, make_scene()));
@@ -172,7 +172,8 @@ TEST(VulkanFrames, ExtraWorkIsDone) {
     if (device.info().limits.at("pipelineStatisticsQuery") == "no") GTEST_SKIP();
     const auto prepared =
         device.prepare(make_work("raycast", make_scene(), {.extra_work_stride = 2}));
-    // Three tiles of 16 columns cover the image, and two of them are drawn again every second time.
+    // Three tiles of 16 columns cover the image, and two of them are drawn again in every second
+    // frame.
     EXPECT_EQ(prepared->frame(Purpose::statistics).counts.at("compute_invocations"),
               2U * (3U + 2U) * 4U * 64U);
     const auto drawn =
@@ -181,7 +182,7 @@ TEST(VulkanFrames, ExtraWorkIsDone) {
   });
 }
 
-TEST(VulkanFrames, TheHashIsOfDeviceCodeAlone) {
+TEST(VulkanFrames, TheHashCoversOnlyTheDeviceCode) {
   for_each_device([](measure::Device& device) {
     const auto hash = [&](std::string_view technique, const scene::VolumeScene& scene,
                           const technique::RaycastOptions& options = {}) {

@@ -1,5 +1,5 @@
-// Tests devices with smaller limits, which are made by lowering the limits of this machine's
-// devices.
+// Tests devices with smaller limits, which are simulated by lowering the limits that the machine's
+// devices report.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ std::string reason(const Gpu& gpu, std::string_view technique, const scene::Volu
   return volume_reason(gpu, {scene, {.skip = skip}}, technique, needs).value_or("");
 }
 
-TEST(VulkanLimits, CountersAndBrickMapsAreAskedFor) {
+TEST(VulkanLimits, CountersAndBrickMapsAreCheckedAgainstLimits) {
   constexpr std::uint32_t most = 1U << 20U;
   for_each_limited(most, [](const Gpu& gpu) {
     scene::VolumeScene scene = make_scene({.voxel = scene::VoxelFormat::u8, .width = 128});
@@ -49,7 +49,7 @@ TEST(VulkanLimits, CountersAndBrickMapsAreAskedFor) {
       EXPECT_THAT(reason(gpu, technique, scene, Skip::distance),
                   AllOf(HasSubstr("brick map"), HasSubstr("maxStorageBufferRange = 1048576")));
       EXPECT_EQ(reason(gpu, technique, scene, Skip::bricks), "");
-      scene.height = 256;  // the largest that fits, with 32 bytes of counters per pixel
+      scene.height = 256;  // the largest height that fits, with 32 bytes of counters per pixel
       EXPECT_EQ(reason(gpu, technique, scene, Skip::bricks), "");
       scene.height = 257;
       EXPECT_THAT(reason(gpu, technique, scene, Skip::bricks),
@@ -58,7 +58,7 @@ TEST(VulkanLimits, CountersAndBrickMapsAreAskedFor) {
   });
 }
 
-TEST(VulkanLimits, ABufferIsBoundWholeOrNotAtAll) {
+TEST(VulkanLimits, ABufferIsBoundCompletelyOrNotAtAll) {
   constexpr std::uint32_t most = 4096;
   for_each_limited(most, [](const Gpu& gpu) {
     using enum vk::DescriptorType;
@@ -78,8 +78,8 @@ TEST(VulkanLimits, ABufferIsBoundWholeOrNotAtAll) {
   });
 }
 
-// A larger error means that the filter is wrong, and must not make the bound of images wider.
-TEST(VulkanLimits, AFilterErrsByNoMoreThanItsFormatAndTheWeightsLeaveOpen) {
+// A larger error means that the filter is faulty, and must not widen the bound of images.
+TEST(VulkanLimits, TheAllowedFilterErrorFollowsFromFormatAndWeights) {
   using enum scene::VoxelFormat;
   const Instance instance;
   for (const Candidate& each : candidates(instance.physical_devices())) {

@@ -1,5 +1,5 @@
-// A fault of a driver, shown without any code of the backend: Mesa's llvmpipe, and lavapipe with
-// it, ends every loop after 65,535 passes. Rays with more samples are cut off there
+// Demonstrates a driver fault without any code of the backend: Mesa's llvmpipe, and therefore also
+// lavapipe, ends every loop after 65,535 iterations, which cuts off rays with more samples
 // (docs/accuracy.md, "Stress").
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ std::vector<std::uint32_t> count_to(const Gpu& gpu, std::uint32_t wanted) {
   return dispatch_once<std::uint32_t>(gpu, test_shaders::embedded("loop.comp.spv"), in, 1);
 }
 
-TEST(VulkanLoops, EndWhereTheyAreToldTo) {
+TEST(VulkanLoops, RunToTheirEnd) {
   const Instance instance;
   std::string faulty;
   for (const Candidate& each : candidates(instance.physical_devices())) {
@@ -36,10 +36,10 @@ TEST(VulkanLoops, EndWhereTheyAreToldTo) {
     EXPECT_TRUE(all_are(60'000, 60'000));
     if (all_are(100'000, 100'000)) continue;
     const std::vector<std::uint32_t> counted = count_to(gpu, 100'000);
-    EXPECT_TRUE(all_are(200'000, counted[0])) << "neither right nor the fault that is known";
+    EXPECT_TRUE(all_are(200'000, counted[0])) << "neither correct nor the known driver fault";
     faulty += each.info.id + " ends loops after " + std::to_string(counted[0]) + " passes; ";
   }
-  if (!faulty.empty()) GTEST_SKIP() << "the driver's fault: " << faulty;
+  if (!faulty.empty()) GTEST_SKIP() << "driver fault: " << faulty;
 }
 
 }  // namespace

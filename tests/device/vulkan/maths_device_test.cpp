@@ -1,4 +1,4 @@
-// The portable maths gives the same results in GLSL and in C++.
+// Tests that the portable maths gives the same results in GLSL and in C++.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,7 +20,7 @@ namespace triptych::vulkan_backend {
 namespace {
 
 namespace portable = technique::portable;
-using Vector = std::array<float, 2>;     // opacity, steps
+using Vector = std::array<float, 2>;     // opacity, number of steps
 using Results = std::array<float, 16>;   // see maths.comp
 using Doubles = std::array<double, 16>;  // see maths_fp64.comp
 
@@ -81,7 +81,8 @@ std::vector<Results> on_device(const Gpu& gpu, const std::vector<Vector>& in) {
                                 static_cast<std::uint32_t>(in.size() / 64));
 }
 
-// The distance in units in the last place; 0 for equal bits, for +0 and −0, and for two NaNs.
+// Returns the distance in units in the last place. It is 0 for identical bits, for +0 and −0, and
+// for two NaNs.
 std::int64_t ulps(float a, float b) {
   if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
   const auto ordered = [](float x) {
@@ -91,16 +92,16 @@ std::int64_t ulps(float a, float b) {
   return std::llabs(ordered(a) - ordered(b));
 }
 
-TEST(VulkanMaths, EqualsTheHosts) {
+TEST(VulkanMaths, MatchesTheHost) {
   const std::vector<Vector> in = vectors();
   const Instance instance;
   for (const Candidate& each : candidates(instance.physical_devices())) {
     SCOPED_TRACE(each.info.id);
     const Gpu gpu = open_gpu(each.physical);
     const std::vector<Results> out = on_device(gpu, in);
-    // Only sums, products, quotients and roots are used. A quotient may have an error of 2.5 ulp,
-    // and sums and products may be contracted. The longest chain of operations is within 8 ulp of
-    // the exact value on either side.
+    // The functions use only sums, products and quotients. A quotient may have an error of 2.5 ulp,
+    // and sums and products may be contracted to fused operations. On either side, the longest
+    // chain of operations is within 8 ulp of the exact value.
     constexpr std::int64_t allowed = 16;
     for (std::size_t i = 0; i < in.size(); ++i) {
       const Results host = on_host(in[i]);
@@ -113,8 +114,9 @@ TEST(VulkanMaths, EqualsTheHosts) {
   }
 }
 
-// The longest chain of operations is within 12 u of the exact value on either side, where u = 2⁻⁵³.
-TEST(VulkanMaths, EqualsTheHostsInDoublePrecision) {
+// On either side, the longest chain of operations is within 12 u of the exact value, where u =
+// 2⁻⁵³.
+TEST(VulkanMaths, MatchesTheHostInDoublePrecision) {
   const std::vector<Vector> in = vectors();
   const Instance instance;
   for (const Candidate& each : candidates(instance.physical_devices())) {
@@ -135,7 +137,7 @@ TEST(VulkanMaths, EqualsTheHostsInDoublePrecision) {
   }
 }
 
-TEST(VulkanMaths, ClosedFormsAreWhatTheGeneralOneIs) {
+TEST(VulkanMaths, ClosedFormsMatchTheGeneralForm) {
   for (const double step : {0.125, 0.25, 0.5, 1.0, 2.0, 4.0}) {
     const int form = technique::opacity_form(step);
     ASSERT_NE(form, 0);

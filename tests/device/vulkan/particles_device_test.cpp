@@ -1,5 +1,5 @@
-// Particles: compares every technique with the reference image, and checks the results of its
-// frames.
+// Compares particles drawn by every technique with the reference image, and tests the other results
+// of particle frames.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -70,12 +70,13 @@ measure::Work particle_work(std::string_view technique, const scene::ParticleSce
   return {std::string(technique), measure::ParticleWork{scene, options}};
 }
 
-// A few roundings of single precision in the ray and in the position of the sphere.
+// Allows for a few rounding errors of single precision in the ray and in the position of the
+// sphere.
 constexpr reference::SphereErrorModel bounds{
     .lateral_px = 1e-4, .lateral_relative = 2e-7, .depth_relative = 2e-6};
 
-// The number of certain pixels whose id differs from the reference image, or whose distance differs
-// by more than the rounding of single precision.
+// Returns the number of wrong pixels: certain pixels whose id differs from the reference image, or
+// whose distance differs by more than the rounding error of single precision.
 int wrong_pixels(const core::Image& image, const reference::SphereTruth& truth) {
   int wrong = 0;
   for (std::size_t i = 0; i < truth.ids.size(); ++i) {
@@ -110,7 +111,7 @@ void expect_truth(measure::Device& device, const scene::ParticleScene& scene,
   }
 }
 
-TEST(VulkanParticles, NearFarInsideAndBehind) {
+TEST(VulkanParticles, NearFarInsideAndBehindTheEye) {
   for_each_device([](measure::Device& device) {
     for (const double ratio : {0.0, 0.5, 1.0001, 1.25, 2.0, 1e5}) {
       const double fov = ratio > 10 ? 0.0013 : 60;
@@ -129,7 +130,7 @@ TEST(VulkanParticles, NearFarInsideAndBehind) {
   });
 }
 
-TEST(VulkanParticles, CountsAroundAWorkGroupAndNone) {
+TEST(VulkanParticles, ParticleCountsAroundTheWorkGroupSize) {
   for_each_device([](measure::Device& device) {
     for (const std::uint32_t count : {1U, 63U, 64U, 65U, 511U, 513U}) {
       expect_truth(device, generated("uniform", count), {}, fmt::format("{} particles", count));
@@ -144,7 +145,7 @@ TEST(VulkanParticles, CountsAroundAWorkGroupAndNone) {
   });
 }
 
-TEST(VulkanParticles, ColoursStagesAndCornersChangeNoId) {
+TEST(VulkanParticles, ColoursStagesAndCornersLeaveIdsUnchanged) {
   for_each_device([](measure::Device& device) {
     using technique::ComputedAt;
     for (const auto colour : {scene::ColourKind::rgba32, scene::ColourKind::intensity}) {
@@ -172,7 +173,7 @@ TEST(VulkanParticles, ColoursStagesAndCornersChangeNoId) {
   });
 }
 
-TEST(VulkanParticles, TiesAndLargeAmongSmallOnes) {
+TEST(VulkanParticles, TiesAndLargeSpheresAmongSmallOnes) {
   for_each_device([](measure::Device& device) {
     expect_truth(device, generated("coincident", 800, "random:3"), {}, "coincident");
     scene::ParticleScene scene = generated("uniform", 3000, "path_z:3/10");
@@ -181,10 +182,10 @@ TEST(VulkanParticles, TiesAndLargeAmongSmallOnes) {
   });
 }
 
-// A sphere that the plane of the eye cuts and that is visible only on the right. The sprite of
-// `point` is as large as what the sphere covers, whether the device's points are large enough or
-// not.
-TEST(VulkanParticles, APointThatReachesTheEyesPlaneIsNotTheWholeViewport) {
+// Draws a sphere that intersects the plane of the eye and is visible only on the right. The sprite
+// of `point` must be only as large as the sphere's projection, regardless of whether the device's
+// points are large enough.
+TEST(VulkanParticles, APointAcrossTheEyePlaneDoesNotFillTheViewport) {
   for_each_device([](measure::Device& device) {
     scene::ParticleScene scene = look_at(spheres({{1.5, 0, -0.9, 1}}), {0, 0, 0}, {0, 0, -1}, 60);
     scene.width = 600;
@@ -197,7 +198,7 @@ TEST(VulkanParticles, APointThatReachesTheEyesPlaneIsNotTheWholeViewport) {
   });
 }
 
-TEST(VulkanParticles, CullingAndExtraWorkLeaveEveryBit) {
+TEST(VulkanParticles, CullingAndExtraWorkAreBitIdentical) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = generated("uniform", 20000, "path_z:5/10");
     for (const std::string_view technique : techniques) {
@@ -221,7 +222,7 @@ TEST(VulkanParticles, CountersAddUpAndRepeat) {
     scene.width = 240;
     scene.height = 180;
     for (const std::string_view technique : techniques) {
-      std::uint64_t culled = 0;  // each kind of culling leaves out more than the previous one
+      std::uint64_t culled = 0;  // each kind of culling removes more than the previous one
       for (const Culling culling : {Culling::none, Culling::frustum, Culling::occlusion}) {
         const auto prepared = device.prepare(particle_work(technique, scene, {.culling = culling}));
         const record::Counts counts = prepared->frame(Purpose::counters).counts;
@@ -229,7 +230,7 @@ TEST(VulkanParticles, CountersAddUpAndRepeat) {
         EXPECT_EQ(counts.at("particles_submitted") + counts.at("particles_culled"), 20000U);
         EXPECT_LE(counts.at("sprites"), counts.at("particles_submitted"));
         EXPECT_EQ(counts.at("particles_culled") == 0, culling == Culling::none) << technique;
-        // If there are few rounds, little is hidden.
+        // If there are only a few rounds, little is hidden.
         const std::uint64_t factor = technique == "tiles" ? 1 : 2;
         EXPECT_GE(counts.at("particles_culled"), factor * culled) << technique;
         culled = counts.at("particles_culled");
@@ -246,7 +247,7 @@ TEST(VulkanParticles, CountersAddUpAndRepeat) {
   });
 }
 
-TEST(VulkanParticles, StatisticsAreThoseOfTheStagesThereAre) {
+TEST(VulkanParticles, StatisticsCoverExactlyTheStagesInUse) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = generated("uniform", 700);
     for (const std::string_view technique : techniques) {
@@ -266,14 +267,14 @@ TEST(VulkanParticles, StatisticsAreThoseOfTheStagesThereAre) {
   });
 }
 
-// The number of certain pixels that an injected fault makes wrong.
+// Returns the number of certain pixels that an injected fault makes wrong.
 int pixels_wrong_by(measure::Device& device, std::string_view technique,
                     const scene::ParticleScene& scene, ParticleFault fault) {
   const reference::SphereTruth truth = reference::render_spheres(scene, bounds, 1);
   return wrong_pixels(picture(device, particle_work(technique, scene, {.fault = fault})), truth);
 }
 
-TEST(VulkanParticles, InjectedFaultsChangeThePicture) {
+TEST(VulkanParticles, InjectedFaultsChangeTheImage) {
   for_each_device([](measure::Device& device) {
     scene::ParticleScene small = generated("uniform", 30);
     small.width = 300;
@@ -297,7 +298,7 @@ TEST(VulkanParticles, InjectedFaultsChangeThePicture) {
   });
 }
 
-TEST(VulkanParticles, AWorkOfTheOtherSuiteIsRefused) {
+TEST(VulkanParticles, WorkFromAnotherSuiteIsRejected) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = generated("uniform", 10);
     EXPECT_THAT(device.unsupported(particle_work("raycast", scene, {})).value_or(""),

@@ -1,4 +1,5 @@
-// Compares images with the reference image within the suite's bound, and with each other.
+// Compares images of volumes with the reference image within the suite's bound, and with each
+// other.
 #include <fmt/format.h>
 
 #include "reference/volume.hpp"
@@ -16,7 +17,7 @@ using technique::Sampler;
 using technique::Skip;
 
 struct Verdict {
-  int outside = 0;  // channels outside of the bound of their pixel
+  int outside = 0;  // number of channels that exceed the bound of their pixel
   double worst = 0;
 };
 
@@ -36,7 +37,7 @@ reference::Truth truth_of(const measure::Device& device, const scene::VolumeScen
   const double filter = device.filter_weight_error({scene.grid->format, options.sampler});
   reference::ErrorModel model =
       volume_suite::error_model(scene, {.ert = options.ert, .filter_weight_error = filter});
-  // A filter with eight bits also rounds its result, whatever the difference of the voxels is.
+  // An 8-bit filter also rounds its result, regardless of the difference between the voxels.
   if (filter > 1e-5) model.value_error += filter;
   return reference::render_volume(scene, model);
 }
@@ -62,9 +63,9 @@ TEST(VulkanPictures, EveryFormatAndSamplerIsWithinTheBound) {
   });
 }
 
-// Every closed form for the opacity of a step, the general form, and steps that are longer than the
-// volume.
-TEST(VulkanPictures, EveryStepIsWithinTheBound) {
+// Tests every closed-form expression for the opacity of a step, the general expression, and steps
+// that are longer than the volume.
+TEST(VulkanPictures, EveryStepSizeIsWithinTheBound) {
   for_each_device([](measure::Device& device) {
     for (const double step : {0.0625, 0.125, 0.25, 0.5, 0.7, 1.0, 2.0, 3.0, 4.0, 8.0, 1000.0}) {
       for (const bool shading : {false, true}) {
@@ -90,7 +91,7 @@ TEST(VulkanPictures, ThinVolumesAndOddViewports) {
   });
 }
 
-TEST(VulkanPictures, FromInsideOnFacesAndAlongTheAxes) {
+TEST(VulkanPictures, CamerasInsideOnFacesAndAlongAxes) {
   for_each_device([](measure::Device& device) {
     scene::VolumeScene scene = make_scene({.transfer_function = "haze"});
     const double edge = scene.box().hi.x;
@@ -99,7 +100,8 @@ TEST(VulkanPictures, FromInsideOnFacesAndAlongTheAxes) {
          {glm::dvec3{half, half, half}, glm::dvec3{0, 0, 0}, glm::dvec3{edge, half, edge},
           glm::dvec3{half, half, 2 * edge}, glm::dvec3{half, half, -edge}}) {
       scene.camera.eye = eye;
-      scene.camera.forward = {0, 0, -1};  // an odd number of pixels: rays with components of 0
+      // an odd number of pixels, so that some rays have components of 0
+      scene.camera.forward = {0, 0, -1};
       scene.camera.up = {0, 1, 0};
       scene.width = 17;
       scene.height = 13;
@@ -111,7 +113,7 @@ TEST(VulkanPictures, FromInsideOnFacesAndAlongTheAxes) {
   });
 }
 
-TEST(VulkanPictures, SkippingLeavesEveryBit) {
+TEST(VulkanPictures, SkippingIsBitIdentical) {
   for_each_device([](measure::Device& device) {
     for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
       for (const std::string_view preset : scene::transfer_function_presets()) {
@@ -136,7 +138,7 @@ TEST(VulkanPictures, SkippingLeavesEveryBit) {
   });
 }
 
-TEST(VulkanPictures, FragmentAndComputeAgreeWithinRounding) {
+TEST(VulkanPictures, FragmentAndComputeDifferOnlyByRounding) {
   for_each_device([](measure::Device& device) {
     for (const bool shading : {false, true}) {
       const scene::VolumeScene scene = make_scene({.shading = shading});
@@ -150,7 +152,7 @@ TEST(VulkanPictures, FragmentAndComputeAgreeWithinRounding) {
   });
 }
 
-TEST(VulkanPictures, RaysThatMissAreBackgroundToTheBit) {
+TEST(VulkanPictures, RaysThatMissShowExactlyTheBackground) {
   for_each_device([](measure::Device& device) {
     scene::VolumeScene scene = make_scene();
     scene.camera.forward = -scene.camera.forward;
@@ -161,7 +163,7 @@ TEST(VulkanPictures, RaysThatMissAreBackgroundToTheBit) {
   });
 }
 
-TEST(VulkanPictures, RepeatsHaveTheSameBits) {
+TEST(VulkanPictures, RepeatedFramesAreBitIdentical) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : picture_techniques) {
       const auto prepared = device.prepare(make_work(technique, make_scene()));
@@ -175,10 +177,10 @@ TEST(VulkanPictures, RepeatsHaveTheSameBits) {
   });
 }
 
-TEST(VulkanPictures, TheSpeedOfLightReadsWhatTheRaycasterReads) {
+TEST(VulkanPictures, SpeedOfLightReadsTheSameSamplesAsRaycast) {
   for_each_device([](measure::Device& device) {
-    // All entries are equal, so every sample adds the same colour, and the sums are the numbers of
-    // samples.
+    // All table entries are equal, so every sample adds the same colour, and the sums are
+    // proportional to the number of samples.
     scene::VolumeScene scene = make_scene({.transfer_function = "haze"});
     scene.transfer_function.entries.fill({1, 0.5F, 0.25F, 0.125F});
     scene.background = {};
@@ -201,7 +203,7 @@ TEST(VulkanPictures, TheSpeedOfLightReadsWhatTheRaycasterReads) {
   });
 }
 
-TEST(VulkanPictures, AnInjectedFaultIsOutsideTheBound) {
+TEST(VulkanPictures, InjectedFaultsExceedTheBound) {
   for_each_device([](measure::Device& device) {
     const scene::VolumeScene scene =
         make_scene({.data = "generate:gradient_box:24", .transfer_function = "haze"});

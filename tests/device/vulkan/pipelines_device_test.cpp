@@ -1,4 +1,4 @@
-// A pipeline is built only once for each combination of properties.
+// Tests that each combination of properties creates only one pipeline.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -13,7 +13,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-// The shaders of the tests use the first two.
+// The shaders of these tests use the first two bindings.
 Layout layout_of(const Gpu& gpu, std::uint32_t bindings) {
   std::vector<vk::DescriptorSetLayoutBinding> all;
   for (std::uint32_t i = 0; i < bindings; ++i) {
@@ -34,7 +34,7 @@ void for_each_gpu(Check&& check) {
   }
 }
 
-TEST(VulkanPipelines, OneForEachCodeConstantAndLayout) {
+TEST(VulkanPipelines, OnePerCodeConstantsAndLayout) {
   for_each_gpu([](const Gpu& gpu) {
     const auto made = [&](std::string_view code, std::int32_t leaps, std::uint32_t bindings) {
       return compute_pipeline(gpu, layout_of(gpu, bindings), test_shaders::embedded(code),
@@ -48,7 +48,7 @@ TEST(VulkanPipelines, OneForEachCodeConstantAndLayout) {
   });
 }
 
-TEST(VulkanPipelines, OneForEachStateOfADraw) {
+TEST(VulkanPipelines, OnePerDrawState) {
   for_each_gpu([](const Gpu& gpu) {
     if (!gpu.draws) return;
     const auto made = [&](vk::Format format, std::uint32_t edge) {

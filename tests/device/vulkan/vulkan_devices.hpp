@@ -1,5 +1,5 @@
 #pragma once
-// The devices of the API, opened as the tests need them.
+// Opens the devices of the API for the tests in this folder.
 
 #include <array>
 #include <cstdlib>
@@ -19,10 +19,11 @@ using test::make_work;
 using test::picture;
 using test::SceneOptions;
 
-// Volume techniques that draw an image.
+// The volume techniques that draw an image.
 inline constexpr std::array<std::string_view, 2> picture_techniques{"raycast", "raycast_fragment"};
 
-// With the validation layer if it is installed, so that a test fails at any of its messages.
+// Enables the validation layer if it is installed, so that a test fails if the layer reports
+// anything.
 inline std::unique_ptr<measure::Backend> backend_under_test() {
   for (const char* folder : {"/usr/share/vulkan", "/usr/local/share/vulkan", "/etc/vulkan"}) {
     if (std::filesystem::exists(std::filesystem::path(folder) / "explicit_layer.d" /
