@@ -69,7 +69,7 @@ TEST_F(Diff, WhatOnlyOneHasCannotBeJudged) {
   measure("new.sqlite", "", "volume/accuracy");
   const Result result = diff();
   EXPECT_EQ(result.code, 2) << result.output;
-  EXPECT_THAT(result.output, HasSubstr("plan volume/accuracy: only b has it"));
+  EXPECT_THAT(result.output, HasSubstr("plan volume/accuracy exists only in b"));
 }
 
 // The driver could draw nothing, neither before nor after, which does not count as a pass.

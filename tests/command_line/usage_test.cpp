@@ -110,7 +110,7 @@ TEST(Usage, ADeviceThatIsNotThere) {
 TEST(Usage, ADeviceOfNoApiSaysHowItsWorkerEnded) {
   const Program program;
   expect_refused(program.run("compare volume/quick --a bogus:x --b null:scripted"), 2,
-                 "the worker exited with code 3; its last output: triptych: unknown API");
+                 "the worker exited with code 3; the worker's last output: triptych: unknown API");
 }
 
 // Each command names the option that it has.

@@ -73,7 +73,7 @@ TEST_F(Validate, WhatFailsOnceIsAFlakeAndIsTold) {
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(program.read("known.json"), HasSubstr(R"("outcome":"flake")"));
   EXPECT_THAT(program.read("validation/gate.log"),
-              HasSubstr("flake, right when it was drawn again: crashed: "));
+              HasSubstr("flake (correct when drawn again): crashed: "));
   // The store still contains the failed record.
   const Result gate = program.run(
       "gate volume/quick --shard 1/400 --store validation/validation.sqlite --check image", script);

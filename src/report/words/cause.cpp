@@ -47,12 +47,13 @@ std::string found(const Cause& cause) {
     text = fmt::format("worst in {}: {}", record::short_name(worst.configuration), text);
   }
   if (!group.right_on.empty() && group.first->verdict == judge::Verdict::regression) {
-    text += fmt::format("; {} right", with_verb(group.right_on, "is", "are"));
+    text += fmt::format("; correct on {}", fmt::join(group.right_on, ", "));
   }
   if (group.changed_with_it > 0) {
     text += group.configurations == 1
                 ? "; its counters changed, too"
-                : fmt::format("; the counters of {} changed, too", group.changed_with_it);
+                : fmt::format("; the counters of {} configurations changed, too",
+                              group.changed_with_it);
   }
   return text;
 }
@@ -63,11 +64,12 @@ std::string blame(const FindingGroup& group) {
     case Blame::Of::unknown:
       break;
     case Blame::Of::driver:
-      return fmt::format("the driver is at fault, because {} right with the same API",
+      return fmt::format("the driver is at fault, because {} correct with the same API",
                          with_verb(blame.devices, "is", "are"));
     case Blame::Of::driver_since_accepted:
-      return fmt::format("the driver is at fault, because {} right with the same API when accepted",
-                         with_verb(blame.devices, "was", "were"));
+      return fmt::format(
+          "the driver is at fault, because {} correct with the same API when accepted",
+          with_verb(blame.devices, "was", "were"));
     case Blame::Of::not_the_driver:
       return fmt::format("the driver is not at fault, because {} wrong, too",
                          with_verb(blame.devices, "is", "are"));
@@ -111,7 +113,7 @@ std::vector<std::string> next_steps(const Overview& all, std::string_view store_
   } else if (drawn) {
     first = "next: for a bug report, use the command above with reduce instead of render";
   }
-  return {first, "      find the commit: gate --bisect; excuse a known bug: waivers.json"};
+  return {first, "      to find the commit: gate --bisect; to excuse a known bug: waivers.json"};
 }
 
 std::string_view word_of(core::ExitCode code) {

@@ -1,6 +1,6 @@
 #pragma once
-// Texts about a group of findings with one cause, and about exit codes. They quote drivers and
-// data, so callers must escape them.
+// Sentences about a group of findings with the same cause, and about exit codes. They quote drivers
+// and data, so callers must escape them.
 
 #include <string>
 #include <string_view>
@@ -10,25 +10,29 @@
 
 namespace triptych::report::words {
 
-// The configuration, or "12 configurations"; empty for a finding about a whole device or plan.
+// Returns the configuration, or "12 configurations" if there are several. Empty for a finding about
+// a whole device or plan.
 [[nodiscard]] std::string subject(const FindingGroup& group);
-// "vulkan:lavapipe, technique=raycast (12 configurations)"; the plans if neither is known.
+// Returns where the findings are: "vulkan:lavapipe, technique=raycast (12 configurations)", or the
+// plans if the findings belong to no device.
 [[nodiscard]] std::string place(const Cause& cause);
-// The finding for the worst configuration, and the devices that pass it.
+// Returns the finding about the worst configuration, followed by the devices on which the
+// configurations pass.
 [[nodiscard]] std::string found(const Cause& cause);
-// The component at fault; empty if the other devices do not reveal it.
+// States whether the driver is at fault. Empty if the results of the other devices do not show
+// this.
 [[nodiscard]] std::string blame(const FindingGroup& group);
-// The finding, the component at fault and the advice.
+// Returns found(), blame() and the advice in one line.
 [[nodiscard]] std::string text_of(const Cause& cause);
 
-// Two lines about the next steps after a regression, with suitable commands; none if there is no
-// regression. `store_option` is " --store FILE", or empty for the default.
+// Returns two lines that suggest the next commands after a regression, or no lines if there is no
+// regression. `store_option` is " --store FILE", or empty for the default store.
 [[nodiscard]] std::vector<std::string> next_steps(const Overview& all,
                                                   std::string_view store_option);
 
 // "FAIL", "PASS", "CANNOT JUDGE"
 [[nodiscard]] std::string_view word_of(core::ExitCode code);
-// "1: something is wrong", for people who see only the number.
+// Explains an exit code: "1: something is wrong or has changed".
 [[nodiscard]] std::string_view meaning_of(core::ExitCode code);
 
 }  // namespace triptych::report::words

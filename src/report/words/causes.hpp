@@ -1,6 +1,6 @@
 #pragma once
-// Sentences by cause, used only by words/observation.cpp: about images, about values that are
-// compared with stored ones, about correlations, and about stress cases.
+// One function for each cause whose sentence needs more than one line of code. They are called only
+// by words/observation.cpp.
 
 #include <string>
 #include <string_view>
@@ -14,9 +14,9 @@ namespace triptych::report::words {
 [[nodiscard]] std::string counted(double n, std::string_view one, std::string_view many);
 // "12 configurations (A; B; C; …)".
 [[nodiscard]] std::string examples(const std::vector<std::string>& configurations);
-// A ratio as "+1.4 %".
+// Formats a ratio as a change: "+1.4 %".
 [[nodiscard]] std::string percent(double ratio);
-// The other side of a comparison: "the reference image".
+// Names what a result was compared with: "the reference image".
 [[nodiscard]] std::string_view text_of(judge::Against against);
 
 [[nodiscard]] std::string within_bound(const judge::Observation& what);

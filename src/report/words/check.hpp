@@ -1,5 +1,5 @@
 #pragma once
-// One row for each check, with its words on screens and pages. A test compares the rows with
+// The words for each check on screens and pages. A test compares the rows with
 // record::every_check.
 
 #include <array>
@@ -14,8 +14,8 @@ struct CheckWords {
   std::string_view label;
   std::string_view wrong;   // "18 of 66 wrong"
   std::string_view passed;  // "264 within their error bounds"
-  std::string_view none;    // shown if no check reached a verdict
-  bool always;              // the row is shown even if the check did not run
+  std::string_view none;    // shown if the check reached no verdict
+  bool always;              // whether the row is shown even if the check did not run
 };
 
 inline constexpr std::array check_words{

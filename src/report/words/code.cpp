@@ -22,7 +22,8 @@ std::string change_text(const CodeChange& change) {
   return text;
 }
 
-// Register counts explain the occupancy, so they follow it in parentheses.
+// Lists the changes of one executable. Changed register counts follow the occupancy in parentheses,
+// because they explain it.
 std::string executable_text(const std::vector<CodeChange>& changes) {
   std::vector<std::string> deciding;
   std::vector<std::string> others;

@@ -47,7 +47,7 @@ std::string other_bits(const Difference& difference) {
       "{:.0f} of {:.0f} pixels differ, by at most {:.3g} at ({:.0f}, {:.0f}), RMS {:.3g}",
       number("pixels"), number("total"), number("error"), number("x"), number("y"), number("rmse"));
   if (difference.numbers.contains("particles")) {
-    text += fmt::format("; {} another particle",
+    text += fmt::format("; {} a different particle",
                         counted(number("particles"), "pixel shows", "pixels show"));
   }
   return text;
@@ -61,7 +61,7 @@ std::string all_changes(const Difference& difference) {
   return text;
 }
 
-// The values of a counter or statistic, without its name, which the caller writes before them.
+// Returns the values of a counter or statistic, without its name: "1000 → 1001 (+0.1 %)".
 std::string values(const Difference& difference) {
   const judge::Change& change = difference.changes.at(0);
   if (!change.before || !change.now) {
@@ -86,14 +86,14 @@ std::string sentence_of(const Difference& difference) {
     case DifferenceCause::ended:
       return by_side(difference.sides, " ");
     case DifferenceCause::only_one_side:
-      return fmt::format("only {} has it", measure::name_of(*difference.side));
+      return fmt::format("exists only in {}", measure::name_of(*difference.side));
     case DifferenceCause::no_reference:
     case DifferenceCause::wrong_image:
       return by_side(difference.sides, ": ");
     case DifferenceCause::other_bits:
       return other_bits(difference);
     case DifferenceCause::other_bits_of_one_code:
-      return "the same device code drew another image on the same device: " +
+      return "the same device code drew a different image on the same device: " +
              other_bits(difference);
     case DifferenceCause::two_counters:
       return fmt::format("not comparable: a was counted by {}, and b by {}",
@@ -105,16 +105,16 @@ std::string sentence_of(const Difference& difference) {
     case DifferenceCause::code_total:
       return text_of(*difference.total);
     case DifferenceCause::reported_by_one_side:
-      return fmt::format("only {} reports it: {}", measure::name_of(*difference.side),
+      return fmt::format("reported only by {}: {}", measure::name_of(*difference.side),
                          values(difference));
     case DifferenceCause::same_driver:
       return values(difference) + ", although the driver is the same";
     case DifferenceCause::api_specific:
-      return values(difference) + "; the APIs do this in different ways";
+      return values(difference) + "; the value depends on the API";
     case DifferenceCause::beyond_rounding:
-      return values(difference) + ", more than rounding explains";
+      return values(difference) + ", which is more than rounding can explain";
     case DifferenceCause::within_rounding:
-      return values(difference) + ", which rounding explains";
+      return values(difference) + ", which rounding can explain";
     case DifferenceCause::drivers_must_agree:
       return values(difference) + ", although the APIs define this value exactly";
     case DifferenceCause::drivers_may_differ:
@@ -135,11 +135,11 @@ std::string range_of(const std::pair<double, double>& ratios) {
   return least == largest ? least : least + " to " + largest;
 }
 
-// The parts of a device's key in the order of the key.
+// A part of a device key.
 struct KeyPart {
   std::string text;
-  std::string variable = {};  // if it is an environment variable
-  bool processor = false;     // the features of a processor
+  std::string variable = {};  // the name, if this part is an environment variable
+  bool processor = false;     // whether this part lists the features of the processor
   bool operator==(const KeyPart&) const = default;
 };
 
@@ -168,7 +168,7 @@ bool has(const std::vector<KeyPart>& parts, const KeyPart& part) {
   return std::ranges::find(parts, part) != parts.end();
 }
 
-// The parts that `b` has and `a` does not. A variable that only `a` sets is named, too.
+// Returns the parts that `b` has and `a` does not have, and the variables that only `a` sets.
 std::vector<std::string> differing(const std::vector<KeyPart>& a, const std::vector<KeyPart>& b) {
   std::vector<std::string> parts;
   for (const KeyPart& part : b) {
@@ -246,11 +246,11 @@ std::string text_of(const TimeReason& reason) {
     case TimeCause::side_ended:
       return fmt::format("{} {}", side, text_of(reason.outcome, reason.reason));
     case TimeCause::only_one_side:
-      return fmt::format("only {} has it", side);
+      return fmt::format("exists only in {}", side);
     case TimeCause::wrong_image:
       return fmt::format("the image of {} is wrong, so its time is meaningless", side);
     case TimeCause::no_fresh_process_runs:
-      return fmt::format("{} at first, but it could not be measured in fresh process runs",
+      return fmt::format("{} at first, but this could not be confirmed in fresh process runs",
                          suspected);
     case TimeCause::not_confirmed:
       return fmt::format(
@@ -283,8 +283,8 @@ std::string text_of(WallClockCause cause) {
 
 std::string text_of(const comparison::OnlyOne& only) {
   const std::string_view side = measure::name_of(only.side);
-  if (only.device.empty()) return fmt::format("plan {}: only {} has it", only.plan, side);
-  return fmt::format("{} on {}: only {} has it", only.plan, only.device, side);
+  if (only.device.empty()) return fmt::format("plan {} exists only in {}", only.plan, side);
+  return fmt::format("{} on {} exists only in {}", only.plan, only.device, side);
 }
 
 std::string stage_of(const comparison::ComparisonProgress& progress) {
@@ -294,7 +294,7 @@ std::string stage_of(const comparison::ComparisonProgress& progress) {
     case comparison::ComparisonStage::first_look:
       return "first estimate of the time";
     case comparison::ComparisonStage::more_blocks:
-      return "more blocks";
+      return "additional blocks";
     case comparison::ComparisonStage::fresh_process_runs:
       return fmt::format("fresh process run {} of {}", progress.process_run, progress.process_runs);
   }
@@ -310,8 +310,7 @@ std::string nothing_compared(const TimeReason& first) {
 std::string sides(const record::Device& a, const record::Device& b) {
   std::vector<KeyPart> parts_a = parts_of(a);
   std::vector<KeyPart> parts_b = parts_of(b);
-  // The list of processor features is long, and if both sides have the same one, it explains
-  // nothing.
+  // The list of processor features is long, so it is left out if it is equal on both sides.
   const auto is_shared_processor = [](const std::vector<KeyPart>& other) {
     return [&other](const KeyPart& part) { return part.processor && has(other, part); };
   };
@@ -367,7 +366,7 @@ std::string sentence(const comparison::SideBySide& table) {
 std::string fails_differently(const judge::Observation& first,
                               const std::optional<judge::Observation>& again) {
   return fmt::format(
-      "the frame cannot be made smaller, because it fails differently when it is drawn again. "
+      "the frame cannot be reduced, because it fails differently when it is drawn again. "
       "First: {}. Then: {}",
       text_of(first), again ? text_of(*again) : "it did not fail");
 }

@@ -1,7 +1,6 @@
 #pragma once
-// All sentences about comparisons of two devices, drivers, builds or stores. Texts quote drivers
-// and name data, so they are of unknown origin: escape them for the format into which they are
-// written.
+// All sentences about comparisons of two devices, drivers, builds or stores. They quote drivers and
+// name data, so callers must escape them for the output format.
 //
 // To add a cause, add a value to comparison::DifferenceCause or TimeCause, a row to its table of
 // names (comparison/difference.cpp), and a case to the switch in words/comparison.cpp.
@@ -20,30 +19,31 @@ namespace triptych::report::words {
 [[nodiscard]] std::string text_of(const comparison::Difference& difference);
 // "in 27 configurations, +1.2 % to +40 %, most in CONFIGURATION: …".
 [[nodiscard]] std::string text_of(const comparison::DifferenceGroup& group);
-// One line for each group: "regression    cost: +1.2 % to +40 % in 27 configurations, …".
+// Returns one line for each group: "regression    cost: +1.2 % to +40 % in 27 configurations, …".
 [[nodiscard]] std::string lines_of(const std::vector<comparison::DifferenceGroup>& groups);
-// The reason why there is no verdict on a time; empty if there is a verdict.
+// Returns why there is no verdict on a time, or "" if there is a verdict.
 [[nodiscard]] std::string text_of(const comparison::TimeReason& reason);
 [[nodiscard]] std::string text_of(comparison::WallClockCause cause);
-// "plan volume/quick: only a has it".
+// "plan volume/quick exists only in a".
 [[nodiscard]] std::string text_of(const comparison::OnlyOne& only);
-// The current measurement: "fresh process run 2 of 5".
+// Describes the measurement that is in progress: "fresh process run 2 of 5".
 [[nodiscard]] std::string stage_of(const comparison::ComparisonProgress& progress);
 
-// For a comparison without differences because nothing was measured. `first` is the reason of the
-// first configuration.
+// States that nothing could be compared. `first` is the reason why the first configuration was not
+// measured.
 [[nodiscard]] std::string nothing_compared(const comparison::TimeReason& first);
-// The two sides in two lines. Their common part appears only once.
+// Describes the two sides in two lines. For two drivers or settings of the same device, the second
+// line contains only what differs.
 [[nodiscard]] std::string sides(const record::Device& a, const record::Device& b);
 // "FAIL: 18 slower, 3 same; 2 deterministic regressions, 0 fixed, 1 changed; 64 s"
 [[nodiscard]] std::string headline(const comparison::ComparisonResult& result);
 
-// "gl:x is best in 5 of its 8 techniques; vulkan:y takes 0.98 to 1.3 times as much in the
-// techniques of both"; for two or more devices.
+// Summarizes a table of two or more devices: "gl:x is best in 5 of its 8 techniques; vulkan:y takes
+// 0.98 to 1.3 times as much in the techniques that both have".
 [[nodiscard]] std::string sentence(const comparison::SideBySide& table);
 
-// For a failure that cannot be made smaller, because it fails in another way when it is drawn
-// again. `again` is empty if it did not fail again.
+// States that a frame cannot be reduced, because it fails in a different way when it is drawn
+// again. `again` is nullopt if it did not fail again.
 [[nodiscard]] std::string fails_differently(const judge::Observation& first,
                                             const std::optional<judge::Observation>& again);
 

@@ -3,7 +3,7 @@
 
 namespace triptych::report::words {
 
-// `text`, followed by `detail` if there is any.
+// Returns `text`, followed by a colon and `detail` unless `detail` is empty.
 [[nodiscard]] inline std::string with_detail(std::string text, const std::string& detail) {
   if (!detail.empty()) text += (text.empty() ? "" : ": ") + detail;
   return text;

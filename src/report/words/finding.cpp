@@ -21,21 +21,20 @@ using judge::GateResult;
 using judge::Known;
 using judge::Verdict;
 
-// The words that precede the sentence of a finding if the finding is excused or expected.
+// Returns the words before the sentence of a finding that is excused or unexpected.
 std::string excuse(const Finding& finding) {
   const Excuse& excuse = finding.excuse;
   switch (excuse.of) {
     case Excuse::Of::waived:
       return fmt::format("waived until {} ({}): ", excuse.expiry, excuse.reason);
     case Excuse::Of::known:
-      return excuse.known == Known::fail
-                 ? "known failure: "
-                 : fmt::format("known {}: ", judge::name_of(excuse.known));
+      return excuse.known == Known::fail ? "known failure: "
+                                         : fmt::format("known {}: ", judge::name_of(excuse.known));
     case Excuse::Of::unexpected:
       return finding.verdict == Verdict::improved
-                 ? fmt::format("passes, but the file of expectations lists it as a {} ({}): ",
+                 ? fmt::format("passes, although the file of expectations lists it as '{}' ({}): ",
                                judge::name_of(excuse.known), excuse.reason)
-                 : "skipped, which is not expected: ";
+                 : "unexpectedly skipped: ";
     case Excuse::Of::expired:
     case Excuse::Of::nothing:
       break;
@@ -48,9 +47,9 @@ std::string drawn_again(const Finding& finding) {
     case Again::not_drawn:
       break;
     case Again::flake:
-      return "flake, right when it was drawn again: ";
+      return "flake (correct when drawn again): ";
     case Again::slow:
-      return "right when it was drawn again, so it is slow or hangs at times: ";
+      return "correct when drawn again, so the device is slow or hangs sometimes: ";
     case Again::other:
       break;
   }
@@ -103,14 +102,14 @@ std::string found(const Finding& finding) {
   if (!finding.subject.empty()) text += finding.subject + ": ";
   text += text_of(static_cast<const judge::Observation&>(finding));
   if (finding.measured_before) {
-    text += "; the same device measured it when its baselines were accepted";
+    text += "; this device measured it when its baselines were accepted";
   }
   if (finding.excuse.of == Excuse::Of::expired) {
     text += fmt::format("; a waiver for it expired on {} ({})", finding.excuse.expiry,
                         finding.excuse.reason);
   }
   for (const judge::Observation& each : finding.again) {
-    text += "; when it was drawn again: " + text_of(each);
+    text += "; when drawn again: " + text_of(each);
   }
   if (!finding.injected.empty()) {
     text += fmt::format(" [injected: {}]", fmt::join(finding.injected, "+"));
@@ -124,30 +123,31 @@ std::string advice(const Finding& finding) {
     case Advice::none:
       break;
     case Advice::accept:
-      return "accept it with " + command;
+      return "accept the run with " + command;
     case Advice::run_again:
       return "run the plan again";
     case Advice::resume:
       return "finish the run with " + command;
     case Advice::restore_data:
-      return fmt::format("restore the file and run again, or accept it with {}", command);
+      return fmt::format("restore the data and run the plan again, or accept the run with {}",
+                         command);
     case Advice::restore_or_run_again:
-      return "restore the file, or run the plan again";
+      return "restore the data, or run the plan again";
     case Advice::restore_baselines:
       return fmt::format("restore the baselines from version control, or start over with {}",
                          command);
     case Advice::count:
-      return "count instructions, or leave cost out of --check";
+      return "count instructions, which needs Valgrind, or leave the check out with --without cost";
     case Advice::judge_more:
-      return fmt::format("judge more checks, or accept the new values with {}", command);
+      return fmt::format("request more checks, or accept the run with {}", command);
     case Advice::more_time:
-      return "increase its time limit with --limit";
+      return "increase the time limit with --limit";
     case Advice::times:
       return "times affect the verdict only with --times";
     case Advice::repair_driver:
       return "repair the driver, or declare the device missing on this machine with " + command;
     case Advice::remove_entry:
-      return "remove its entry from the file of expectations";
+      return "remove the entry from the file of expectations";
     case Advice::remove_waiver:
       return "remove the waiver";
   }

@@ -1,4 +1,4 @@
-// Sentences about images and about stress cases, which are also about images.
+// Sentences about images, including the images of stress cases.
 
 #include <fmt/format.h>
 
@@ -43,22 +43,22 @@ std::string pixels_over_bound(const Observation& what) {
                   what.number("pixels_over"), what.number("pixels"), text_of(what.against));
   if (what.number("pixels_of_another_particle") > 0) {
     text +=
-        fmt::format("{:.0f} show another particle; ", what.number("pixels_of_another_particle"));
+        fmt::format("{:.0f} show the wrong particle; ", what.number("pixels_of_another_particle"));
   }
   return text + largest_errors(what);
 }
 
 std::string not_finite(const Observation& what) {
-  if (!what.numbers.contains("pixels")) return "some pixels have values that are not finite";
-  return fmt::format("{:.0f} of {:.0f} pixels have values that are not finite, here or in {}",
+  if (!what.numbers.contains("pixels")) return "some pixels have non-finite values";
+  return fmt::format("{:.0f} of {:.0f} pixels have non-finite values, in this image or in {}",
                      what.number("pixels_not_finite"), what.number("pixels"),
                      text_of(what.against));
 }
 
 std::string other_surface(const Observation& what) {
   return fmt::format(
-      "{:.0f} of {:.0f} pixels show another particle than {}, and {:.0f} more show the right "
-      "particle at another depth; the first is pixel ({:.0f}, {:.0f}): {} at depth {:.6g}, "
+      "{:.0f} of {:.0f} pixels show a different particle than {}, and {:.0f} more show the correct "
+      "particle at a wrong depth; the first is pixel ({:.0f}, {:.0f}): {} at depth {:.6g}, "
       "expected {} at {:.6g} ± {:.3g}",
       what.number("pixels_of_another_particle"), what.number("pixels"), text_of(what.against),
       what.number("pixels_at_another_depth"), what.number("x"), what.number("y"),
@@ -80,9 +80,9 @@ std::string reference_changed(const Observation& what) {
 
 std::string devices_compared(const Observation& what) {
   const bool agree = what.cause == judge::Cause::devices_agree;
-  std::string text = fmt::format("the images of {} and {} differ most: RMS {:.3g}, allowed {:.3g}",
-                                 what.fact("device"), what.fact("other"), what.number("rms"),
-                                 what.number("allowed"));
+  std::string text = fmt::format(
+      "the images of {} and {} differ the most: RMS {:.3g}, allowed {:.3g}", what.fact("device"),
+      what.fact("other"), what.number("rms"), what.number("allowed"));
   if (agree) return text;
   return text + fmt::format(
                     "; both are within their error bounds, but {} is farther from the reference "
@@ -110,17 +110,18 @@ std::string score(const Observation& what) {
 std::string farther_device(const Observation& what) {
   return fmt::format(
       "the image differs from that of {} by RMS {:.3g}, allowed {:.3g}, and is farther from the "
-      "reference image (RMSE {:.3g}, {:.3g})",
+      "reference image (RMSE {:.3g}, compared with {:.3g})",
       what.fact("other"), what.number("rms"), what.number("allowed"), what.number("rmse"),
       what.number("rmse_of_other"));
 }
 
 std::string pixels_differ(const Observation& what) {
   return fmt::format(
-      "{:.0f} of {:.0f} pixels differ {} from the image with {}; the first is pixel ({:.0f}, "
-      "{:.0f}): {} instead of {}",
+      "{:.0f} of {:.0f} pixels {} the image with {}; the first is pixel ({:.0f}, {:.0f}): {} "
+      "instead of {}",
       what.number("pixels_differing"), what.number("pixels"),
-      what.fact("by") == "bits" ? "in their bits" : "by more than both error bounds",
+      what.fact("by") == "bits" ? "are not bit-identical to"
+                                : "differ by more than the sum of both error bounds from",
       what.fact("levels"), what.number("x"), what.number("y"), colour(what, ""),
       colour(what, "other_"));
 }
@@ -128,7 +129,7 @@ std::string pixels_differ(const Observation& what) {
 std::string not_inside(const Observation& what) {
   return fmt::format(
       "this image of {:.0f}x{:.0f} pixels, placed at ({:.0f}, {:.0f}), does not lie inside the "
-      "image with {}, which has {:.0f}x{:.0f}",
+      "image with {}, which has {:.0f}x{:.0f} pixels",
       what.number("width"), what.number("height"), what.number("x"), what.number("y"),
       what.fact("levels"), what.number("other_width"), what.number("other_height"));
 }
@@ -145,7 +146,7 @@ std::string count_too_large(const Observation& what) {
     allowed += fmt::format(" × {:.0f} {}", what.number("unit"), what.fact("of"));
     if (!what.fact("levels").empty()) allowed += " with " + what.fact("levels");
   }
-  return fmt::format("{} is {:.0f}, but at most {} is allowed", what.fact("counter"),
+  return fmt::format("the counter {} is {:.0f}, but at most {} is allowed", what.fact("counter"),
                      what.number("count"), allowed);
 }
 

@@ -41,14 +41,13 @@ std::string other_plan(const Observation& what) {
   const std::string measured = what.fact("hash");
   return fmt::format("run {} measured another version of the plan {} ({})", what.fact("run"),
                      what.fact("plan"),
-                     measured.empty() ? "it has no hash"
+                     measured.empty() ? "the run has no hash"
                                       : fmt::format("hash {}, now {}", measured, what.fact("now")));
 }
 
 std::string no_longer_reported(const Observation& what) {
-  if (what.names.empty())
-    return "these values are missing, but they were there when it was accepted";
-  return fmt::format("these values are missing for {}, but they were there when it was accepted",
+  if (what.names.empty()) return "these values are missing, although they are stored";
+  return fmt::format("these values are missing, although they are stored, for {}",
                      examples(what.names));
 }
 
@@ -62,8 +61,8 @@ std::string changed_in(const Observation& what, std::string_view which) {
       fmt::format("{} changed in {}", which,
                   counted(what.number("configurations"), "configuration", "configurations"));
   if (!what.changes.empty()) {
-    text +=
-        fmt::format(", most in {}: {}", what.fact("configuration"), text_of(what.changes.front()));
+    text += fmt::format(", the most in {}: {}", what.fact("configuration"),
+                        text_of(what.changes.front()));
   }
   return text;
 }
@@ -78,7 +77,7 @@ std::string_view fault_text(record::DeviceFaultKind kind) {
     case record::DeviceFaultKind::clock_reads_zero:
       return "the device's clock always reads 0";
     case record::DeviceFaultKind::clock_rate_wrong:
-      return "the ticks of the device's clock do not have the length that the driver reports";
+      return "the ticks of the device's clock are longer or shorter than the driver reports";
     case record::DeviceFaultKind::clock_not_written:
       return "the driver never writes the requested time stamps";
     case record::DeviceFaultKind::statistics_all_zero:
@@ -87,7 +86,7 @@ std::string_view fault_text(record::DeviceFaultKind kind) {
       return "the driver crashes when pipeline statistics are read, so everything else was "
              "measured without them";
     case record::DeviceFaultKind::statistics_not_ready:
-      return "pipeline statistics do not become available, although the program waits for them, so "
+      return "pipeline statistics do not become available, although Triptych waits for them, so "
              "everything else was measured without them";
     case record::DeviceFaultKind::teardown_crash:
       return "the driver crashes while the device is closed or the process ends";
@@ -104,13 +103,13 @@ std::string device_fault(const Observation& what) {
   if (!what.fact("subject").empty()) text += fmt::format(" ({} work)", what.fact("subject"));
   text = with_detail(text, what.detail);
   if (!what.fact("last_words").empty()) {
-    text += fmt::format("; it last printed: {}", what.fact("last_words"));
+    text += fmt::format("; the worker's last output: {}", what.fact("last_words"));
   }
   return text;
 }
 
 std::string not_counted(const Observation& what) {
-  std::string text = fmt::format("{} was not counted", what.fact("counter"));
+  std::string text = fmt::format("the counter {} is missing", what.fact("counter"));
   if (!what.fact("levels").empty()) text += " with " + what.fact("levels");
   return text;
 }
@@ -152,32 +151,32 @@ std::string sentence_of(const Observation& what) {
       return no_required_device(what);
     case Cause::device_missing:
       return fmt::format(
-          "no driver lists this device here, but it was accepted on a machine with this driver "
-          "version of {}",
+          "no driver on this machine lists this device, but it was accepted on a machine with the "
+          "same driver version of {}",
           what.fact("sibling"));
     case Cause::listing_failed:
       return fmt::format("the devices of {} could not be listed, so some may be missing: {}",
                          what.fact("what"), text_of(what.reason));
     case Cause::no_description:
       return fmt::format(
-          "run {} has records of this device, but rows that describe the device were lost",
+          "run {} has records of this device, but the store has lost the rows that describe it",
           what.fact("run"));
     case Cause::checks_lost:
-      return fmt::format("the baselines were accepted for {}, which the plan no longer checks",
+      return fmt::format("the plan no longer requests these accepted checks: {}",
                          fmt::join(what.names, ", "));
     case Cause::missing:
       return missing(what);
     case Cause::extra:
-      return fmt::format("the run has {}, which the plan does not have", examples(what.names));
+      return fmt::format("the run contains {} outside the plan", examples(what.names));
     case Cause::other_plan:
       return other_plan(what);
     case Cause::other_data:
       return fmt::format(
-          "the data are not those that were accepted under this name (content hash {}, accepted "
-          "{})",
+          "the data differ from the data that were accepted under this name (content hash {}, "
+          "accepted {})",
           what.fact("hash"), what.fact("accepted"));
     case Cause::data_changed:
-      return fmt::format("the data changed since they were measured (content hash {}, now {})",
+      return fmt::format("the data have changed since they were measured (content hash {}, now {})",
                          what.fact("hash"), what.fact("now"));
     case Cause::no_baselines:
       return what.detail.empty() ? fmt::format("there are no baselines in {}", what.fact("folder"))
@@ -187,12 +186,13 @@ std::string sentence_of(const Observation& what) {
     case Cause::nothing_decided:
       return "no check reached a verdict for this device: there were only advisories and skips";
     case Cause::unused_waiver:
-      return fmt::format("the waiver of {} on {} expired on {} and no longer excuses anything ({})",
-                         what.fact("test"), what.fact("device"), what.fact("expiry"), what.detail);
+      return fmt::format(
+          "the waiver for {} on {} expired on {} and no longer excuses anything ({})",
+          what.fact("test"), what.fact("device"), what.fact("expiry"), what.detail);
     case Cause::waiver_of_no_test:
       return fmt::format(
-          "the waiver of {} matches no test: test ids have the form SUITE.PLAN.CHECK.DEVICE, and "
-          "`configuration` limits a waiver to some configurations",
+          "the waiver for {} matches no test; test ids have the form SUITE.PLAN.CHECK.DEVICE, and "
+          "the key `configuration` limits a waiver to some configurations",
           what.fact("test"));
     case Cause::within_bound:
       return within_bound(what);
@@ -215,7 +215,7 @@ std::string sentence_of(const Observation& what) {
     case Cause::reference_changed:
       return reference_changed(what);
     case Cause::reference_as_stored:
-      return "the reference image is the one that was accepted";
+      return "the reference image is the accepted one";
     case Cause::devices_agree:
     case Cause::devices_disagree:
       return devices_compared(what);
@@ -227,13 +227,13 @@ std::string sentence_of(const Observation& what) {
     case Cause::other_counter:
       return other_counter(what);
     case Cause::frame_allocations:
-      return changed_in(what, "the allocations of a frame");
+      return changed_in(what, "the number of allocations per frame");
     case Cause::preparing:
-      return changed_in(what, "the driver's instructions for preparation");
+      return changed_in(what, "the driver's number of instructions during preparation");
     case Cause::injected_memory:
-      return "not compared, because the injected slowdown allocates memory itself";
+      return "not compared, because the injected slowdown itself allocates memory";
     case Cause::other_executables:
-      return fmt::format("consists of other executables than when it was accepted: {}",
+      return fmt::format("executables were added or removed since the baseline was accepted: {}",
                          fmt::join(what.names, ", "));
     case Cause::other_disassembly:
       return fmt::format("the disassembly of {} changed, but the statistics did not",
@@ -250,7 +250,7 @@ std::string sentence_of(const Observation& what) {
     case Cause::no_time:
       return "no time was measured";
     case Cause::same_frames:
-      return with_detail("not timed itself, because another configuration draws the same frames",
+      return with_detail("not timed, because another configuration draws the same frames",
                          text_of(what.reason));
     case Cause::wrong_image:
       return what.because.empty()
@@ -258,7 +258,7 @@ std::string sentence_of(const Observation& what) {
                  : fmt::format("the time is meaningless, because the image is wrong: {}",
                                text_of(what.because.front()));
     case Cause::residuals_as_stored:
-      return fmt::format("the cost ratios of {} to {} are as stored",
+      return fmt::format("the cost ratios of {} relative to {} are as stored",
                          counted(what.number("configurations"), "configuration", "configurations"),
                          fmt::join(what.names, ", "));
     case Cause::residual_moved:
@@ -271,17 +271,17 @@ std::string sentence_of(const Observation& what) {
       return no_line(what);
     case Cause::no_partner:
       return fmt::format(
-          "its cost cannot be correlated, because no cost of another device that was counted by {} "
-          "is stored",
+          "its cost cannot be correlated, because no stored cost of another device was counted by "
+          "{}",
           what.fact("counted_by"));
     case Cause::error:
       return error(what);
     case Cause::unknown_error:
       return with_detail("its error cannot be measured", what.detail);
     case Cause::not_comparable:
-      return "the image cannot be compared: it has another size, or values that are not finite";
+      return "the image cannot be compared, because its size differs or it has non-finite values";
     case Cause::no_limit:
-      return "no scene of this plan has a limit image to measure errors against";
+      return "errors cannot be measured, because no scene of this plan has a limit image";
     case Cause::no_limit_any_more:
       return "an error is stored, but the scene no longer has a limit image";
     case Cause::order:

@@ -25,9 +25,9 @@ std::string signal_text(int signal) {
 }
 
 std::string out_of_memory_text(const Reason& reason) {
-  std::string text = fmt::format("out of host memory with data {}", reason.subject);
+  std::string text = fmt::format("ran out of host memory while using data {}", reason.subject);
   if (const auto limit = reason.number("limit_bytes")) {
-    text += fmt::format("; the worker may allocate {:.0f} MiB", *limit / (1 << 20));
+    text += fmt::format("; the worker may allocate at most {:.0f} MiB", *limit / (1 << 20));
   }
   return text;
 }
@@ -52,7 +52,8 @@ std::string cause_text(const Reason& reason) {
     case record::Cause::bad_input:
       return with_detail("invalid input", reason.detail);
     case record::Cause::not_on_processor:
-      return "instructions can be counted only on a processor, which this device is not";
+      return "instructions can be counted only for devices that run on the CPU, not for this "
+             "device";
     case record::Cause::api_error:
     case record::Cause::device_lost:
       return api_text(reason);
@@ -69,16 +70,16 @@ std::string cause_text(const Reason& reason) {
       return fmt::format("no answer within {:g} s", reason.number("limit_s").value_or(0));
     case record::Cause::bad_answer:
       return with_detail(
-          "the worker's answer is invalid, perhaps because its program is of another version",
+          "the worker sent an invalid answer, perhaps because it is another version of Triptych",
           reason.detail);
     case record::Cause::no_greeting:
-      return "the worker did not send its greeting";
+      return "the worker did not report that it had started";
     case record::Cause::cannot_start:
       return with_detail("the worker cannot be started", reason.detail);
     case record::Cause::under_way:
       return fmt::format(
-          "Triptych or the machine ended abnormally {:.0f} times while this configuration was "
-          "measured; a run without --resume tries it again",
+          "Triptych or the machine ended abnormally {:.0f} times while measuring this "
+          "configuration; run without --resume to try it again",
           reason.number("times").value_or(0));
   }
   return {};
@@ -89,7 +90,7 @@ std::string stage_text(const Reason& reason) {
     case Stage::opening:
       return fmt::format("{} cannot be opened: ", reason.subject);
     case Stage::counting:
-      return "while instructions were counted under the emulator: ";
+      return "while counting instructions under the emulator: ";
     case Stage::working:
       break;
   }
@@ -100,7 +101,7 @@ std::string stage_text(const Reason& reason) {
 
 std::string text_of(const Reason& reason) {
   std::string text = stage_text(reason) + cause_text(reason);
-  if (!reason.last_words.empty()) text += "; its last output: " + reason.last_words;
+  if (!reason.last_words.empty()) text += "; the worker's last output: " + reason.last_words;
   if (reason.not_tried) {
     text += fmt::format("; not tried, because other configurations{}{} ended in the same way",
                         reason.shared_levels.empty() ? "" : " with ", reason.shared_levels);
@@ -118,15 +119,15 @@ std::string text_of(const StatisticWorth& worth) {
     case Worth::exact:
       return "exact";
     case Worth::counts:
-      return fmt::format("the driver reports the counter {} instead", worth.counter);
+      return fmt::format("the driver reports the value of counter {} instead", worth.counter);
     case Worth::proportional:
       return fmt::format("always {:.4g} times the true number", worth.low);
     case Worth::inflated:
       return fmt::format("{:.4g} to {:.4g} times the true number{}", worth.low, worth.high, in());
     case Worth::differs:
-      return "not the true number" + in();
+      return "differs from the true number" + in();
     case Worth::unsteady:
-      return "a different number when the same frame is drawn again" + in();
+      return "changes when the same frame is drawn again" + in();
     case Worth::absent:
       return "never reported";
     case Worth::unknown:

@@ -1,6 +1,6 @@
 #pragma once
-// Texts about how a configuration or a device ended, and about how exactly a driver counts a
-// statistic. All texts quote drivers, so they are of unknown origin.
+// Sentences about how a configuration or a device ended, and about how exactly a driver counts a
+// statistic. They quote drivers, so callers must escape them.
 
 #include <string>
 

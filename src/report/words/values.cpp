@@ -1,4 +1,4 @@
-// Sentences about values that are compared with stored ones, and about correlations.
+// Sentences about values that are compared with stored values, and about correlations.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -62,7 +62,7 @@ std::string text_of(const Change& change) {
       accepted += fmt::format("{}{:.0f} on {}", accepted.empty() ? "" : ", ", value, device);
     }
     std::string text = fmt::format("{} {:.0f}, accepted {}", name, *change.now, accepted);
-    if (change.allowed > 0) text += fmt::format(", rounding allows ± {:.0f}", change.allowed);
+    if (change.allowed > 0) text += fmt::format(" (± {:.0f} for rounding)", change.allowed);
     return text;
   }
   const double before = change.before.value_or(0);
@@ -86,7 +86,7 @@ std::string as_stored(const Observation& what) {
 std::string values_changed(const Observation& what) {
   std::string text = list(what.changes);
   if (what.numbers.contains("instructions")) {
-    text = fmt::format("instructions {:.0f} → {:.0f} ({}) in all; {}",
+    text = fmt::format("instructions {:.0f} → {:.0f} ({}) in total; {}",
                        what.number("stored_instructions"), what.number("instructions"),
                        percent(what.number("instructions") / what.number("stored_instructions")),
                        text);
@@ -94,10 +94,11 @@ std::string values_changed(const Observation& what) {
   return text;
 }
 
-// The totals in the format that Mesa's developers use.
+// Returns the totals over all configurations, in the format that Mesa developers use.
 std::string other_compiler(const Observation& what) {
-  std::string text = fmt::format("not compared, because {} is another compiler than the stored {}",
-                                 what.fact("driver_version"), what.fact("other_version"));
+  std::string text = fmt::format(
+      "not compared, because driver version {} has another compiler than the stored version {}",
+      what.fact("driver_version"), what.fact("other_version"));
   text += fmt::format("; {:.0f} of {} changed", what.number("changed"),
                       counted(what.number("configurations"), "configuration", "configurations"));
   for (const Change& each : what.changes) text += "; " + text_of(each);
@@ -106,10 +107,10 @@ std::string other_compiler(const Observation& what) {
 
 std::string other_driver_statistics(const Observation& what) {
   std::string text = fmt::format(
-      "no statistics are stored for this driver version ({}), in {}; ", what.fact("driver_version"),
+      "no statistics are stored for this driver version ({}) in {}; ", what.fact("driver_version"),
       counted(what.number("configurations"), "configuration", "configurations"));
   if (what.number("stored") == 0) {
-    text += "nor for any other driver";
+    text += "none are stored for other drivers either";
   } else if (!what.changes.empty()) {
     constexpr std::size_t shown = 3;
     std::vector<Change> first = what.changes;
@@ -118,12 +119,12 @@ std::string other_driver_statistics(const Observation& what) {
                         what.number("differences"), list(first),
                         what.changes.size() > shown ? "; …" : "");
   } else if (what.number("compared") == 0 && !what.names.empty()) {
-    text += "none of its values can be compared with stored ones";
+    text += "no value can be compared with the stored values of other drivers";
   } else {
-    text += "values that all drivers must agree on equal the stored ones";
+    text += "values on which all drivers must agree equal the stored values of another driver";
   }
   if (!what.names.empty()) {
-    text += fmt::format("; not compared, because a driver does not count them exactly: {}",
+    text += fmt::format("; not compared, because not all drivers count them exactly: {}",
                         joined(what.names));
   }
   return text;
@@ -131,8 +132,8 @@ std::string other_driver_statistics(const Observation& what) {
 
 std::string other_counter(const Observation& what) {
   std::string text = fmt::format(
-      "cost is not judged, because driver {} was counted by {}, and the stored cost is of driver "
-      "{} counted by {}",
+      "cost is not judged, because the instructions of driver version {} were counted by {}, but "
+      "the stored cost is for driver version {}, counted by {}",
       what.fact("driver_version"), what.fact("counted_by"), what.fact("other_version"),
       what.fact("other"));
   if (what.numbers.contains("median_ratio")) {
@@ -153,7 +154,7 @@ std::string time(const Observation& what) {
                         100 * (what.number("work_ratio") - 1),
                         100 * (ratio / what.number("work_ratio") - 1));
   }
-  if (!what.fact("kernel_hash").empty()) text += "; the device code changed since";
+  if (!what.fact("kernel_hash").empty()) text += "; the device code has changed, too";
   return text;
 }
 
@@ -174,17 +175,18 @@ std::string order(const Observation& what) {
   const std::string accepted = fmt::format("accepted {:.2f} ± {:.2f}", what.number("stored_order"),
                                            what.number("stored_half_width"));
   if (what.cause == judge::Cause::no_order) {
-    return "no order of convergence in the step can be fitted, because the step causes too few of "
-           "the errors; " +
+    return "no order of convergence can be fitted, because too few errors come mainly from the "
+           "step "
+           "size; " +
            accepted;
   }
-  return fmt::format("order of convergence {:.2f} ± {:.2f} in the step, {}", what.number("order"),
+  return fmt::format("order of convergence {:.2f} ± {:.2f}, {}", what.number("order"),
                      what.number("half_width"), accepted);
 }
 
 std::string residual_moved(const Observation& what) {
   std::string text =
-      fmt::format("{} instructions since it was accepted", percent(what.number("ratio")));
+      fmt::format("{} instructions since the baseline was accepted", percent(what.number("ratio")));
   const double least = what.number("least_ratio");
   const double most = what.number("largest_ratio");
   if (std::abs(std::log(most / least)) > 1e-5) {
@@ -199,11 +201,12 @@ std::string residual_moved(const Observation& what) {
 
 std::string off_the_line(const Observation& what) {
   std::string text =
-      fmt::format("{} ± {:.2g} % instructions compared with the line of {}, q = {:.2g}",
+      fmt::format("{} ± {:.2g} % instructions compared with the prediction from {}, q = {:.2g}",
                   percent(what.number("ratio")), 100 * std::expm1(what.number("standard_error")),
                   what.fact("other"), what.number("q"));
   if (what.number("configurations") > 1) {
-    text += fmt::format(" ({:.0f} configurations against the rest)", what.number("configurations"));
+    text += fmt::format(" ({:.0f} configurations, relative to all others)",
+                        what.number("configurations"));
   }
   return text +
          "; this device was never accepted: either it is inherently slower here, or the code "
@@ -211,7 +214,8 @@ std::string off_the_line(const Observation& what) {
 }
 
 std::string on_the_line(const Observation& what) {
-  return fmt::format("its cost is what the cost of {} predicts: {}", what.fact("other"), fit(what));
+  return fmt::format("its cost agrees with the prediction from the cost of {}: {}",
+                     what.fact("other"), fit(what));
 }
 
 std::string no_line(const Observation& what) {
@@ -233,7 +237,7 @@ std::string refusal(const judge::CorrelationLine& line) {
     case LineRefusal::none:
       break;
     case LineRefusal::too_few_configurations:
-      return fmt::format("they have {} configurations in common, but {} are needed",
+      return fmt::format("the devices have {} configurations in common, but {} are needed",
                          line.configurations, LineModel::least_configurations);
     case LineRefusal::low_correlation:
       return fmt::format("the correlation of the logarithms is {:.3f}, but at least {} is needed",
@@ -242,7 +246,7 @@ std::string refusal(const judge::CorrelationLine& line) {
       return fmt::format("the slope is {:.3f}, outside {} to {}", line.slope,
                          LineModel::least_slope, LineModel::largest_slope);
     case LineRefusal::large_scatter:
-      return fmt::format("the residuals have a scatter of {:.3f} in ln, but at most {} is allowed",
+      return fmt::format("the scatter of the logarithms is {:.3f}, but at most {} is allowed",
                          line.scale, LineModel::largest_scale);
   }
   return {};

@@ -147,7 +147,7 @@ TEST(LastScreen, SaysWhereTheOtherCausesAreToldAndHowToMendThem) {
   }
   const std::string text = last_screen(std::vector{result}, 3, {}, {.width = 120});
   EXPECT_THAT(text, HasSubstr("more causes: --out FOLDER writes them"));
-  EXPECT_THAT(text, HasSubstr("accept it with triptych accept PLAN"));
+  EXPECT_THAT(text, HasSubstr("accept the run with triptych accept PLAN"));
 }
 
 TEST(LastScreen, ColoursOnlyWhenAsked) {
