@@ -56,8 +56,8 @@ std::uint64_t skip_lines(const std::filesystem::path& file, std::uint64_t start,
   for (std::int64_t i = 0; i < count; ++i) {
     in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
     if (!in || in.eof()) {
-      throw core::InputError(place, fmt::format("{} has only {} lines that can be skipped",
-                                                file.filename().string(), i));
+      throw core::InputError(
+          place, fmt::format("{} has only {} lines to skip", file.filename().string(), i));
     }
   }
   return static_cast<std::uint64_t>(in.tellg());

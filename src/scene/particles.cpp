@@ -29,7 +29,7 @@ ColourKind colour_kind(std::string_view name) {
     if (name == name_of(kind)) return kind;
   }
   throw core::InputError(
-      fmt::format("unknown colour '{}'; there are: rgba8, rgba32, intensity", name));
+      fmt::format("unknown colour '{}'; expected rgba8, rgba32 or intensity", name));
 }
 
 std::string particle_hash(const ParticleSet& set) {

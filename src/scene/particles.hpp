@@ -1,5 +1,5 @@
 #pragma once
-// Particles from a file or a generator (ParticleSet).
+// Particles that were read from a file or generated.
 
 #include <array>
 #include <cstddef>
@@ -17,73 +17,77 @@ namespace triptych::scene {
 
 // The source of a particle's colour: the levels of the factor `colour`.
 enum class ColourKind : std::uint8_t {
-  rgba8,     // four bytes, red in the lowest
+  rgba8,     // four bytes, with red in the lowest byte
   rgba32,    // four floats
   intensity  // one float in [0, 1], coloured by a transfer function
 };
 [[nodiscard]] std::string_view name_of(ColourKind kind);
 [[nodiscard]] ColourKind colour_kind(std::string_view name);  // throws InputError
 
-// Spheres, with one array per property. All arrays that are not empty have the same length. Every
-// sphere is finite and has a radius > 0; other particles were dropped and counted.
+// Spheres, with one array per property. All non-empty arrays have the same length. Every sphere is
+// finite and has a radius > 0. All other particles were dropped, and `dropped` counts them.
 struct ParticleSet {
   std::string name;  // the `data` factor: a file name or generate:NAME:COUNT
-  std::vector<std::array<float, 4>> spheres;  // centre x, y, z and radius, world units
-  std::vector<std::uint32_t> ids;  // index in the file, counted from 0 and including the dropped
-                                   // ones; ascending unless the set was permuted
+  std::vector<std::array<float, 4>> spheres;  // centre x, y, z and radius in world units
+  std::vector<std::uint32_t> ids;  // index in the file, counted from 0 and including dropped
+                                   // particles; ascending unless the set was permuted
   ColourKind colour = ColourKind::rgba8;
-  // Only the array that `colour` names is filled. Colours are not premultiplied; alpha is not used,
+  // Only the array that `colour` names is filled. Colours are not premultiplied. Alpha is not used,
   // because spheres are opaque.
   std::vector<std::uint32_t> rgba8;
   std::vector<std::array<float, 4>> rgba32;
   std::vector<float> intensity;
-  // Number of particles with a radius ≤ 0, or a radius or centre that is not finite.
+  // The number of particles whose radius is ≤ 0, or whose radius or centre is not finite.
   std::uint64_t dropped = 0;
   std::string hash;  // content hash of all members above except the name
-  ReadFacts facts;   // facts about a file; not part of the hash
+  ReadFacts facts;   // facts about the file; not part of the hash
 
   [[nodiscard]] std::size_t count() const noexcept { return spheres.size(); }
 };
 
-// The value of ParticleSet::hash, which has to be computed again after a permutation.
+// Returns the value for ParticleSet::hash, which must be recomputed after a permutation.
 [[nodiscard]] std::string particle_hash(const ParticleSet& set);
 
-// The box around all spheres, including their radii; the unit box if there are none.
+// Returns the box around all spheres, including their radii. Returns the unit box if there are no
+// spheres.
 [[nodiscard]] Box bounding_box(const ParticleSet& set);
 
 // Appends one particle from a file, or counts it as dropped if it cannot be drawn. `index` is its
-// position in the file. The caller appends the colour only if this returns true.
+// position in the file. The caller must append the colour only if this function returns true.
 [[nodiscard]] bool append(ParticleSet& set, const std::array<double, 4>& sphere,
                           std::uint32_t index);
 
-// Called from time to time while particles are read or generated, with the finished share in [0,
-// 1].
+// A function that is called from time to time while particles are read or generated. `share` is the
+// finished fraction of the work, in [0, 1].
 using Progress = std::function<void(double share)>;
 
-// Loads particles. `data` has the form used in a plan: "generate:NAME:COUNT"
+// Loads particles. `data` has the same form as in a plan: "generate:NAME:COUNT"
 // (scene/particle_generators.hpp), or a file in one of the formats in scene/particle_formats.hpp,
-// plain or compressed with gzip or bzip2. "FILE@K" selects the K-th frame of a trajectory, counted
-// from 0; the default is the first one. A relative file name is searched first as it is, then in
-// each of `folders`.
+// which may be compressed with gzip or bzip2. "FILE@K" selects the K-th frame of a trajectory,
+// counted from 0. The default is the first frame. A relative file name is first looked up in the
+// working directory, and then in each of `folders`.
 //
-// Radii: the file's own (MMPLD, PQR, LAMMPS `radius`), otherwise van der Waals radii by element
-// (Bondi 1964; 2.0 Å for elements not listed there), in the file's unit of length. LAMMPS types
-// without elements get half the median distance to the nearest neighbour. Colours: the file's own
-// (MMPLD), otherwise one colour per element or type. Intensity: the file's own, otherwise the index
-// of the element or type among those in the file, divided by their number; if there is only one,
-// the rank of the particle divided by the number of particles.
+// Radii are taken from the file if it has them (MMPLD, PQR, LAMMPS `radius`). Otherwise they are
+// the van der Waals radii of the elements (Bondi 1964; 2.0 Å for elements not listed there), in the
+// file's unit of length. LAMMPS types without elements get half the median distance between nearest
+// neighbours. Colours are taken from the file if it has them (MMPLD); otherwise there is one colour
+// per element or type. Intensities are taken from the file if it has them. Otherwise the intensity
+// is the index of the element or type in the list of those in the file, divided by their number. If
+// there is only one element or type, it is the rank of the particle divided by the number of
+// particles.
 //
-// Throws InputError with file, line and the expectation that was not met, also for an empty file
-// and for a file all of whose particles are dropped. Throws IoError if the file does not exist.
+// Throws InputError with the file, the line and what was expected there. Also throws InputError for
+// an empty file, and for a file all of whose particles are dropped. Throws IoError if the file does
+// not exist.
 [[nodiscard]] ParticleSet load_particles(std::string_view data, ColourKind colour,
                                          const std::vector<std::filesystem::path>& folders = {},
                                          const Progress& progress = {});
 
-// Throws as load_particles does for generated particles that cannot be made, but does not make
-// them. Does not check files.
+// Throws the same exceptions as load_particles() if `data` names particles that cannot be
+// generated, but does not generate them. Does not check files.
 void check_generated_particles(std::string_view data);
 
-// Whether `data` can be loaded: false for a file that does not exist here.
+// Returns whether `data` can be loaded: false for a file that does not exist on this machine.
 [[nodiscard]] bool particles_present(std::string_view data,
                                      const std::vector<std::filesystem::path>& folders = {});
 

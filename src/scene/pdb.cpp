@@ -21,7 +21,8 @@ bool is_letter_of_pdb(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-// Returns the given columns, counted from 1 as in the specification, including both ends.
+// Returns the given range of columns. Columns are counted from 1 as in the specification, and both
+// ends are included.
 std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
   return line.size() < first ? std::string_view{} : line.substr(first - 1, last - first + 1);
 }
@@ -30,15 +31,16 @@ bool is_blank_column(std::string_view line, std::size_t column) {
   return line.size() < column || line[column - 1] == ' ';
 }
 
-// The letters of an atom's name, without preceding digits.
+// Returns the letters of an atom's name, without preceding digits.
 std::string letters_of_name(std::string_view name) {
   std::string letters = lower_case(trimmed(name));
   letters.erase(0, letters.find_first_not_of("0123456789'\" "));
   return letters;
 }
 
-// The symbol in columns 77 and 78; empty if there is none. Older files have other text there, such
-// as the end of a segment's name: the "RA" of "MEMBRANE" does not mean radium.
+// Returns the symbol in columns 77 and 78, or an empty string if there is none. Older files have
+// other text in these columns, such as the end of a segment's name: the "RA" of "MEMBRANE" does not
+// mean radium.
 std::string symbol_in_columns(std::string_view line) {
   const std::string_view field = columns(line, 77, 78);
   const std::string_view symbol = trimmed(field);
@@ -57,9 +59,9 @@ std::uint32_t kind_of_atom(Atoms& atoms, std::string_view line) {
   return unnamed_kind(atoms, columns(line, 13, 16), columns(line, 18, 21));
 }
 
-// A coordinate has the format Real(8.3). A number that is too wide runs into the neighbouring
-// columns, where it may look like another number. Therefore a number in any other format must be
-// surrounded by blanks.
+// Reads a coordinate, which has the format Real(8.3). A number that is too wide overlaps the
+// neighbouring columns, where it may look like a different number. Therefore a number in any other
+// format must be surrounded by blanks.
 double coordinate(std::string_view line, std::size_t first, std::string_view what,
                   const LineReader& reader) {
   const std::size_t last = first + 7;
@@ -93,9 +95,9 @@ void add_pdb_atom(Atoms& atoms, std::string_view line, const LineReader& reader)
   atoms.add(place, kind_of_atom(atoms, line));
 }
 
-// Whether a line describes an atom. A serial number of six digits may begin in column 5 or 6.
-// Throws for a line that looks like an atom but is not valid, because it would be left out
-// silently.
+// Returns whether a line describes an atom. A six-digit serial number may begin in column 5 or 6.
+// Throws for a line that looks like an atom but is not valid, because otherwise this atom would be
+// missing without notice.
 bool is_atom(std::string_view line, const LineReader& reader) {
   if (line.starts_with("HETATM")) return true;
   if (line.starts_with("ATOM")) {
@@ -115,13 +117,13 @@ bool is_atom(std::string_view line, const LineReader& reader) {
   return false;
 }
 
-// Determines the beginnings and ends of frames. Frames are models. If a file has no MODEL, frames
-// end with END or ENDMDL, as VMD writes them.
+// Determines where frames begin and end. A frame is a model. In files without MODEL records, a
+// frame ends with END or ENDMDL, as written by VMD.
 class PdbFrames {
  public:
   explicit PdbFrames(const LineReader& reader) : reader_(reader) {}
 
-  // Called for each atom; returns the number of its frame.
+  // Is called for each atom. Returns the index of the atom's frame.
   std::uint64_t atom() {
     if (has_models_ && !in_model_) reader_.reject("expected MODEL before further atoms");
     if (!in_model_ && (count_ == 0 || closed_)) ++count_;
@@ -136,7 +138,7 @@ class PdbFrames {
       in_model_ = false;
       closed_ = true;
     } else if (name == "HEADER") {
-      // In entries of the PDB itself, these columns contain the name of the entry.
+      // In entries of the PDB itself, these columns contain the id of the entry.
       is_entry_ = !trimmed(columns(line, 63, 66)).empty();
     }
     if (name == "END") ended_ = true;
@@ -163,9 +165,9 @@ class PdbFrames {
   std::uint64_t count_ = 0;  // number of frames that have begun
   bool has_models_ = false;
   bool in_model_ = false;
-  bool closed_ = false;    // whether the last frame has ended
+  bool closed_ = false;    // whether the most recent frame has ended
   bool ended_ = false;     // whether there was an END
-  bool is_entry_ = false;  // whether the file is an entry of the PDB
+  bool is_entry_ = false;  // whether the file is an entry from the PDB
 };
 
 }  // namespace

@@ -6,10 +6,11 @@
 
 namespace triptych::scene {
 
-// Calls a Progress at most once for every hundredth of the work, however often it is updated.
+// Calls a Progress at most once per per cent of the work, no matter how often reach() is called.
 class ProgressSteps {
  public:
-  // `progress` may be empty. Shares are mapped to [begin, end] for work that is part of other work.
+  // `progress` may be empty. If the work is part of a larger task, its progress is mapped to
+  // [begin, end].
   ProgressSteps(const Progress& progress, std::uint64_t total, double begin = 0, double end = 1)
       : progress_(progress), total_(std::max<std::uint64_t>(total, 1)), begin_(begin), end_(end) {}
 

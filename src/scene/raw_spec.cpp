@@ -17,7 +17,7 @@ namespace triptych::scene {
 namespace {
 
 constexpr std::string_view form =
-    "FILE:NXxNYxNZ:TYPE, for instance head.raw:256x256x128:u8, optionally followed by the spacing "
+    "FILE:NXxNYxNZ:TYPE, for example head.raw:256x256x128:u8, optionally followed by the spacing "
     "(:1x1x2.5), :big, :skip=BYTES or :components=N";
 
 constexpr std::array<std::pair<std::string_view, StoredType>, 20> type_names{
@@ -56,7 +56,7 @@ std::vector<std::string_view> parts_of(std::string_view data) {
   }
 }
 
-// Parses an option after the type.
+// Parses an option that follows the type.
 void take_option(RawSpec& spec, std::string_view part, std::string_view data) {
   constexpr std::string_view skip = "skip=";
   constexpr std::string_view components = "components=";
@@ -84,7 +84,7 @@ void take_option(RawSpec& spec, std::string_view part, std::string_view data) {
 
 std::optional<RawSpec> parse_raw_spec(std::string_view data) {
   const std::vector<std::string_view> parts = parts_of(data);
-  // The file's name may contain colons; it ends before the first part that is a size.
+  // The file's name may contain colons, so it ends before the first part that is a size.
   std::size_t at = 1;
   while (at < parts.size() && !three_numbers<int>(parts[at])) ++at;
   if (at >= parts.size()) return std::nullopt;
@@ -99,7 +99,7 @@ std::optional<RawSpec> parse_raw_spec(std::string_view data) {
   const auto type = std::ranges::find(type_names, lower_case(parts[at + 1]),
                                       &std::pair<std::string_view, StoredType>::first);
   if (type == type_names.end()) {
-    reject_spec(data, fmt::format("unknown type '{}'; the types are u8 i8 u16 i16 u32 i32 u64 i64 f32 f64",
+    reject_spec(data, fmt::format("unknown type '{}'; expected u8 i8 u16 i16 u32 i32 u64 i64 f32 or f64",
                                   parts[at + 1]));
   }
   spec.layout.type = type->second;
@@ -112,7 +112,8 @@ Volume read_raw(const RawSpec& spec, const std::filesystem::path& file,
   Volume volume;
   volume.size = spec.size;
   volume.spacing = spec.spacing;
-  // Any bytes may be voxels, so only the file's name decides whether it is a compressed stream.
+  // Any bytes may be voxels, so the content does not reveal whether the file is compressed. The
+  // file is checked for compression only if its name ends in .gz or .bz2.
   const bool packed = file.extension() == ".gz" || file.extension() == ".bz2";
   read_voxels(volume, {.file = file,
                        .packing = packed ? packing_of_file(file) : Packing::none,

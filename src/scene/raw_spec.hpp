@@ -1,5 +1,5 @@
 #pragma once
-// Voxels without a header. Their size is stated after the file's name.
+// Voxels without a header, whose size is stated after the file's name.
 
 #include <optional>
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace triptych::scene {
 
-// A description such as "FILE:256x256x128:u8". After the type follow in any order: the spacing
-// (":1x1x2.5"), "big" or "little" (the default), "skip=BYTES" for bytes before the voxels, and
-// "components=N" for consecutive values of a voxel. Types are u8 i8 u16 i16 u32 i32 u64 i64 f32
-// f64, or their names in NumPy (uint8, float32).
+// A description such as "FILE:256x256x128:u8". The type may be followed by options in any order:
+// the spacing (":1x1x2.5"), "big" or "little" (the default), "skip=BYTES" for bytes before the
+// voxels, and "components=N" for the number of consecutive values per voxel. Types are u8 i8 u16
+// i16 u32 i32 u64 i64 f32 f64, or their NumPy names (such as uint8 and float32).
 struct RawSpec {
   std::string file;
   std::array<int, 3> size{};
@@ -22,7 +22,7 @@ struct RawSpec {
   std::int64_t skip = 0;
 };
 
-// Returns nullopt if `data` states no size. Throws InputError for an incorrect description.
+// Returns nullopt if `data` does not state a size. Throws InputError for an invalid description.
 [[nodiscard]] std::optional<RawSpec> parse_raw_spec(std::string_view data);
 
 [[nodiscard]] Volume read_raw(const RawSpec& spec, const std::filesystem::path& file,

@@ -31,11 +31,11 @@ std::string stated(const Volume& volume, const RawVoxels& source) {
 std::uint64_t size_of_file(const std::filesystem::path& file) {
   std::error_code error;
   const std::uint64_t size = std::filesystem::file_size(file, error);
-  if (error) throw core::IoError(file.string() + ": cannot be read");
+  if (error) throw core::IoError(file.string() + ": the file cannot be read");
   return size;
 }
 
-// The name in messages of the stream that contains the voxels; empty for plain data.
+// Returns the name that messages use for the stream of voxels, or an empty string for plain data.
 std::string_view stream_name(const RawVoxels& source) {
   switch (source.encoding) {
     case RawEncoding::gzip:
@@ -67,7 +67,7 @@ bool is_compressed(const RawVoxels& source) {
          source.encoding == RawEncoding::zlib || source.encoding == RawEncoding::bzip2;
 }
 
-// The bytes of the voxels in one of the files, including those to be skipped.
+// Returns the decoded bytes of one of the files, including the bytes to be skipped.
 ByteSource open_data(const RawVoxels& source, const std::filesystem::path& file) {
   const std::string name = file.string();
   ByteSource bytes;
@@ -97,7 +97,7 @@ ByteSource open_data(const RawVoxels& source, const std::filesystem::path& file)
   return bytes;
 }
 
-// The number of bytes before the voxels in a file that holds `share` bytes of voxels.
+// Returns the number of bytes before the voxels in a file that contains `share` bytes of voxels.
 std::uint64_t bytes_before(const RawVoxels& source, const std::filesystem::path& file,
                            std::uint64_t share) {
   if (source.skip != RawVoxels::at_end) return static_cast<std::uint64_t>(source.skip);
@@ -106,8 +106,8 @@ std::uint64_t bytes_before(const RawVoxels& source, const std::filesystem::path&
   return all - std::min(share, all);
 }
 
-// Checks, before memory is allocated, that a file is long enough for the voxels that its header
-// claims.
+// Checks that a file is long enough for the voxels that its header claims. This happens before
+// memory is allocated.
 void check_claim(const Volume& volume, const RawVoxels& source, std::uint64_t needed,
                  std::uint64_t share, const std::filesystem::path& file) {
   const std::uint64_t size = size_of_file(file);
@@ -115,15 +115,15 @@ void check_claim(const Volume& volume, const RawVoxels& source, std::uint64_t ne
       source.packing == Packing::none ? size - std::min(source.start, size) : size;
   const auto skip = static_cast<std::uint64_t>(std::max<std::int64_t>(source.skip, 0));
   if (is_compressed(source)) {
-    // Deflate expands one bit to at most 129 bytes, which limits the size of the unpacked data.
-    // There is no useful limit for bzip2.
+    // Deflate expands one bit to at most 129 bytes, which limits the decompressed size. bzip2 has
+    // no useful limit.
     constexpr std::uint64_t largest_ratio = 1032;
     const bool deflated =
         source.encoding != RawEncoding::bzip2 && source.packing != Packing::bzip2;
     if (deflated && (share + skip) / largest_ratio > there) {
       throw core::InputError(
           source.sizes_place,
-          fmt::format("{} need {} bytes of data, more than the {} compressed bytes of {} can hold",
+          fmt::format("{} need {} bytes of data, more than the {} compressed bytes of {} can contain",
                       stated(volume, source), needed, there, file.filename().string()));
     }
     if (needed > most_unpacked_bytes || skip > most_unpacked_bytes - needed) {
@@ -131,7 +131,7 @@ void check_claim(const Volume& volume, const RawVoxels& source, std::uint64_t ne
     }
     return;
   }
-  // In a text, a value takes at least one character and a separator before the next value.
+  // In a text file, a value has at least one character, and a separator precedes the next value.
   const bool text = source.encoding == RawEncoding::text;
   const bool hex = source.encoding == RawEncoding::hex;
   const std::uint64_t least = text  ? share / bytes_of(source.layout.type) * 2 - 1
@@ -143,7 +143,7 @@ void check_claim(const Volume& volume, const RawVoxels& source, std::uint64_t ne
   }
 }
 
-// The bytes of the voxels of all files, one after the other.
+// The bytes of the voxels of all files, concatenated.
 class Files {
  public:
   Files(const Volume& volume, const RawVoxels& source, std::uint64_t needed)
@@ -153,8 +153,8 @@ class Files {
     share_ = needed / files_.size();
     if (share_ * files_.size() != needed) {
       throw core::InputError(source.sizes_place,
-                             fmt::format("{} need {} bytes of data, which {} files of equal size "
-                                         "cannot hold",
+                             fmt::format("{} need {} bytes of data, which cannot be divided equally "
+                                         "among {} files",
                                          stated(volume, source), needed, files_.size()));
     }
     for (const auto& file : files_) check_claim(volume, source, needed, share_, file);
@@ -180,7 +180,7 @@ class Files {
     return filled;
   }
 
-  // Checks that nothing follows the values in the file that was read last, except blanks in a text.
+  // Checks that nothing follows the values in the current file, except blanks in a text file.
   void check_surplus() const {
     if (source_.more_may_follow) return;
     std::vector<std::byte> surplus(source_.encoding == RawEncoding::text
@@ -215,7 +215,7 @@ class Files {
   ByteSource bytes_;
 };
 
-// Reads one uncompressed file, whose bytes are the voxels, in one piece.
+// Reads a single uncompressed file whose bytes are exactly the voxels, in one read.
 void read_plain(Volume& volume, const RawVoxels& source, std::uint64_t needed) {
   const std::uint64_t size = size_of_file(source.file);
   const std::uint64_t there = size - std::min(source.start, size);
@@ -232,12 +232,13 @@ void read_plain(Volume& volume, const RawVoxels& source, std::uint64_t needed) {
   const ByteSource bytes = file_bytes(source.file, source.start + skipped);
   volume.voxels.resize(needed);
   if (bytes(volume.voxels) != needed) {
-    throw core::IoError(fmt::format("{}: became shorter while it was read", source.file.string()));
+    throw core::IoError(fmt::format("{}: the file became shorter while it was read", source.file.string()));
   }
 }
 
-// Address space is reserved for all voxels at once, so that the vector never copies them. The
-// system provides memory only as voxels are read, so a false claim in a header costs no memory.
+// Reads plain voxels. Address space is reserved for all voxels at once, so that the vector never
+// has to copy them. The operating system provides memory only as voxels are read, so a false claim
+// in a header does not cost memory.
 void take_plain(VoxelBytes& voxels, std::uint64_t needed, Files& files) {
   constexpr std::uint64_t piece = std::uint64_t{16} << 20;
   voxels.reserve(needed);
@@ -283,8 +284,8 @@ void note_values(Volume& volume, const RawVoxels& source) {
   facts.notes.push_back(
       source.component.magnitude
           ? fmt::format("the magnitude of the {} values of each voxel is drawn", layout.components)
-          : fmt::format("component {} of the {} values of each voxel is drawn; the factor "
-                        "component chooses another one, or their magnitude",
+          : fmt::format("component {} of the {} values of each voxel is drawn; use the factor component "
+                        "to draw another component or the magnitude",
                         source.component.index, layout.components));
 }
 
@@ -293,14 +294,14 @@ void note_values(Volume& volume, const RawVoxels& source) {
 void read_voxels(Volume& volume, const RawVoxels& given) {
   RawVoxels source = given;
   ValueLayout& layout = source.layout;
-  // Numbers in a text are converted to the machine's byte order.
+  // Numbers in a text file are converted to the machine's byte order.
   if (source.encoding == RawEncoding::text) {
     layout.big_endian = std::endian::native == std::endian::big;
   }
   const auto needed = value_bytes(volume, layout);
   if (!needed) {
     throw core::InputError(source.sizes_place,
-                           stated(volume, source) + " are more bytes than a 64-bit number can count");
+                           stated(volume, source) + " need more bytes than a 64-bit number can count");
   }
   check_component(source.component, layout.components, source.file);
   const bool plain = is_plain(layout) && !source.component.magnitude;
@@ -336,8 +337,8 @@ void read_stream(Volume& volume, const ValueLayout& layout, const Component& com
   check_component(component, layout.components, file);
   if (!needed || *needed > most_unpacked_bytes) {
     throw core::InputError(source.sizes_place,
-                           fmt::format("{} are more than {} bytes, the largest supported size of "
-                                       "this format; convert larger ones to NRRD",
+                           fmt::format("{} need more than {} bytes, the largest size that is supported "
+                                       "for this format; convert larger volumes to NRRD",
                                        stated(volume, source), most_unpacked_bytes));
   }
   const std::uint64_t held = take_values(volume, layout, component, values);
@@ -375,8 +376,8 @@ double usable_spacing(double spacing, int size, const core::FilePlace& place) {
   }
   if (spacing < shortest || spacing * size > longest) {
     throw core::InputError(place,
-                           fmt::format("spacing {} of {} voxels; expected a box of lengths from {} "
-                                       "to {}, which single precision can hold",
+                           fmt::format("spacing {} of {} voxels; expected a spacing and a length of "
+                                       "the axis from {} to {}, which single precision can hold",
                                        spacing, size, shortest, longest));
   }
   return spacing;

@@ -1,5 +1,6 @@
 #pragma once
-// Reads the voxels that a header describes, in one of several encodings, into a volume.
+// Reads the voxels that a header describes into a volume. The voxels may be encoded in one of
+// several ways.
 
 #include <cstdint>
 #include <filesystem>
@@ -19,44 +20,45 @@ struct RawVoxels {
   static constexpr std::int64_t at_end = -1;
 
   std::filesystem::path file;
-  // Further files that continue the voxels. Each of them holds as many voxels as the first one.
+  // Further files with voxels that follow those in `file`. Each contains as many voxels as `file`.
   std::vector<std::filesystem::path> more_files = {};
-  Packing packing = Packing::none;  // compression of the whole file; `start` counts unpacked bytes
-  std::uint64_t start = 0;          // where the data begin, including the skipped bytes
+  Packing packing = Packing::none;  // of the whole file; `start` counts decompressed bytes
+  std::uint64_t start = 0;          // where the data begin, including bytes to skip
   // The number of bytes to skip before the voxels in the decoded stream. at_end means that the
-  // voxels are its last bytes.
+  // voxels are the last bytes of the stream.
   std::int64_t skip = 0;
   RawEncoding encoding = RawEncoding::plain;
   ValueLayout layout = {};
   Component component = {};
-  bool more_may_follow = false;  // data after the voxels are allowed; otherwise they are an error
+  bool more_may_follow = false;      // false: data after the voxels are an error
   core::FilePlace sizes_place = {};  // where the header states the sizes, for errors
 };
 
-// Fills volume.voxels, whose size is already set, and sets the volume's type, its facts, and its
-// range from the finite voxels (0..0 if there is none). Only one copy of the voxels is kept. For an
-// uncompressed file, memory is allocated only after the file is known to be long enough; for a
-// compressed one, memory is used as the voxels are unpacked. Throws InputError if the data are
-// shorter or longer than size and type require or if a compressed stream is broken, and IoError if
-// the file cannot be read.
+// Fills volume.voxels, whose size must already be set, and sets the volume's type, its facts, and
+// its range from the finite voxels (0..0 if no voxel is finite). The voxels are kept in memory only
+// once. For an uncompressed file, memory is allocated only after the file is known to be long
+// enough. For a compressed file, memory is used as the voxels are decompressed. Throws InputError
+// if the data are shorter or longer than size and type require or if a compressed stream is
+// damaged, and IoError if the file cannot be read.
 void read_voxels(Volume& volume, const RawVoxels& source);
 
-// Like read_voxels, but takes values that are already decoded. More values may follow them. At most
-// most_unpacked_bytes are read.
+// Does the same for values that are already decoded. More values may follow them. Reads at most
+// most_unpacked_bytes.
 void read_stream(Volume& volume, const ValueLayout& layout, const Component& component,
                  const ByteSource& values, const std::filesystem::path& file);
 
-// These parts of a header occur in all formats. Errors name `place`.
+// Parse parts of a header that occur in all formats. Errors name `place`.
 [[nodiscard]] std::array<int, 3> parse_sizes(std::string_view text, const core::FilePlace& place);
 [[nodiscard]] std::array<double, 3> parse_spacings(std::string_view text,
                                                    const std::array<int, 3>& size,
                                                    const core::FilePlace& place);
-// A spacing must be a positive number, and neither it nor the length of all `size` voxels along its
-// axis may be near the limits of single precision.
+// Returns the spacing if it is usable, and throws InputError otherwise. A spacing must be positive
+// and finite, and neither the spacing nor the length of all `size` voxels along its axis may be
+// near the limits of single precision.
 [[nodiscard]] double usable_spacing(double spacing, int size, const core::FilePlace& place);
 
-// The file that a header names, relative to the header's folder. Throws InputError if it does not
-// exist.
+// Returns the path of a file that a header names relative to the header's folder. Throws InputError
+// if the file does not exist.
 [[nodiscard]] std::filesystem::path data_file_beside(const std::filesystem::path& header,
                                                      std::string_view name,
                                                      const core::FilePlace& place);

@@ -1,5 +1,6 @@
 #pragma once
-// Selects code that was compiled for the scalar type of a volume, which is known only at run time.
+// Selects code that was compiled for the scalar type of a volume, because this type is known only
+// at run time.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +11,8 @@
 
 namespace triptych::scene {
 
-// Calls `use` with a zero of the C++ type in which `type` is stored, and returns its result.
+// Calls `use` with a zero of the C++ type that stores scalars of type `type`, and returns the
+// result of `use`.
 template <typename Use>
 decltype(auto) with_scalar_type(ScalarType type, Use&& use) {
   switch (type) {
@@ -30,7 +32,7 @@ decltype(auto) with_scalar_type(ScalarType type, Use&& use) {
   return use(double{});
 }
 
-// Element `index` of untyped memory.
+// Returns element `index` of untyped memory.
 template <typename Scalar>
 Scalar load_scalar(const std::byte* storage, std::size_t index) {
   Scalar value;

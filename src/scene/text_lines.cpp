@@ -47,7 +47,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
-// ASCII only, whatever the locale.
+// Converts only ASCII letters, regardless of the locale.
 std::string lower_case(std::string_view text) {
   std::string lower(text);
   for (char& c : lower) {

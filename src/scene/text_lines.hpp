@@ -10,24 +10,25 @@
 
 namespace triptych::scene {
 
-// Lines without their ends, which may be LF or CR LF; the end of the last one may be missing.
+// Returns the lines without their line ends, which may be LF or CR LF. The last line may lack a
+// line end.
 [[nodiscard]] std::vector<std::string_view> split_lines(std::string_view text);
 
-// The parts that are separated by blanks and tabs.
+// Returns the parts of the text that are separated by blanks and tabs.
 [[nodiscard]] std::vector<std::string_view> split_words(std::string_view text);
 
-// The text without the byte order mark of UTF-8, which some editors put before it.
+// Returns the text without the UTF-8 byte order mark that some editors put at the beginning.
 [[nodiscard]] std::string_view without_mark(std::string_view text);
 
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 [[nodiscard]] std::string lower_case(std::string_view text);
 
-// A word of a file in the form in which messages quote it: on one line, with at most 40 characters,
-// and without characters that control a terminal.
+// Returns a word from a file in the form in which messages quote it: on one line, with at most 40
+// characters, and without characters that control a terminal.
 [[nodiscard]] std::string quotable(std::string_view word);
 
-// The number that the whole word represents; nullopt if it is not a number or the type cannot hold
-// it.
+// Returns the number that the whole word represents, or nullopt if the word is not a number or the
+// number does not fit into the type.
 template <typename Number>
 [[nodiscard]] std::optional<Number> parse_number(std::string_view word) {
   Number value{};

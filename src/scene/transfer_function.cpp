@@ -25,8 +25,8 @@ struct ControlPoint {
   std::array<double, 4> rgba{};
 };
 
-// Opacities of a few per cent per voxel, so that the background is visible even through a hundred
-// voxels. The lowest eighth, where scanners put air, is fully transparent.
+// The opacities are a few per cent per voxel, so that the background is visible even through a
+// hundred voxels. The lowest eighth, which usually represents air in scans, is fully transparent.
 constexpr std::array<ControlPoint, 7> haze{{
     {0.00, {0.05, 0.10, 0.30, 0}},
     {0.125, {0.08, 0.20, 0.55, 0}},
@@ -38,8 +38,8 @@ constexpr std::array<ControlPoint, 7> haze{{
 }};
 
 // Opaque shells at 0.40, at 0.54 and from 0.66 on. Each reaches its opacity within a few voxels.
-// The space between and below them is empty, because in most scans the lowest third is air and
-// noise.
+// The values between and below the shells are transparent, because the lowest third is air and
+// noise in most scans.
 constexpr std::array<ControlPoint, 12> surfaces{{
     {0.00, {0.80, 0.45, 0.30, 0}},
     {0.35, {0.85, 0.52, 0.36, 0}},
@@ -132,8 +132,8 @@ Entries from_text(std::string_view text, const std::string& file) {
   return entries;
 }
 
-// Whether the bytes look like the beginning of a text: several lines, each of which is a comment or
-// consists of characters that occur in numbers.
+// Returns whether the bytes look like the beginning of a text file. This is the case if there are
+// several lines, and each of them is a comment or consists of characters that occur in numbers.
 bool starts_a_text(std::string_view bytes) {
   const auto lines = split_lines(bytes);
   return lines.size() > 1 && std::ranges::all_of(lines, [](std::string_view line) {
@@ -146,8 +146,9 @@ bool starts_a_text(std::string_view bytes) {
 Entries from_file(const std::filesystem::path& file) {
   const std::string text = core::read_text(file);
   const auto bytes = std::as_bytes(std::span(text));
-  // A complete text with 256 entries is longer than 1024 bytes, because four digits, three blanks
-  // and a line end for each entry are 2047 bytes. But a text that was cut off can have any length.
+  // A complete text file with 256 entries is longer than 1024 bytes, because the shortest entry
+  // (four digits, three blanks and a line end) has 8 bytes. But a truncated text file can have any
+  // length.
   const bool is_table = bytes.size() == 4 * std::tuple_size_v<Entries> && !starts_a_text(text);
   return is_table ? from_bytes(bytes) : from_text(text, file.string());
 }

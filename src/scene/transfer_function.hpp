@@ -7,17 +7,18 @@
 
 namespace triptych::scene {
 
-// 256 entries of RGBA in [0, 1], not premultiplied. Entry k is at (k+½)/256. All four channels are
-// linear between the centres of entries, and constant outside of them. Alpha is the opacity of one
-// voxel length (the smallest spacing), so a step of s voxels has the opacity 1 − (1−α)^s.
+// A table of 256 RGBA entries in [0, 1], not premultiplied. Entry k is at (k+½)/256. All four
+// channels are linear between the centres of entries, and constant before the first and after the
+// last centre. Alpha is the opacity of one voxel length (the smallest spacing), so a step of s
+// voxels has the opacity 1 − (1−α)^s.
 struct TransferFunction {
   std::string name;
   std::array<std::array<float, 4>, 256> entries{};
 };
 
-// Loads a preset ("haze" is mostly transparent, "surfaces" has opaque shells) or a file, which has
-// either 256 lines "R G B A" (numbers from 0 to 255, or from 0 to 1 if all are ≤ 1) or 1024 bytes
-// for 256 RGBA8 entries. Throws InputError with file and line.
+// Loads a preset ("haze" is mostly transparent, "surfaces" has opaque shells) or a file. A file has
+// either 256 lines "R G B A" (with numbers from 0 to 255, or from 0 to 1 if all are ≤ 1), or 1024
+// bytes for 256 RGBA8 entries. Throws InputError with file and line.
 [[nodiscard]] TransferFunction load_transfer_function(
     std::string_view name, const std::vector<std::filesystem::path>& folders = {});
 [[nodiscard]] std::vector<std::string_view> transfer_function_presets();

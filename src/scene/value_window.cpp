@@ -37,7 +37,8 @@ std::string text_of(const Range& range) {
   return fmt::format("{}..{}", range.lo, range.hi);
 }
 
-// Selects the values of a volume that count: finite ones, and only positive ones for a logarithm.
+// Selects the values of a volume that count. These are the finite values, and for a logarithmic
+// mapping only the positive ones.
 template <typename Scalar>
 class Counted {
  public:
@@ -51,7 +52,8 @@ class Counted {
   [[nodiscard]] bool empty() const { return range_.lo > range_.hi; }
   [[nodiscard]] const Range& range() const { return range_; }
 
-  // The percentile by nearest rank. The first call stores a copy of the values for later calls.
+  // Returns a percentile by the nearest-rank method. The first call stores a copy of the values for
+  // later calls.
   [[nodiscard]] double percentile(double percent) {
     if (values_.empty()) for_each([this](Scalar value) { values_.push_back(value); });
     const auto count = static_cast<double>(values_.size());
@@ -81,7 +83,8 @@ class Counted {
 [[noreturn]] void refuse_values(const Volume& volume, Mapping mapping) {
   throw core::InputError(
       mapping == Mapping::logarithmic
-          ? fmt::format("{}: mapping log needs values above 0, but no voxel has one", volume.name)
+          ? fmt::format("{}: mapping=log needs values above 0, but no voxel has such a value",
+                        volume.name)
           : fmt::format("{}: no voxel has a finite value, so there is no range to map",
                         volume.name));
 }
@@ -95,7 +98,7 @@ Range range_of(const Window& window, Counted<Scalar>& counted, const std::string
   if (range.lo < range.hi) return range;
   throw core::InputError(
       fmt::format("{}: the window {} of values {} is empty; choose percentiles that are farther "
-                  "apart, or numbers",
+                  "apart, or choose numbers",
                   name, text_of(range), text_of(counted.range())));
 }
 
@@ -108,8 +111,8 @@ void set_window_of(Volume& volume, const std::optional<Window>& window, Mapping 
                              : Range{std::max(volume.range_lo, there.lo), volume.range_hi};
   if (mapping == Mapping::logarithmic && !(range.lo > 0)) {
     throw core::InputError(
-        fmt::format("{}: a window of mapping log cannot begin at {}; choose a lower end above 0 "
-                    "(the values above 0 are {})",
+        fmt::format("{}: with mapping=log, a window cannot begin at {}; choose a lower end above 0 "
+                    "(the values above 0 are in {})",
                     volume.name, range.lo, text_of(there)));
   }
   volume.range_lo = range.lo;
@@ -129,7 +132,7 @@ std::optional<Window> parse_window(std::string_view text) {
   if (!lo || !hi) refuse(text);
   if (lo->percentile == hi->percentile && !(lo->number < hi->number)) {
     throw core::InputError(
-        fmt::format("window '{}' is empty: its lower end is not below its upper one", text));
+        fmt::format("window '{}' is empty: its lower end is not below its upper end", text));
   }
   return Window{*lo, *hi};
 }

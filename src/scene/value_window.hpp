@@ -1,6 +1,6 @@
 #pragma once
-// The range of a volume's values that the transfer function covers: the factors `window` and
-// `mapping`.
+// The range of a volume's values that the transfer function covers, as set by the factors `window`
+// and `mapping`.
 
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace triptych::scene {
 
-// One end of a window: a value in the units of the data, or a percentile of the voxels.
+// One end of a window: a number in the units of the data, or a percentile of the voxels' values.
 struct WindowEnd {
   double number = 0;
   bool percentile = false;
@@ -22,22 +22,22 @@ struct Window {
   WindowEnd hi;
 };
 
-// Parses a window. "full" is the range of the volume and gives nullopt. Any other text has the form
-// LOW..HIGH, where each end is a number or pN with 0 ≤ N ≤ 100: "0.5..3", "p1..p99", "0..p99.5".
-// Throws InputError for any other text, and for two numbers or two percentiles if the first is not
-// smaller than the second.
+// Parses a window. Returns nullopt for "full", which means the full range of the volume. Any other
+// window has the form LOW..HIGH, where each end is a number or pN with 0 ≤ N ≤ 100: "0.5..3",
+// "p1..p99", "0..p99.5". Throws InputError for any other text, and for two numbers or two
+// percentiles if the first is not smaller than the second.
 [[nodiscard]] std::optional<Window> parse_window(std::string_view text);
 
-// "linear" or "log"; throws InputError.
+// Parses "linear" or "log". Throws InputError for any other name.
 [[nodiscard]] Mapping mapping(std::string_view name);
 
 // Sets the values that encode() maps to 0 and to 1, and the kind of mapping. Each voxel outside the
-// window is clamped to the window's ends before anything is interpolated. Percentiles are nearest
-// ranks: the smallest value that at least N % of the voxels do not exceed. Values that are not
-// finite do not count. For a logarithm only positive values count, and the full range begins at the
-// smallest of them. The full range with a linear mapping does not change the volume. Throws
-// InputError if no value counts, if the window's lower end is not below its upper end for these
-// voxels, and if the mapping is logarithmic and the window does not begin above 0.
+// window is clamped to the window's ends before anything is interpolated. The percentile pN is the
+// smallest value for which at least N % of the voxels are not larger (nearest rank). Values that
+// are not finite do not count. With a logarithmic mapping, only positive values count, and the full
+// range begins at the smallest of them. The full range with a linear mapping leaves the volume
+// unchanged. Throws InputError if no value counts, if the window's lower end is not below its upper
+// end for these voxels, or if the mapping is logarithmic and the window does not begin above 0.
 void set_window(Volume& volume, const std::optional<Window>& window, Mapping mapping);
 
 }  // namespace triptych::scene

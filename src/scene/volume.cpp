@@ -23,16 +23,16 @@ std::size_t count_of(const std::array<int, 3>& size) {
          static_cast<std::size_t>(size[2]);
 }
 
-// Maps values from a range to 0..1, clamped. NaN gives 0, and so does an empty range. The result is
-// never −0, so that equal fields have equal bits.
+// Maps values from a range to 0..1, clamped. NaN and empty ranges give 0. The result is never −0,
+// so that equal fields are bit-identical.
 class Normaliser {
  public:
   explicit Normaliser(const Volume& volume)
       : mapping_(volume.mapping),
         least_(volume.range_lo),
         most_(volume.range_hi),
-        // Values are halved if hi − lo would overflow; otherwise they are multiplied by 1, which
-        // rounds nothing.
+        // Values are halved if hi − lo would overflow. Otherwise they are multiplied by 1, which
+        // does not round.
         unit_(std::isfinite(most_ - least_) ? 1.0 : 0.5),
         lo_(transformed(least_)),
         extent_(transformed(most_) - lo_) {}
@@ -46,7 +46,7 @@ class Normaliser {
   }
 
  private:
-  // With a logarithmic mapping, the whole range is positive.
+  // With a logarithmic mapping, all values of the range are positive.
   [[nodiscard]] double transformed(double value) const {
     return mapping_ == Mapping::logarithmic ? logarithm(value) : value * unit_;
   }
@@ -73,7 +73,8 @@ VoxelBytes convert(VoxelBytes&& voxels, Convert&& each) {
   return std::move(out);
 }
 
-// The unsigned form of an integer type: signed types are shifted so that they begin at 0.
+// The amount by which a signed integer type is shifted so that its values begin at 0. It is 0 for
+// unsigned types.
 template <typename From>
 inline constexpr int shift_of = std::is_signed_v<From> ? -int{std::numeric_limits<From>::min()} : 0;
 
@@ -112,12 +113,12 @@ void encode_float(Volume& volume, VoxelGrid& grid) {
   });
 }
 
-// Whether the normalised value of every voxel can be written as stored·scale + offset.
+// Returns whether the normalised value of every voxel can be written as stored·scale + offset.
 bool is_linear(const Volume& volume) {
   return volume.mapping == Mapping::linear && !volume.clipped;
 }
 
-// The number that is subtracted from integers before they are stored as f16.
+// Returns the number that is subtracted from integers before they are stored as f16.
 double whole_part_of_lower_end(const Volume& volume) {
   return std::floor(volume.range_lo);
 }
@@ -320,9 +321,10 @@ bool fits_halves(const Volume& volume) {
 
 VoxelGrid encode(Volume&& volume, VoxelFormat format) {
   if (volume.voxels.size() != volume.voxel_count() * bytes_of(volume.type)) {
-    throw core::InputError(fmt::format("volume {} has {} bytes of voxels; expected {}x{}x{} of {}",
-                                       volume.name, volume.voxels.size(), volume.size[0],
-                                       volume.size[1], volume.size[2], name_of(volume.type)));
+    throw core::InputError(
+        fmt::format("volume {} has {} bytes of voxels; expected {}x{}x{} voxels of type {}",
+                    volume.name, volume.voxels.size(), volume.size[0], volume.size[1],
+                    volume.size[2], name_of(volume.type)));
   }
   VoxelGrid grid;
   grid.format = format;

@@ -1,5 +1,6 @@
 #pragma once
-// Volumes from a file or a generator (Volume), and their form on a device (VoxelGrid).
+// Volumes from a file or a generator (Volume), and the form in which they are uploaded to a device
+// (VoxelGrid).
 
 #include <array>
 #include <cstddef>
@@ -18,51 +19,53 @@ enum class ScalarType : std::uint8_t { u8, i8, u16, i16, f32, f64 };
 [[nodiscard]] std::size_t bytes_of(ScalarType type);
 [[nodiscard]] std::string_view name_of(ScalarType type);
 
-// How values are mapped to 0..1 between the ends of a range: x = (t(v) − t(lo))/(t(hi) − t(lo)),
-// with t(v) = v or ln v.
+// How a value v in a range [lo, hi] is mapped to 0..1: x = (t(v) − t(lo))/(t(hi) − t(lo)), with
+// t(v) = v or ln v.
 enum class Mapping : std::uint8_t { linear, logarithmic };
 [[nodiscard]] std::string_view name_of(Mapping mapping);
 
-// A scalar field on a regular grid. Values are as stored in the file, in native byte order, with x
-// fastest: voxel (i, j, k) is element i + nx·(j + ny·k). Voxel centres are at (i+½)·spacing, and
-// the volume fills [0, size·spacing] in world units. Outside the outermost centres, values are
-// clamped to the edge.
+// A scalar field on a regular grid. Values are stored as in the file, but in native byte order,
+// with x fastest: voxel (i, j, k) is element i + nx·(j + ny·k). Voxel centres are at (i+½)·spacing,
+// and the volume fills [0, size·spacing] in world units. Outside the outermost centres, the field
+// has the value of the nearest edge.
 struct Volume {
   std::string name;  // the `data` factor: a file name or generate:NAME:SIZE
   std::array<int, 3> size{};
   std::array<double, 3> spacing{1, 1, 1};
   ScalarType type = ScalarType::u8;
   VoxelBytes voxels;
-  // The values that are mapped to 0 and 1 of the transfer function: the minimum and maximum of the
-  // finite voxels of a file; a generator sets its own. lo == hi is allowed, and then every voxel
-  // maps to 0.
+  // The values that are mapped to 0 and 1 of the transfer function. For a file, these are the
+  // minimum and maximum of the finite voxels. A generator sets its own range. lo == hi is allowed,
+  // in which case every voxel maps to 0.
   double range_lo = 0;
   double range_hi = 1;
   Mapping mapping = Mapping::linear;
-  bool clipped = false;  // some values lie beyond the range (set_window)
+  bool clipped = false;  // some values are outside the range (see set_window())
   ReadFacts facts;       // about the file
 
   [[nodiscard]] std::size_t voxel_count() const noexcept;
-  // Values as stored in the file; may be NaN or infinite.
+  // Returns a value as stored in the file, which may be NaN or infinite.
   [[nodiscard]] double value(std::size_t index) const;
 };
 
-// How voxels are stored on a device: the levels of the factor `voxel`.
+// The format in which voxels are stored on a device: the levels of the factor `voxel`.
 enum class VoxelFormat : std::uint8_t { u8, u16, f32, f16 };
 [[nodiscard]] std::string_view name_of(VoxelFormat format);
 [[nodiscard]] VoxelFormat voxel_format(std::string_view name);  // throws InputError
 [[nodiscard]] std::size_t bytes_of(VoxelFormat format);
-// The largest integer that u8 and u16 store; 1 for floats, whose texels contain the stored value.
+// Returns the largest integer that u8 or u16 can store. Returns 1 for float formats, whose texels
+// contain the stored value itself.
 [[nodiscard]] double largest_stored(VoxelFormat format);
 
-// Voxels as uploaded to a device. The normalised value, 0..1 over the range, is
+// Voxels in the form in which they are uploaded to a device. The normalised value, 0..1 over the
+// range, is
 //   x = stored·scale + offset     (stored: the integer, or the float itself)
-// - u8 and u16 hold integer files with 8 and 16 bits exactly, whatever their range is.
-// - f32 holds x itself, clamped to [0, 1], with NaN as 0.
-// - f16 holds halves ≥ 0, none of which is subnormal. They are the integers of a file minus the
+// - u8 and u16 store 8-bit and 16-bit integer files exactly, regardless of their range.
+// - f32 stores x itself, clamped to [0, 1], with NaN as 0.
+// - f16 stores halves ≥ 0, none of which is subnormal. They are the integers of a file minus the
 //   lower end of the range, if halves represent these exactly (fits_halves). Otherwise they are
-//   2¹⁵·x, rounded, and x below 2⁻²⁹ becomes 0. So no voxel overflows, and it does not matter how a
-//   device treats subnormals.
+//   2¹⁵·x, rounded, and x below 2⁻²⁹ becomes 0. Therefore no voxel overflows, and it does not
+//   matter how a device treats subnormals.
 struct VoxelGrid {
   VoxelFormat format = VoxelFormat::f32;
   std::array<int, 3> size{};
@@ -72,27 +75,29 @@ struct VoxelGrid {
   double offset = 0;
   double range_lo = 0;
   double range_hi = 1;
-  Mapping mapping = Mapping::linear;  // of the values; the mapping of `stored` is linear
+  Mapping mapping = Mapping::linear;  // of the values; `stored` is always mapped linearly
   std::string name;
-  std::string hash;  // content_hash of the voxels and the mapping
+  std::string hash;  // content hash of the voxels and how they are mapped to x
 
   [[nodiscard]] std::size_t voxel_count() const noexcept;
-  [[nodiscard]] double normalised(std::size_t index) const;  // x of a voxel
+  [[nodiscard]] double normalised(std::size_t index) const;  // x
 };
 
-// The smallest format that represents every value of this type exactly, except that f64 gives f32.
+// Returns the smallest format that represents every value of this type exactly. For f64 this is
+// f32, which is not exact.
 [[nodiscard]] VoxelFormat lossless_format(ScalarType type);
-// The format after the mapping: integers that are clamped, or whose logarithm is taken, become f32.
+// Returns the smallest lossless format for the mapped volume: f32 if integers are clamped or mapped
+// logarithmically.
 [[nodiscard]] VoxelFormat lossless_format(const Volume& volume);
 
-// Whether f16 represents every voxel exactly. This is the case for integers with a linear mapping
-// if each of them has at most 11 significant bits after the whole part of the range's lower end has
-// been subtracted.
+// Returns whether f16 represents every voxel exactly. This is the case for integers with a linear
+// mapping if each of them has at most 11 significant bits after the integer part of the range's
+// lower end has been subtracted.
 [[nodiscard]] bool fits_halves(const Volume& volume);
 
-// Converts the volume. If the format is too small, values are rounded to its steps over the range.
-// If the volume already has the representation of the format, its voxels are moved, so that there
-// is only one copy in memory.
+// Converts the volume to a format. If the format is too small, values are rounded to its steps over
+// the range. If the volume's type already has the representation of the format, its voxels are
+// moved, so that only one copy exists in memory.
 [[nodiscard]] VoxelGrid encode(Volume&& volume, VoxelFormat format);
 
 // The value that is drawn for voxels with several values: the levels of the factor `component`.
@@ -100,22 +105,24 @@ struct Component {
   std::uint64_t index = 0;  // counted from 0
   bool magnitude = false;   // draw the Euclidean length of all values instead
 };
-[[nodiscard]] Component parse_component(std::string_view text);  // "2" or "magnitude"; InputError
+// Parses a level such as "2" or "magnitude". Throws InputError.
+[[nodiscard]] Component parse_component(std::string_view text);
 
-// Loads a volume. `data` has the form used in a plan: "generate:NAME:SIZE" or
+// Loads a volume. `data` has the same form as in a plan: "generate:NAME:SIZE" or
 // "generate:NAME:NXxNYxNZ" (scene/generators.hpp), a file in one of the formats in
 // scene/volume_formats.hpp, or "FILE:NXxNYxNZ:TYPE" for voxels without a header
-// (scene/raw_spec.hpp). A relative file name is searched first as it is, then in each of `folders`.
-// Throws InputError with file and line, and IoError if the file does not exist.
+// (scene/raw_spec.hpp). A relative file name is first looked up in the working directory, and then
+// in each of `folders`. Throws InputError with file and line, and IoError if the file does not
+// exist.
 [[nodiscard]] Volume load_volume(std::string_view data,
                                  const std::vector<std::filesystem::path>& folders = {},
                                  const Component& component = {});
 
-// Throws as load_volume does for a generated volume that cannot be made, but does not make it. Does
-// not check files.
+// Throws the same exceptions as load_volume() if `data` names a volume that cannot be generated,
+// but does not generate it. Does not check files.
 void check_generated_volume(std::string_view data);
 
-// Whether `data` can be loaded: false for a file that does not exist here.
+// Returns whether `data` can be loaded: false for a file that does not exist on this machine.
 [[nodiscard]] bool is_present(std::string_view data,
                               const std::vector<std::filesystem::path>& folders = {});
 

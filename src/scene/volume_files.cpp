@@ -23,7 +23,7 @@ constexpr std::string_view volume_generator = "generate:";
       "'{}': expected generate:NAME:SIZE or generate:NAME:NXxNYxNZ with whole numbers", data));
 }
 
-// "SIZE" or "NXxNYxNZ".
+// Parses "SIZE" or "NXxNYxNZ".
 std::array<int, 3> parse_size(std::string_view text, std::string_view data) {
   std::array<int, 3> size{};
   std::size_t axis = 0;
@@ -57,7 +57,7 @@ struct VolumeFile {
   std::optional<RawSpec> raw;
 };
 
-// Finds a file with exactly this name; otherwise the text is parsed as FILE:SIZE:TYPE.
+// Finds a file with exactly this name. If there is none, parses `data` as FILE:SIZE:TYPE.
 VolumeFile find_volume(std::string_view data, const std::vector<std::filesystem::path>& folders) {
   if (auto file = find_file(data, folders)) return {.file = std::move(file), .raw = {}};
   auto raw = parse_raw_spec(data);
@@ -90,7 +90,7 @@ Volume load_volume(std::string_view data, const std::vector<std::filesystem::pat
     std::string where;
     for (const auto& folder : folders) where += ", " + folder.string();
     throw core::IoError(
-        fmt::format("{}: not found (searched in the current folder{})", data, where));
+        fmt::format("{}: file not found (searched in the current folder{})", data, where));
   }
   Volume volume;
   if (source.raw) {

@@ -23,7 +23,8 @@ bool begins_as_nrrd(std::string_view start) {
   return start.starts_with("NRRD000");
 }
 
-// The header's size in either byte order: 348 bytes in version 1, 540 in version 2.
+// The file begins with the size of its header in either byte order: 348 bytes in version 1, or 540
+// bytes in version 2.
 bool begins_as_nifti(std::string_view start) {
   constexpr std::array<std::string_view, 4> sizes{
       std::string_view("\x5C\x01\0\0", 4), std::string_view("\0\0\x01\x5C", 4),
@@ -88,8 +89,8 @@ const VolumeFormat& volume_format(const std::filesystem::path& file) {
   if (begun != formats.end() && begun != named) {
     throw core::InputError(
         {.file = file.string()},
-        fmt::format("has a name for {} ({}), but its content begins like {}; if the content is "
-                    "right, change the ending to {}",
+        fmt::format("the file name's ending belongs to the format {} ({}), but the content begins "
+                    "like {}; if the content is correct, change the ending to {}",
                     named->name, ending, begun->name, split_words(begun->endings).front()));
   }
   return *named;

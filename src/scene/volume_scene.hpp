@@ -10,11 +10,12 @@
 
 namespace triptych::scene {
 
-// The light is at the eye. With the unit gradient n and the direction d of the ray, the colour is
+// Shading with the light at the eye. With the unit gradient n and the ray direction d, the colour
+// is
 //   c' = c·(ambient + diffuse·|n·d|) + specular·|n·d|^exponent,
 // where n·d is replaced by (g·d)/max(|g|, gradient_floor). g is the gradient of the normalised
-// value per smallest spacing, from central differences of one voxel to either side. The floor keeps
-// the shading continuous where the field is flat.
+// value per smallest spacing, computed from central differences of one voxel to either side. The
+// floor keeps the shading continuous where the field is flat.
 struct Shading {
   bool enabled = false;
   double ambient = 0.3;
@@ -24,16 +25,16 @@ struct Shading {
   double gradient_floor = 1.0 / 256;
 };
 
-// The rule that computes the integral over one step of the ray.
+// The rule that integrates the light over one step of the ray.
 //   - midpoint: the sample in the middle of a whole step represents the step.
 //   - preintegrated: the field is assumed to be linear between its values at the front and at the
 //     back of the step. Emission and absorption of the transfer function are integrated exactly
-//     along that line, which includes the light that is absorbed within the step. The last step
+//     along that line, including the light that is absorbed within the step. The last step
 //     ends where the ray leaves the box. Shading uses the gradient in the middle of the step.
-//   - cells: a rule of fourth order. The ray is cut at the planes through voxel centres; between
-//     two cuts the field is a cubic polynomial. Each such segment is cut into ⌈1/step⌉ equal
-//     parts, and these are cut again where the value passes a kink of the transfer function
-//     (kinks.hpp). On each piece, Gauss's rule with two points gives the optical depth, and the
+//   - cells: a fourth-order rule. The ray is split at the planes through voxel centres, so that
+//     the field is a cubic polynomial between two planes. Each such segment is split into ⌈1/step⌉
+//     equal parts, and these are split again where the value passes a kink of the transfer function
+//     (kinks.hpp). On each piece, the two-point Gauss rule computes the optical depth, and the
 //     colour changes linearly with the optical depth from one point to the other. Shading uses
 //     the gradients at the points. An opacity of 1 counts as an extinction of 8192·ln 2 per
 //     voxel.
@@ -41,9 +42,9 @@ enum class Quadrature : std::uint8_t { midpoint, preintegrated, cells };
 [[nodiscard]] std::string_view name_of(Quadrature quadrature);
 [[nodiscard]] Quadrature quadrature(std::string_view name);  // throws InputError
 
-// Everything that determines the image, independent of the technique that draws it. Samples are at
-// t₀ + (i+½)·h, where h = step_voxels · smallest spacing, and the ray enters the box at t₀ and
-// leaves it at t₁. Sample i represents the length min(h, t₁ − t₀ − i·h), so only the last sample is
+// Everything that determines the image, independent of the technique that draws it. The ray enters
+// the box at t₀ and leaves it at t₁. Samples are at t₀ + (i+½)·h, where h = step_voxels · smallest
+// spacing. Sample i represents the length min(h, t₁ − t₀ − i·h), so only the last sample is
 // partial.
 struct VolumeScene {
   std::shared_ptr<const VoxelGrid> grid;
@@ -59,7 +60,8 @@ struct VolumeScene {
   [[nodiscard]] Box box() const;
   [[nodiscard]] double smallest_spacing() const;
   [[nodiscard]] double step_world() const { return step_voxels * smallest_spacing(); }
-  // The number of parts into which Quadrature::cells cuts the segment of the ray in a cell.
+  // The number of parts into which Quadrature::cells splits each segment of the ray between two
+  // planes.
   [[nodiscard]] int parts_of_cell() const;
 };
 

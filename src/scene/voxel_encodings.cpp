@@ -15,7 +15,7 @@
 namespace triptych::scene {
 namespace {
 
-// The characters of a source, one by one.
+// Returns the characters of a source one by one.
 class Letters {
  public:
   explicit Letters(ByteSource source) : source_(std::move(source)) {}
@@ -31,7 +31,7 @@ class Letters {
   }
   void take() { ++at_; }
 
-  // The next character that is not white space.
+  // Returns the next character that is not white space, without consuming it.
   std::optional<char> peek_ink() {
     for (auto c = peek(); c; c = peek()) {
       if (*c != ' ' && *c != '\n' && *c != '\r' && *c != '\t') return c;
@@ -79,7 +79,7 @@ class HexReader {
       const auto high = digit();
       if (!high) return i;
       const auto low = digit();
-      if (!low) throw core::InputError({.file = file_}, "data: half a byte is missing at the end");
+      if (!low) throw core::InputError({.file = file_}, "data: the last byte has only one hexadecimal digit");
       out[i] = static_cast<std::byte>(*high << 4U | *low);
     }
     return out.size();
@@ -113,7 +113,8 @@ class Base64Reader {
   }
 
  private:
-  // Four characters encode three bytes; '=' replaces a missing one at the end of a run.
+  // Decodes four characters, which represent three bytes. At the end of a run, '=' replaces missing
+  // characters.
   bool next_group() {
     unsigned bits = 0;
     unsigned letters = 0;
@@ -129,7 +130,7 @@ class Base64Reader {
     }
     if (letters == 0) return false;
     if (letters < 4) {
-      throw core::InputError({.file = file_}, "data: base64 ends within a group of four letters");
+      throw core::InputError({.file = file_}, "data: the base64 text ends within a group of four characters");
     }
     for (unsigned i = 0; i < 3; ++i) {
       group_.at(i) = static_cast<std::byte>(bits >> (16U - 8U * i) & 0xFFU);
@@ -155,7 +156,7 @@ std::optional<std::array<std::byte, 8>> number_bytes(std::string_view word) {
   return bytes;
 }
 
-// from_chars reads std::uint8_t as a number, not as a character.
+// Parses a value. from_chars() parses std::uint8_t as a number, not as a character.
 std::optional<std::array<std::byte, 8>> value_of(std::string_view word, StoredType type) {
   switch (type) {
     case StoredType::u8:

@@ -1,5 +1,5 @@
 #pragma once
-// Voxels written as text: hexadecimal digits, base64, or numbers.
+// Readers of voxels that are stored as text: hexadecimal digits, base64, or numbers.
 
 #include <string>
 
@@ -8,18 +8,18 @@
 
 namespace triptych::scene {
 
-// Each function throws InputError with the file's name if its input has another form. Reading ends
-// with the input.
+// Each function throws InputError with the file's name if its input has another form. Reading stops
+// at the end of the input.
 
-// Reads two hexadecimal digits per byte; white space may be anywhere.
+// Reads two hexadecimal digits per byte. White space is allowed anywhere.
 [[nodiscard]] ByteSource hex_bytes(ByteSource source, std::string file);
 
-// Reads base64. Several runs may follow one another, each with its own padding. Reading ends at the
-// first character that does not belong to the encoding, such as the '<' of a closing tag.
+// Reads base64. Several runs may follow one another, each with its own padding. Reading stops at
+// the first character that does not belong to the encoding, such as the '<' of a closing tag.
 [[nodiscard]] ByteSource base64_bytes(ByteSource source, std::string file);
 
 // Reads numbers that are separated by white space or commas, and returns them as bytes of `type` in
-// native order. Reading also ends at a '<', where a closing tag begins.
+// native byte order. Reading also stops at a '<', where a closing tag begins.
 [[nodiscard]] ByteSource text_values(ByteSource source, StoredType type, std::string file);
 
 }  // namespace triptych::scene

@@ -15,7 +15,8 @@
 namespace triptych::scene {
 namespace {
 
-// The default is not /tmp, because many systems keep /tmp in memory.
+// Returns the folder for the files. The default is not /tmp, because many systems keep /tmp in
+// memory.
 std::string folder_of_files() {
   const char* named = std::getenv("TMPDIR");
   return named != nullptr && *named != '\0' ? named : "/var/tmp";
@@ -28,7 +29,7 @@ std::string folder_of_files() {
                   folder, bytes >> 20U, std::strerror(code)));
 }
 
-// Opens a file that has no name.
+// Creates a temporary file without a name.
 int unnamed_file(const std::string& folder, std::size_t bytes) {
   std::string name = folder + "/triptych-voxels-XXXXXX";
   const int file = ::mkostemp(name.data(), O_CLOEXEC);
@@ -37,7 +38,8 @@ int unnamed_file(const std::string& folder, std::size_t bytes) {
   return file;
 }
 
-// The disk space is allocated at once: a page without space would cause a SIGBUS later.
+// Maps an unnamed file. Its disk space is allocated in advance, because otherwise a full disk would
+// later cause a SIGBUS.
 void* map_file(std::size_t bytes) {
   const std::string folder = folder_of_files();
   const int file = unnamed_file(folder, bytes);

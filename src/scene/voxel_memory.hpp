@@ -1,6 +1,6 @@
 #pragma once
-// Memory for voxels: on the heap or, for large volumes, in an unnamed file, so that the operating
-// system can write parts of it to disk when memory is short.
+// Memory for voxels. It is on the heap or, for large volumes, in an unnamed file, so that the
+// operating system can write parts of it to disk if memory is short.
 
 #include <cstddef>
 #include <new>
@@ -9,12 +9,12 @@
 
 namespace triptych::scene {
 
-// Voxels of this size or more are stored in a file. The system can write its pages back to disk,
-// and they do not count towards a limit on the data of a process.
+// Voxels of this size or more are stored in a file. The system can write the file's pages back to
+// disk, and they do not count towards the limit on a process's data segment.
 inline constexpr std::size_t least_bytes_in_a_file = std::size_t{512} << 20U;
 
-// Returns memory filled with 0. Throws std::bad_alloc or, if the folder for the file (TMPDIR, or
-// /var/tmp) has no space, IoError.
+// Returns zero-filled memory. Throws std::bad_alloc, or IoError if the folder for the file (TMPDIR
+// or /var/tmp) has no space.
 [[nodiscard]] void* allocate_voxels(std::size_t bytes);
 void free_voxels(void* voxels, std::size_t bytes) noexcept;
 
@@ -26,7 +26,8 @@ struct VoxelAllocator {
     return static_cast<T*>(allocate_voxels(n * sizeof(T)));
   }
   void deallocate(T* voxels, std::size_t n) noexcept { free_voxels(voxels, n * sizeof(T)); }
-  // Memory that resize() adds is already 0. Initializing it again would write the whole file twice.
+  // Memory that resize() adds is already zero. Initializing it again would write the whole file
+  // twice.
   template <typename U>
   void construct(U* /*fresh*/) noexcept {}
   template <typename U, typename... From>
@@ -36,8 +37,8 @@ struct VoxelAllocator {
   bool operator==(const VoxelAllocator&) const = default;
 };
 
-// Such a vector must only grow: after shrinking, a later resize() would show old values instead of
-// 0.
+// A vector for voxels. It must only grow, because a resize() after shrinking would expose old
+// values instead of zeros.
 using VoxelBytes = std::vector<std::byte, VoxelAllocator<std::byte>>;
 
 }  // namespace triptych::scene

@@ -56,7 +56,7 @@ T swapped(T value) {
   return value;
 }
 
-// Appends values to the voxels of a volume, whose memory grows in large steps.
+// Appends values to the voxels of a volume. The memory grows in large steps.
 template <typename To>
 class Voxels {
  public:
@@ -78,8 +78,8 @@ class Voxels {
   std::size_t at_ = 0;
 };
 
-// Calls `use` with each value, in native byte order, and the index of its component. Returns the
-// number of bytes that were read.
+// Calls `use` with each value, in native byte order, and with the index of its component. Returns
+// the number of bytes read.
 template <typename From, typename Use>
 std::uint64_t for_each_value(const ValueLayout& layout, std::uint64_t needed,
                              const ByteSource& source, Use&& use) {
@@ -121,12 +121,12 @@ std::uint64_t pick(Volume& volume, const ValueLayout& layout, std::uint64_t want
   });
 }
 
-// The Euclidean length of each voxel's components.
+// Computes the Euclidean length of each voxel's components.
 template <typename From, typename To>
 std::uint64_t lengths(Volume& volume, const ValueLayout& layout, std::uint64_t needed,
                       const ByteSource& source) {
   Voxels<To> voxels(volume.voxels, volume.voxel_count());
-  std::vector<double> sums;  // one for each voxel of a block; grows as values are read
+  std::vector<double> sums;  // one per voxel of a block; grows as values are read
   std::size_t at = 0;
   return for_each_value<From>(layout, needed, source, [&](From value, std::uint64_t component) {
     const double scaled = layout.slope * static_cast<double>(value) + layout.intercept;
@@ -150,7 +150,7 @@ void convert_in_place(Volume& volume, ScalarType type) {
   volume.type = type;
 }
 
-// Converts 32-bit integers that a float cannot represent.
+// Converts integers to doubles if floats cannot represent them exactly.
 template <typename From>
 void convert_to_doubles(Volume& volume) {
   if constexpr (sizeof(From) == sizeof(double)) {
@@ -178,7 +178,8 @@ void narrow(Volume& volume) {
     const auto value = load_scalar<From>(volume.voxels.data(), i);
     lo = std::min(lo, value);
     hi = std::max(hi, value);
-    // The comparison is in double, because the nearest float to the largest integer exceeds it.
+    // The values are compared as doubles, because the float nearest to the largest integer does not
+    // fit into the integer type.
     exact_floats = exact_floats && static_cast<double>(static_cast<float>(value)) ==
                                        static_cast<double>(value);
   }
@@ -254,7 +255,7 @@ void check_component(const Component& component, std::uint64_t components,
   if (component.magnitude || component.index < components) return;
   throw core::InputError(
       {.file = file.string()},
-      fmt::format("has {} value{} for each voxel; component {}, counted from 0, does not exist",
+      fmt::format("the file has {} value{} per voxel; component {} (counted from 0) does not exist",
                   components, components == 1 ? "" : "s", component.index));
 }
 

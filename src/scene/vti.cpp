@@ -29,23 +29,23 @@ struct VtiArray {
   bool of_cells = false;
 };
 
-// The contents of a file's tags.
+// The tags that were found in a file.
 struct VtiFile {
   std::string file;
   XmlTag root;
   XmlTag image;
   std::vector<XmlTag> pieces;
   std::vector<VtiArray> arrays;
-  std::array<std::string, 2> active;  // arrays declared as scalars: of points, of cells
+  std::array<std::string, 2> active;  // names of the arrays declared as scalars of points and of cells
   std::optional<XmlTag> appended;
-  std::uint64_t appended_start = 0;  // position after the '_'
+  std::uint64_t appended_start = 0;  // the position after the '_'
 
   [[noreturn]] void reject(const std::string& message) const {
     throw core::InputError({.file = file}, message);
   }
 };
 
-// The position of the '_' that precedes the data.
+// Returns the position after the '_' that precedes the appended data.
 std::uint64_t start_of_appended(const std::filesystem::path& file, std::uint64_t from) {
   const ByteSource source = content_bytes(file);
   skip_bytes(source, from);
@@ -82,7 +82,7 @@ VtiFile read_tags(const std::filesystem::path& file) {
     } else if (tag->name == "AppendedData") {
       vti.appended = *tag;
       vti.appended_start = start_of_appended(file, tag->end);
-      break;  // binary data follow
+      break;  // binary data follow, not tags
     }
   }
   if (vti.root.attribute("type") != "ImageData" || vti.image.name.empty()) {
@@ -90,18 +90,18 @@ VtiFile read_tags(const std::filesystem::path& file) {
   }
   if (vti.pieces.size() > 1) {
     vti.reject(
-        fmt::format("has {} pieces; expected one (in ParaView, use Filters, Merge Blocks or "
-                    "Resample To Image)",
+        fmt::format("the file has {} pieces; expected one (in ParaView, use Filters, Merge Blocks "
+                    "or Resample To Image)",
                     vti.pieces.size()));
   }
   if (vti.arrays.empty()) {
-    vti.reject("holds no data: <Piece> with <PointData> and a <DataArray> are missing");
+    vti.reject("the file contains no data: expected <Piece> with <PointData> and a <DataArray>");
   }
   return vti;
 }
 
-// Chooses the array to draw: the scalars of the points, otherwise the scalars of the cells,
-// otherwise the first array of the points, otherwise the first array of the cells.
+// Returns the array to draw: the scalars of the points, or else the scalars of the cells, or else
+// the first array of the points, or else the first array of the cells.
 const VtiArray& chosen_array(const VtiFile& vti) {
   for (const bool by_name : {true, false}) {
     for (const bool of_cells : {false, true}) {
@@ -137,7 +137,7 @@ void take_extent(const VtiFile& vti, bool of_cells, Volume& volume) {
   if (!vti.pieces.empty()) {
     const std::string piece = vti.pieces.front().attribute("Extent");
     if (!piece.empty() && numbers_of<int>(piece, 6, vti, "Extent") != extent) {
-      vti.reject("the piece is not the whole image (Extent and WholeExtent differ)");
+      vti.reject("the piece does not contain the whole image (Extent and WholeExtent differ)");
     }
   }
   const auto spacing = numbers_of<double>(vti.image.attribute("Spacing", "1 1 1"), 3, vti, "Spacing");
@@ -145,7 +145,7 @@ void take_extent(const VtiFile& vti, bool of_cells, Volume& volume) {
     const std::int64_t size = std::int64_t{extent[2 * axis + 1]} - extent[2 * axis] +
                               (of_cells ? 0 : 1);
     if (size < 1 || size > std::numeric_limits<int>::max()) {
-      vti.reject(fmt::format("WholeExtent: {} values along axis {}; expected at least 1", size, axis));
+      vti.reject(fmt::format("WholeExtent has {} values along axis {}; expected at least 1", size, axis));
     }
     volume.size.at(axis) = static_cast<int>(size);
     volume.spacing.at(axis) =
@@ -181,7 +181,7 @@ StoredType vti_type(const VtiFile& vti, const XmlTag& array) {
                          quotable(name)));
 }
 
-// Reads the numbers before the data, which have 4 or 8 bytes each, in the file's byte order.
+// Reads the numbers that precede the data. Each has 4 or 8 bytes, in the file's byte order.
 class BlockHeader {
  public:
   BlockHeader(const VtiFile& vti, const ByteSource& source)
@@ -193,7 +193,7 @@ class BlockHeader {
   [[nodiscard]] std::uint64_t take() const {
     std::array<std::byte, 8> bytes{};
     const auto used = std::span(bytes).first(wide_ ? 8 : 4);
-    if (source_(used) != used.size()) vti_.reject("the data end within their header");
+    if (source_(used) != used.size()) vti_.reject("the data end within the block header");
     if (big_ == (std::endian::native == std::endian::little)) std::ranges::reverse(used);
     if (!wide_) {
       std::uint32_t value = 0;
@@ -212,7 +212,7 @@ class BlockHeader {
   bool big_;
 };
 
-// Reads blocks that are compressed with zlib and follow a header with their sizes.
+// Reads zlib-compressed blocks, which follow a header with their sizes.
 class ZlibBlocks {
  public:
   ZlibBlocks(const VtiFile& vti, ByteSource source) : file_(vti.file), source_(std::move(source)) {
@@ -224,7 +224,7 @@ class ZlibBlocks {
     const std::uint64_t last = header.take();
     if (count > most_blocks || size_ > largest || last > size_ || (count > 0 && size_ == 0)) {
       vti.reject(
-          fmt::format("the block sizes are not valid: {} blocks of {} bytes, the last one of {}",
+          fmt::format("the block sizes are not valid: {} blocks of {} bytes, the last block of {} bytes",
                       count, size_, last));
     }
     last_ = last == 0 ? size_ : last;
@@ -248,7 +248,7 @@ class ZlibBlocks {
     if (next_ == packed_.size()) return false;
     const std::uint64_t packed_size = packed_[next_++];
     const std::uint64_t size = next_ == packed_.size() ? last_ : size_;
-    // zlib's upper limit for the compressed size of a block of that size.
+    // compressBound() is zlib's upper limit for the compressed size of a block of this size.
     if (packed_size > compressBound(static_cast<uLong>(size)) + 64) {
       reject(fmt::format("{} compressed bytes are too many for a block of {} bytes", packed_size,
                          size));
@@ -280,7 +280,7 @@ class ZlibBlocks {
   std::size_t at_ = 0;
 };
 
-// A source of the array's values. It begins at the first byte.
+// Returns a source of the array's values, which begins at the first value.
 ByteSource open_array(const VtiFile& vti, const XmlTag& array, const std::filesystem::path& file,
                       StoredType type) {
   const std::string format = array.attribute("format", "ascii");
@@ -292,7 +292,7 @@ ByteSource open_array(const VtiFile& vti, const XmlTag& array, const std::filesy
   bool base64 = true;
   if (format == "appended") {
     const auto offset = parse_number<std::uint64_t>(array.attribute("offset", "0"));
-    if (!vti.appended || !offset) vti.reject("expected <AppendedData> and an offset in it");
+    if (!vti.appended || !offset) vti.reject("expected <AppendedData> and an offset into it");
     skip_bytes(bytes, vti.appended_start);
     skip_bytes(bytes, *offset);
     base64 = vti.appended->attribute("encoding", "base64") != "raw";
@@ -306,13 +306,13 @@ ByteSource open_array(const VtiFile& vti, const XmlTag& array, const std::filesy
   const std::string compressor = vti.root.attribute("compressor");
   if (compressor.empty()) {
     const BlockHeader header(vti, bytes);
-    // Skip the byte count in the header, because it also follows from the sizes.
+    // The byte count in the header is skipped, because it also follows from the sizes.
     static_cast<void>(header.take());
     return bytes;
   }
   if (compressor != "vtkZLibDataCompressor") {
-    vti.reject(fmt::format("compressor '{}' is not supported; expected vtkZLibDataCompressor: in "
-                           "ParaView, save it with the compressor ZLib, or none",
+    vti.reject(fmt::format("compressor '{}' is not supported; expected vtkZLibDataCompressor or "
+                           "none: in ParaView, save the file with the compressor ZLib or None",
                            quotable(compressor)));
   }
   const auto blocks = std::make_shared<ZlibBlocks>(vti, std::move(bytes));
@@ -331,7 +331,7 @@ Volume read_vti(const std::filesystem::path& file, const Component& component) {
   const std::string components = array.tag.attribute("NumberOfComponents", "1");
   const auto count = parse_number<std::uint32_t>(components);
   if (!count || *count == 0) {
-    vti.reject(fmt::format("NumberOfComponents '{}'; expected a whole number, 1 or more",
+    vti.reject(fmt::format("NumberOfComponents is '{}'; expected a whole number, 1 or more",
                            quotable(components)));
   }
   layout.components = *count;

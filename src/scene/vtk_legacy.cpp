@@ -19,13 +19,14 @@ namespace {
 
 constexpr std::size_t longest_vtk_header = std::size_t{1} << 20U;
 
-// Reads the lines of a header and keeps the position at which each ends.
+// Reads the lines of a header, and keeps track of the position at which each line ends.
 class VtkLines {
  public:
   explicit VtkLines(const std::filesystem::path& file)
       : file_(file.string()), text_(content_start(file, longest_vtk_header)), rest_(text_) {}
 
-  // The next line that is not blank.
+  // Returns the next line that is not blank. If there is none, throws InputError that says what was
+  // expected.
   std::string_view next(std::string_view expected) {
     for (;;) {
       if (rest_.empty()) {
@@ -35,7 +36,7 @@ class VtkLines {
       if (!trimmed(line).empty()) return trimmed(line);
     }
   }
-  // The next line, which may be blank.
+  // Returns the next line, which may be blank.
   std::string_view any() {
     const std::size_t length = std::min(rest_.find('\n'), rest_.size());
     std::string_view line = rest_.substr(0, length);
@@ -44,7 +45,8 @@ class VtkLines {
     ++line_;
     return line;
   }
-  // Whether the next line that is not blank begins with this word, in capitals.
+  // Returns whether the next line that is not blank begins with this word. Upper and lower case do
+  // not matter.
   [[nodiscard]] bool follows(std::string_view word) const {
     std::string_view ahead = rest_;
     ahead.remove_prefix(std::min(ahead.find_first_not_of(" \t\r\n"), ahead.size()));
@@ -91,12 +93,12 @@ StoredType vtk_type(const VtkLines& lines, std::string_view name) {
 std::uint64_t count_of(const VtkLines& lines, std::string_view word) {
   const auto count = parse_number<std::uint32_t>(word);
   if (!count || *count == 0) {
-    lines.reject(fmt::format("expected a whole number, 1 or more, found '{}'", quotable(word)));
+    lines.reject(fmt::format("expected a whole number, 1 or more; found '{}'", quotable(word)));
   }
   return *count;
 }
 
-// The properties of the image, which the file states before its array.
+// The properties of the image, which the file states before the array.
 struct VtkHeader {
   bool binary = false;
   std::string sizes;
@@ -104,7 +106,7 @@ struct VtkHeader {
   bool of_cells = false;
 };
 
-// Reads up to POINT_DATA or CELL_DATA, and returns its number of values.
+// Reads the lines up to POINT_DATA or CELL_DATA, and returns the number of values stated there.
 std::uint64_t take_geometry(VtkLines& lines, VtkHeader& header) {
   for (;;) {
     const std::string_view line = lines.next("POINT_DATA");
@@ -119,7 +121,7 @@ std::uint64_t take_geometry(VtkLines& lines, VtkHeader& header) {
       header.of_cells = key == "cell_data";
       return count_of(lines, value);
     } else if (key == "field") {
-      lines.reject("a FIELD before POINT_DATA is not read; remove it, or save the image as .vti");
+      lines.reject("a FIELD before POINT_DATA is not supported; remove it, or save the image as .vti");
     } else if (key != "origin" && key != "metadata" && key != "information" && key != "name" &&
                key != "data") {
       lines.reject(fmt::format("expected DIMENSIONS, SPACING, ORIGIN or POINT_DATA, found '{}'",
@@ -128,7 +130,7 @@ std::uint64_t take_geometry(VtkLines& lines, VtkHeader& header) {
   }
 }
 
-// Reads the lines that declare an array; its values follow.
+// Reads the lines that declare an array. The array's values follow these lines.
 ValueLayout take_array(VtkLines& lines, const VtkHeader& header) {
   ValueLayout layout;
   layout.big_endian = true;
@@ -150,7 +152,7 @@ ValueLayout take_array(VtkLines& lines, const VtkHeader& header) {
   } else if (key == "color_scalars") {
     need(3, "COLOR_SCALARS name components");
     layout.type = header.binary ? StoredType::u8 : StoredType::f32;
-    // Reads bytes; a text file has them as fractions of 255.
+    // The values are read as bytes, but an ASCII file contains them as fractions of 255.
     if (!header.binary) layout.slope = 255;
     layout.components = count_of(lines, words[2]);
   } else if (key == "field") {
@@ -160,17 +162,17 @@ ValueLayout take_array(VtkLines& lines, const VtkHeader& header) {
     layout.components = count_of(lines, words[1]);
     layout.type = vtk_type(lines, words[3]);
   } else {
-    lines.reject(fmt::format("expected an array, found '{}'; the arrays that are read are SCALARS, "
-                             "COLOR_SCALARS, VECTORS, NORMALS and FIELD",
+    lines.reject(fmt::format("expected an array (SCALARS, COLOR_SCALARS, VECTORS, NORMALS or FIELD), "
+                             "found '{}'",
                              quotable(words.front())));
   }
   return layout;
 }
 
-// The lines before the geometry of the image.
+// Reads the lines before the geometry of the image.
 VtkHeader take_heading(VtkLines& lines) {
   if (!lines.any().starts_with("# vtk DataFile Version")) {
-    lines.reject("not a VTK file; expected '# vtk DataFile Version'");
+    lines.reject("this is not a VTK file; expected '# vtk DataFile Version'");
   }
   static_cast<void>(lines.any());  // a title
   VtkHeader header;
@@ -182,8 +184,8 @@ VtkHeader take_heading(VtkLines& lines) {
   const std::string dataset = lower_case(lines.next("DATASET"));
   const auto words = split_words(dataset);
   if (words.size() != 2 || words[0] != "dataset" || words[1] != "structured_points") {
-    lines.reject(fmt::format("expected DATASET STRUCTURED_POINTS, found '{}'; in ParaView, Filters, "
-                             "Resample To Image makes one of other datasets",
+    lines.reject(fmt::format("expected DATASET STRUCTURED_POINTS, found '{}'; to convert other "
+                             "datasets, use Filters, Resample To Image in ParaView",
                              quotable(dataset)));
   }
   return header;
@@ -203,7 +205,7 @@ Volume read_vtk(const std::filesystem::path& file, const Component& component) {
   if (static_cast<std::uint64_t>(volume.size[0]) * static_cast<std::uint64_t>(volume.size[1]) >
           count ||
       volume.voxel_count() != count) {
-    lines.reject(fmt::format("{} values, but {} x {} x {} voxels", count, volume.size[0],
+    lines.reject(fmt::format("the file has {} values, but {} x {} x {} voxels", count, volume.size[0],
                              volume.size[1], volume.size[2]));
   }
   RawVoxels source;

@@ -24,7 +24,7 @@ std::optional<char> XmlTags::letter() {
   return static_cast<char>(buffer_[at_++]);
 }
 
-// The text between '<' and '>', which may also occur in quotes.
+// Returns the text between '<' and '>'. A '>' in quotes does not end the tag.
 std::string XmlTags::until_end() {
   constexpr std::size_t longest = std::size_t{1} << 16U;
   std::string text;
@@ -39,7 +39,7 @@ std::string XmlTags::until_end() {
     if (comment && text.size() > 16) text.erase(3, text.size() - 8);
     if (text.size() > longest) break;
   }
-  throw core::InputError({.file = file_}, "a tag is not closed by '>'");
+  throw core::InputError({.file = file_}, "a tag is not closed by '>' or is too long");
 }
 
 XmlTag XmlTags::parse(std::string_view text) const {

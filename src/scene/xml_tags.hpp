@@ -1,7 +1,7 @@
 #pragma once
-// Reads the tags of an XML file one by one, with the position at which each ends. This suits
-// formats with large data between the tags. It is not a complete XML parser: entities in attributes
-// are not replaced.
+// Reads the tags of an XML file one by one, with the position at which each tag ends. This is
+// useful for formats with large data between the tags. It is not a complete XML parser, because
+// entities in attributes are not replaced.
 
 #include <cstdint>
 #include <map>
@@ -14,7 +14,7 @@
 namespace triptych::scene {
 
 struct XmlTag {
-  std::string name;  // "/NAME" of a closing tag
+  std::string name;  // "/NAME" for a closing tag
   std::map<std::string, std::string> attributes;
   bool empty = false;     // <NAME/>
   std::uint64_t end = 0;  // position of the byte after '>'
@@ -29,8 +29,8 @@ class XmlTags {
  public:
   XmlTags(ByteSource source, std::string file);
 
-  // The next tag; nullopt at the end. Comments, declarations and texts are skipped. Throws
-  // InputError for a tag that does not end or is too long.
+  // Returns the next tag, or nullopt at the end. Skips comments, declarations and the text between
+  // tags. Throws InputError for a tag that does not end or is too long.
   [[nodiscard]] std::optional<XmlTag> next();
 
  private:

@@ -15,12 +15,13 @@
 namespace triptych::scene {
 namespace {
 
-// The columns in a line that contain the element and the position.
+// The columns of a line that contain the element and the position.
 struct XyzColumns {
   std::size_t element = 0;
   std::size_t place = 1;
-  bool numbered = false;  // the element is an atomic number, according to the file
-  // The number of columns that the file states; a plain XYZ file may have further ones.
+  bool numbered = false;  // the file declares that the element is an atomic number
+  // The number of columns that the file declares. A plain XYZ file does not declare a number, and
+  // its lines may have further columns.
   std::optional<std::size_t> count;
 };
 
@@ -31,7 +32,7 @@ std::string_view take_part(std::string_view& list) {
   return part;
 }
 
-// Parses Properties=NAME:TYPE:COUNT:…, whose items are in the order of the columns.
+// Parses Properties=NAME:TYPE:COUNT:…, whose items have the same order as the columns.
 XyzColumns stated_columns(std::string_view list, const LineReader& reader) {
   constexpr std::size_t most_columns = 10'000;
   std::optional<std::size_t> species;
@@ -58,7 +59,7 @@ XyzColumns stated_columns(std::string_view list, const LineReader& reader) {
     count += *columns;
   } while (!list.empty());
   if ((!species && !number) || !place) {
-    reader.reject("expected Properties with species or Z (1 column) and pos (3)");
+    reader.reject("expected Properties with species or Z (1 column) and pos (3 columns)");
   }
   return {.element = species ? *species : *number,
           .place = *place,
@@ -69,13 +70,13 @@ XyzColumns stated_columns(std::string_view list, const LineReader& reader) {
 XyzColumns columns_of(std::string_view text, const LineReader& reader) {
   const XyzComment comment = parse_xyz_comment(text);
   if (!comment.error.empty()) {
-    reader.reject(fmt::format("the comment has 'Properties=' but is not valid extended XYZ: {}",
+    reader.reject(fmt::format("the comment contains 'Properties=' but is not valid extended XYZ: {}",
                               comment.error));
   }
   return comment.properties ? stated_columns(*comment.properties, reader) : XyzColumns{};
 }
 
-// Also reads numbers in the notations of Fortran (1.0D+00) and Mathematica (8.4*^-6).
+// Parses a number, which may also be in the notation of Fortran (1.0D+00) or Mathematica (8.4*^-6).
 double xyz_number(std::string_view word, std::string_view what, const LineReader& reader) {
   const std::size_t mark = word.find_first_of("dD*");
   if (mark == std::string_view::npos) return reader.number(word, what);
@@ -85,12 +86,12 @@ double xyz_number(std::string_view word, std::string_view what, const LineReader
   } else if (word[mark] != '*') {
     plain[mark] = 'e';
   }
-  // If this is not a number either, the error quotes the original word.
+  // If this is still not a number, the error quotes the original word.
   const auto value = parse_number<double>(plain);
   return value ? *value : reader.number(word, what);
 }
 
-// The words of a line, some of which may be quoted texts with blanks.
+// Splits a line into words. A word in quotes may contain blanks.
 void split_quoted_into(std::string_view line, std::vector<std::string_view>& words,
                        const LineReader& reader) {
   if (line.find('"') == std::string_view::npos) {
@@ -133,13 +134,13 @@ void add_xyz_atom(Atoms& atoms, const std::vector<std::string_view>& words,
             atoms.kind(word));
 }
 
-// The letters at the beginning of a word: "C" for "C12".
+// Returns the letters at the beginning of a word, such as "C" for "C12".
 std::string_view letters_of_word(std::string_view word) {
   return word.substr(0, word.find_first_of("0123456789_-+."));
 }
 
-// Whether a word is the name of an atom in a protein, such as "CB" or "HG", and not an element. If
-// a file has such names, its "CA" is one of them, too.
+// Returns whether a word is an atom name from a protein, such as "CB" or "HG", and not an element.
+// If a file contains such names, a "CA" in it is also an atom name.
 bool is_atom_name(std::string_view word) {
   const std::string_view letters = letters_of_word(word);
   const bool upper = std::ranges::all_of(letters, [](char c) { return c >= 'A' && c <= 'Z'; });
@@ -164,13 +165,12 @@ void note_numbers(Atoms& atoms) {
   const bool all = read_as.size() <= enough;
   if (!all) read_as.resize(enough);
   atoms.notes.push_back(fmt::format(
-      "the first column holds numbers, which are read as atomic numbers: {}{}; if they are types, as "
-      "LAMMPS writes them, name the elements with dump_modify, or write a .lammpstrj, which keeps "
-      "types",
+      "the first column contains numbers, which are read as atomic numbers: {}{}; if they are LAMMPS "
+      "types instead, name the elements with dump_modify, or write a .lammpstrj, which keeps types",
       fmt::join(read_as, ", "), all ? "" : ", …"));
 }
 
-// Converts the file's words to elements.
+// Converts the words in the file to elements.
 void name_words(Atoms& atoms, bool numbered) {
   if (!numbered) note_numbers(atoms);
   const bool names = std::ranges::any_of(atoms.kind_names, is_atom_name);
@@ -192,8 +192,8 @@ void name_words(Atoms& atoms, bool numbered) {
   name_elements(atoms);
 }
 
-// Checks that after a frame either the file ends or the next count follows. The data set QM9 has
-// three other lines there: frequencies, SMILES and InChI.
+// Checks that a frame is followed by the end of the file or by the next number of atoms. In the
+// data set QM9, three other lines follow: frequencies, SMILES and InChI.
 void check_what_follows(LineReader& reader) {
   if (reader.at_end()) return;
   const std::string_view line = reader.require("a frame");
@@ -203,8 +203,9 @@ void check_what_follows(LineReader& reader) {
   const auto inchi = reader.next();
   if (smiles && inchi && inchi->starts_with("InChI=") && reader.at_end()) return;
   reader.reject_at(number,
-                   fmt::format("expected the end or the next frame's number of atoms, found "
-                               "'{}': the file has more lines than its number of atoms states",
+                   fmt::format("expected the end of the file or the next frame's number of "
+                               "atoms, found '{}'; the file has more lines than the number of "
+                               "atoms states",
                                quotable(trimmed(line))));
 }
 

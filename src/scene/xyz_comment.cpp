@@ -42,8 +42,8 @@ class CommentParser {
     while (!done() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
   }
 
-  // Reads a key or a value. A value may also be in single quotes or in brackets. nullopt if a quote
-  // or bracket is not closed.
+  // Reads a key or a value. A value may also be in single quotes or in brackets. Returns nullopt if
+  // a quote or bracket is not closed.
   std::optional<std::string> word(bool is_value) {
     if (done()) return std::string();
     const char first = text_[at_];
@@ -52,12 +52,13 @@ class CommentParser {
     const std::string_view ends = is_value ? " \t" : " \t=";
     const std::size_t end = std::min(text_.find_first_of(ends, at_), text_.size());
     std::string found(text_.substr(at_, end - at_));
-    // Skip a '=' at the beginning of a pair, because it has no key.
+    // A pair that begins with '=' has no key. The '=' is skipped.
     at_ = std::max(end, is_value ? at_ : at_ + (found.empty() ? 1 : 0));
     return found;
   }
 
-  // Reads a quoted text, in which a backslash escapes the next character and "\n" is a line end.
+  // Reads a quoted string, in which a backslash escapes the next character and "\n" is a line end.
+  // Returns nullopt if the quote is not closed.
   std::optional<std::string> quoted(char quote) {
     std::string found;
     for (++at_; !done(); ++at_) {
@@ -101,8 +102,8 @@ class CommentParser {
 
 XyzComment parse_xyz_comment(std::string_view comment) {
   XyzComment parsed = CommentParser(comment).parse();
-  // A plain XYZ file may have any text in its comment, so only a comment with "Properties=" has to
-  // be valid.
+  // A plain XYZ file may have any text in its comment, so only a comment with "Properties=" must be
+  // valid.
   const bool meant = lower_case(comment).find("properties=") != std::string::npos;
   if (!parsed.error.empty() && !meant) return {};
   return parsed;

@@ -1,7 +1,7 @@
 #pragma once
 // Parses the comment line of extended XYZ according to its specification
-// (https://github.com/libAtoms/extxyz). The line consists of KEY=VALUE pairs and single keys, where
-// a value is a word, a quoted text, or a list in brackets or braces.
+// (https://github.com/libAtoms/extxyz). The line consists of KEY=VALUE pairs and single keys. A
+// value is a word, a quoted string, or a list in brackets or braces.
 
 #include <optional>
 #include <string>
@@ -10,10 +10,11 @@
 namespace triptych::scene {
 
 struct XyzComment {
-  // The value of the key `Properties` (in upper or lower case); nullopt if there is no such key.
+  // The value of the key `Properties` (in upper or lower case), or nullopt if there is no such key.
   std::optional<std::string> properties;
-  // The reason why the comment is not valid extended XYZ although it is probably meant to be: it
-  // contains "Properties=", but a quote or bracket is never closed, or the key appears twice.
+  // The reason why the comment is not valid extended XYZ, if it contains "Properties=" and was
+  // therefore probably meant to be: a quote or bracket is never closed, or the key appears twice.
+  // Otherwise empty.
   std::string error;
 };
 

@@ -69,9 +69,9 @@ TEST(Dat, BrokenFilesNameTheirLine) {
                 ThrowsMessage<core::InputError>(StartsWith(file.string() + message)))
         << text;
   };
-  expect(start, ": has no line 'Format: …'");
-  expect("", ": has no line 'Resolution: …'");
-  expect("Resolution: 1 1 2\nFormat: UCHAR\n", ": has no line 'ObjectFileName: …'");
+  expect(start, ": the line 'Format: …' is missing");
+  expect("", ": the line 'Resolution: …' is missing");
+  expect("Resolution: 1 1 2\nFormat: UCHAR\n", ": the line 'ObjectFileName: …' is missing");
   expect(start + "Format: LONG\n", ":3: unknown format 'LONG'; expected UCHAR");
   expect(start + "Format UCHAR\n", ":3: expected 'Key: value'");
   expect(start + "Format: UCHAR\nSliceThicknes: 1 1 1\n", ":4: unknown key 'SliceThicknes'");

@@ -147,10 +147,10 @@ TEST(Mmcif, RefusesBrokenFiles) {
   expect_refused("a.cif", replaced(cif, "C C 1 2 3 7", "C C 1 2"), "",
                  "expected 6 values in each row of _atom_site., found 4 in the last row");
   expect_refused("a.cif", replaced(cif, "_atom_site.Cartn_z", "_atom_site.z"), "",
-                 "expected a column _atom_site.Cartn_z");
+                 "expected the column _atom_site.Cartn_z");
   expect_refused("a.cif", "data_X\n", ":1:", "expected a loop over _atom_site.");
   expect_refused("a.cif", "data_X\n_a\n;text\n", ":3:", "the ';' that ends a text field");
-  expect_refused("a.cif", "data_X\n_a 'text\n", ":2:", "expected a closing '");
+  expect_refused("a.cif", "data_X\n_a 'text\n", ":2:", "expected a closing quote (')");
 }
 
 // The PDB ends each part with '#', also the heading.
@@ -248,8 +248,8 @@ TEST(Xyz, TakesColumnsFromProperties) {
   expect_refused("a.xyz", with("Properties=" + list + ":mass:R:1"),
                  ":3:", "expected 7 columns, as Properties states, found 6");
   expect_refused("a.xyz", with("Properties=id:I:1:pos:R:3"),
-                 ":2:", "expected Properties with species or Z (1 column) and pos (3)");
-  expect_refused("a.xyz", with("Properties=species:S:1:pos:R:2"), ":2:", "and pos (3)");
+                 ":2:", "expected Properties with species or Z (1 column) and pos (3 columns)");
+  expect_refused("a.xyz", with("Properties=species:S:1:pos:R:2"), ":2:", "and pos (3 columns)");
   for (const char* broken : {"", "species:S", "species:S:1:pos:R:three", "species:S:0:pos:R:3",
                              "species:X:1:pos:R:3"}) {
     expect_refused("a.xyz", with(std::string("Properties=") + broken),

@@ -204,7 +204,7 @@ TEST(Pqr, HasItsOwnRadii) {
   EXPECT_THAT(set.spheres, ElementsAre(Sphere{46.457F, 12.189F, 21.556F, 1.824F},
                                        Sphere{47.614F, 11.997F, 22.448F, 1.908F}));
   EXPECT_EQ(kinds_of(set), "C1 N1");
-  expect_refused("a.pqr", "ATOM 1 N ALA 1 1 2-3 0 1\n", ":1:", "10 or 11 words, found 9");
+  expect_refused("a.pqr", "ATOM 1 N ALA 1 1 2-3 0 1\n", ":1:", "(10 or 11 words), found 9 words");
   expect_refused("a.pqr", "ATOM1 N ALA 1 1 2 3 0 1\n", ":1:", "expected a blank after ATOM");
 }
 
@@ -270,7 +270,7 @@ TEST(ReaderCases, EveryRowOfTheTableIsRight) {
   const std::map<std::string, std::string> reasons{
       {"v04.nii", "states neither sizes nor a type"},
       {"v04.nii.gz", "states neither sizes nor a type"},
-      {"v13.vti", "holds no data"},
+      {"v13.vti", "contains no data"},
       {"v13.vtk", "where POINT_DATA was expected"}};
   for (const auto& [file, reason] : reasons) {
     try {

@@ -206,11 +206,11 @@ TEST(Window, SaysWhatIsWrongForTheseVoxels) {
   expect_window_refused(zeros, "12..p100", Mapping::linear, "row: the window 12..9 of values 0..9");
   expect_window_refused(
       zeros, "-1..5", Mapping::logarithmic,
-      "row: a window of mapping log cannot begin at -1; choose a lower end above 0 (the "
-      "values above 0 are 9..9)");
+      "row: with mapping=log, a window cannot begin at -1; choose a lower end above 0 (the "
+      "values above 0 are in 9..9)");
   const Volume negative = row_of<float>({-3, -2}, ScalarType::f32);
   expect_window_refused(negative, "full", Mapping::logarithmic,
-                        "row: mapping log needs values above 0");
+                        "row: mapping=log needs values above 0");
   const Volume none = row_of<float>({std::nanf("")}, ScalarType::f32);
   expect_window_refused(none, "p1..p99", Mapping::linear, "row: no voxel has a finite value");
 }
