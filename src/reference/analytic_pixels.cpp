@@ -54,7 +54,8 @@ AnalyticPixel finish(const Setting& setting, const std::array<Radiance, 3>& chan
   return pixel;
 }
 
-// The error of the image that the table alone causes. It is derived in the header.
+// Returns the error of the image that is caused by the table alone (derived in
+// analytic_scenes.hpp).
 double table_error(const Setting& setting, double length) {
   const Medium& medium = setting.medium;
   const double u = setting.voxel;
@@ -90,8 +91,8 @@ double z_at(const Setting& setting, const Chord& chord, double t) {
   return setting.camera.eye.z + t * chord.direction.z;
 }
 
-// The z at which the field has kinks, and at which the medium has kinks in its representation by
-// the table.
+// The values of z at which the field has kinks, and those at which the table's representation of
+// the medium has kinks.
 std::vector<double> kinks(const Setting& setting) {
   std::vector<double> at{0.5 * setting.layer_z, setting.extent.z - 0.5 * setting.layer_z};
   for (const double g : setting.medium.kinks) at.push_back(g * setting.extent.z);
@@ -101,7 +102,7 @@ std::vector<double> kinks(const Setting& setting) {
 using Piece = std::function<Radiance(const Setting&, double g0, double g1, double length,
                                      std::size_t channel)>;
 
-// Composites a closed form for each piece between kinks of the field.
+// Composites the closed-form solutions of all pieces between kinks of the field.
 AnalyticPixel along_z(const Setting& setting, const Piece& piece, int x, int y) {
   const Chord chord = chord_of(setting, x, y);
   const std::vector<double> at = cuts(setting, chord, kinks(setting));
@@ -141,9 +142,8 @@ Radiance atmosphere_piece(const Setting& setting, double g0, double g1, double l
 }
 
 // ∫ |error of g| ds, where trilinear interpolation and, near the faces, clamping cause the error.
-// The derivatives are replaced by their maxima within a cell's diagonal: |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ²
-// and
-// ∂ᵢg| = rᵢ·g/σ².
+// The derivatives are replaced by their maxima within a cell's diagonal: |∂ᵢg| = rᵢ·g/σ² and
+// |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ².
 double blob_interpolation_error(const Setting& setting, const Chord& chord) {
   constexpr int intervals = 512;
   const double sigma = blob_sigma(setting);
@@ -212,11 +212,12 @@ double length_within(const Chord& chord, const Closest& closest, double radius) 
       0.0, std::min(chord.end, closest.along + half) - std::max(chord.begin, closest.along - half));
 }
 
-// Half the width w of the zone around a face in which grid and table may differ from the closed
-// form. The table changes from one entry to the next within h ≈ R/510 on each side. The grid's r
-// has an error of at most D/(r − d), with D = Σ Δᵢ²/8 because |∂ᵢ²r| ≤ 1/r, and with the diagonal d
-// of a cell, plus its rounding. Therefore w is the smaller root of (w − h)(s − w) = D with
-// s = face − d. It is infinite if there is no root, which means that the grid is too coarse.
+// Returns w, half the width of the zone around a face of the shell in which grid and table may
+// differ from the closed-form solution. The table changes from one entry to the next within
+// h ≈ R/510 on each side of the face. The distance r that the grid stores has an error of at most
+// D/(r − d), plus its rounding. Here, d is the diagonal of a cell, and D = Σ Δᵢ²/8 because
+// |∂ᵢ²r| ≤ 1/r. Therefore w is the smaller root of (w − h)(s − w) = D with s = face − d. The result
+// is infinite if there is no root, which means that the grid is too coarse.
 double unsure_zone(const Setting& setting, double face) {
   const auto& spacing = setting.options.spacing;
   double squares = 0;
@@ -328,8 +329,8 @@ AnalyticPixel shell_pixel(const Setting& setting, int x, int y) {
       -std::expm1(-setting.medium.largest * unsure) + table_error(setting, chord.length()));
 }
 
-// The product of three heights is a cubic polynomial along the ray, which Gauss's rule with two
-// points integrates exactly.
+// The product of three heights is a cubic polynomial along the ray, which the two-point Gauss rule
+// integrates exactly.
 AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y) {
   const Chord chord = chord_of(setting, x, y);
   const std::vector<double> at = cuts_of_all_axes(setting, chord);
@@ -347,9 +348,9 @@ AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y) {
   return finish(setting, channels, error);
 }
 
-// A colour is c·(ambient + diffuse·l) + specular·lⁿ with l = |direction ·
-// z|·steepest/floor·sin(πz/L). The gradient is that of the continuous wave; the model error
-// contains the effect of central differences.
+// A colour is c·(ambient + diffuse·l) + specular·lⁿ with
+// l = |direction · z|·steepest/floor·sin(πz/L). The gradient is that of the continuous wave. The
+// model error includes the effect of central differences.
 AnalyticPixel wave_pixel(const Setting& setting, int x, int y) {
   const Chord chord = chord_of(setting, x, y);
   const Wave wave = wave_of(setting);

@@ -17,7 +17,7 @@ namespace triptych::reference {
 namespace {
 
 // The optical depth of the box along z (for the blob: through its centre) is between 1 and 2.5, so
-// that nothing is hidden and nothing is negligible. The colours of constant media are exact in
+// that no part is hidden and no part is negligible. The colours of constant media are exact in
 // float.
 Medium medium_of(AnalyticProblem problem, const Setting& setting) {
   const double depth = 1.0 / setting.extent.z;

@@ -1,7 +1,7 @@
 #pragma once
-// Scenes that a device can draw and in which every pixel is known in closed form
-// (closed_forms.hpp). The camera can be anywhere, because the formula uses the ray and the chord of
-// each pixel.
+// Scenes that a device can draw and for which the exact value of every pixel is known as a
+// closed-form solution (closed_forms.hpp). The camera can be anywhere, because the solution uses
+// the ray and the chord of each pixel.
 
 #include <array>
 #include <functional>
@@ -13,7 +13,7 @@
 namespace triptych::reference {
 
 // The problems, and the order of convergence of a midpoint renderer with step h, measured by the
-// error against the closed form:
+// error against the closed-form solution:
 // clang-format off
 enum class AnalyticProblem {
   v1_constant,    // homogeneous box                          exact for every h
@@ -44,15 +44,16 @@ struct AnalyticOptions {
   int width = 32;
   int height = 32;
   double step_voxels = 1;
-  // The default camera is outside of the box, oblique to all axes, with the whole box in view.
+  // The default camera is outside the box, in a direction that is oblique to all axes, and sees the
+  // whole box.
   std::optional<scene::Camera> camera;
   std::array<float, 4> background{0, 0, 0, 0};
 };
 
 struct AnalyticPixel {
   std::array<double, 4> rgba{};  // premultiplied, over the background
-  // The largest difference in any channel between this closed form and the exact integral over the
-  // scene's grid and table, which have only finitely many values in float.
+  // The largest difference in any channel between this closed-form solution and the exact integral
+  // over the scene's grid and table, which represent the medium by finitely many floats.
   double model_error = 0;
 };
 
@@ -60,8 +61,8 @@ struct AnalyticPixel {
 // the medium. A voxel has the value x = (½ + 255·g)/256, so that table entry k is at g = k/255.
 //
 //   - The problems along z have g = z/L at voxel centres, so g is exactly linear between the first
-//     and the last one. In the outermost half voxels the field is constant, and so is τ in the
-//     closed form.
+//     and the last voxel centre. In the outermost half voxels, the field is constant, and so is τ
+//     in the closed-form solution.
 //   - v4_gaussian: g = e^(−r²/2σ²), with σ a tenth of the smallest extent.
 //   - v6_layers: g is 0 in one layer and 1 in the other.
 //   - v7_shell: g is the distance from the centre.
@@ -86,7 +87,7 @@ struct AnalyticPixel {
 //   - v4_gaussian: the error of trilinear interpolation, Σ Δᵢ²/8·|∂ᵢ²g|, integrated along the ray.
 //   - v6_layers: the transition between the layers, which is 1/255 voxel thick.
 //   - v7_shell: the part of the ray that is so close to a face that table and interpolation may
-//     move it to the other side.
+//     move it to the other side of the face.
 //   - v9_wave: the error of the gradient. With k = π/L, the spacing Δ along z and the steepest
 //     gradient m, central differences have an error of (kΔ)²/6·m. Their interpolation has an error
 //     of (kΔ)²/8·m, or of at most kΔ/2·m in the outermost half voxels. The rounding of two voxels

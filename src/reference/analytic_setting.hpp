@@ -1,6 +1,6 @@
 #pragma once
-// The parts of an analytic scene (analytic_scenes.hpp): the medium in its box, and the closed form
-// of a pixel for each kind of problem.
+// The parts of an analytic scene (analytic_scenes.hpp): the medium in its box, and the closed-form
+// solution of a pixel for each kind of problem.
 
 #include <array>
 #include <functional>
@@ -56,8 +56,8 @@ struct Wave {
 };
 [[nodiscard]] Wave wave_of(const Setting& setting);
 
-// These functions compute the pixel (x, y) by the closed form of each problem, composited over the
-// background.
+// Each function returns the closed-form solution of one problem for pixel (x, y), composited over
+// the background.
 [[nodiscard]] AnalyticPixel constant_pixel(const Setting& setting, int x, int y);
 [[nodiscard]] AnalyticPixel linear_pixel(const Setting& setting, int x, int y);
 [[nodiscard]] AnalyticPixel atmosphere_pixel(const Setting& setting, int x, int y);

@@ -1,31 +1,33 @@
 #pragma once
 // Quadrature::cells along one ray, with its error bounds.
 //
-// A piece is integrated by Gauss's rule with two points. Its optical depth is its length times the
-// mean of the extinctions τ₁ and τ₂. The colour is assumed to be linear in y, the share of the
-// piece's optical depth that has been passed, so the colour of the piece is c₁ + f·(c₂ − c₁).
-// Collocation puts the points at y = ½ ∓ (1 ± δ)/(2√3), with δ = (τ₂ − τ₁)/(τ₁ + τ₂). The mean of y
-// under the weight e^(−Dy), where D is the optical depth, is ½ − ½·L(D/2) with L(z) = coth z − 1/z,
-// so
+// A piece is integrated by the two-point Gauss rule. Its optical depth is its length times the mean
+// of the extinctions τ₁ and τ₂ at the two points. The colour is assumed to be linear in y, the
+// share of the piece's optical depth that has been passed, so the colour of the piece is
+// c₁ + f·(c₂ − c₁). By collocation, the points are at y = ½ ∓ (1 ± δ)/(2√3), with
+// δ = (τ₂ − τ₁)/(τ₁ + τ₂). The mean of y under the weight e^(−Dy), where D is the optical depth, is
+// ½ − ½·L(D/2) with L(z) = coth z − 1/z. Therefore
 //
-//   f = ½·(1 + δ − √3·L(D/2)), within [0, 1].
+//   f = ½·(1 + δ − √3·L(D/2)), clamped to [0, 1].
 //
-// A device cuts the ray, and looks up values, at slightly different positions, because its
-// positions and values have errors. The exact integral does not depend on the cuts. The image of a
-// device can therefore differ because of two kinds of errors:
+// A device cuts the ray and looks up values at slightly different positions, because its positions
+// and values have errors. The exact integral does not depend on the cuts. The image of a device can
+// therefore differ for two reasons:
 //
-//   - The values at the points have errors, as for a sample. They change the integrand along the
-//     ray.
-//   - The rule itself has an error, both on the device and here. It is measured by halving a piece,
-//     which leaves a sixteenth of the error, so that the change is 15/16 of it. If an extremum of
-//     the field is within the error of a kink, a device may leave a piece uncut that is cut in two
-//     here, which multiplies its error by 16.
+//   - The values at the points have errors, like those of a sample. They change the integrand along
+//     the ray.
+//   - The rule itself has an error, both on the device and here. It is estimated by halving a
+//     piece: this leaves a sixteenth of the error, so the change is 15/16 of the error. If an
+//     extremum of the field is within its error of a kink, a device may leave a piece uncut that is
+//     cut in two here, which multiplies the error of the rule by 16.
 //
-// If a device makes the same cuts, both rules have nearly the same error. If an end of a piece of
-// length h moves by ε, the rule and the integral of f change by at most ε·(range of f + h·|f′| at
-// the points/2). A cubic has h·|f′| ≤ 3√(3/2)·range there (Bernstein), so the change is less than
-// 3·ε·range. The six points that are looked up here cover more than three quarters of that range. A
-// cut next to an extremum moves by up to twice the error divided by the slope, because its distance
+// If a device makes the same cuts, its rule has nearly the same error as the rule here. Suppose
+// that an end of a piece of length h moves by ε. Then the rule and the integral of a function g
+// change by at most ε·(range of g + h·|g′|/2), with g′ at the points. For a cubic,
+// h·|g′| ≤ 3√(3/2)·range at the points (Bernstein), so the change is less than 3·ε·range. The six
+// points that are looked up here cover more than three quarters of this range. A cut next to an
+// extremum moves by up to twice the error divided by the slope, because its distance from the
+// extremum exceeds its error. The total factor is therefore 3·4/3·2 = 8.
 // from the extremum exceeds its error. The factor is therefore eight.
 
 #include <algorithm>
@@ -50,7 +52,7 @@
 
 namespace triptych::reference {
 
-// The points of one piece that a device looks up: two, or up to `open` more or fewer.
+// The number of points that a device looks up in one piece: two, or up to `open` more or fewer.
 struct OpenPoints {
   double begin = 0;  // distance of the piece from the ray's entry
   double end = 0;
@@ -73,8 +75,8 @@ class CellRule {
         smallest_spacing_(scene.smallest_spacing()),
         gradient_scale_(gradient_scale(*scene.grid)) {}
 
-  // Calls take(looked, opacity) for every piece that a device may find visible, from front to back,
-  // until `take` returns false. The alpha of `looked` is not used.
+  // Calls take(looked, opacity) for every piece that may be visible on a device, from front to
+  // back, until `take` returns false. The alphas of `looked` are meaningless.
   template <typename Take>
   void walk(const Ray& ray, Take take) {
     const auto take_visible = [&](const Piece& piece) {
@@ -88,7 +90,8 @@ class CellRule {
     if (slack > 0.0 && passed) take_visible(piece_beyond(ray, ray.length, ray.length + slack));
   }
 
-  // Calls take(points, opacity) in the same way, for the points that a device looks up.
+  // Calls take(points, opacity) for every piece in the same order, where `points` are those that a
+  // device looks up.
   template <typename Take>
   void walk_open(const Ray& ray, Take take) {
     for_each_piece(ray, [&](const Part& part, double from, double to) {
@@ -146,7 +149,7 @@ class CellRule {
     std::array<double, 2> of_cell{};  // the ends of its cell
   };
 
-  // Returns the part if it may be visible on a device, otherwise nullopt.
+  // Returns the part if it may be visible on a device, and nullopt otherwise.
   [[nodiscard]] std::optional<Part> visible_part(const Ray& ray, double begin, double end) const {
     Part part{.begin = begin, .end = end};
     part.cubic = Cubic::along(ray, begin, end,
@@ -200,9 +203,10 @@ class CellRule {
     return true;
   }
 
-  // The largest distance between a cut at t and the same cut on a device, wherever the device's ray
-  // begins. For the ends of a part it is the position error at the nearest plane of voxel centres,
-  // otherwise the error of the position where values pass a kink.
+  // Returns the largest distance between a cut at t and the same cut on a device, wherever the
+  // device's ray begins. For an end of the part, it is the position error at the nearest plane of
+  // voxel centres. For any other cut, it is the error of the position at which the values pass a
+  // kink.
   [[nodiscard]] double time_error(const Ray& ray, const Part& part, double t) const {
     if (t > part.begin && t < part.end) {
       const double s = (t - part.begin) / (part.end - part.begin);
@@ -222,7 +226,7 @@ class CellRule {
     return error;
   }
 
-  // The smallest and largest value on the part, from the cubic's Bernstein coefficients.
+  // Returns bounds of the values on the part, from the Bernstein coefficients of the cubic.
   [[nodiscard]] static Range bounds(const Cubic& cubic) {
     const double b0 = cubic.c0;
     const double b1 = b0 + cubic.c1 / 3.0;
@@ -231,7 +235,7 @@ class CellRule {
     return std::minmax({b0, b1, b2, b3});
   }
 
-  // The length of the part of a piece that may be outside of the volume on a device.
+  // Returns the length of that part of a piece that may be outside the volume on a device.
   [[nodiscard]] static double doubtful_length(const Ray& ray, double from, double to) {
     const double slack = ray.slack();
     const double begin = std::max(std::min(to, slack) - from, 0.0);
@@ -244,27 +248,28 @@ class CellRule {
     return {nominal, nominal - doubtful_length(ray, from, to) / smallest_spacing_, nominal};
   }
 
-  // The same ray with all positions uncertain by up to `way`.
+  // Returns the same ray with an additional uncertainty of all positions by up to `way` along the
+  // ray.
   [[nodiscard]] static Ray widened(Ray ray, double way) {
     ray.position_error = ray.position_error_within(way);
     return ray;
   }
 
-  // A piece outside of this ray's chord that only the ray of a device may pass.
+  // Returns a piece outside this ray's chord, which only the ray of a device may pass.
   [[nodiscard]] Piece piece_beyond(const Ray& ray, double from, double to) const {
     const Ray wide = widened(ray, 0.5 * (to - from));
     return gauss(wide, from, to, {0.0, 0.0, (to - from) / smallest_spacing_});
   }
 
-  // The largest distance between the end t of a piece and the same end on a device. If a cell is
-  // cut into equal parts, the cuts move with the ends of the cell.
+  // Returns the largest distance between the end t of a piece and the same end on a device. If a
+  // cell is cut into equal parts, the cuts move with the ends of the cell.
   [[nodiscard]] double end_error(const Ray& ray, const Part& part, double t) const {
     if (parts_ == 1 || (t > part.begin && t < part.end)) return time_error(ray, part, t);
     return std::max(time_error(ray, part, part.of_cell[0]), time_error(ray, part, part.of_cell[1]));
   }
 
-  // The distance by which a device may move a piece, as a share of the piece's length. A share of 1
-  // or more means that the cuts differ.
+  // Returns the distance by which a device may move a piece, as a share of the piece's length. A
+  // share of 1 or more means that the device may cut differently.
   [[nodiscard]] double shift_of(const Ray& ray, const Part& part, double from, double to) const {
     if (part.touches_a_kink || doubtful_length(ray, from, to) > 0.0) return 1.0;
     const double moved = end_error(ray, part, from) + end_error(ray, part, to);
@@ -328,8 +333,8 @@ class CellRule {
     return table_.look_up(Table::span_of(field_.at(p, ray.position_error)));
   }
 
-  // Looks up both points of a visible piece. A point without opacity is looked up, too, because the
-  // colour between the points depends on it.
+  // Shades the colour at t. This is also done at a point without opacity, because the colour of a
+  // piece depends on the colours at both of its points.
   void shade_at(const Ray& ray, double t, Looked& looked) const {
     const glm::dvec3 p = ray.entry + t * ray.voxels_per_unit;
     const double rounding = model_.compositing_error;
@@ -339,7 +344,8 @@ class CellRule {
         scene_.shading, rounding);
   }
 
-  // coth z − 1/z, by its series for z < 0.05, where it would cancel, with an error below 1e-15.
+  // Returns coth z − 1/z. For z < 0.05, where the difference would cancel, it uses the series, with
+  // an error below 1e-15.
   [[nodiscard]] static double langevin(double z) {
     if (z < 0.05) return z * (1.0 / 3.0 - z * z * (1.0 / 45.0 - z * z * 2.0 / 945.0));
     return 1.0 / std::tanh(z) - 1.0 / z;

@@ -1,10 +1,9 @@
 #pragma once
-// Rays whose emission–absorption integral is known in closed form:
+// Rays whose emission–absorption integral has a closed-form solution:
 //   I = ∫ c·τ·exp(−∫τ) dt,   A = 1 − exp(−∫τ),
 // where τ is the extinction per unit length (in the unit of the lengths below) and c is the colour
-// before premultiplication. All formulas follow from that definition by the given substitution. V1
-// … V9 are the numbers of the problems in this project (Etiene et al. 2014 verify volume renderers
-// with such problems).
+// before premultiplication. All formulas follow from this definition. V1 … V9 are the numbers of
+// the problems in this project (Etiene et al. 2014 verify volume renderers with such problems).
 
 namespace triptych::reference {
 
@@ -21,7 +20,7 @@ struct Radiance {
 [[nodiscard]] Radiance v1_constant(double tau, double colour, double length);
 
 // V2: τ = k·t and c = t for 0 ≤ t ≤ 1, k ≥ 0. I = −e^(−k/2) + √(π/2k)·erf √(k/2), A = 1 − e^(−k/2).
-// Derived by parts with the transmittance e^(−kt²/2).
+// This follows by integration by parts with the transmittance e^(−kt²/2).
 [[nodiscard]] Radiance v2_ramp(double k);
 
 // V3: τ = a + b·t and c = c₀ + c₁·t for 0 ≤ t ≤ length, with τ ≥ 0 everywhere. Integration by parts

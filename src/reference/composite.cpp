@@ -8,8 +8,8 @@ namespace triptych::reference {
 
 namespace {
 constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
-// A transmittance at which everything behind contributes less than half a unit in the last place to
-// any double above 1e-3.
+// The transmittance below which everything behind contributes less than half a unit in the last
+// place to any double above 1e-3.
 constexpr double invisible = 0x1.0p-64;
 }  // namespace
 
@@ -60,9 +60,9 @@ Pixel Compositor::finish() const {
         const double unseen = std::abs(behind - background_[channel]) + model_.adapt;
         lost[channel] = std::max(lost[channel], left * unseen);
       }
-      // A rounding error of the transmittance scales everything behind it. Opacity is computed as
-      // one minus the remaining transmittance, so its error scales the uncovered part. A sum of
-      // small weights would have lost that error.
+      // A rounding error of the transmittance scales everything behind the sample. Opacity is
+      // computed as one minus the remaining transmittance, so its error scales the uncovered part,
+      // however small the weights of the samples are.
       const double scaled = channel < 3 ? std::abs(behind) : 1.0 - behind;
       if (reached && opacity_hi > 0) {
         error[channel] +=
@@ -73,8 +73,8 @@ Pixel Compositor::finish() const {
       pixel.rgba[channel] = sample.opacity * colour + (1.0 - sample.opacity) * behind;
     }
   }
-  // Each addition to the colour, including that of the background, rounds a value that does not
-  // exceed the result.
+  // Each addition to the colour, including the addition of the background, rounds a value that does
+  // not exceed the result.
   const double sums = static_cast<double>(samples_.size() + 1);
   for (std::size_t channel = 0; channel < 4; ++channel) {
     const double rounding = model_.compositing_error * sums *

@@ -19,18 +19,18 @@ struct Pixel {
 };
 
 // Samples are added from front to back. finish() then processes them from back to front, which
-// yields the colour behind every sample. Let a, c, T and B be the opacity, the colour, the
-// transmittance in front, and the colour behind of a sample, with a prime for the device's values.
+// yields the colour behind every sample. Let a, c, T and B be the opacity of a sample, its colour,
+// the transmittance in front of it and the colour behind it. A prime marks the device's quantities.
 // The exact identity
 //   I' − I = Σᵢ T'ᵢ·[(a'ᵢ − aᵢ)(cᵢ − Bᵢ) + a'ᵢ(c'ᵢ − cᵢ)]
 // bounds the difference if each primed quantity is replaced by its maximum. This includes errors of
-// all orders. An object must be used by one thread only. It keeps its memory from ray to ray.
+// all orders. An object must be used by one thread only. It reuses its memory for the next ray.
 class Compositor {
  public:
   Compositor(const ErrorModel& model, const std::array<float, 4>& background);
 
   void start();
-  // Adds a sample. Returns false if nothing behind it can be visible any more.
+  // Adds a sample. Returns false if nothing behind this sample can be visible any more.
   bool add(const Looked& looked, const StepOpacity& opacity);
   [[nodiscard]] Pixel finish() const;
 
@@ -40,7 +40,7 @@ class Compositor {
     std::array<double, 3> colour_error;
     double opacity;
     double opacity_error;
-    double front;  // largest transmittance in front of it on a device
+    double front;  // largest transmittance in front of the sample on a device
   };
 
   ErrorModel model_;
@@ -49,8 +49,8 @@ class Compositor {
   double largest_ = 1;   // largest transmittance on a device so far
   double smallest_ = 1;  // smallest transmittance on a device so far
   // A device with early termination stops after one of the samples first_stop_ … last_stop_. If a
-  // device merges samples, its transmittance has the same error as the image, so it may stop as
-  // early as that error allows, and as late as at its last sample.
+  // device merges samples, its transmittance has the same error as the image. It may then stop as
+  // early as this error allows, or only at its last sample.
   std::size_t first_stop_ = 0;
   std::size_t last_stop_ = 0;
 };

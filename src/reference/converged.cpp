@@ -1,12 +1,12 @@
 // The limit for step → 0. The ray is cut at the planes of voxel centres; between these, the field
-// along the ray is a cubic polynomial. It is also cut where that cubic passes an entry of the
+// along the ray is a cubic polynomial. It is also cut where this cubic passes an entry of the
 // transfer function; between two entries, opacity and colour are linear in the cubic. Central
 // differences reach from p − 1 to p + 1, so the gradient g is also a cubic between the same planes.
-// With shading, the ray is also cut where g is perpendicular to the ray direction d and where its
-// length passes the floor, which are the roots of g·d and of |g|² − floor². The integrand is
-// therefore smooth on every piece, and Gauss's rule with three points has order 6 there. A piece is
-// halved until that changes its light by no more than its share of the tolerance. The stated bound
-// is the sum of these changes, which for order 6 is about sixty times the error.
+// With shading, the ray is also cut where g is perpendicular to the ray direction d and where |g|
+// passes the floor, which are the roots of g·d and of |g|² − floor². The integrand is therefore
+// smooth on every piece, and the three-point Gauss rule has order 6 there. A piece is halved until
+// halving changes its light by no more than the piece's share of the tolerance. The stated bound is
+// the sum of these changes. For order 6, it is about sixty times the error.
 
 #include <algorithm>
 #include <array>
@@ -32,12 +32,13 @@ namespace {
 
 using Rgba = std::array<double, 4>;
 
-// The largest number of halvings of a piece. Only pieces where opacity reaches 1 come close to it.
+// The largest number of times that a piece is halved. Only pieces on which opacity reaches 1 come
+// close to it.
 constexpr int most_halvings = 48;
 // The extinction per voxel length that represents opacity 1. It hides everything behind 1e-10 of a
 // voxel.
 constexpr double most_extinction = 1e12;
-// A smaller change is regarded as rounding.
+// A change that is smaller than this is attributed to rounding.
 constexpr double least_tolerance = 0x1.0p-48;
 
 // The part of the ray between two planes of voxel centres, with s from 0 to 1.
@@ -118,8 +119,9 @@ class ConvergedRaycaster {
     const Rgba lower = table_.at(entry);
     const Rgba upper = table_.at(entry + 1.0);
     const auto point_at = [&](double s) {
-      // The piece keeps a distance from the entries, where opacity may be 1, because a cut is known
-      // only to 2⁻⁴⁰, and an opaque sliver of that length would hide everything.
+      // The position is kept away from the entries themselves, where opacity may be 1. The reason
+      // is that a cut is known only to 2⁻⁴⁰, and an opaque sliver of that length would hide
+      // everything.
       constexpr double margin = 0x1.0p-44;
       const double f = std::clamp(cell.knot(s) - entry, margin, 1.0 - margin);
       Rgba rgba;
@@ -134,10 +136,11 @@ class ConvergedRaycaster {
     add(light, cell.length, begin, end, light(begin, end), 0);
   }
 
-  // Whether nothing behind can be visible any more at any tolerance.
+  // Whether everything that follows is invisible at any tolerance.
   [[nodiscard]] bool dark() const { return sum_.depth > 60.0; }
 
-  // Whether the piece is transparent. Between two knots, the same pair of entries is interpolated.
+  // Whether the piece from a to b is transparent. The piece is between two knots, where the same
+  // two entries are interpolated everywhere, so testing its middle is sufficient.
   [[nodiscard]] bool transparent(const Cell& cell, double a, double b) const {
     const double middle = std::clamp(cell.knot(0.5 * (a + b)), 0.0, 255.0);
     return table_.transparent({middle, middle, middle});
@@ -180,8 +183,8 @@ class ConvergedRaycaster {
     return {std::min(-std::log1p(-rgba[3]), most_extinction), looked.colour};
   }
 
-  // Integrates the piece from a to b. `whole` is its light according to one application of the
-  // rule.
+  // Integrates the piece from a to b. `whole` is the light of the piece if the rule is applied
+  // once.
   template <typename Light>
   void add(const Light& light, double length, double a, double b, const PieceLight& whole,
            int level) {

@@ -18,15 +18,15 @@ struct Cubic {
   double c2 = 0;
   double c3 = 0;
 
-  // The cubic with these values at 0, 1/3, 2/3 and 1.
+  // Returns the cubic with these values at 0, 1/3, 2/3 and 1.
   [[nodiscard]] static Cubic through(const std::array<double, 4>& f) {
     return {f[0], (-11.0 * f[0] + 18.0 * f[1] - 9.0 * f[2] + 2.0 * f[3]) / 2.0,
             9.0 * (2.0 * f[0] - 5.0 * f[1] + 4.0 * f[2] - f[3]) / 2.0,
             9.0 * (-f[0] + 3.0 * f[1] - 3.0 * f[2] + f[3]) / 2.0};
   }
 
-  // The cubic that interpolates value(position in voxels) along a ray from distance `begin` to
-  // `end`, with s from 0 to 1.
+  // Returns the cubic in s that interpolates value(position in voxels) along a ray. s = 0 is at
+  // distance `begin` and s = 1 at distance `end`.
   template <typename Value>
   [[nodiscard]] static Cubic along(const Ray& ray, double begin, double end, const Value& value) {
     std::array<double, 4> f;
@@ -42,7 +42,7 @@ struct Cubic {
   [[nodiscard]] double slope(double s) const { return c1 + s * (2.0 * c2 + s * 3.0 * c3); }
 
   // Appends every s in (0, 1), in ascending order, where the cubic passes one of the numbers 0, 1,
-  // …, 255 for which `keep` returns true.
+  // …, 255, if `keep` returns true for that number.
   template <typename Keep>
   void append_knots(std::vector<double>& at, Keep keep) const {
     const std::array<double, 4> ends = monotone_ends();
@@ -61,14 +61,14 @@ struct Cubic {
     append_knots(at, [](double) { return true; });
   }
 
-  // 0, the extrema in (0, 1), and 1, in ascending order. If there are fewer than two extrema, 0 or
-  // 1 is repeated.
+  // Returns 0, the extrema in (0, 1), and 1, in ascending order. If there are fewer than two
+  // extrema, 0 or 1 is repeated.
   [[nodiscard]] std::array<double, 4> monotone_ends() const {
     std::array<double, 4> ends{0.0, 0.0, 1.0, 1.0};
     const double half = c2;  // c1 + 2·half·s + 3·c3·s² = 0
     const double discriminant = half * half - 3.0 * c3 * c1;
     if (discriminant > 0.0) {
-      // Compute both roots from the sum that does not cancel.
+      // Compute both roots from the sum in which nothing cancels.
       const double q = -(half + std::copysign(std::sqrt(discriminant), half));
       double a = c3 != 0.0 ? q / (3.0 * c3) : 0.0;
       double b = q != 0.0 ? c1 / q : 0.0;

@@ -18,7 +18,7 @@
 
 namespace triptych::reference {
 
-// Throws InputError for a scene for which no image is defined.
+// Throws InputError if the scene cannot be drawn.
 inline void check(const scene::VolumeScene& scene) {
   if (!scene.grid) throw core::InputError("the scene has no volume");
   const scene::VoxelGrid& grid = *scene.grid;
@@ -31,7 +31,7 @@ inline void check(const scene::VolumeScene& scene) {
     throw core::InputError("the volume's data does not match its size and format");
   }
   if (!(scene.step_voxels > 0)) throw core::InputError("the step must be positive");
-  if (scene.width < 0 || scene.height < 0) throw core::InputError("negative viewport");
+  if (scene.width < 0 || scene.height < 0) throw core::InputError("the viewport is negative");
 }
 
 // Calls function(Stored{}), where Stored is the type of the grid's voxels.
@@ -50,14 +50,15 @@ auto with_stored_type(scene::VoxelFormat format, Function&& function) {
   return function(float{});
 }
 
-// The factor for each axis that converts a difference over two voxels to the gradient per smallest
-// spacing.
+// Returns the factor for each axis that converts a difference over two voxels to a gradient per
+// smallest spacing.
 inline glm::dvec3 gradient_scale(const scene::VoxelGrid& grid) {
   const double smallest = *std::min_element(grid.spacing.begin(), grid.spacing.end());
   return {smallest / grid.spacing[0], smallest / grid.spacing[1], smallest / grid.spacing[2]};
 }
 
-// Fills an image with the pixels that caster(x, y) returns. Every thread makes its own caster.
+// Draws an image whose pixel (x, y) is caster(x, y). Every thread calls make_caster() to get its
+// own caster.
 template <typename MakeCaster>
 Truth draw(const scene::VolumeScene& scene, int threads, const MakeCaster& make_caster) {
   Truth truth;

@@ -15,14 +15,14 @@ namespace triptych::reference {
   return -std::expm1(-depth);
 }
 
-// The optical depth of a length. The extinction may be infinite.
+// Returns the optical depth of a segment with this length. The extinction may be infinite.
 [[nodiscard]] inline double depth_of(double length, double extinction) {
   return length > 0.0 ? length * extinction : 0.0;
 }
 
-// The mean of −ln(1 − alpha) while alpha changes linearly from a to b. It uses the antiderivative
-// F(α) = (1 − α)·ln(1 − α) + α, or its series around the middle where the difference of F would
-// cancel.
+// Returns the mean of −ln(1 − alpha) while alpha changes linearly from a to b. It uses the
+// antiderivative F(α) = (1 − α)·ln(1 − α) + α or, where the difference of F would cancel, its
+// series around the middle.
 [[nodiscard]] inline double mean_extinction(double a, double b) {
   const double middle = 0.5 * (a + b);
   const double left = 1.0 - middle;

@@ -41,7 +41,7 @@ double Field<Stored>::stored(std::ptrdiff_t index) const {
 
 template <typename Stored>
 typename Field<Stored>::Place Field<Stored>::place(double p, int axis) const {
-  // From half a voxel outside on, the field is constant, so positions are clamped there.
+  // More than half a voxel outside the volume, the field is constant, so positions are clamped.
   const double end = size_[static_cast<std::size_t>(axis)];
   const double q = std::min(std::max(p - 0.5, -1.0), end);
   const int base = static_cast<int>(q + 1.0) - 1;  // ⌊q⌋ for q ≥ −1
@@ -111,7 +111,8 @@ glm::dvec3 Field<Stored>::Slopes::steepest() const {
   return glm::max(glm::abs(lo), glm::abs(hi));
 }
 
-// The extremes over every cell that may contain the position, if its error is below half a voxel.
+// Returns the extremes of the slopes over every cell that may contain the position, for an error
+// below half a voxel.
 template <typename Stored>
 typename Field<Stored>::Slopes Field<Stored>::slopes_around(const std::array<Place, 3>& places,
                                                             const glm::dvec3& e) const {
@@ -155,8 +156,8 @@ typename Field<Stored>::Read Field<Stored>::read(const glm::dvec3& p, const glm:
   return result;
 }
 
-// The bound is in stored units. Whatever the weights are, a device's value stays within the range
-// of the voxels.
+// Returns the error in stored units. Whatever the weights are, a device's value stays within the
+// range of the voxels.
 template <typename Stored>
 double Field<Stored>::error_of(const Read& read, const glm::dvec3& e) const {
   if (!read.local) return range_;

@@ -12,15 +12,15 @@
 
 namespace triptych::reference {
 
-// A value, and the largest difference from it that the error model allows for a device.
+// A value, and the largest difference from this value that the error model allows on a device.
 struct Bounded {
   double value = 0;
   double error = 0;
 };
 
-// Reads the grid in place. Stored is the type of a voxel: std::uint8_t, std::uint16_t, float or
-// scene::Half. The stored values, which are exact, are interpolated, and the result is mapped.
-// Positions are in voxels.
+// The field of a grid, which is read in place. Stored is the type of a voxel: std::uint8_t,
+// std::uint16_t, float or scene::Half. The stored values, which are exact, are interpolated, and
+// the result is then mapped to the normalised range. Positions are in voxels.
 template <typename Stored>
 class Field {
  public:
@@ -30,31 +30,35 @@ class Field {
 
   [[nodiscard]] double at(const glm::dvec3& p) const;
 
-  // The error is a sum of several terms. A trilinear field is Lipschitz continuous, so a position
-  // error adds, for each axis, the position error times the largest difference of neighbours in any
-  // cell that a device may read instead. Next are filter_weight_error × spread of the eight voxels,
-  // and value_error. Voxels with a relative error change a weighted mean with weights ≥ 0 by at
-  // most the same relative error, which adds voxel_rounding × (value + all terms above except
-  // value_error).
+  // Returns the value at p and its error, which is the sum of these terms:
+  //
+  //   - For each axis, the position error times the largest difference of neighbouring voxels in
+  //     any cell that a device may read instead. (A trilinear field is Lipschitz continuous.)
+  //   - filter_weight_error times the spread of the eight voxels.
+  //   - value_error.
+  //   - voxel_rounding times (the value and all terms above except value_error). The reason is that
+  //     voxels with a relative error change a weighted mean with weights ≥ 0 by at most the same
+  //     relative error.
   [[nodiscard]] Bounded at(const glm::dvec3& p, const glm::dvec3& position_error) const;
 
-  // at(a) − at(b) for two positions that are displaced together by up to `shared_error` per axis,
-  // and each individually by up to `own_error`. A common displacement changes the difference only
-  // by the difference of the slopes.
+  // Returns at(a) − at(b) for two positions that are displaced together by up to `shared_error` per
+  // axis, and each individually by up to `own_error`. A common displacement changes the difference
+  // only by the difference of the slopes.
   [[nodiscard]] Bounded difference(const glm::dvec3& a, const glm::dvec3& b,
                                    const glm::dvec3& shared_error, double own_error) const;
 
  private:
-  // The position of p along one axis: it is between the voxels base and base + 1 (before clamping),
-  // at the fraction f.
+  // A position along one axis: it is between the voxels base and base + 1 (before clamping), at the
+  // fraction f.
   struct Place {
     int base = 0;
     double f = 0;
   };
   using Corners = std::array<double, 8>;  // bit 0: x, bit 1: y, bit 2: z
 
-  // Limits of the change of the field: for each axis the smallest and largest difference of two
-  // neighbours, and the largest difference of any two voxels of one cell.
+  // Bounds of how fast the field changes in a cell: for each axis the smallest and largest
+  // difference of two neighbouring voxels, and the largest difference of any two voxels of the
+  // cell.
   struct Slopes {
     glm::dvec3 lo;
     glm::dvec3 hi;
@@ -64,7 +68,8 @@ class Field {
     [[nodiscard]] glm::dvec3 steepest() const;
   };
 
-  // A stored value at a position. Its slopes are known if the position error is below half a voxel.
+  // The interpolated stored value at a position. `slopes` cover every cell that a device may read
+  // only if `local` is true, that is, if the position error is below half a voxel.
   struct Read {
     double stored;
     bool local;

@@ -7,9 +7,9 @@ namespace triptych::reference {
 
 namespace {
 
-// The usual steps are powers of two, for which no logarithm is needed:
-// 1 − √(1 − α) = α/(1 + √(1 − α)) halves a step, and 1 − (1 − α)² = α·(2 − α) doubles it. Neither
-// formula cancels, and both are rounded in the same way on every machine.
+// Most steps are powers of two, for which no logarithm is needed: 1 − √(1 − α) = α/(1 + √(1 − α))
+// halves a step, and 1 − (1 − α)² = α·(2 − α) doubles it. Neither formula cancels, and both are
+// rounded in the same way on every machine.
 constexpr int most_doublings = 5;
 
 double doubled(double alpha, int times) {
@@ -33,10 +33,10 @@ double step_opacity(double alpha, double steps) {
 namespace {
 
 // A faster bound for small changes of alpha. It follows from the mean value theorem and needs no
-// further powers. With δ the change, r = δ/(1−α) and s the steps, the derivative s·(1−α)^(s−1) on
-// [α−δ, α+δ] is largest at α+δ for s < 1 and at α−δ for s ≥ 1. In both cases it is at most
-// s·(1−α)^s/(1−α)·(1 + z + 2z²) with z = max(1, s)·r ≤ 1/20. Returns a negative number if the last
-// condition does not hold.
+// further powers. Let δ be the change, r = δ/(1−α), and s the number of steps. On [α−δ, α+δ], the
+// derivative s·(1−α)^(s−1) is largest at α+δ for s < 1 and at α−δ for s ≥ 1. In both cases it is at
+// most s·(1−α)^s/(1−α)·(1 + z + 2z²) with z = max(1, s)·r, if z ≤ 1/20. Returns a negative number
+// if z is larger.
 double small_change(const Looked& looked, double steps, double nominal) {
   const double left = 1.0 - looked.alpha;
   const double change = std::max(looked.alpha_hi - looked.alpha, looked.alpha - looked.alpha_lo);

@@ -46,7 +46,7 @@ class Crossings {
  public:
   Crossings(const BrickPlanes& planes, const Ray& ray) : planes_(planes), ray_(ray) {}
 
-  // Whether the point p on the ray may count on either side of a plane.
+  // Whether a device may assign the point p on the ray to either side of a plane.
   [[nodiscard]] bool is_near(const glm::dvec3& p) const {
     if (planes_.edge == 0) return false;
     for (int axis = 0; axis < 3; ++axis) {
@@ -65,8 +65,8 @@ class Crossings {
     return sum;
   }
 
-  // The number of planes that a device may pass together with the previous plane, if its ray is
-  // within `position_error` voxels of this one.
+  // The number of planes that a device may cross at the same time as the previous plane, if the
+  // device's ray is within `position_error` voxels of this ray.
   [[nodiscard]] double ties(double position_error) const {
     if (planes_.edge == 0) return 0;
     struct Crossing {
@@ -112,7 +112,7 @@ class Stops {
     largest_ = std::min(largest_ * (1.0 - opacity.lo) + rounding, 1.0);
     smallest_ = std::max(smallest_ * (1.0 - opacity.hi) - rounding, 0.0);
   }
-  // Once this is true, it stays true.
+  // Once one of these functions returns true, it returns true for all further samples.
   [[nodiscard]] bool may_end() const { return smallest_ < model_.ert; }
   [[nodiscard]] bool must_end() const { return largest_ < model_.ert; }
 
@@ -122,8 +122,8 @@ class Stops {
   double smallest_ = 1;
 };
 
-// The opacity that a device may see at a position. It is `possible` if a device may see some, and
-// `certain` if every device does.
+// What devices may find at a sample. `possible` means that it may have some opacity on a device,
+// and `certain` that it has some opacity on every device.
 struct Sight {
   bool possible = false;
   bool certain = false;
@@ -161,7 +161,7 @@ class Counter {
   }
 
  private:
-  // The number of steps in a chord, not rounded to a whole number.
+  // Returns the number of steps in a chord, not rounded to a whole number.
   [[nodiscard]] double steps(double chord) const {
     return chord / (smallest_spacing_ * scene_.step_voxels);
   }
@@ -187,8 +187,8 @@ class Counter {
       tally.skipped += passed + (near ? 1 : 0);
       if (sight.possible) stops.add(sight.opacity);
       if (stops.must_end()) break;
-      // Bricks are visited until the end of a run of visible samples, and a device may begin a run
-      // and end the ray within it.
+      // Bricks are visited until the end of a run of visible samples. A device may begin a run here
+      // and end the ray within this run.
       if (!ended && stops.may_end()) {
         const double rest = crossings.between(p, ray.entry + most * stride);
         tally.visited += rest;
@@ -205,7 +205,7 @@ class Counter {
                ? look_along(ray, i, stride, length)
                : look_at(ray, ray.entry + (i + 0.5) * stride, length);
   }
-  // The length of the i-th step, in voxel lengths.
+  // Returns the length of the i-th step, in voxel lengths.
   [[nodiscard]] double part(double chord, double i) const {
     return std::clamp(chord / smallest_spacing_ - i * scene_.step_voxels, 0.0, scene_.step_voxels);
   }

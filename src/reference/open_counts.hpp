@@ -1,6 +1,6 @@
 #pragma once
-// The largest difference of a raycaster's counters between two correct devices. Some counts depend
-// on rounding. They are found ray by ray with the same bounds as for images.
+// Computes the largest difference of a raycaster's counters between two correct devices. Some
+// counts depend on rounding. They are found ray by ray, with the same error bounds as for images.
 
 #include <map>
 #include <string>
@@ -17,21 +17,23 @@ struct BrickPlanes {
   double origin = 0;
 };
 
-// Allowed differences by counter name (technique::raycast_counters). For each ray, the following
-// may differ between devices:
+// Returns the allowed differences by counter name (technique::raycast_counters). For each ray, the
+// following may differ between devices:
 //
 //   - all counts, if the ray may hit or miss the volume;
-//   - samples beyond the shortest chord, and samples after the first one that may end the ray;
-//   - whether a sample has opacity, if the smallest opacity on a device is zero. With preintegrated
-//     steps, an opacity below 2⁻²⁴ may become zero, because 1 − 2⁻ᶻ may be computed as a
-//     difference;
-//   - the side of a plane between bricks on which a sample counts, if the sample is within its
-//     error of the plane. This affects one sample and one brick. The end of a leap moves with its
-//     beginning, because the sizes of the skipped cubes differ by at most the distance between
-//     them. Two sequences of leaps therefore interleave, and their numbers differ by at most one;
-//   - the brick between two planes that the ray passes within their error of each other;
+//   - samples beyond the shortest chord, and samples after the first sample that may end the ray;
+//   - whether a sample has opacity, if the smallest opacity that it may have on a device is zero.
+//     With preintegrated steps, an opacity below 2⁻²⁴ may become zero, because 1 − 2⁻ᶻ may be
+//     computed as a difference;
+//   - the side of a plane between bricks to which a sample is assigned, if the sample is closer to
+//     the plane than its position error. This affects one sample and one brick. If the beginning of
+//     a leap moves, its end moves too, because the sizes of the skipped cubes differ by at most the
+//     distance between the cubes. Two sequences of leaps therefore interleave, and their numbers of
+//     leaps differ by at most one;
+//   - whether a brick between two planes is visited, if the ray crosses both planes at positions
+//     that are equal within their errors;
 //   - with quadrature cells, two points for each piece that is shorter than the uncertainty of its
-//     ends, and four points for an extremum within its error of a kink.
+//     ends, and four points for an extremum that is within its error of a kink.
 [[nodiscard]] std::map<std::string, double> open_counts(const scene::VolumeScene& scene,
                                                         const ErrorModel& model,
                                                         const BrickPlanes& planes, int threads = 0);

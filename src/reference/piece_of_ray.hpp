@@ -8,15 +8,15 @@
 
 namespace triptych::reference {
 
-// The light of the piece alone: its premultiplied colour, and its optical depth, by which
-// e^(−depth) attenuates everything behind it.
+// The light of a piece alone: its premultiplied colour, and its optical depth. Everything behind
+// the piece is attenuated by e^(−depth).
 struct PieceLight {
   std::array<double, 3> colour{};
   double depth = 0.0;
 
   [[nodiscard]] double opacity() const { return -std::expm1(-depth); }
 
-  // The light of this piece together with that of the next one, which is behind it.
+  // Returns the light of this piece and the next piece together. The next piece is behind this one.
   [[nodiscard]] PieceLight before(const PieceLight& next) const {
     PieceLight both = *this;
     const double left = std::exp(-depth);
@@ -26,8 +26,8 @@ struct PieceLight {
   }
 };
 
-// The largest difference in any channel between two results for a piece, whatever colour in [0, 1]
-// is behind it.
+// Returns the largest difference in any channel between two results for a piece, whatever colour in
+// [0, 1] is behind the piece.
 [[nodiscard]] inline double difference(const PieceLight& a, const PieceLight& b) {
   const double opacity = a.opacity() - b.opacity();
   double largest = std::abs(opacity);
@@ -44,10 +44,10 @@ struct RayPoint {
   std::array<double, 3> colour{};
 };
 
-// Gauss's rule with three points, of order 6, for ∫c·τ·e^(−D). The depth D in front of each point
-// is computed by collocation (the coefficients of Kuntzmann and Butcher), which keeps the order.
-// The result is scaled so that a constant colour is exact. `point_at(share)` returns a point of a
-// piece of length `length`.
+// The three-point Gauss rule for ∫c·τ·e^(−D), of order 6. The optical depth D in front of each
+// point is computed by collocation (with the coefficients of Kuntzmann and Butcher), which
+// preserves the order. The result is scaled so that a constant colour is exact. `point_at(share)`
+// returns a point of a piece of length `length`.
 template <typename PointAt>
 [[nodiscard]] PieceLight gauss_light(double length, const PointAt& point_at) {
   static const double r = std::sqrt(15.0);
@@ -72,7 +72,7 @@ template <typename PointAt>
   }
   const double opacity = light.opacity();
   for (std::size_t i = 0; i < 3; ++i) {
-    // This colour is used if all of the light comes from in front of the first point.
+    // If all weights vanish, all light comes from the part in front of the first point.
     const double colour = whole > 0.0 ? light.colour[i] / whole : points[0].colour[i];
     light.colour[i] = opacity * colour;
   }

@@ -15,8 +15,8 @@ template <std::size_t N>
   return value;
 }
 
-// Whether all Bernstein coefficients, which enclose the polynomial, have the same sign, so that the
-// polynomial has no root.
+// Returns whether all Bernstein coefficients, which enclose the polynomial, have the same sign. The
+// polynomial then has no root.
 template <std::size_t N>
 [[nodiscard]] bool has_one_sign(const std::array<double, N>& c) {
   bool positive = true;
@@ -35,8 +35,9 @@ template <std::size_t N>
   return positive || negative;
 }
 
-// Appends every s in (0, 1) where the sign changes, in ascending order. The sign changes at most
-// once between two extrema, which are the roots of the derivative. Uses bisection down to 2⁻⁵⁰.
+// Appends every s in (0, 1) where the sign changes, in ascending order. Between two extrema, which
+// are the roots of the derivative, the sign changes at most once. This change is found by bisection
+// down to 2⁻⁵⁰.
 template <std::size_t N>
 void append_roots(const std::array<double, N>& c, std::vector<double>& at) {
   if constexpr (N > 1) {

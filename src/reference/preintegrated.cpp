@@ -28,8 +28,8 @@ bool Preintegration::transparent(const Bounded& front, const Bounded& back) cons
       {.centre = a.centre, .lo = std::min(a.lo, b.lo), .hi = std::max(a.hi, b.hi)});
 }
 
-// Beyond the table, the function is constant, so the path is cut at the table's ends in the same
-// way as at its entries.
+// Beyond the table, the transfer function is constant, so the path is cut at the ends of the table
+// in the same way as at its entries.
 std::vector<PathPiece> Preintegration::cut(double from, double to, double length) const {
   std::vector<PathPiece> pieces;
   const double direction = to < from ? -1.0 : 1.0;
@@ -64,7 +64,7 @@ void Preintegration::add(const PathPiece& piece, int level, Light& light) {
     add({middle, piece.b, 0.5 * piece.length, piece.middle}, level + 1, light);
     return;
   }
-  // Gauss's rule with four points. Its weights are scaled so that a constant colour is exact.
+  // The four-point Gauss rule. Its weights are scaled so that a constant colour is exact.
   static constexpr std::array<double, 4> nodes{0.0694318442029737, 0.3300094782075719,
                                                0.6699905217924281, 0.9305681557970263};
   static constexpr std::array<double, 4> weights{0.1739274225687269, 0.3260725774312731,
@@ -108,7 +108,7 @@ Segment Preintegration::operator()(const Bounded& front, const Bounded& back,
   for (const PathPiece& piece : pieces) {
     const double before = light.depth;
     add({piece.a, piece.b, piece.length * length.nominal, piece.middle}, 0, light);
-    // If the pieces in front are opaque, the depth of this piece cannot be determined.
+    // If the pieces in front are opaque, the depth of this piece is unknown.
     bound.add(piece, std::isfinite(before) ? light.depth - before : 0.0);
   }
   Segment segment;

@@ -20,14 +20,14 @@ struct Segment {
 };
 
 // The step is integrated in double precision to about 1e-10. It is cut at the entries of the table
-// and halved where the integrand is steep; each part is integrated by Gauss's rule with four
-// points. The bound is derived at PreintegrationBound.
+// and halved where the integrand is steep; each part is integrated by the four-point Gauss rule.
+// PreintegrationBound derives the error bound.
 class Preintegration {
  public:
   Preintegration(const Table& table, const ErrorModel& model);
 
-  // Whether every value that a device may find is completely transparent. `front` and `back` are
-  // normalised values; `length` is in voxel lengths.
+  // Whether every value that a device may find is completely transparent. Here and below, `front`
+  // and `back` are normalised values, and `length` is in voxel lengths.
   [[nodiscard]] bool transparent(const Bounded& front, const Bounded& back) const;
   [[nodiscard]] Segment operator()(const Bounded& front, const Bounded& back,
                                    const StepLength& length) const;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double last_bounded_entry = 255;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// The largest optical depth of a chunk of several cells. It determines the light that truncation
-// after three coefficients loses.
+// The largest optical depth of a chunk of several cells. It determines how much light is lost by
+// truncating the series after three coefficients.
 constexpr double deepest_chunk = 0.5 * std::numbers::ln2;
 constexpr double cut_off_of_chunk = 7.8e-5;
 constexpr double least_left = 0x1.0p-20;
@@ -76,8 +76,8 @@ PreintegrationBound::Reach PreintegrationBound::reach(double lo, double hi) cons
   return reach;
 }
 
-// The steepest slopes of the piece's cell and its neighbours, which suffice because the error is
-// below one cell.
+// Returns the steepest slopes in the piece's cell and its two neighbours. They are sufficient if
+// the error is below one cell.
 PreintegrationBound::Rgba PreintegrationBound::slopes_near(const PathPiece& piece) const {
   if (path_.error >= 1.0) return around_.slope;
   Rgba slopes{};
@@ -90,8 +90,8 @@ PreintegrationBound::Rgba PreintegrationBound::slopes_near(const PathPiece& piec
   return slopes;
 }
 
-// The relative change is a monotone function of alpha towards either end, or over the hill between
-// them, so its values at the ends are the extremes.
+// Returns the largest relative change of the optical depth on the piece. As a function of alpha,
+// this change first falls and then rises, so it is largest at one of the ends.
 double PreintegrationBound::relative_change(const PathPiece& piece, double alpha_error) const {
   double change = 0.0;
   for (const double alpha : {piece.a[3], piece.b[3]}) {
@@ -136,8 +136,8 @@ void PreintegrationBound::add(const PathPiece& piece, double depth) {
 void PreintegrationBound::add_weights(const PathPiece& piece, double depth, double tail) {
   const Rgba slopes = slopes_near(piece);
   const double alpha_error = path_.error * slopes[3] + model_.table_error;
-  // An opacity that is lowered below 0 may stay negative. An opacity that is raised above 1 is 1
-  // along a part of the piece.
+  // Here, an opacity that is lowered below 0 may stay negative. An opacity that is raised above 1
+  // is 1 along a part of the piece, so the mean extinction is infinite.
   const auto mean = [&](double by) {
     const double a = piece.a[3] + by;
     const double b = piece.b[3] + by;
@@ -147,8 +147,8 @@ void PreintegrationBound::add_weights(const PathPiece& piece, double depth, doub
   const double least =
       depth_of(piece.length * length.shortest, std::max(mean(-alpha_error) - tail, 0.0));
   const double most = depth_of(piece.length * length.longest, mean(alpha_error) + tail);
-  // The change is infinite if a device may find opacity 1. Then only the colour's range bounds the
-  // light.
+  // The change is infinite if the opacity may be 1 on a device. Then only the range of the colour
+  // bounds the light.
   const double change = std::isfinite(most) ? std::max(most - depth, depth - least) : most;
   const double relative = tail > model_.table_error
                               ? infinity
@@ -165,8 +165,8 @@ void PreintegrationBound::add_weights(const PathPiece& piece, double depth, doub
   tails_ += piece.length * tail;
   front_before_ = front_;
   if (widening_ == 0.0) return;
-  // A device's first piece may be shorter by e. The lower bound of its depth uses its smallest
-  // extinction.
+  // On a device, the first piece may be shorter by e. The lower bound of its depth then uses its
+  // smallest extinction.
   const double thinnest =
       extinction_of(std::max(std::min(piece.a[3], piece.b[3]) - alpha_error, 0.0));
   const double sure =
@@ -176,8 +176,8 @@ void PreintegrationBound::add_weights(const PathPiece& piece, double depth, doub
   front_ *= std::exp(-sure / widening_);
 }
 
-// Adds the error of one cell, or of a part of a cell at an end, if it is deeper than a chunk may
-// be.
+// Adds the error of one cell, or of a part of a cell at an end of the path, if it is deeper than a
+// chunk may be.
 void PreintegrationBound::add_deep_cell(const PathPiece& piece, double tilt) {
   const double share = piece.length + 2.0 * path_.error / span_;
   const double extinction = mean_extinction(std::min(piece.a[3] + alpha_error_, 1.0),
@@ -191,8 +191,8 @@ void PreintegrationBound::add_deep_cell(const PathPiece& piece, double tilt) {
   }
 }
 
-// Adds the error of an end, where extinction is assumed to be linear. If the end may be in the next
-// cell, the part may be a whole cell in front of the previous piece.
+// Adds the error of one end of the path, where extinction is assumed to be linear. If the end may
+// be in the next cell on a device, this part may be a whole cell in front of the previous piece.
 void PreintegrationBound::add_end(const PathPiece& piece, double position, const Reach& end) {
   const double e = path_.error;
   const bool beside = std::floor(position - e) != std::floor(position + e);
@@ -207,8 +207,8 @@ void PreintegrationBound::add_end(const PathPiece& piece, double position, const
   }
 }
 
-// Whether the parts of cells at either end that only a device enters may be deeper than a chunk.
-// Each of them then adds an error of its colour range.
+// Whether those parts of cells at either end that only a device enters may be deeper than a chunk.
+// Each of these parts then adds an error as large as the range of its colour.
 bool PreintegrationBound::deep_slivers() const {
   const double share = widening_ * 2.0 * path_.error / std::max(span_, 1e-300);
   const double extinction = extinction_of(around_.most_alpha + model_.table_error);
@@ -226,8 +226,9 @@ double PreintegrationBound::extinction_around(double position) const {
   return sum;
 }
 
-// The largest depth if a raised opacity would be 1. It is computed from the cells, because a device
-// passes the same cells, and at both ends at most as much more as its values have errors.
+// Returns the largest optical depth of the path. If a raised opacity would be 1, the sum of the
+// pieces is infinite. The depth is then computed from the exact depth, because a device passes the
+// same cells, and at both ends it passes at most as much more as its values have errors.
 double PreintegrationBound::most_depth() const {
   if (std::isfinite(most_) || widening_ == 0.0) return most_;
   const double ends = (extinction_around(path_.from) + extinction_around(path_.to)) / span_;
@@ -266,8 +267,8 @@ double PreintegrationBound::colour_error(std::size_t i, const StepOpacity& opaci
       range * std::min(cut_off(most_depth()), cut_off_of_chunk * most + least_left);
   const double cut_offs = std::min(chunks + deep_cells_[i], range * most);
   const double ends = std::min(ends_[i], 2.0 * around_.slope[i] * most);
-  // Apart from the truncation, a device's colour is a mean of the colours along the path, as the
-  // exact colour is.
+  // Apart from the truncation, a device's colour is a weighted mean of the colours along the path,
+  // as the exact colour is.
   return error + std::min(weights + cut_offs + ends, range * most + cut_offs) / most;
 }
 

@@ -29,38 +29,39 @@ struct StepPath {
 };
 
 // The bound applies to a device that tabulates the paths between entries. The device cuts a step at
-// the first and the last entry that it passes. It processes the whole cells between them from front
-// to back, singly or in chunks whose optical depth is at most (ln 2)/2; when less than 2⁻²⁰ of the
-// light is left, the rest is one chunk. All light below is premultiplied. R is the range of the
-// colour along the path, A the opacity of the step, and T the transmittance from the step's front.
+// the first and the last entry that the step passes. It processes the whole cells between them from
+// front to back, one by one or in chunks whose optical depth is at most (ln 2)/2; when less than
+// 2⁻²⁰ of the light is left, the rest is one chunk. All light below is premultiplied. R is the
+// range of the colour along the path, A the opacity of the step, and T the transmittance from the
+// front of the step.
 //
-//   - Values. A device's values at front and back are within e of the exact ones, and so is its
-//     whole path. Opacity and colour in every piece therefore have an error of at most e times the
-//     steepest slope of the cells in reach, plus table_error. The optical depth is between the
-//     depths for the lowered and the raised opacity.
-//   - Weights. With the step's colour C, ∫(c − C)·τT = 0. By the identity of composite.hpp, a
-//     change of the extinction by δ changes the light by the change of the opacity times C, and by
-//     at most 2R·∫T'δ, in total R·A. For a piece, ∫T'δ is at most T' at its front times the change
-//     of its depth, and at most the largest relative change of extinction times the piece's
-//     opacity.
+//   - Values. A device's values at front and back are within e of the exact values, and so are all
+//     values on its path. Opacity and colour in every piece therefore have an error of at most e
+//     times the steepest slope of the cells in reach, plus table_error. The optical depth is
+//     between the depths for the lowered and the raised opacity.
+//   - Weights. With the step's colour C, ∫(c − C)·τT = 0. By the identity in composite.hpp, a
+//     change of the extinction by δ changes the light by the change of the opacity times C, and in
+//     addition by at most 2R·∫T'δ and by at most R·A. For a piece, ∫T'δ is at most T' at its front
+//     times the change of its depth, and at most the largest relative change of extinction times
+//     the piece's opacity.
 //   - Chunks. e^(−Dy) = Σ (−1)ⁿ·(2n + 1)·e^(−D/2)·i_n(D/2)·Pn(y). The remainder after n = 2 has a
-//     norm of at most D³/(120·√7), because e^(−z)·i₃(z) ≤ z³/105 and the further terms decrease
-//     faster than e^(−z) lets this one grow. At most R/2 of the colour is left, so the light of a
-//     chunk of depth D has an error of at most R·D⁴/635 (Cauchy–Schwarz). With D ≤ (ln 2)/2 that is
-//     7.8e-5·R times the chunk's opacity, so all chunks together have an error of at most
-//     7.8e-5·R·A.
+//     norm of at most D³/(120·√7). This holds because e^(−z)·i₃(z) ≤ z³/105, and because all
+//     further terms decrease faster than the factor e^(−z) lets this term grow. After subtracting
+//     the middle of its range, the colour is at most R/2, so the light of a chunk of depth D has an
+//     error of at most R·D⁴/635 (Cauchy–Schwarz). With D ≤ (ln 2)/2 this is 7.8e-5·R times the
+//     chunk's opacity, so all chunks together have an error of at most 7.8e-5·R·A.
 //   - Deep cells. Along one cell, the colour is linear in the position. Consider the position as a
-//     function of the share of the depth that has been passed. It differs from its first three
-//     coefficients by at most t²/4, where t is the change of the extinction around its mean (a test
-//     checks all cases). The light of a cell with colour range R therefore has an error of at most
-//     R·A·t²/4 for any depth.
-//   - Ends. Within the first and the last cell, extinction is assumed to be linear. Its deviation
-//     is at most Δ²/8(1 − α)², where Δ is the rise of the opacity over the cell; it is treated like
-//     the weights. The series of the mean logarithm is truncated after r¹², with r = Δ/2(1 − α),
-//     which loses r¹⁴/(210·(1 − r²)) per voxel, at most 0.038.
-//   - Lengths. A device's cells are longer or shorter than the exact ones by a factor of at most
-//     1/(1 − 2e/|to − from|). If that is more than 2, the path hardly leaves a cell, and R of that
-//     path bounds the error.
+//     function of the share of the depth that has been passed. It differs from the polynomial with
+//     its first three coefficients by at most t²/4, where t is the relative change of the
+//     extinction around its mean (a test checks all cases). The light of a cell with colour range R
+//     therefore has an error of at most R·A·t²/4 for any depth.
+//   - Ends. Within the first and the last cell, the extinction is assumed to be linear. It deviates
+//     from a line by at most Δ²/8(1 − α)², where Δ is the rise of the opacity over the cell. This
+//     deviation is treated like a change of weights. The series of the mean logarithm is truncated
+//     after r¹², with r = Δ/2(1 − α), which loses r¹⁴/(210·(1 − r²)) per voxel, at most 0.038.
+//   - Lengths. A device's cells are longer or shorter than the exact cells by a factor of at most
+//     1/(1 − 2e/|to − from|). If this factor is more than 2, the path hardly leaves a cell, and the
+//     error is bounded by R of that path.
 //   - Rounding. The opacity has the model's opacity_error, and one compositing_error for each piece
 //     beyond three. The colour has eight compositing_errors for the sum of three coefficients, and
 //     two for each piece.
@@ -68,19 +69,20 @@ class PreintegrationBound {
  public:
   PreintegrationBound(const Table& table, const ErrorModel& model, const StepPath& path);
 
-  // Adds the pieces of the path in order. Their lengths are shares of the step. `depth` is the
-  // exact optical depth.
+  // Adds the next piece of the path. Its length is a share of the step. `depth` is its exact
+  // optical depth.
   void add(const PathPiece& piece, double depth);
 
-  // The opacity of the step. Call this after the last piece was added.
+  // Returns the opacity of the step. Call this function after the last piece has been added.
   [[nodiscard]] StepOpacity opacity(double nominal) const;
-  // The error of the colour before premultiplication.
+  // Returns the error of the colour before premultiplication. Call this function after the last
+  // piece has been added.
   [[nodiscard]] double colour_error(std::size_t channel, const StepOpacity& opacity) const;
 
  private:
   using Rgba = std::array<double, 4>;
-  // Properties of the cells in reach of an interval: the largest slopes per entry, the lowest and
-  // highest opacity, and the largest change of extinction around its mean.
+  // Properties of the cells that an interval reaches: the largest slopes per entry, the lowest and
+  // highest opacity, and the largest relative change of extinction around its mean.
   struct Reach {
     Rgba slope{};
     double least_alpha = 1;
@@ -104,16 +106,17 @@ class PreintegrationBound {
   const Table& table_;
   const ErrorModel& model_;
   StepPath path_;
-  double span_;      // length of the path in entries
-  double widening_;  // factor for a device's cells; 0 if the path hardly leaves one
+  double span_;  // length of the path in entries
+  // The largest factor for the length of a device's cells; 0 if the path hardly leaves a cell.
+  double widening_;
   Reach around_;
   double alpha_error_;
   double least_ = 0;         // smallest depth so far
   double most_ = 0;          // largest depth so far
   double depth_ = 0;         // exact depth so far
   double tails_ = 0;         // truncation errors of the series, per voxel
-  double front_ = 1;         // largest share of the light that is left
-  double front_before_ = 1;  // largest share that was left before the last piece
+  double front_ = 1;         // largest share of the light that is left behind the pieces so far
+  double front_before_ = 1;  // the same before the most recent piece
   std::size_t added_ = 0;
   double weights_ = 0;  // ∫T'δ
   Rgba values_{};       // ∫T'τ' times the errors of the values

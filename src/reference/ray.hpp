@@ -10,33 +10,33 @@
 
 namespace triptych::reference {
 
-// Positions are in voxels (voxel centres at i+½), lengths along the ray in world units.
+// Positions are in voxels (voxel centres are at i+½), and lengths along the ray are in world units.
 struct Ray {
   glm::dvec3 direction{};        // unit vector in world space
   glm::dvec3 voxels_per_unit{};  // direction / spacing
   glm::dvec3 entry{};            // where the ray enters the volume
-  double length = 0;             // of the chord inside the volume; 0 if the ray misses it
+  double length = 0;             // length of the chord inside the volume; 0 if the ray misses it
   double shortest = 0;           // smallest chord on a device
   double longest = 0;            // largest chord on a device
-  glm::dvec3 position_error{};   // of a sample, per axis; includes the uncertainty of the entry
+  glm::dvec3 position_error{};   // of a sample, per axis; includes the error of the entry
 
-  // The largest distance by which the ray may begin or end earlier or later on a device.
+  // Returns the largest distance by which the ray may begin or end earlier or later on a device.
   [[nodiscard]] double slack() const;
-  // The position error of a point that may be displaced along the ray by up to `way`.
+  // Returns the position error of a point that may be displaced along the ray by up to `way`.
   [[nodiscard]] glm::dvec3 position_error_within(double way) const;
 };
 
 // Sets `at` to the distances from the entry at which the ray crosses the planes of voxel centres of
-// a grid of `size`, and both ends of the chord, in ascending order.
+// a grid of `size`, and to both ends of the chord, in ascending order.
 void cut_at_planes(const Ray& ray, const std::array<int, 3>& size, std::vector<double>& at);
 
-// Makes the rays of one scene.
+// Creates the rays of one scene.
 class RayMaker {
  public:
-  // A device's ray runs within `position_error_voxels` per axis of the exact one. The length of its
-  // chord is therefore between that of the volume shrunk and that of the volume grown by this
-  // distance on every side. All its samples shift along the ray with the entry point. At grazing
-  // incidence, this shift is far larger than the error across the ray.
+  // On a device, a ray runs within `position_error_voxels` per axis of the exact ray. Its chord is
+  // therefore at least as long as in a volume that is shrunk by this distance on every side, and at
+  // most as long as in a volume that is grown by it. All samples shift along the ray with the entry
+  // point. At grazing incidence, this shift is far larger than the error across the ray.
   RayMaker(const scene::VolumeScene& scene, double position_error_voxels);
 
   // Returns nullopt if the ray misses the volume on every device that the model allows.
@@ -47,9 +47,9 @@ class RayMaker {
     double begin = 0;
     double end = 0;
   };
-  // The part of the ray with t ≥ 0 inside the volume grown by `margin` voxels on every side. There
-  // is no division by a direction component of ±0: such a ray is between the two planes for all t
-  // or for none.
+  // Returns the part of the ray with t ≥ 0 that is inside the volume grown by `margin` voxels on
+  // every side. It never divides by a direction component of ±0: such a ray is between the two
+  // planes for all t or for none.
   [[nodiscard]] std::optional<Chord> clip(const glm::dvec3& voxels_per_unit, double margin) const;
 
   const scene::VolumeScene* scene_;

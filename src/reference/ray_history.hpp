@@ -1,6 +1,6 @@
 #pragma once
-// The samples of one pixel of the reference image, with the errors that a device's samples may
-// have.
+// The samples of one pixel of the reference image, with the errors that these samples may have on a
+// device.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -16,7 +16,7 @@ namespace triptych::reference {
 
 struct HistorySample {
   std::int64_t index = 0;
-  glm::dvec3 place{};  // in voxels; the middle of a step
+  glm::dvec3 place{};  // in voxels; for a step, its middle
   glm::dvec3 place_error{};
   std::optional<Bounded> front;  // the value at the front of a step, for quadrature preintegrated
   Bounded value;                 // the value of the sample, or at the back of the step
@@ -31,9 +31,9 @@ struct RayHistory {
   std::vector<HistorySample> samples;  // samples of every index, including those without opacity
 };
 
-// The samples of the ray of pixel (x, y) in render_volume with the same model. Only for the
-// quadratures midpoint and preintegrated, because samples of cells have no numbers. Throws the same
-// errors as render_volume.
+// Returns the samples that render_volume takes for pixel (x, y) with the same model. It supports
+// only the quadratures midpoint and preintegrated, because the samples of quadrature cells have no
+// numbers. Throws the same errors as render_volume.
 [[nodiscard]] RayHistory ray_history(const scene::VolumeScene& scene, const ErrorModel& model,
                                      int x, int y);
 

@@ -5,12 +5,12 @@
 
 namespace triptych::reference {
 
-// Draws one row. Each thread has its own worker, which may keep memory of its own.
+// Draws one row. Each thread has its own worker, so a worker may reuse its own buffers.
 using RowWorker = std::function<void(int row)>;
 
 // Calls a worker once for every row 0 … rows − 1, in no particular order, on `threads` threads (0
 // means as many as the machine has). The result does not depend on the number of threads if a row
-// depends only on its number. Throws the first exception of a worker again.
+// depends only on its number. Rethrows the first exception that a worker throws.
 void for_each_row(int rows, int threads, const std::function<RowWorker()>& make_worker);
 
 }  // namespace triptych::reference

@@ -15,12 +15,12 @@
 
 namespace triptych::reference {
 
-// The quotient |g·d|/max(|g|, floor), with its error. Let δ be the largest error of g, and m the
+// Returns |g·d|/max(|g|, floor) and its error. Let δ be the largest error of g, and m the
 // denominator. A device's denominator is at least m' = max(floor, |g| − δ), so that
 //   |cos' − cos| ≤ |δ|/m' + |g·d|·|m − m'|/(m·m') ≤ (1 + cos)·|δ|/m'.
-// The dot product, the root, the division and the unit direction have together at most eight
-// roundings of a quantity that is at most 1. The six positions around p share the error of p; each
-// of them adds the rounding of a coordinate.
+// The dot product, the square root, the division and the unit direction add at most eight roundings
+// of a quantity that is at most 1. The six positions around p share the error of p; each of them
+// also has the rounding error of a coordinate.
 template <typename Stored>
 [[nodiscard]] Bounded headlight_cosine(const Field<Stored>& field, const Ray& ray,
                                        const glm::dvec3& p, const glm::dvec3& gradient_scale,
@@ -52,9 +52,9 @@ template <typename Stored>
   return result;
 }
 
-// Replaces the looked-up colour by the shaded one. `rounding` is the relative error of one
+// Replaces the looked-up colour by the shaded colour. `rounding` is the relative error of one
 // operation. Each squaring doubles a relative error, so the highlight has `exponent` roundings.
-// Adding it to the colour has four more.
+// Adding the highlight to the colour has four more.
 inline void shade(Looked& looked, const Bounded& cosine, const scene::Shading& shading,
                   double rounding) {
   const double cosine_hi = std::min(cosine.value + cosine.error, 1.0);

@@ -1,6 +1,6 @@
 #pragma once
-// Properties of spheres that are known without drawing them. S1 … S6 are their numbers in this
-// project.
+// Properties of spheres that can be computed without drawing them. S1 … S6 are their numbers in
+// this project.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -9,12 +9,12 @@
 namespace triptych::reference {
 
 // S1: the silhouette of a sphere in a pinhole image. It is an ellipse whose major axis passes
-// through the image's centre: the intersection of the image plane at distance `focal` from the eye
-// with a cone that has the half angle α (sin α = radius/distance) and an angle θ to the view axis.
-// Lengths are in the unit of `focal`.
+// through the image's centre: the intersection of the image plane, at distance `focal` from the
+// eye, with a cone. The cone has the half angle α (sin α = radius/distance), and its axis is at an
+// angle θ to the view axis. Lengths are in the unit of `focal`.
 struct SilhouetteEllipse {
   double centre = 0;      // distance from the image's centre
-  double semi_major = 0;  // towards the image's centre
+  double semi_major = 0;  // along the direction towards the image's centre
   double semi_minor = 0;
   double area = 0;
 };
@@ -32,21 +32,21 @@ struct SphereEntry {
 [[nodiscard]] std::optional<SphereEntry> s2_entry(const glm::dvec3& direction,
                                                   const glm::dvec3& centre, double radius);
 
-// S3: the mean cosine to the view axis over the disc of a sphere that is far away: ∫₀¹ √(1−ρ²)·2ρ
-// dρ.
+// S3: the mean cosine between the surface normal and the view axis, over the disc of a sphere that
+// is far away: ∫₀¹ √(1−ρ²)·2ρ dρ.
 inline constexpr double s3_mean_cosine = 2.0 / 3.0;
 
 // S4: two equal spheres intersect in the plane that bisects their centres. Returns the signed
-// distance of a point from it, positive on the side of `first`.
+// distance of a point from this plane, which is positive on the side of `first`.
 [[nodiscard]] double s4_bisector(const glm::dvec3& point, const glm::dvec3& first,
                                  const glm::dvec3& second);
 
 // S5: the expected share of an area that remains uncovered if N discs are placed on it at random,
-// with wrap-around.
+// where discs wrap around at the edges.
 [[nodiscard]] double s5_uncovered(std::uint64_t discs, double radius, double area);
 
-// S6: the area of a disc divided by that of the regular n-gon that is circumscribed around it, for
-// n ≥ 3.
+// S6: the area of a disc divided by the area of the regular n-gon that is circumscribed around it,
+// for n ≥ 3.
 [[nodiscard]] double s6_tightness(int corners);
 
 }  // namespace triptych::reference

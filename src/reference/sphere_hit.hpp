@@ -1,5 +1,5 @@
 #pragma once
-// The intersection of a ray and a sphere, and the possible intersections of nearby rays.
+// The intersection of a ray with a sphere, and the possible intersections of nearby rays.
 
 #include <algorithm>
 #include <cmath>
@@ -9,17 +9,18 @@
 
 namespace triptych::reference {
 
-// How a ray from the origin passes a sphere. The foot of the perpendicular is computed first, and
+// How a ray from the origin passes a sphere. First, the foot of the perpendicular is computed, and
 // then r² − p², which does not cancel, however far away the sphere is.
 struct Passage {
   double distance = 0;      // distance of the centre from the eye
-  double along = 0;         // b: of the centre, measured along the ray
-  double across = 0;        // p: of the centre from the ray
+  double along = 0;         // b: position of the centre along the ray
+  double across = 0;        // p: distance of the centre from the ray
   double half_squared = 0;  // h² = r² − p², with h half the chord; negative if the ray misses
   double radius = 0;
 };
 
-// `direction` is a unit vector, `centre` is relative to the eye.
+// Returns how a ray passes a sphere. `direction` is a unit vector, and `centre` is relative to the
+// eye.
 inline Passage passage(const glm::dvec3& direction, const glm::dvec3& centre, double radius) {
   const double along = glm::dot(centre, direction);
   const glm::dvec3 foot = centre - along * direction;
@@ -28,8 +29,9 @@ inline Passage passage(const glm::dvec3& direction, const glm::dvec3& centre, do
           radius};
 }
 
-// The distance along the ray to the first surface point in front of the eye. That is where the ray
-// enters the sphere, or where it leaves it if the eye is inside. +inf if there is none.
+// Returns the distance along the ray to the first surface point in front of the eye: where the ray
+// enters the sphere, or where it leaves the sphere if the eye is inside. Returns +inf if there is
+// no such point.
 inline double first_surface(const Passage& ray) {
   if (!(ray.half_squared >= 0)) return std::numeric_limits<double>::infinity();
   const double half = std::sqrt(ray.half_squared);
@@ -40,8 +42,8 @@ inline double first_surface(const Passage& ray) {
 
 // The errors that a device may have. `chord` is the largest |d' − d| of two unit directions.
 // `shift` is the displacement of the sphere's centre across the ray, relative to the radius. If the
-// eye is closer to the surface than `skin` (relative to distance + radius), a device may find it on
-// the other side.
+// eye is closer to the surface than `skin` (relative to distance + radius), it may be on the other
+// side of the surface on a device.
 struct Wobble {
   double chord = 0;
   double shift = 0;
@@ -50,21 +52,22 @@ struct Wobble {
 
 // The possible results for one sphere, over all rays that a wobble allows.
 struct Reach {
-  bool possible = false;  // some ray may meet it; otherwise the values below are meaningless
-  bool covers = false;    // every ray meets it
-  double nearest = 0;     // smallest distance along a ray that meets it
+  // Some ray may meet the sphere; otherwise the members below are meaningless.
+  bool possible = false;
+  bool covers = false;  // every ray meets the sphere
+  double nearest = 0;   // smallest distance along a ray that meets the sphere
   double farthest = 0;
-  double half_lo = 0;  // smallest half chord of a ray that meets it
+  double half_lo = 0;  // smallest half chord of a ray that meets the sphere
   double half_hi = 0;
 };
 
-// Seen from the ray, the centre C (at b along the ray and p across) rotates about the eye by an
+// Seen from the ray, the centre C (at b along the ray and p across it) rotates about the eye by an
 // angle φ with 2·sin(φ/2) ≤ chord, and shifts across the ray by up to shift·r:
 //   |p' − p| ≤ δ = chord·|C| + shift·r,
 //   |b' − b| = |b·(cos φ − 1) ± p·sin φ| ≤ Δb = p·chord + |b|·chord²/2,
 //   h'² = r² − p'² between h² − ((p + δ)² − p²) and h² + (p² − (p − δ)²),
 // with p' between 0 and |C| + shift·r. The interval of t = b' ∓ h' follows term by term. h² is
-// adjusted instead of computed again, so that without a wobble not a single bit changes.
+// adjusted instead of computed again, so that without a wobble the result is bit-identical.
 inline Reach reach(const Passage& ray, const Wobble& wobble) {
   Reach result;
   const double shift = wobble.shift * ray.radius;
@@ -75,7 +78,7 @@ inline Reach reach(const Passage& ray, const Wobble& wobble) {
   const double room = std::max(ray.distance + shift - ray.across, 0.0);
   const double up = std::min(delta, room);
   const double lowest = ray.half_squared - up * (2 * ray.across + up);
-  // This is Δb.
+  // Δb
   const double slide = wobble.chord * (ray.across + 0.5 * wobble.chord * std::abs(ray.along));
   result.half_hi = std::sqrt(highest);
   result.half_lo = std::sqrt(std::max(lowest, 0.0));

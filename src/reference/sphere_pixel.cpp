@@ -29,9 +29,9 @@ SpherePicture::SpherePicture(const scene::ParticleScene& scene_, const SphereErr
       table_(scene.intensity_colours, 0.0),
       tree(scene, growth()) {}
 
-// The ray reaches the plane at distance 1 after a distance of 1/along. A displacement by ε in that
-// plane rotates the ray by φ with sin φ ≤ x = ε·along, and 2·sin(φ/2) = x/cos(φ/2). For x ≥ 1, even
-// opposite rays are possible.
+// At distance 1/along from the eye, the ray reaches the plane at distance 1. A displacement by ε in
+// that plane rotates the ray by φ with sin φ ≤ x = ε·along, and 2·sin(φ/2) = x/cos(φ/2). For x ≥ 1,
+// even opposite rays are possible.
 double SpherePicture::chord(double pixels, double along) const {
   const double sine = pixels * pixel_ * along;
   if (!(sine < 1)) return 2;
@@ -39,8 +39,8 @@ double SpherePicture::chord(double pixels, double along) const {
 }
 
 // Let D be the distance of a box's farthest corner (no radius in the box is above D) and
-// κ = chord + shift. A sphere inside is reached if the central ray comes within δ ≤ κD of it, at a
-// point that Reach moves along the ray by up to Δb ≤ (chord + chord²/2)·D. 1e-12 is added for
+// κ = chord + shift. A sphere in the box is reached if the central ray comes within δ ≤ κD of it,
+// at a point that Reach moves along the ray by up to Δb ≤ (chord + chord²/2)·D. 1e-12 is added for
 // rounding.
 double SpherePicture::growth() const {
   const double turn = chord(std::max(model.margin_px, model.lateral_px), 1.0);
@@ -171,9 +171,9 @@ std::array<double, 4> SphereTracer::shaded(std::uint32_t place, double half) con
   return {colour[0] * light, colour[1] * light, colour[2] * light, 1.0};
 }
 
-// t' is in Reach's interval, and h' in its own. Z = t·cos α, where the rotation also changes the
-// angle α to the view axis: |cos α' − cos α| = 2·sin(φ/2)·|sin(α ± φ/2)| ≤ chord·(sin α + chord/2).
-// The colour is linear in h.
+// t' and h' are within the intervals that Reach contains. Z = t·cos α, where the rotation also
+// changes the angle α between the ray and the view axis: |cos α' − cos α| = 2·sin(φ/2)·|sin(α ±
+// φ/2)| ≤ chord·(sin α + chord/2). The colour is linear in h.
 void SphereTracer::bound_shown(const View& view, SpherePixel& pixel) const {
   const Passage ray = pass(view, shown_);
   const Reach reached = reach(ray, view.lateral);

@@ -25,22 +25,23 @@ struct SpherePixel {
   bool certain = false;
 };
 
-// Data that all pixels of an image share. Scene and model must outlive it.
+// Data that all pixels of an image share. The scene and the model must outlive this object.
 class SpherePicture {
  public:
   SpherePicture(const scene::ParticleScene& scene, const SphereErrorModel& model);
 
-  // The largest distance of two unit directions that are `pixels` apart in the image, if one of
-  // them has the cosine `along` to the view axis.
+  // Returns the largest distance between two unit directions that are `pixels` apart in the image,
+  // if `along` is the cosine between one of them and the view axis.
   [[nodiscard]] double chord(double pixels, double along) const;
-  // The colour of a particle before shading, not premultiplied.
+  // Returns the colour of a particle before shading, not premultiplied.
   [[nodiscard]] std::array<double, 3> colour(std::size_t index) const;
 
   const scene::ParticleScene& scene;
   const SphereErrorModel& model;
 
  private:
-  // The growth of the tree's boxes that guarantees that every sphere that may be reached is found.
+  // Returns by how much the tree's boxes must grow so that every sphere that may be reached is
+  // found.
   [[nodiscard]] double growth() const;
 
   double pixel_;  // size of a pixel at distance 1 along the view axis
@@ -50,22 +51,24 @@ class SpherePicture {
   const SphereTree tree;
 };
 
-// Draws pixels. Each thread has its own tracer, because a tracer keeps its memory from pixel to
+// Draws pixels. Each thread has its own tracer, because a tracer reuses its memory from pixel to
 // pixel.
 //
 // A sphere is a candidate if some ray within the margin may meet it (Reach) before the farthest
-// depth at which another sphere covers all these rays. Z values are compared after widening them by
-// their relative error. A pixel is certain if there is exactly one candidate and it covers all
-// rays, or if there is none. Particles with the same centre and radius as the visible one do not
-// count as rivals, because on an exact tie the lowest id must win. This method computes an interval
-// of depth over the whole disc of rays instead of sampling rays. It therefore finds particles that
-// are smaller than the margin, and in case of doubt it reports uncertainty.
+// depth at which another sphere covers all these rays. Before Z values are compared, they are
+// widened by their relative error. A pixel is certain if there is exactly one candidate and it
+// covers all rays, or if there is no candidate. Particles with the same centre and radius as the
+// visible particle do not count as rivals, because on an exact tie the lowest id must win.
+//
+// Instead of sampling rays, this method computes an interval of depth over the whole disc of rays.
+// It therefore finds particles that are smaller than the margin, and in case of doubt it reports
+// uncertainty.
 class SphereTracer {
  public:
   explicit SphereTracer(const SpherePicture& picture) : picture_(picture) {}
   [[nodiscard]] SpherePixel operator()(int x, int y);
-  // The indices in the particle set of all spheres that some ray within the margin may meet,
-  // including hidden ones, sorted by the smallest Z at which it may do so.
+  // Returns the indices in the particle set of all spheres that some ray within the margin may
+  // meet, including hidden spheres, sorted by the smallest Z at which a ray may meet them.
   [[nodiscard]] std::vector<std::uint32_t> spheres_near(int x, int y) const;
 
  private:
@@ -75,23 +78,23 @@ class SphereTracer {
   };
   struct View {
     glm::dvec3 direction{};
-    double along = 0;  // cosine to the view axis
-    Wobble margin;     // the pixel must keep its id within this margin
-    Wobble lateral;    // error of a device's ray and sphere
+    double along = 0;  // cosine between the ray and the view axis
+    Wobble margin;     // in a certain pixel, all rays within this margin hit the same particle
+    Wobble lateral;    // errors of the ray and of spheres on a device
   };
 
   [[nodiscard]] View view(int x, int y) const;
   [[nodiscard]] Passage pass(const View& view, std::uint32_t place) const;
   void meet(const View& view, std::uint32_t place);
   [[nodiscard]] bool is_rival(const Candidate& candidate) const;
-  // The colour at a point where the half chord is `half` of the radius.
+  // Returns the colour at a point where half the chord is `half` times the radius.
   [[nodiscard]] std::array<double, 4> shaded(std::uint32_t place, double half) const;
   void bound_shown(const View& view, SpherePixel& pixel) const;
   void bound_all(const View& view, SpherePixel& pixel) const;
 
   const SpherePicture& picture_;
   std::vector<Candidate> candidates_;
-  double covered_ = 0;       // smallest Z at which every ray within the margin has met something
+  double covered_ = 0;       // smallest Z at which every ray within the margin has met a sphere
   double distance_ = 0;      // distance of the visible surface along the ray
   std::uint32_t shown_ = 0;  // index of the visible sphere in the tree
 };

@@ -26,13 +26,13 @@ SphereTree::SphereTree(const scene::ParticleScene& scene, double growth)
     const auto& [x, y, z, unscaled] = set.spheres[i];
     const float radius = scene.radius(i);
     if (!std::isfinite(radius)) {
-      throw core::InputError(
-          fmt::format("radius {} times {} is not finite", unscaled, scene.radius_scale));
+      throw core::InputError(fmt::format("radius {} times radius_scale {} is not finite", unscaled,
+                                         scene.radius_scale));
     }
     if (radius > 0) spheres_.push_back({{x, y, z}, radius, static_cast<std::uint32_t>(i)});
   }
   if (spheres_.empty()) return;
-  nodes_.reserve(spheres_.size());  // a leaf has at least two spheres, except for the root
+  nodes_.reserve(spheres_.size());  // a leaf has at least two spheres, unless it is the root
   build(0, static_cast<std::uint32_t>(spheres_.size()));
 }
 
@@ -52,8 +52,8 @@ void SphereTree::build(std::uint32_t first, std::uint32_t last) {
       hi[axis] = std::max(hi[axis], spheres_[i].centre[axis]);
     }
   }
-  // Half of each is subtracted, because the difference of two finite floats may exceed the largest
-  // float.
+  // Both bounds are halved before the subtraction, because the difference of two finite floats may
+  // exceed the largest float.
   const glm::vec3 width = 0.5F * hi - 0.5F * lo;
   int widest = width.y > width.x ? 1 : 0;
   if (width.z > width[widest]) widest = 2;

@@ -1,5 +1,6 @@
 #pragma once
-// Finds the spheres that a ray may come near: a tree of boxes around spheres, seen from one eye.
+// Finds the spheres that a ray may come near: a tree of boxes around spheres, built for one
+// position of the eye.
 
 #include <algorithm>
 #include <array>
@@ -27,14 +28,15 @@ class SphereTree {
   };
 
   // Every box is grown by `growth` times the distance of its farthest corner from the eye. Throws
-  // InputError if a scaled radius is not finite. Spheres whose scaled radius vanishes are left out.
+  // InputError if a scaled radius is not finite. Spheres whose scaled radius underflows to 0 are
+  // left out.
   SphereTree(const scene::ParticleScene& scene, double growth);
 
-  // The distance from the eye to the farthest point of any sphere's box.
+  // Returns the distance from the eye to the farthest corner of any box around spheres.
   [[nodiscard]] double farthest() const { return farthest_; }
   [[nodiscard]] const Sphere& sphere(std::uint32_t place) const { return spheres_[place]; }
 
-  // Calls visit(place) at least for every sphere whose grown box the ray meets at some t ≥ 0 with
+  // Calls visit(place) for at least every sphere whose grown box the ray meets at some t ≥ 0 with
   // t ≤ limit(), in the order of the boxes' distances. limit() may decrease in the meantime.
   // `direction` is a unit vector.
   template <typename Limit, typename Visit>
@@ -78,8 +80,8 @@ class SphereTree {
   };
   static constexpr double missed = std::numeric_limits<double>::infinity();
 
-  // A component of ±0 is replaced by a tiny one, so that the ray stays between the two planes
-  // without 0·∞.
+  // A component of ±0 is replaced by a tiny number, so that the ray stays between the two planes
+  // and 0·∞ does not occur.
   static glm::dvec3 inverse_of(const glm::dvec3& direction) {
     glm::dvec3 inverse;
     for (int axis = 0; axis < 3; ++axis) {

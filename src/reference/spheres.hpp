@@ -11,11 +11,11 @@
 
 namespace triptych::reference {
 
-// The errors that the arithmetic of a device may have. The suite derives them
+// The errors that the arithmetic of a device may have. The particle suite derives them
 // (suites/particles/tolerance.hpp).
 struct SphereErrorModel {
-  // A pixel is certain if its id is the same for every ray within this distance from its centre, in
-  // pixels, and if no other surface is within the bounds of the depth.
+  // A pixel is certain if every ray within this distance from its centre, in pixels, hits the same
+  // particle, and if no other surface is within the depth bounds.
   double margin_px = 1.0 / 256;
   double lateral_px = 0;  // error of a device's ray in pixels
   // Error of the sphere's centre across the ray, relative to its radius.
@@ -27,8 +27,8 @@ struct SphereErrorModel {
 struct SphereTruth {
   int width = 0;
   int height = 0;
-  std::vector<double> rgba;           // as core::Image, top row first
-  std::vector<double> depth;          // Z; +inf if no particle is visible
+  std::vector<double> rgba;   // as core::Image, top row first
+  std::vector<double> depth;  // Z, the distance along the view axis; +inf if no particle is visible
   std::vector<std::uint32_t> ids;     // core::Image::no_particle if none is visible
   std::vector<double> bound;          // per pixel, for any channel; for an uncertain pixel it
                                       // covers everything that a ray within margin_px may show
@@ -37,13 +37,13 @@ struct SphereTruth {
   double coverage = 0;                // share of pixels that show a particle
 
   [[nodiscard]] core::Image image() const;  // rounded to float, with depth and ids
-  // An image with the bound in all four channels, rounded up. Its depth is the bound on Z. Its ids
-  // are 0 where the id must be equal, and no_particle where it may differ.
+  // Returns an image with the bound in all four channels, rounded up. Its depth is the bound on Z.
+  // Its ids are 0 where the id must be equal, and no_particle where it may differ.
   [[nodiscard]] core::Image bound_image() const;
 };
 
-// The result does not depend on `threads` (0 means as many as the machine has). Throws InputError
-// for a scene without particle data or without pixels.
+// Renders the scene. The result does not depend on `threads` (0 means as many as the machine has).
+// Throws InputError if the scene has no particle set or no pixels.
 [[nodiscard]] SphereTruth render_spheres(const scene::ParticleScene& scene,
                                          const SphereErrorModel& model = {}, int threads = 0);
 

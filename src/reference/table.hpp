@@ -9,7 +9,7 @@
 
 namespace triptych::reference {
 
-// The result for a value, and the possible results for a value within its error.
+// The result of looking up a value, and the possible results if the value has an error.
 struct Looked {
   std::array<double, 3> colour{};        // not premultiplied
   std::array<double, 3> colour_error{};  // largest difference from `colour`
@@ -18,8 +18,8 @@ struct Looked {
   double alpha_hi = 0;
 };
 
-// A value, and the ends of the interval that contains it, as positions among the entry centres 0 …
-// 255.
+// A value and the ends of the interval that contains it, as positions among the centres of the
+// entries 0 … 255.
 struct Span {
   double centre = 0;
   double lo = 0;
@@ -30,16 +30,16 @@ class Table {
  public:
   Table(const scene::TransferFunction& function, double table_error);
 
-  // The position of x among the entry centres, without clamping. The function has its kinks at 0 …
-  // 255.
+  // Returns the position of x among the entry centres, without clamping. The kinks of the function
+  // are at 0 … 255.
   [[nodiscard]] static double knot_of(double x) { return x * 256.0 - 0.5; }
   [[nodiscard]] static Span span_of(const Bounded& x);
 
-  // The extremes of the piecewise linear function over the span, widened by table_error. They
-  // include the ends and the entries between them, so that no kink or spike is missed.
+  // Returns the extremes of the piecewise linear function over the span, widened by table_error.
+  // All entries in the span are taken into account, so that no kink or spike is missed.
   [[nodiscard]] Looked look_up(const Span& span) const;
 
-  // Whether every entry that contributes anywhere in the span is completely transparent.
+  // Returns whether every entry that contributes anywhere in the span is completely transparent.
   // table_error does not matter here, because interpolating zeros gives zero in any arithmetic.
   [[nodiscard]] bool transparent(const Span& span) const {
     const auto last = static_cast<std::size_t>(span.hi);
@@ -48,7 +48,8 @@ class Table {
   }
 
   using Rgba = std::array<double, 4>;
-  // The colour (not premultiplied) and the opacity per voxel length at a position 0 … 255.
+  // Returns the colour (not premultiplied) and the opacity per voxel length at a position from 0 to
+  // 255.
   [[nodiscard]] Rgba at(double position) const;
 
  private:
@@ -56,7 +57,7 @@ class Table {
   [[nodiscard]] Looked look_up_across_entries(const Span& span) const;
 
   std::array<Rgba, entries> rgba_{};
-  // For each entry, the first entry from there on with alpha > 0.
+  // For each entry, the first entry with alpha > 0 that is not before it.
   std::array<std::size_t, entries> next_visible_{};
   double table_error_;
 };

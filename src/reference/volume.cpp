@@ -45,7 +45,7 @@ class Raycaster {
     return compositor_.finish();
   }
 
-  // The samples of the pixel, computed by the same loops.
+  // Returns the samples of the pixel, which are taken by the same loops.
   [[nodiscard]] RayHistory history(int x, int y) {
     RayHistory history;
     history_ = &history;
@@ -73,7 +73,8 @@ class Raycaster {
     }
   }
 
-  // All lengths below are in voxel lengths, so that they are the exponents of the opacity.
+  // All lengths below are in voxel lengths, so that they can be used as exponents in the opacity
+  // correction.
   void walk_samples(const Ray& ray) {
     const double step = scene_.step_voxels;
     const StepLength chord{ray.length / smallest_spacing_, ray.shortest / smallest_spacing_,
@@ -96,8 +97,8 @@ class Raycaster {
     }
   }
 
-  // The same for the values at the ends of the steps. The last step ends where the ray ends, and
-  // its end is as uncertain as the ray's length.
+  // The same for quadrature preintegrated, which uses the values at the ends of the steps. The last
+  // step ends where the ray ends, so its end is as uncertain as the length of the ray.
   void walk_segments(const Ray& ray) {
     const double step = scene_.step_voxels;
     const double length = ray.length / smallest_spacing_;
@@ -144,7 +145,7 @@ class Raycaster {
     if (history_ != nullptr) {
       history_->samples.back().looked = looked;
       history_->samples.back().opacity = opacity;
-      return true;  // the end of the ray was reached
+      return true;  // a history continues to the end of the ray
     }
     return compositor_.add(looked, opacity);
   }

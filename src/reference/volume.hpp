@@ -1,7 +1,7 @@
 #pragma once
 // The reference renderer for volumes: the emission–absorption integral at the scene's sample
-// positions, in double precision, with one voxel value and one table entry at a time. It shares no
-// code with the techniques.
+// positions, in double precision. It reads every voxel and every table entry individually, and
+// shares no code with the techniques.
 
 #include <cstdint>
 #include <vector>
@@ -11,23 +11,24 @@
 
 namespace triptych::reference {
 
-// The errors that the arithmetic of a device may have. The suite derives each term
-// (suites/volume/tolerance.hpp). Each is a worst case for one operation. They are propagated along
-// each ray to first order.
+// The errors that the arithmetic of a device may have. The volume suite derives each term
+// (suites/volume/tolerance.hpp). Each term is a worst case for one operation. The renderer
+// propagates these errors along each ray.
 struct ErrorModel {
   double position_error_voxels = 0;  // of a sample's position, per axis
-  double value_error = 0;            // of a normalised value, absolute, without filter_weight_error
+  double value_error = 0;            // absolute, of a normalised value, without filter_weight_error
   // Relative error of every voxel, for normalised values, which are not negative.
   double voxel_rounding = 0;
-  double filter_weight_error = 0;  // of interpolation weights, times the spread of the 8 voxels
-  double table_error = 0;          // absolute error of a looked-up colour or opacity
-  double opacity_error = 0;        // relative error of the opacity of a step
-  double compositing_error = 0;    // relative error of each multiply–add into colour and
-                                   // transmittance, and of each shading operation
-  double ert = 0;                  // transmittance below which a device may stop
-  double adapt = 0;                // largest change of any channel by merging samples
-  double output_error = 0;         // relative error of a finished channel that is stored
-                                   // with less precision than it was computed with
+  // Error of interpolation weights; it is multiplied by the spread of the 8 voxels.
+  double filter_weight_error = 0;
+  double table_error = 0;        // absolute error of a looked-up colour or opacity
+  double opacity_error = 0;      // relative error of the opacity of a step
+  double compositing_error = 0;  // relative error of each multiply–add into colour and
+                                 // transmittance, and of each shading operation
+  double ert = 0;                // transmittance below which a device may stop
+  double adapt = 0;              // largest change of any channel that merging samples may cause
+  double output_error = 0;       // relative error of a finished channel that is stored
+                                 // with less precision than it was computed with
 };
 
 struct Truth {
@@ -36,22 +37,23 @@ struct Truth {
   std::vector<double> rgba;   // as in core::Image, premultiplied, top row first
   std::vector<double> bound;  // per pixel: the largest error of any channel that the model allows;
                               // for render_volume_converged: the change by the last halvings
-  // For render_volume_converged: the number of points on rays that were looked up.
+  // Only for render_volume_converged: the number of points on rays that were looked up.
   std::uint64_t samples = 0;
 
   [[nodiscard]] core::Image image() const;        // rounded to float
   [[nodiscard]] core::Image bound_image() const;  // the bound in all four channels, rounded up
 };
 
-// The cost is about samples × 8 voxels, distributed over `threads` threads (0 means as many as the
-// machine has). The result does not depend on their number. Throws InputError for a scene without a
-// volume, with a step ≤ 0, or with data that does not match its size.
+// Renders the scene. The cost is about samples × 8 voxels, distributed over `threads` threads (0
+// means as many as the machine has). The result does not depend on the number of threads. Throws
+// InputError if the scene has no volume, if the step is ≤ 0, or if the data do not match the size
+// of the volume.
 [[nodiscard]] Truth render_volume(const scene::VolumeScene& scene, const ErrorModel& model = {},
                                   int threads = 0);
 
 // Computes the same ray integral, but refines every step until halving all steps changes no channel
-// by more than `tolerance`. This is the limit of step → 0 for this grid and table. It is used to
-// measure orders of convergence.
+// by more than `tolerance`. The result is the limit of step → 0 for this grid and table. It is used
+// to measure orders of convergence.
 [[nodiscard]] Truth render_volume_converged(const scene::VolumeScene& scene, double tolerance,
                                             int threads = 0);
 
