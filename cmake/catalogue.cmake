@@ -1,8 +1,9 @@
 # triptych_techniques(API SOURCES)
-# Reads the techniques that src/technique/catalogue.json lists for API. Sets SOURCES to their files, which are called ID.cpp and
-# belong to the current folder. Generates the header "technique_list.hpp" with the macros TRIPTYCH_VOLUME_TECHNIQUES(X) and
-# TRIPTYCH_PARTICLE_TECHNIQUES(X), which expand to X(id, needs) for each technique. The configuration fails if a listed technique
-# has no file, or if unsupported.txt names it.
+# Finds the techniques that src/technique/catalogue.json lists for API. Sets SOURCES to their source files, which are called
+# ID.cpp and are in the current folder. Generates the header "technique_list.hpp" with the macros TRIPTYCH_VOLUME_TECHNIQUES(X)
+# and TRIPTYCH_PARTICLE_TECHNIQUES(X), which expand to X(id, needs) for each technique. CMake stops with an error if a listed
+# technique has no source file or is named in unsupported.txt, or if a technique that is not listed is missing from
+# unsupported.txt.
 function(triptych_techniques api sources)
   set(catalogue ${PROJECT_SOURCE_DIR}/src/technique/catalogue.json)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${catalogue} unsupported.txt)
@@ -28,7 +29,7 @@ function(triptych_techniques api sources)
       continue()
     endif()
     if(reason)
-      message(FATAL_ERROR "${catalogue} lists ${api} for the technique ${id}, but backends/${api}/unsupported.txt names it, too")
+      message(FATAL_ERROR "${catalogue} lists ${api} for the technique ${id}, but backends/${api}/unsupported.txt contains it as well")
     endif()
     if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${id}.cpp)
       message(FATAL_ERROR "${catalogue} lists ${api} for the technique ${id}: write backends/${api}/${id}.cpp, "

@@ -1,10 +1,10 @@
-# Runs in each build. Writes `#define TRIPTYCH_COMMIT "…"` to OUTPUT if the commit has changed. The text ends in "+" if files differ
-# from the commit, and is empty if the sources are not a git checkout.
+# Runs in every build. Writes `#define TRIPTYCH_COMMIT "…"` to OUTPUT if the commit has changed since the previous build. The
+# string ends in "+" if files differ from the commit. It is empty if the sources are not a git checkout.
 # Variables set by the caller: SOURCE, OUTPUT.
 set(commit "")
 execute_process(COMMAND git -C "${SOURCE}" rev-parse --show-toplevel
                 OUTPUT_VARIABLE top OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-# Sources that were unpacked inside another project's checkout do not belong to its commits.
+# The sources may have been unpacked inside another project's checkout. They do not belong to the commits of that project.
 if(top STREQUAL SOURCE)
   execute_process(COMMAND git -C "${SOURCE}" describe --always --exclude=* --abbrev=12 --dirty=+
                   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)

@@ -1,9 +1,9 @@
-# The CTest script of ci/dashboard, which sets the environment variables that are read here.
+# The CTest script that ci/dashboard runs. ci/dashboard sets the environment variables that this script reads.
 set(CTEST_SOURCE_DIRECTORY $ENV{SOURCE})
 set(CTEST_BINARY_DIRECTORY $ENV{BUILD})
 set(CTEST_SUBMIT_URL $ENV{URL})
 cmake_host_system_information(RESULT CTEST_SITE QUERY HOSTNAME)
-# The name contains the system and the devices, because it distinguishes the builds of one site.
+# The build name distinguishes the builds of one site, so it contains the operating system and the program's version.
 cmake_host_system_information(RESULT system QUERY DISTRIB_PRETTY_NAME)
 execute_process(COMMAND $ENV{BUILD}/src/app/triptych --version OUTPUT_VARIABLE program OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 string(JOIN ", " CTEST_BUILD_NAME ${system} ${program})
@@ -28,7 +28,7 @@ if(NOT tests)
 endif()
 ctest_submit(${token} RETRY_COUNT 2 RETRY_DELAY 5 RETURN_VALUE refused CAPTURE_CMAKE_ERROR unsent)
 if(refused OR unsent)
-  file(WRITE $ENV{RESULT} "3 the results could not be submitted to ${CTEST_SUBMIT_URL}; the lines above give the reason\n")
+  file(WRITE $ENV{RESULT} "3 the results could not be submitted to ${CTEST_SUBMIT_URL}; the reason is printed above\n")
 elseif(failed OR broken)
   file(WRITE $ENV{RESULT} "1 the results were submitted; some tests failed\n")
 else()

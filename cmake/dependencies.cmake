@@ -1,4 +1,4 @@
-# All third-party libraries. They are in Debian 12 and 13; ci/packages.txt lists the packages.
+# Finds all third-party libraries. Debian 12 and 13 contain them, and ci/packages.txt lists the packages.
 find_package(Threads REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
@@ -10,9 +10,9 @@ find_package(ZLIB REQUIRED)
 find_package(BZip2 REQUIRED)
 find_package(benchmark REQUIRED)
 find_package(CLI11 REQUIRED)
-# Found through Boost's own package file, because CMake 3.30 removed FindBoost. Only headers are used.
+# CONFIG selects Boost's own package file, because CMake 3.30 removed FindBoost. Only Boost's headers are used.
 find_package(Boost 1.74 REQUIRED CONFIG)
-# Not found with find_package, because Debian's package file of Imath also requires its Python binding.
+# OpenEXR is not found with find_package, because Debian's CMake package for Imath also requires the Python binding.
 find_path(OPENEXR_HEADERS ImfHeader.h PATH_SUFFIXES OpenEXR REQUIRED)
 find_path(IMATH_HEADERS half.h PATH_SUFFIXES Imath REQUIRED)
 find_library(OPENEXR_LIBRARY OpenEXR REQUIRED)

@@ -1,6 +1,6 @@
-# Runs in each build. Writes `#define TRIPTYCH_DEVICE_CODE "…"` to OUTPUT if the hash has changed. The hash covers all kernels and
-# shaders in the form in which they are compiled into the program, which is SPIR-V for Vulkan.
-# Variables set by the caller: LIST, a file with one path per line; OUTPUT.
+# Runs in every build. Writes `#define TRIPTYCH_DEVICE_CODE "…"` to OUTPUT if the hash has changed since the previous build. The
+# hash covers all kernels and shaders in the form in which they are embedded in the program, which is SPIR-V for Vulkan.
+# Variables set by the caller: LIST (a file with one path per line), OUTPUT.
 file(STRINGS "${LIST}" files)
 set(hashes "")
 foreach(file IN LISTS files)

@@ -1,8 +1,9 @@
 # triptych_embed(TARGET NAMESPACE file...)
-# Compiles files into TARGET, so that the program does not depend on the working directory. A file is found by its name (or by its path
-# as given here, if two files share a name) through `std::string_view NAMESPACE::embedded(std::string_view name)`, which is empty for an
-# unknown name. `std::span<const std::string_view> NAMESPACE::embedded_names()` lists all names. Both are declared in the generated
-# header "<TARGET>_embedded.hpp". The target's property TRIPTYCH_EMBEDDED lists the paths of all files.
+# Embeds files in TARGET, so that the program does not depend on the working directory. The function `std::string_view
+# NAMESPACE::embedded(std::string_view name)` returns the content of a file, or an empty string for an unknown name. Its
+# argument is the file name, or the path as given to triptych_embed if two files have the same name. The function
+# `std::span<const std::string_view> NAMESPACE::embedded_names()` returns all names. Both functions are declared in the
+# generated header "<TARGET>_embedded.hpp". The target property TRIPTYCH_EMBEDDED contains the paths of all files.
 function(triptych_embed target namespace)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/embedded)
   file(MAKE_DIRECTORY ${folder})

@@ -1,6 +1,7 @@
-# The files that `cmake --install` installs and that ci/package puts into the Debian package. Plans and shaders are inside the program.
+# The files that `cmake --install` installs and that ci/package puts into the Debian package. Plans and shaders are embedded in
+# the program.
 include(GNUInstallDirs)
-# Nobody but the owner may write installed files, whatever the permissions of the checkout and the umask are.
+# Only the owner may write to installed files, regardless of the umask and of the permissions in the checkout.
 set(for_all OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
 set(folder_for_all ${for_all} OWNER_EXECUTE GROUP_EXECUTE WORLD_EXECUTE)
 set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS ${folder_for_all})
@@ -16,7 +17,7 @@ foreach(script IN LISTS scripts)
     install(PROGRAMS ${script} DESTINATION ${TRIPTYCH_DATA_FOLDER}/analysis)
   endif()
 endforeach()
-# All files to which README.md links.
+# Installs all files to which README.md links.
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILE_PERMISSIONS ${for_all} DIRECTORY_PERMISSIONS ${folder_for_all})
 install(DIRECTORY ci/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/ci FILE_PERMISSIONS ${for_all}
@@ -25,7 +26,7 @@ install(FILES ${TRIPTYCH_DOCUMENTS}/triptych.1 DESTINATION ${CMAKE_INSTALL_MANDI
 install(FILES ${TRIPTYCH_DOCUMENTS}/triptych.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME triptych)
 if(TARGET triptych_counter)
-  # measure/counting/emulator.cpp looks in this folder, independent of the multiarch folder.
+  # measure/counting/emulator.cpp looks in this folder, which does not depend on the multiarch name.
   install(TARGETS triptych_counter RUNTIME DESTINATION lib/triptych)
 endif()
 
@@ -37,16 +38,18 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# Libraries that are loaded by name: the loaders, and the software drivers with which other drivers are compared.
+# Libraries that are loaded by name at run time: the API loaders, and the software drivers that serve as a comparison for other
+# drivers.
 set(depends libegl1 libvulkan1 "pocl-opencl-icd | opencl-icd" "mesa-vulkan-drivers | vulkan-icd"
     "libegl-mesa0 | libegl-vendor" libgl1-mesa-dri)
-# The counting tool contains code of the Valgrind that it was built with, so the installed one must have the same version.
+# The counting tool contains code from the Valgrind version with which it was built. The installed Valgrind must have the same
+# version.
 if(TARGET triptych_counter)
   execute_process(COMMAND valgrind --version OUTPUT_VARIABLE printed COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX MATCH "[0-9]+\\.[0-9]+" VALGRIND_VERSION "${printed}")
   list(APPEND depends "valgrind (>= 1:${VALGRIND_VERSION})" "valgrind (<< 1:${VALGRIND_VERSION}.99)")
 endif()
-# OSMesa was removed in Mesa 25.1.
+# Mesa 25.1 removed OSMesa.
 find_library(OSMESA_LIBRARY NAMES libOSMesa.so.8)
 if(OSMESA_LIBRARY)
   list(APPEND depends libosmesa6)

@@ -1,4 +1,4 @@
-# The layers (floors) of the source code: a room (library) may link only rooms of lower floors.
+# The layers (floors) of the source code. A room (library) may link only rooms on lower floors.
 set(TRIPTYCH_FLOORS
   core=0 scene=1 record=1 estimation=1 technique=2 reference=2 accuracy=2 judge=3 measure=3
   comparison=4 reduction=4 report=5 backend=4 suite=4 view=6 app=6)
@@ -14,30 +14,31 @@ function(triptych_floor room out)
   message(FATAL_ERROR "room '${room}' has no floor; add it to TRIPTYCH_FLOORS in cmake/room.cmake")
 endfunction()
 
-# The files of a target are compiled in batches, because most of the compilation time is spent on headers and templates. Therefore a
-# name in an anonymous namespace must be unique within its target. When this is off, every file is compiled alone, which shows whether
-# it includes everything that it uses; a change of one file is then compiled fastest.
+# The files of a target are compiled in batches (unity builds), because most of the compilation time is spent on headers and
+# templates. Therefore a name in an anonymous namespace must be unique within its target. If this option is off, every file is
+# compiled separately. This shows whether each file includes everything that it uses, and it is the fastest way to compile a
+# change of one file.
 option(TRIPTYCH_UNITY "Compile the files of a target in batches" ON)
 set(TRIPTYCH_UNITY_BATCH 24 CACHE STRING "The number of files in a batch")
 function(triptych_batch target)
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD ${TRIPTYCH_UNITY} UNITY_BUILD_BATCH_SIZE ${TRIPTYCH_UNITY_BATCH})
-  # In a batch every file is included, and GCC warns about members whose type is in an anonymous namespace unless the compiled file
-  # itself defines them.
+  # A batch includes all its files. GCC warns if a member's type is in an anonymous namespace in an included file, which is
+  # harmless here.
   if(TRIPTYCH_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
   endif()
 endfunction()
 
-# Rooms without loops over voxels, particles or pixels, and without code that runs in a timed frame. Beyond -O2 their programs are
-# not faster, and they take longer to compile.
+# Rooms that contain no loops over voxels, particles or pixels, and no code that runs in a timed frame. Optimization beyond -O2
+# would not make them faster, but would take longer to compile.
 set(TRIPTYCH_COLD record judge comparison reduction report)
 function(triptych_cold target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
 endfunction()
 
 # triptych_room(NAME SOURCES file... [ROOMS room...] [PUBLIC lib...] [PRIVATE lib...])
-# Makes a static library triptych_NAME that can include the headers of the given rooms and of no others.
+# Adds a static library triptych_NAME, which can include headers only from its own room and from the given rooms.
 function(triptych_room name)
   cmake_parse_arguments(arg "" "" "SOURCES;ROOMS;PUBLIC;PRIVATE" ${ARGN})
   triptych_floor(${name} own)
@@ -51,30 +52,32 @@ function(triptych_room name)
   foreach(room IN LISTS arg_ROOMS)
     triptych_floor(${room} other)
     if(NOT other LESS own)
-      message(FATAL_ERROR "room '${name}' (floor ${own}) may not use '${room}' (floor ${other})")
+      message(FATAL_ERROR "room '${name}' (floor ${own}) must not use '${room}' (floor ${other}); it may use only rooms on lower floors")
     endif()
     target_link_libraries(triptych_${name} PUBLIC triptych_${room})
   endforeach()
   target_link_libraries(triptych_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
 endfunction()
 
-# Time limits of tests are multiplied by this factor, for example under an emulator (cmake/arm64.cmake).
-set(TRIPTYCH_PATIENCE 1 CACHE STRING "How many times longer than usual a test may take")
-# triptych_patience(SECONDS OUT)
+# All time limits of tests are multiplied by this factor. It is larger than 1 under an emulator, for example
+# (cmake/arm64.cmake).
+set(TRIPTYCH_PATIENCE 1 CACHE STRING "Factor by which the time limits of tests are multiplied")
+# triptych_patience(SECONDS OUT) sets OUT to SECONDS multiplied by this factor.
 function(triptych_patience seconds out)
   math(EXPR patience "${seconds} * ${TRIPTYCH_PATIENCE}")
   set(${out} ${patience} PARENT_SCOPE)
 endfunction()
 
-# Compiles a test's own code with less optimisation than the rooms, because little time of a test is spent in it. Without any
-# optimisation, tests take longer, because the linker may keep the tests' instances of templates in place of those of the rooms.
+# Compiles the code of a test with less optimization than the rooms, because tests spend little time in their own code. Without
+# any optimization, tests would take longer, because the linker may keep the unoptimized template instances from a test instead
+# of those from a room.
 function(triptych_test_code target)
   triptych_batch(${target})
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # triptych_test(NAME SOURCES file... ROOMS room... [LABELS label...] [LIBS lib...])
-# Makes a GoogleTest program. CTest finds its test cases.
+# Adds a GoogleTest program. CTest discovers its test cases.
 function(triptych_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;ROOMS;LABELS;LIBS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
@@ -90,8 +93,8 @@ function(triptych_test name)
   triptych_patience(300 timeout)
   gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT ${discovery}
                        PROPERTIES TIMEOUT ${timeout})
-  # gtest_discover_tests cannot pass a list of labels, so they are set on the tests that it found. Processes that share PoCL's kernel
-  # cache crash, so only one of them runs at a time.
+  # gtest_discover_tests cannot pass a list of labels, so the labels are set on the discovered tests. Processes that share
+  # PoCL's kernel cache crash, so only one OpenCL test runs at a time.
   set(lock "")
   if("opencl" IN_LIST arg_LABELS)
     set(lock " RESOURCE_LOCK pocl_cache")

@@ -1,8 +1,8 @@
-# CTest reads this file when tests are run. It asks the program for the devices of this machine. For every plan and device it
-# then registers one test that measures, and one test for each check of the results.
+# CTest runs this script each time that tests are run. The script calls the program to list the devices of this machine. For
+# every plan and device, it then registers one test that measures, and one test for each check of the results. The large plans
+# are measured on one device per driver, or on every device if the environment variable TRIPTYCH_EVERY_DEVICE is set. If the
+# program has not been built or cannot list the devices, the script registers a test that fails.
 # Variables set by the caller: TRIPTYCH_PROGRAM, TRIPTYCH_PLANS, TRIPTYCH_LARGE_PLANS, TRIPTYCH_TEST_FOLDER.
-# The large plans are measured on one device of each driver, or on every device if TRIPTYCH_EVERY_DEVICE is in the environment.
-# If the program has not been built or cannot list devices, a test is registered that fails.
 if(NOT EXISTS "${TRIPTYCH_PROGRAM}")
   add_test(triptych.not_built "${TRIPTYCH_PROGRAM}")
   return()

@@ -1,5 +1,4 @@
-# Registers the tests of the suites. Whenever CTest runs, it queries the program for the list of
-# tests.
+# Registers the tests of the suites. Each time that CTest runs, it calls the program to get the list of tests.
 set(test_folder ${PROJECT_BINARY_DIR}/suite_tests)
 file(MAKE_DIRECTORY ${test_folder})
 file(GENERATE OUTPUT ${test_folder}/discover.cmake CONTENT

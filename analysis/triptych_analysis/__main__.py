@@ -11,17 +11,17 @@ EXIT_NOTHING, EXIT_USAGE = 2, 3
 
 def arguments_of(words):
     parser = argparse.ArgumentParser(
-        prog="analyze", description="Computes distributions, correlations, speed-ups, predictions and views from tables. "
-        "FOLDER/SUITE/SIGNAL gets a CSV file for each table and an SVG file for each figure.",
-        epilog="Exit codes: 0 done, 2 nothing could be computed, 3 usage or I/O.")
-    parser.add_argument("source", nargs="+", help="a folder written by `triptych export`, or a store")
-    parser.add_argument("--out", required=True, help="folder for tables and figures")
-    parser.add_argument("--plan", help="SUITE/PLAN as it was run (default: all plans, joined by suite)")
+        prog="analyze", description="Computes distributions, correlations, speed-ups, predictions and comparisons of views "
+        "from exported tables. Writes a CSV file for each table and an SVG file for each figure to FOLDER/SUITE/SIGNAL.",
+        epilog="Exit codes: 0 success, 2 nothing could be computed, 3 usage or I/O error.")
+    parser.add_argument("source", nargs="+", help="a folder that `triptych export` wrote, or a store")
+    parser.add_argument("--out", required=True, help="write tables and figures to this folder")
+    parser.add_argument("--plan", help="use only this plan, as it was named in the run (default: all plans; their records are combined for each suite)")
     parser.add_argument("--clock", choices=["auto", "device", "wall"], default="auto",
-                        help="auto: the device clock if it is trusted for every record, otherwise the wall clock")
+                        help="clock to use; auto is the device clock if it is trusted for every record, otherwise the wall clock")
     parser.add_argument("--reference", action="append", default=[], metavar="FACTOR=LEVEL",
-                        help="the level that speed-ups are relative to (repeatable)")
-    parser.add_argument("--seed", type=int, default=1, help="seed of all random numbers")
+                        help="compute the speed-ups of this factor relative to this level (repeatable)")
+    parser.add_argument("--seed", type=int, default=1, help="seed for all random numbers")
     return parser.parse_args(words)
 
 
@@ -52,7 +52,7 @@ def run(arguments):
 def main(words=None):
     try:
         arguments = arguments_of(words)
-    except SystemExit as left:  # argparse exits with code 2, which means "could not judge" here
+    except SystemExit as left:  # argparse exits with code 2, which means "nothing could be computed" here
         return left.code and EXIT_USAGE
     try:
         return run(arguments)

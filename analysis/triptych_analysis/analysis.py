@@ -1,4 +1,4 @@
-"""The paper's complete analysis of one data set: everything that can be computed, and the reasons why the rest cannot."""
+"""The complete analysis of the paper for one data set. It lists the reason for each part that cannot be computed."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,8 @@ import pandas as pd
 
 from . import choice, correlation, distribution, prediction, splits, views
 
-# The pairs of factors whose means are shown: those with devices, and those of the paper's Figures 8 and 14.
+# The pairs of factors for which tables of means are computed: the pairs in the paper's Figures 8 and 14, and pairs with the
+# device.
 HEAT_MAPS = [("data", "device"), ("data", "camera_path"), ("data", "technique"), ("technique", "device"),
              ("camera_path", "device")]
 
@@ -15,11 +16,11 @@ HEAT_MAPS = [("data", "device"), ("data", "camera_path"), ("data", "technique"),
 @dataclass
 class Analysis:
     dataset: object
-    tables: dict  # name → DataFrame; empty ones are absent
-    left_out: list  # pairs of an analysis and the reason why it was left out
+    tables: dict  # name → DataFrame; empty tables are omitted
+    left_out: list  # pairs of an omitted analysis and the reason
 
     def table(self, name):
-        """The table with this name; an empty one if there is none."""
+        """Returns the table with this name, or an empty table if there is none."""
         return self.tables.get(name, pd.DataFrame())
 
     def empty(self):
@@ -27,13 +28,13 @@ class Analysis:
 
 
 def analyse(dataset, references=None, seed=1):
-    """`references` maps a factor to the level that speed-ups are relative to; by default that is the first level. `seed`
-    seeds all random numbers."""
+    """Analyses a data set. `references` maps factors to the levels to which speed-ups are relative (default: the first level).
+    `seed` is used for all random numbers."""
     left_out, tables = [], {}
     tables["distributions"], tables["percentiles"], tables["histograms"] = distribution.distributions(dataset, seed)
     if tables["distributions"].empty:
         left_out.append(("distribution",
-                         f"there are {len(dataset)} observations; {distribution.LEAST} different ones are needed"))
+                         f"there are {len(dataset)} observations; at least {distribution.LEAST} that are not all equal are needed"))
     tables.update(_correlate(dataset, references or {}, left_out))
     tables["means"] = _average(dataset, left_out)
     tables["predictions"], reason = prediction.predict(dataset, seed)
@@ -103,7 +104,7 @@ def _stacked(frames):
 
 
 def observations(dataset):
-    """One row for each configuration and device."""
+    """Returns a table with one row for each configuration and device."""
     table = pd.DataFrame({name: np.array([*factor.levels, None], dtype=object)[factor.codes]
                           for name, factor in dataset.factors.items()})
     table[dataset.unit] = dataset.values

@@ -1,5 +1,5 @@
-"""Answers to a researcher's questions: which technique to use for N spheres, which factor influences a value most, and the
-mean values for the levels of two factors (the paper's Figures 8 and 14)."""
+"""Answers to typical questions of researchers: which technique is best for N spheres, which factor influences a value most, and
+which mean values the levels of two factors have (the paper's Figures 8 and 14)."""
 
 from fnmatch import fnmatchcase
 
@@ -14,8 +14,9 @@ FARTHEST = 10
 
 
 def mean_values(dataset, rows, columns):
-    """Means by the levels of two factors, over the fullest block, so that cells differ only in these two factors. Empty
-    if either factor has fewer than two levels there. A combination that was not measured has no row."""
+    """Returns the mean value for each combination of levels of two factors. The means are taken over the fullest block, so that
+    they differ only in these two factors. Returns an empty table if either factor has fewer than two levels in this block. A
+    combination that was not measured has no row."""
     mean = f"mean_{dataset.unit}"
     chosen = fullest_block(dataset, [rows, columns])
     of_row, of_column = levels_in(dataset, rows, chosen), levels_in(dataset, columns, chosen)
@@ -29,8 +30,8 @@ def mean_values(dataset, rows, columns):
 
 
 def by_count(dataset, generator="uniform"):
-    """Means for each device, technique and count of `generate:GENERATOR:COUNT`. On each device only configurations that
-    have the same techniques and counts are used, so that the means differ only in these."""
+    """Returns the mean value for each device, technique and count in `generate:GENERATOR:COUNT`. For each device, only
+    configurations that were measured with the same techniques and counts are used, so that the means differ only in these."""
     mean = f"mean_{dataset.unit}"
     data, prefix = dataset.factor("data"), f"generate:{generator}:"
     counted = [i for i, each in enumerate(data.levels) if each.startswith(prefix)]
@@ -46,11 +47,11 @@ def by_count(dataset, generator="uniform"):
 
 
 def technique_for(counts, device, count):
-    """Techniques on the devices that match a glob, for a number of spheres, cheapest first. If that number was not
-    measured, the value is interpolated or extrapolated on a line through the logarithms of the two nearest counts, which
-    the column `from` names. `to_least` is the ratio to the cheapest technique of the same device. A technique that was
-    measured at one count only, or more than a factor of FARTHEST away, has no row. The result is empty if no technique was
-    measured by count."""
+    """Ranks the techniques for a number of spheres on the devices that match a glob, cheapest first. If that number was not
+    measured, the value is interpolated or extrapolated along a line through the logarithms of the two nearest counts, which
+    the column `from` names. `to_least` is the ratio to the cheapest technique on the same device. A technique has no row if it
+    was measured with only one other count, or if the nearest count is more than a factor of FARTHEST away. Returns an empty
+    table if there are no values by count."""
     if counts is None or counts.empty:
         return pd.DataFrame(columns=["device", "technique", "from", "to_least"])
     mean = counts.columns[-1]
@@ -78,9 +79,10 @@ def _at_count(counts, values, count):
 
 
 def effects(dataset, factors):
-    """The influence of each factor while all others are fixed, largest first. `share` is the mean variance of ln value
-    along the factor, divided by the variance of ln value (the total-effect index of Homma & Saltelli 1996; shares may add
-    up to more than 1). `largest_ratio` is the largest geometric mean ratio between two levels, `cheap` and `expensive`."""
+    """Returns the influence of each factor while all other factors are fixed, largest first. `share` is the mean variance of
+    ln(value) along the factor, divided by the variance of ln(value). This is the total-effect index of Homma & Saltelli (1996);
+    shares may add up to more than 1. `largest_ratio` is the largest geometric mean of the ratio between two levels, which the
+    columns `cheap` and `expensive` name."""
     total = np.log(dataset.values).var() if len(dataset) else 0
     rows = []
     for factor in factors:
@@ -97,7 +99,8 @@ def effects(dataset, factors):
 
 
 def _largest_ratio(levels, logs):
-    """The largest geometric mean of value(expensive)/value(cheap) among all pairs of levels."""
+    """Returns the largest geometric mean of value(expensive)/value(cheap) among all pairs of levels, the two levels and the
+    number of value pairs."""
     best = (np.nan, None, None, 0)
     for i in range(len(levels)):
         for j in range(i + 1, len(levels)):

@@ -1,5 +1,6 @@
-"""The correlation of a factor's levels: Pearson's r between the values of two levels over the configurations that both have
-(the paper's Figures 4, 5, 11, 12, 13), and speed-ups from lines through the same pairs (Figures 6 and 7)."""
+"""The correlation between levels of a factor. Pearson's r of two levels is computed from the configurations that were measured
+with both levels (the paper's Figures 4, 5, 11, 12, 13). Speed-ups are computed from lines through the same pairs (Figures 6 and
+7)."""
 
 import numpy as np
 import pandas as pd
@@ -8,13 +9,14 @@ from .dataset import natural_order
 from .splits import Split, scope, split
 from .tables import InputError
 
-# A line through fewer pairs would be meaningless: two points always lie on a line, and three often nearly do by chance.
+# With fewer pairs, a line would be meaningless, because two points always lie on a line, and three points often nearly do by
+# chance.
 LEAST_PAIRS = 4
 BOX = ["mean", "minimum", "lower_quartile", "median", "upper_quartile", "maximum"]
 
 
 def pearson(x, y):
-    """Pearson's r; NaN for fewer than two pairs, or if x or y is constant."""
+    """Returns Pearson's r, or NaN if there are fewer than two pairs or if x or y is constant."""
     if len(x) < 2 or np.ptp(x) == 0 or np.ptp(y) == 0:
         return np.nan
     x, y = x - x.mean(), y - y.mean()
@@ -22,8 +24,8 @@ def pearson(x, y):
 
 
 def correlations(dataset, of_split):
-    """One row for every unordered pair of levels: factor, a, b, pairs, r, samples, held. r is NaN if there are fewer
-    than LEAST_PAIRS pairs or a level is constant."""
+    """Returns one row for every unordered pair of levels: factor, a, b, pairs, r, samples, held. r is NaN if there are fewer
+    than LEAST_PAIRS pairs or if the values of a level are constant."""
     values = of_split.values(dataset)
     there = of_split.rows >= 0
     entered = np.zeros_like(there)
@@ -42,7 +44,8 @@ def correlations(dataset, of_split):
 
 
 def box(matrix):
-    """The box of a factor in the overview plot, from the r of its matrix; None if there is no r."""
+    """Returns the numbers of a factor's box in the overview plot, computed from the r in its matrix, or None if there is no
+    r."""
     r = matrix["r"].dropna()
     if r.empty:
         return None
@@ -53,9 +56,9 @@ def box(matrix):
 
 
 def speed_ups(dataset, of_split, reference):
-    """For every level except the reference: value(reference) = intercept + speed_up · value(level), fitted by least
-    squares to the pairs. The error is defined as in the paper, (1 − r)·speed_up. mean_ratio is the geometric mean of
-    value(reference)/value(level), which does not depend on an intercept."""
+    """Returns the speed-up of every level except the reference. It is the slope of the line value(reference) = intercept +
+    speed_up · value(level), which is fitted to the pairs by least squares. The error is (1 − r)·speed_up, as in the paper.
+    mean_ratio is the geometric mean of value(reference)/value(level), which does not depend on an intercept."""
     columns = ["factor", "level", "reference", "pairs", "speed_up", "error", "low", "high", "r",
                f"intercept_{dataset.unit}", "mean_ratio", "held"]
     rows = []
@@ -67,7 +70,7 @@ def speed_ups(dataset, of_split, reference):
         both = (of_split.rows[:, i] >= 0) & (of_split.rows[:, base] >= 0)
         x, y = values[both, i], values[both, base]
         r = pearson(x, y) if i != base and len(x) >= LEAST_PAIRS else np.nan
-        if not np.isfinite(r):  # a line needs values that differ
+        if not np.isfinite(r):  # too few pairs, or constant values
             continue
         slope = float((x - x.mean()) @ (y - y.mean()) / ((x - x.mean()) @ (x - x.mean())))
         error = (1 - r) * slope
@@ -78,7 +81,7 @@ def speed_ups(dataset, of_split, reference):
 
 
 def require_references(datasets, references):
-    """Raises InputError for a reference level that no data set has. A level may exist in one suite only."""
+    """Raises InputError if no data set has the level of a reference. It is sufficient if one suite has the level."""
     for factor, level in references.items():
         levels = {each for data in datasets for each in split(data, factor).levels}
         if not levels:
@@ -88,13 +91,13 @@ def require_references(datasets, references):
 
 
 def reference_of(of_split, references):
-    """The requested level if it exists, otherwise the first one."""
+    """Returns the requested reference level if the factor has it, otherwise the first level."""
     asked = references.get(of_split.factor)
     return asked if asked in of_split.levels else of_split.levels[0]
 
 
 def stacks(dataset):
-    """Correlation along a series of sizes of the same data, which are the levels generate:NAME:SIZE of `data`. Returns
+    """Correlates different sizes of the same data, which are the levels generate:NAME:SIZE of the factor `data`. Returns
     {name: matrix}."""
     whole = split(dataset, "data")
     by_name = {}

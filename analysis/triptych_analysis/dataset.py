@@ -1,5 +1,5 @@
-"""The input of the analysis: one observation for each configuration and device, separated by suite and signal. All other
-modules work on these numbers."""
+"""The input of the analysis: one observation for each configuration and device, in a separate data set for each suite and
+signal (time or cost). All other modules use these data sets."""
 
 import hashlib
 import re
@@ -10,18 +10,19 @@ import pandas as pd
 
 from .tables import COST, FACTOR
 
-# The parts of a frame's instructions that repeat and are judged. The instructions of the C library and of the program do not
+# The parts of a frame's cost whose instruction counts repeat exactly. The counts for the C library and for the program do not
 # repeat.
 COST_PARTS = ("device_code", "driver")
-# The camera as separate factors, as in the paper. camera_path: the path is the factor, and the position counts as one of the other
-# factors. camera_rotation: the position on an orbit is the factor, and the orbit's axis counts as another one. camera_distance: the
-# same for the position on a straight path.
+# The parts into which the camera is divided, as in the paper. With camera_path, the path is the factor, and the position on it
+# is one of the other factors. With camera_rotation, the position on an orbit is the factor, and the axis of the orbit is one of
+# the other factors. With camera_distance, the position on a straight path is the factor, and the axis of the path is one of the
+# other factors.
 CAMERA_PARTS = ("camera_path", "camera_rotation", "camera_distance")
 
 
 @dataclass
 class Factor:
-    """The level of each observation: levels[codes[i]], or none if the code is -1."""
+    """The level of each observation. Observation i has levels[codes[i]], or no level if the code is -1."""
 
     levels: list
     codes: np.ndarray
@@ -32,10 +33,10 @@ class Dataset:
     suite: str
     signal: str  # "time" or "cost"
     unit: str  # "ms" or "instructions"
-    clock: str  # "device" or "wall", the same for all; for cost, the emulator that counted
+    clock: str  # "device" or "wall", the same for all observations; for cost, the emulator that counted
     values: np.ndarray
-    factors: dict  # name → Factor; "device" is one of them
-    device_ms: np.ndarray  # NaN where the device clock is not trusted; only for times
+    factors: dict  # name → Factor; includes "device"
+    device_ms: np.ndarray  # NaN if the device clock is not trusted; used only for times
     wall_ms: np.ndarray
     duplicates: pd.DataFrame
     notes: list = field(default_factory=list)
@@ -44,13 +45,13 @@ class Dataset:
         return len(self.values)
 
     def factor(self, name):
-        """A factor, or a part of the camera by which values are averaged. Random views count as one path."""
+        """Returns a factor, or a part of the camera as a factor for averaging. All random views count as one path."""
         if name not in CAMERA_PARTS:
             return self.factors.get(name) or Factor([], np.full(len(self), -1))
         return self.camera_part(name, of_all=True)[0]
 
     def camera_part(self, part, of_all=False):
-        """A part of the camera as a factor, and the rest of the camera as one of the other factors."""
+        """Returns a part of the camera as a factor, and the rest of the camera as another factor."""
         camera = self.factors.get("camera") or Factor([], np.full(len(self), -1))
         places = [_place(*view_of(each), part, of_all) for each in camera.levels]
         return (_recoded(camera.codes, [each and each[0] for each in places]),
@@ -66,7 +67,7 @@ def _place(path, position, part, of_all):
 
 
 def _recoded(codes, names):
-    """Makes a factor with new names for the old levels; None means no level."""
+    """Returns a factor with new names for the old levels. The name None means no level."""
     levels = natural_order({each for each in names if each is not None})
     place = {each: i for i, each in enumerate(levels)}
     new = np.array([place.get(each, -1) for each in names] + [-1])  # the last entry is for code -1
@@ -74,7 +75,7 @@ def _recoded(codes, names):
 
 
 def factor_of(texts):
-    """Makes a factor from one text for each observation; None means no level."""
+    """Returns a factor whose levels are given as one string per observation. None means no level."""
     codes, names = pd.factorize(np.asarray(texts, dtype=object))  # None becomes -1
     return _recoded(codes, list(names))
 
@@ -86,7 +87,7 @@ def view_of(camera):
 
 
 def number(text):
-    """The text as a number, or None if it is not one."""
+    """Returns the string as a number, or None if it is not a number."""
     try:
         return None if "_" in text or text != text.strip() else float(text)
     except ValueError:
@@ -94,7 +95,7 @@ def number(text):
 
 
 def natural_order(levels):
-    """Sorts levels so that numbers, and digits inside other text, are ordered by value: "a10" comes after "a9"."""
+    """Sorts levels so that numbers, and digits within strings, are ordered by value: "a10" comes after "a9"."""
     levels = list(levels)
     if all(number(each) is not None for each in levels):
         return sorted(levels, key=lambda each: (number(each), each))
@@ -103,7 +104,7 @@ def natural_order(levels):
 
 
 def datasets(records, clock="auto"):
-    """The data sets in the records: for each suite the times, and the cost if it was counted."""
+    """Returns the data sets in the records: for each suite the times, and also the cost if instructions were counted."""
     found = []
     for suite in sorted(records["suite"].unique()):
         of_suite = records[records["suite"] == suite]
@@ -149,11 +150,11 @@ def _cost(suite, records):
 
 
 def _aside(records, notes, more, emulated):
-    """Drops records that are not observations, and adds a note with the number for each reason."""
+    """Drops records that are not observations. Adds a note for each reason, with the number of dropped records."""
     outcome = records["outcome"].astype(str)
     reasons = [(outcome != "measured", outcome + " on " + records["device"].astype(str)),
                (records["injected"].notna(), "with an injected fault"),
-               # A record with copied frames is not an independent observation: r between it and its original is always 1.
+               # A record with copied frames is not an independent observation: r between it and its original would always be 1.
                (records["same_as"].notna(), "with frames copied from an equivalent configuration"),
                (records["technique"] == "speed_of_light", "of a technique that makes no image"),
                (emulated, "with instructions counted by an emulator, which distorts times,")]
@@ -168,8 +169,8 @@ def _aside(records, notes, more, emulated):
 
 
 def _latest(records, notes):
-    """The latest record of every configuration on every device. The device's level is its id, with a hash added if several
-    drivers or processors share the id."""
+    """Returns the latest record of every configuration on every device. The level of a device is its id, followed by a hash if
+    several drivers or processors have the same id."""
     identity = records["device_key"].fillna("") + records["processor"].map(lambda each: f"|{each}" if each else "")
     level = records["device"].copy()
     for device, of_device in identity.groupby(records["device"]):
@@ -202,7 +203,8 @@ def _clock(fit, trusted, choice, notes):
 
 
 def _factors(fit):
-    """The factors of the records. A factor that no configuration names is left out, because each device chose its level."""
+    """Returns the factors of the records. A factor with several levels is omitted if no configuration names it, because each
+    device chose the level itself."""
     factors = {}
     configurations = fit["configuration"].unique()
     for column in sorted(each for each in fit.columns if each.startswith(FACTOR)):

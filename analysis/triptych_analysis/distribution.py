@@ -1,4 +1,4 @@
-"""The distribution of values (the paper's Figures 3 and 10): histograms, percentiles, a log-normal fit, and a
+"""The distribution of the values (the paper's Figures 3 and 10): histograms, percentiles, a log-normal fit, and a
 Kolmogorov–Smirnov test of the fit."""
 
 import numpy as np
@@ -7,29 +7,29 @@ from scipy import stats
 
 from .splits import levels_in, scope
 
-LEAST = 8  # the smallest number of different observations
+LEAST = 8  # the smallest number of observations for a fit
 PERCENTS = [0, 5, 10, 25, 50, 75, 90, 95, 99, 100]
 MOST_REPLICATES, LEAST_REPLICATES = 999, 99
-MOST_DRAWS = 20_000_000  # takes some seconds
+MOST_DRAWS = 20_000_000  # limits a test to a few seconds
 
 
 def fit_log_normal(values):
-    """The maximum-likelihood estimates of mu and sigma for ln x ~ N(mu, sigma²)."""
+    """Returns the maximum-likelihood estimates of mu and sigma for ln x ~ N(mu, sigma²)."""
     logs = np.log(values)
     return float(logs.mean()), float(logs.std())
 
 
 def ks_log_normal(values):
-    """(D, p) of the test against the log-normal distribution that was fitted to the same values. As in the paper, p treats
-    the parameters as known, which makes it too large."""
+    """Returns (D, p) of the Kolmogorov–Smirnov test against the log-normal distribution that was fitted to the same values. As
+    in the paper, p is computed as if the parameters were known beforehand, so it is too large."""
     mu, sigma = fit_log_normal(values)
     test = stats.kstest((np.log(values) - mu) / sigma, "norm")
     return float(test.statistic), float(test.pvalue)
 
 
 def lilliefors_p(d, n, replicates, seed):
-    """p of the same D when the parameters were fitted (Lilliefors 1967). k of the random normal samples, each with its own
-    fit, have a D at least as large; p = (1 + k)/(1 + replicates)."""
+    """Returns p for D if the parameters were fitted to the same values (Lilliefors 1967). The function draws random normal
+    samples and fits each of them. If k of them have a D that is at least as large, p = (1 + k)/(1 + replicates)."""
     random = np.random.default_rng(seed)
     upper = np.arange(1, n + 1) / n
     as_large = 0
@@ -46,8 +46,9 @@ def replicates_for(n):
 
 
 def histogram(values, logarithmic):
-    """Equal bins over the range of the values or of their logarithms, with the counts that the fit expects. The number of
-    bins follows Freedman and Diaconis (1981), between 5 and 60. Rows: low, high, count, expected."""
+    """Returns the rows (low, high, count, expected) of a histogram with bins of equal width over the range of the values or of
+    their logarithms. `expected` is the count according to the fit. The number of bins is that of Freedman and Diaconis (1981),
+    but at least 5 and at most 60."""
     scaled = np.log10(values) if logarithmic else values
     lower, upper = np.percentile(scaled, [25, 75])
     width = 2 * (upper - lower) / np.cbrt(len(scaled))
@@ -61,8 +62,9 @@ def histogram(values, logarithmic):
 
 
 def distributions(dataset, seed):
-    """Distributions of all values and of each device's values; for all values by both clocks if every record has both. At
-    least LEAST different values are needed. Returns three tables: fits, percentiles, histograms."""
+    """Returns three tables (fits, percentiles, histograms) for all values together and for the values of each device. If every
+    record has times from both clocks, all values are analysed with both. At least LEAST values are needed, which must not all
+    be equal."""
     fits, percentiles, bins = [], [], []
     for of, clock, rows, values in _samples(dataset):
         if len(values) < LEAST or not fit_log_normal(values)[1] > 0:

@@ -1,4 +1,4 @@
-"""Drawing functions shared by all figures. They write SVG files that are the same bytes each time."""
+"""Drawing functions shared by all figures. The same input always gives bit-identical SVG files."""
 
 import io
 
@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-MOST_NUMBERS = 12  # larger matrices show colours without numbers
+MOST_NUMBERS = 12  # larger matrices are drawn with colours only
 BLUE, RED, INK = "#3b6ea5", "#b5413a", "#222222"
 STYLE = {"svg.hashsalt": "triptych", "svg.fonttype": "path", "font.size": 9, "axes.titlesize": 10,
          "axes.spines.top": False, "axes.spines.right": False, "figure.dpi": 100, "font.family": "DejaVu Sans"}
@@ -24,7 +24,7 @@ class SvgFigure(Figure):
 
 
 def figure(width, height, rows=1, columns=1, **more):
-    """Makes a figure and its axes. Width and height are in inches."""
+    """Creates a figure and its axes. Width and height are in inches."""
     with matplotlib.rc_context(STYLE):
         made = SvgFigure(figsize=(width, height), layout="constrained")
         FigureCanvasSVG(made)
@@ -37,7 +37,7 @@ def save(made, file):
 
 
 def heat_map(axes, cells, label, low=None, high=None, logarithmic=False, decimals=None):
-    """Draws a DataFrame of numbers with a colour bar. A missing number is a hatched cell."""
+    """Draws a DataFrame of numbers as coloured cells, with a colour bar. Cells without a number are hatched."""
     values = cells.to_numpy(dtype=float)
     known = values[np.isfinite(values)]
     low, high = (known.min() if low is None else low), (known.max() if high is None else high)
@@ -69,7 +69,7 @@ def heat_map(axes, cells, label, low=None, high=None, logarithmic=False, decimal
 
 
 def short(value):
-    """Formats a number with three digits, and with k, M or G from ten thousand on: 0.123, 4.56, 789, 12.3k"""
+    """Formats a number with three digits, and from ten thousand on with the suffix k, M or G: 0.123, 4.56, 789, 12.3k"""
     for size, letter in ((1e9, "G"), (1e6, "M"), (1e4, "k")):
         if abs(value) >= size:
             return f"{value / (1e3 if letter == 'k' else size):.3g}{letter}"
@@ -77,7 +77,8 @@ def short(value):
 
 
 def boxes(axes, names, samples):
-    """Draws one row for each name. Fewer than three values are drawn as ticks without a box, whose quartiles would be invented."""
+    """Draws a row with a box plot for each name. If there are fewer than three values, only ticks are drawn, because quartiles
+    would be meaningless."""
     full = [i for i, each in enumerate(samples) if len(each) >= 3]
     if full:
         axes.boxplot([samples[i] for i in full], positions=full, vert=False, widths=0.5, whis=(0, 100),
@@ -94,7 +95,7 @@ def boxes(axes, names, samples):
 
 
 def bars(axes, names, lengths, low, high):
-    """Draws one bar for each name, with its error range."""
+    """Draws a bar with an error range for each name."""
     places = np.arange(len(names))
     error = np.abs(np.array([np.subtract(lengths, low), np.subtract(high, lengths)], dtype=float))
     axes.barh(places, lengths, height=0.6, color="#9dbbd8", edgecolor=BLUE, xerr=error,

@@ -1,6 +1,6 @@
-"""All figures of the paper that can be drawn from the tables, and further ones for instructions and the choice of a technique.
-Each function takes an Analysis and yields (name, matplotlib figure). A name begins with the number of the paper's figure if
-there is one."""
+"""The figures of the paper that can be drawn from the tables, and additional figures for instructions and for the choice of a
+technique. Each function takes an Analysis and yields pairs (name, matplotlib figure). If the paper contains a figure, `every`
+adds the number of that figure to the name."""
 
 import numpy as np
 import pandas as pd
@@ -8,7 +8,7 @@ import pandas as pd
 from . import drawing, views
 from .dataset import natural_order, view_of
 
-NUMBERS = {  # suite → figure name → number in the paper
+NUMBERS = {  # suite → name of the figure → number of the figure in the paper
     "volume": {"distribution": "03", "correlation_boxes": "04", "correlation_device": "05", "speed_up_device": "06",
                "speed_up_camera_path": "07", "mean_data_camera_path": "08"},
     "particles": {"distribution": "10", "correlation_boxes": "11", "correlation_data": "12",
@@ -24,14 +24,14 @@ def every(analysis):
 
 
 def _about(analysis, text, samples=None):
-    """A title with the text, the suite, the clock and the number of observations."""
+    """Returns a title that consists of the text, the suite, the signal with its clock, and the number of observations."""
     dataset = analysis.dataset
-    of = f"{dataset.clock} time" if dataset.signal == "time" else "instructions of a frame"
+    of = f"{dataset.clock} time" if dataset.signal == "time" else "instructions per frame"
     return f"{text}\n{dataset.suite}, {of}" + (f", {samples} samples" if samples else "")
 
 
 def _axis(analysis):
-    return "time of a frame, ms" if analysis.dataset.signal == "time" else "instructions of a frame"
+    return "time per frame, ms" if analysis.dataset.signal == "time" else "instructions per frame"
 
 
 def _distributions(analysis):
@@ -74,7 +74,7 @@ def _boxes(analysis):
 
 
 def square(cells):
-    """Turns rows a, b, r into a square, symmetric table with 1 on the diagonal."""
+    """Turns rows with a, b and r into a square, symmetric table with ones on the diagonal."""
     levels = natural_order(set(cells["a"]) | set(cells["b"]))
     table = pd.DataFrame(np.nan, index=levels, columns=levels)
     for each in cells.itertuples():
@@ -98,7 +98,7 @@ def _matrix(analysis, title, cells):
 def _matrices(analysis):
     cells = analysis.table("correlations")
     for factor, of in cells.groupby("factor", sort=False) if not cells.empty else ():
-        if len(set(of["a"]) | set(of["b"])) > 2:  # two levels give a single number, which the table contains
+        if len(set(of["a"]) | set(of["b"])) > 2:  # for two levels there is only one number, which is in the table
             yield f"correlation_{factor}", _matrix(analysis, f"Correlation between levels of {factor}", of)
 
 
@@ -122,7 +122,7 @@ def _speed_ups(analysis):
         drawing.bars(axes, of["level"].to_list(), of["speed_up"], of["low"], of["high"])
         reference = of["reference"].iloc[0]
         what = "Speed-up" if analysis.dataset.signal == "time" else "Speed-up in instructions"
-        axes.set_xlabel(f"slope of {reference} over the level; error (1 − r)·slope")
+        axes.set_xlabel(f"slope of {reference} against the level; error: (1 − r)·slope")
         axes.set_title(_about(analysis, f"{what}, {factor} relative to {reference}"))
         yield f"speed_up_{factor}", made
 
@@ -136,13 +136,13 @@ def _predictions(analysis):
         return
     made, axes = drawing.figure(6.5, 1.5 + 0.32 * len(of))
     places = np.arange(len(of))
-    axes.plot(of["line_r2"].astype(float), places, "s", color=drawing.RED, label="one line for each structure")
+    axes.plot(of["line_r2"].astype(float), places, "s", color=drawing.RED, label="a linear model for each structure")
     axes.plot(of["forest_r2"].astype(float), places, "o", color=drawing.BLUE, label="one random forest")
     axes.set_yticks(places, [f"{each.data} ({each.held_out:.0f})" for each in of.itertuples()])
     axes.set_ylim(len(of) - 0.5, -0.5)
     axes.set_xlim(right=1.02)
     axes.grid(axis="x", color="#e5e5e5")
-    axes.set_xlabel("R² on held-out observations (their number in brackets)")
+    axes.set_xlabel("R² for held-out observations (number of observations in brackets)")
     axes.legend(frameon=False, loc="best")
     axes.set_title(_about(analysis, "Random forest compared with linear regression"))
     yield "prediction", made
@@ -163,7 +163,7 @@ def _paths(analysis):
                   label=f"{path}, {test['views']} views: D = {test['d']:.3f}, p = {test['p']:.2g}")
     axes.set_xscale("log")
     axes.set_xlabel(_axis(analysis))
-    axes.set_ylabel("share of observations below")
+    axes.set_ylabel("share of observations with a smaller value")
     axes.legend(frameon=False, fontsize=8)
     axes.set_title(_about(analysis, "Camera paths compared with all views (two-sample Kolmogorov-Smirnov test)"))
     yield "camera_paths", made
@@ -172,7 +172,7 @@ def _paths(analysis):
 def _stacks(analysis):
     cells = analysis.table("stack_correlations")
     for name, of in cells.groupby("name") if not cells.empty else ():
-        yield f"stack_{name.partition(':')[2]}", _matrix(analysis, f"Stack of sizes of {name}", of)
+        yield f"stack_{name.partition(':')[2]}", _matrix(analysis, f"Correlation between sizes of {name}", of)
 
 
 def _counts(analysis):
@@ -215,7 +215,7 @@ def _effects(analysis):
     axes.set_yticks(places, effects["factor"])
     axes.set_ylim(len(effects) - 0.5, -0.5)
     axes.set_xlim(0, 2.4 * effects["share"].max() or 1)
-    axes.set_xlabel("share of the variance of its logarithm that remains when all other factors are fixed\n"
-                    "(total-effect index); largest mean ratio between two levels")
+    axes.set_xlabel("share of the variance of the logarithm that remains if all other factors are fixed\n"
+                    "(total-effect index); × largest mean ratio between two levels")
     axes.set_title(_about(analysis, "Influence of each factor"))
     yield "effects", made

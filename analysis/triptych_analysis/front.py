@@ -1,4 +1,5 @@
-"""Run time against error, from the tables of `triptych export --errors`: the settings that no other setting beats in both."""
+"""Run time against error, from tables that `triptych export --errors` wrote. The front consists of the settings for which no
+other setting has both a smaller time and a smaller error."""
 
 import os
 
@@ -11,9 +12,9 @@ AGAINST = ("limit", "reference")
 
 
 def points(folder, against="limit", metric="rms", cost="median_ns"):
-    """One row for each configuration and device that has an error and a cost: device, scene, name, error (full scale), cost, and
-    whether it is on the front of its device and scene. None if the folder has no table of errors, because it was exported without
-    --errors or because it is a store."""
+    """Returns one row for each configuration and device that has an error and a cost, with the columns device, scene, name,
+    error (1 is full scale), cost, and front (whether the row is on the front of its device and scene). Returns None if there is
+    no table of errors, because the tables were exported without --errors or because `folder` is a store."""
     if not os.path.exists(os.path.join(folder, "errors.csv")):
         return None
     if against not in AGAINST:
@@ -26,7 +27,8 @@ def points(folder, against="limit", metric="rms", cost="median_ns"):
     joined = records.merge(chosen, on="record")
     joined = joined.rename(columns={cost: "cost"})[["device", "scene", "name", "error", "cost"]]
     joined = joined[(joined["cost"] > 0) & (joined["error"] > 0)].reset_index(drop=True)
-    # The step and the quadrature change an image, but not its limit, so they do not distinguish scenes here.
+    # The step, the quadrature and similar factors change an image but not its limit, so they are removed from the name of the
+    # scene.
     joined["scene"] = joined["scene"].map(_subject)
     joined["front"] = False
     for _, rows in joined.groupby(["device", "scene"], sort=True):
@@ -42,14 +44,16 @@ def _subject(scene):
 
 
 def front(rows):
-    """The index of the rows that no other row beats in both cost and error; the first of equal ones."""
+    """Returns the index of the rows that no other row beats in both cost and error. Of several equal rows, only the first is
+    included."""
     order = rows.sort_values(["cost", "error"], kind="stable")
     best = order["error"].cummin().shift(fill_value=np.inf)
     return order.index[order["error"] < best]
 
 
 def draw(chosen, most=6):
-    """A figure with an axis for each of the first device and scene pairs; None without points."""
+    """Returns a figure with one panel for each of the first `most` pairs of device and scene, or None if there are no
+    points."""
     if chosen is None or chosen.empty:
         return None
     groups = list(chosen.groupby(["device", "scene"], sort=True))[:most]
@@ -59,7 +63,7 @@ def draw(chosen, most=6):
         place.loglog(rows["cost"], rows["error"], "o", color=drawing.BLUE, markersize=3, label="configuration")
         place.loglog(best["cost"], best["error"], "-s", color=drawing.RED, markersize=4, label="front")
         place.set_title(f"{device}\n{scene}", fontsize=7)
-        place.set_xlabel("time of a frame in ns, logarithmic")
-        place.set_ylabel("error in full scale, logarithmic")
+        place.set_xlabel("time per frame in ns, logarithmic")
+        place.set_ylabel("error (1 is full scale), logarithmic")
         place.legend(fontsize=7)
     return made

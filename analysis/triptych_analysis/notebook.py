@@ -1,5 +1,5 @@
-"""Runs the cells of a notebook in order without Jupyter. Prints what each cell would show, and writes figures to
-FOLDER/cell_N.svg."""
+"""Runs the cells of a notebook in order, without Jupyter. Prints the results that Jupyter would display, and writes figures to
+OUT/cell_N.svg."""
 
 import argparse
 import ast
@@ -34,7 +34,7 @@ def show(value, file):
 def main(words=None):
     parser = argparse.ArgumentParser(prog="notebook", description=__doc__)
     parser.add_argument("notebook")
-    parser.add_argument("tables", help="a folder written by `triptych export`, or a store")
+    parser.add_argument("tables", help="a folder that `triptych export` wrote, or a store")
     parser.add_argument("--out", required=True)
     arguments = parser.parse_args(words)
     os.makedirs(arguments.out, exist_ok=True)

@@ -1,4 +1,4 @@
-"""Writes an analysis to files, and summarizes it for a terminal."""
+"""Writes an analysis to files, and composes the summary that is printed."""
 
 import os
 
@@ -6,7 +6,8 @@ from . import drawing, figures
 
 
 def write(of, folder):
-    """Writes the tables and figures of one analysis. Removes those of an earlier one."""
+    """Writes the tables and figures of an analysis to a folder. Removes the files of an earlier analysis from the folder
+    first."""
     os.makedirs(folder, exist_ok=True)
     for name in os.listdir(folder):
         if name.endswith((".csv", ".svg")):
@@ -19,24 +20,24 @@ def write(of, folder):
 
 
 def summary(of):
-    """The lines that a terminal shows."""
+    """Returns the lines of the summary."""
     data = of.dataset
     what = f"{data.clock} time" if data.signal == "time" else "instructions of device code and driver"
-    lines = [f"{data.suite}: {len(data)} observations (configurations on devices), {what}"]
+    lines = [f"{data.suite}: {len(data)} observations (one per configuration and device), {what}"]
     lines += [f"  {each}" for each in data.notes]
     if len(data.duplicates):
         first = data.duplicates.iloc[0]
-        lines.append(f"  {len(data.duplicates)} were measured more than once, and the latest is used; for example: "
-                     f"{first.configuration} on {first.device}, {first.taken} instead of {first.dropped}")
+        lines.append(f"  {len(data.duplicates)} earlier measurements of the same configuration and device are not used, for example: "
+                     f"{first.configuration} on {first.device}, {first.taken} is used instead of {first.dropped}")
     for each in of.table("distributions").itertuples():
         lines.append(f"  {each.of} ({each.clock}, {each.samples} samples): log-normal D = {each.ks_d:.3f}, "
                      f"p = {each.ks_p:.2g}, Lilliefors p = {each.lilliefors_p:.3g}")
     for each in of.table("correlation_boxes").itertuples():
-        lines.append(f"  r between levels of {each.factor}: mean {each.mean:.3f}, {each.minimum:.3f}…"
+        lines.append(f"  r between levels of {each.factor}: mean {each.mean:.3f}, {each.minimum:.3f} to "
                      f"{each.maximum:.3f} ({each.cells} pairs of {each.levels} levels, {each.samples} samples)")
     for each in of.table("predictions").itertuples():
         if each.data in ("all", "every held-out observation"):
-            lines.append(f"  R² of {each.data}: lines {each.line_r2:.3f}, forest {each.forest_r2:.3f} "
+            lines.append(f"  R² of predictions ({each.data}): lines {each.line_r2:.3f}, forest {each.forest_r2:.3f} "
                          f"({each.held_out:.0f} held-out observations; {each.structures_left_out} of "
                          f"{each.structures} structures had too few samples for a line)")
     for each in of.table("camera_paths").itertuples():
@@ -48,4 +49,4 @@ def summary(of):
     for each in of.table("effects").head(3).itertuples():
         ratio = f"; {each.largest_ratio:.3g} times as much with {each.expensive} as with {each.cheap}" if each.pairs else ""
         lines.append(f"  influence of {each.factor}: {each.share:.2f} of the variance of the logarithm{ratio}")
-    return lines + [f"  left out: {what}: {why}" for what, why in of.left_out]
+    return lines + [f"  not computed: {what}: {why}" for what, why in of.left_out]

@@ -1,5 +1,6 @@
-"""The quality of predictions (section 5.3 of the paper): one linear regression for each data structure, compared with one random
-forest for everything, on a seeded split into training and held-out observations."""
+"""The quality of predictions (section 5.3 of the paper). One linear regression for each data structure is compared with one
+random forest for all observations. The observations are divided at random, with a given seed, into training and held-out
+observations."""
 
 import numpy as np
 import pandas as pd
@@ -11,9 +12,9 @@ from .splits import combined, scope
 
 TRAIN_SHARE = 0.7
 LEAST = 40
-MOST_FOR_A_TREE = 100_000  # rows in the bootstrap sample of one tree
-# The factors that define the data structure, in both suites: data, transfer function, acceleration and camera as in the paper, and for
-# particles the other factors that change the scene.
+MOST_FOR_A_TREE = 100_000  # rows in the bootstrap sample of a tree
+# The factors that define the data structure, for both suites. As in the paper, these are data, transfer function, acceleration
+# and camera, and for particles also the other factors that change the scene.
 STRUCTURE = {"adapt", "camera", "colour", "culling", "data", "ert", "fov", "precision", "radius_scale", "skip",
              "transfer_function"}
 COLUMNS = ["data", "models", "held_out", "line_r2", "forest_r2", "trained", "structures", "structures_left_out",
@@ -21,14 +22,14 @@ COLUMNS = ["data", "models", "held_out", "line_r2", "forest_r2", "trained", "str
 
 
 def r_squared(values, predicted):
-    """1 − Σ(y − ŷ)²/Σ(y − ȳ)²; NaN for fewer than two values or constant ones."""
+    """Returns 1 − Σ(y − ŷ)²/Σ(y − ȳ)², or NaN if there are fewer than two values or if all values are equal."""
     total = ((values - values.mean()) ** 2).sum() if len(values) > 1 else 0
     return 1 - ((values - predicted) ** 2).sum() / total if total > 0 else np.nan
 
 
 class Encoder:
-    """Turns a factor into numbers: a viewport into its number of pixels and a step into samples per voxel, because times depend on
-    both linearly; a category into its index among the levels."""
+    """Turns the levels of a factor into numbers. A viewport becomes its number of pixels, and a step becomes the number of
+    samples per voxel, because times depend linearly on both. A category becomes its index among the levels."""
 
     def __init__(self, dataset, name):
         self.name, self.factor = name, dataset.factors[name]
@@ -45,7 +46,7 @@ class Encoder:
         return self.of_level[self.factor.codes[rows]][:, None]
 
     def indicators(self, rows, among):
-        """The number, or for a category indicators for every level except the first one that occurs in these rows."""
+        """Returns the number, or for a category an indicator for every level in `among` except the first."""
         if self.numeric:
             return self.codes(rows)
         present = np.unique(self.factor.codes[among])
@@ -61,8 +62,9 @@ def _number(name, level):
 
 
 def predict(dataset, seed):
-    """Returns the scores and the reason why there are none. The rows are the data sets, then "all", the mean, minimum and maximum
-    over data sets, and the forest's score on every held-out observation."""
+    """Returns a table of scores, and the reason if the table is empty. There is one row for each level of `data`, then a row
+    "all", rows with the mean, the minimum and the maximum over the levels of `data`, and the forest's score for all held-out
+    observations."""
     everything = np.arange(len(dataset))
     if len(dataset) < LEAST:
         return pd.DataFrame(columns=COLUMNS), f"there are {len(dataset)} observations; {LEAST} are needed"
@@ -76,12 +78,13 @@ def predict(dataset, seed):
 
 
 def _predicted(dataset, varied, trained, held_out, seed):
-    """One row for each held-out observation: data, structure, value, forest, line (NaN if its structure had too few training rows)."""
+    """Returns one row for each held-out observation: data, structure, value, forest (its prediction), line (the prediction of
+    the linear model, or NaN if there were too few training observations with this structure)."""
     encoders = [Encoder(dataset, each) for each in varied]
     forest = RandomForestRegressor(200, max_depth=25, max_features="sqrt", random_state=seed, n_jobs=-1,
                                    max_samples=MOST_FOR_A_TREE if len(trained) > MOST_FOR_A_TREE else None)
     forest.fit(np.hstack([each.codes(trained) for each in encoders]), dataset.values[trained])
-    forest.set_params(n_jobs=1)  # several jobs would add up in random order, which changes the last digit
+    forest.set_params(n_jobs=1)  # several jobs would add their results in random order, which could change the last digit
     structures, _ = combined([each.codes for name, each in dataset.factors.items() if name in STRUCTURE], len(dataset))
     line = np.full(len(dataset), np.nan)
     to_learn = _by_structure(structures, trained)
@@ -94,14 +97,15 @@ def _predicted(dataset, varied, trained, held_out, seed):
 
 
 def _by_structure(structures, rows):
-    """{structure: its rows}"""
+    """Returns {structure: its rows}."""
     rows = rows[np.argsort(structures[rows], kind="stable")]
     names, starts = np.unique(structures[rows], return_index=True)
     return dict(zip(names, np.split(rows, starts[1:])))
 
 
 def _predict_structure(dataset, trained, held_out, line):
-    """Fits one linear model to the observations of one structure, with the features that vary there."""
+    """Fits a linear model to the training observations of one structure, using the factors that vary there. Writes its
+    predictions to `line`, unless there are too few training observations."""
     both = np.concatenate([trained, held_out])
     encoders = [Encoder(dataset, each) for each in scope(dataset, both)["varied"] if each not in STRUCTURE]
     learned, asked = (np.hstack([np.zeros((len(rows), 0)), *(each.indicators(rows, both) for each in encoders)])

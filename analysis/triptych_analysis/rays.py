@@ -1,5 +1,5 @@
-"""When does ray tracing pay? Compares the fastest technique that traces rays with the fastest of the others, from a run of
-particles/ray_tracing. Usually started by analysis/rays."""
+"""Shows when ray tracing is faster than other techniques. Compares the fastest technique that traces rays with the fastest
+other technique, using a run of particles/ray_tracing. analysis/rays runs this program."""
 
 import argparse
 import os
@@ -16,8 +16,9 @@ SCENE = ["device", "data", "camera", "radius_scale", "viewport"]
 
 
 def observations(data):
-    """One row for each observation: its time and its factors. `mode` says what happens to the hierarchy in each frame. It is None for
-    techniques without a hierarchy, which were only measured with the default of the factor `structure`."""
+    """Returns one row for each observation, with its time and its factors. `mode` states how the hierarchy is updated in each
+    frame. It is None for techniques without a hierarchy, which were measured only with the default level of the factor
+    `structure`."""
     rows = pd.DataFrame({name: [factor.levels[code] if code >= 0 else None for code in factor.codes]
                          for name, factor in data.factors.items()})
     rows["ms"] = data.values
@@ -33,8 +34,9 @@ def observations(data):
 
 
 def compare(rows):
-    """One row for each device, number of spheres and mode: the geometric mean, over all views and radii, of the time of the fastest
-    technique with rays divided by the time of the fastest other one; and how often each of them was the fastest."""
+    """Returns one row for each device, number of spheres and mode. `ratio` is the time of the fastest technique with rays
+    divided by the time of the fastest other technique, as a geometric mean over all scenes (views and radii). `rays` and
+    `other` are the techniques that were fastest most often."""
     others = rows[rows["mode"].isna()]
     best = others.loc[others.groupby(SCENE)["ms"].idxmin()].set_index(SCENE)
     found = []
@@ -51,7 +53,7 @@ def compare(rows):
 
 
 def markdown(table):
-    """The table of docs/paper.md: a row for each device and number of spheres."""
+    """Returns a Markdown table with a row for each device and number of spheres."""
     lines = ["| Device | Spheres | Fastest without rays | Fastest with rays | " + " | ".join(MODES) + " |",
              "|---|---|---|---|" + "---|" * len(MODES)]
     for (device, count), of in table.groupby(["device", "spheres"]):
@@ -82,7 +84,7 @@ def run(arguments):
     times = dataset.datasets(tables.read(arguments.source, arguments.plan))[0]
     table = compare(observations(times))
     if table.empty:
-        raise tables.InputError(f"{', '.join(arguments.source)}: no scene of {arguments.plan} was drawn both with rays and without")
+        raise tables.InputError(f"{', '.join(arguments.source)}: no scene of {arguments.plan} was drawn both with and without rays")
     os.makedirs(arguments.out, exist_ok=True)
     table.to_csv(os.path.join(arguments.out, "rays.csv"), index=False, lineterminator="\n")
     drawing.save(draw(table), os.path.join(arguments.out, "rays.svg"))
@@ -94,15 +96,15 @@ def run(arguments):
 
 def main(words=None):
     parser = argparse.ArgumentParser(
-        prog="rays", description="Prints a Markdown table: the time of the fastest technique that traces rays, divided by that of the "
-        "fastest other technique. Writes it to FOLDER as rays.csv, and as the figure rays.svg.",
-        epilog="Exit codes: 0 done, 3 usage or I/O.")
-    parser.add_argument("source", nargs="+", help="a folder written by `triptych export`, or a store")
-    parser.add_argument("--out", required=True, help="folder for the table and the figure")
-    parser.add_argument("--plan", default=PLAN, help=f"the plan as it was run (default: {PLAN})")
+        prog="rays", description="Prints a Markdown table of ratios: the time of the fastest technique that traces rays, divided by "
+        "the time of the fastest other technique. Writes the table to OUT as rays.csv, and as the figure rays.svg.",
+        epilog="Exit codes: 0 success, 3 usage or I/O error.")
+    parser.add_argument("source", nargs="+", help="a folder that `triptych export` wrote, or a store")
+    parser.add_argument("--out", required=True, help="write the table and the figure to this folder")
+    parser.add_argument("--plan", default=PLAN, help=f"use this plan, as it was named in the run (default: {PLAN})")
     try:
         return run(parser.parse_args(words))
-    except SystemExit as left:  # argparse exits with code 2, which means "could not judge" here
+    except SystemExit as left:  # argparse exits with code 2, which has another meaning in Triptych
         return left.code and 3
     except (tables.InputError, OSError) as error:
         print(f"rays: {error}", file=sys.stderr)

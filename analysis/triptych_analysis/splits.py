@@ -1,4 +1,4 @@
-"""Divides observations by the levels of a factor, and pairs observations of different levels."""
+"""Divides observations by the levels of a factor, and pairs observations with different levels."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,8 @@ from .dataset import CAMERA_PARTS, natural_order
 
 @dataclass
 class Split:
-    """rows[key, level] is the observation with that level, or -1. A key is a combination of the levels of all other factors."""
+    """rows[key, level] is the index of the observation with this key and level, or -1. A key is a combination of levels of all
+    other factors."""
 
     factor: str
     levels: list  # in natural order
@@ -28,15 +29,16 @@ def split(dataset, factor):
         others = [each.codes for name, each in dataset.factors.items() if name != factor]
     here = np.flatnonzero(own.codes >= 0)
     keys, count = combined([each[here] for each in others], len(here))
-    # Only levels that occur are kept.
+    # Drops levels that do not occur.
     present, codes = np.unique(own.codes[here], return_inverse=True)
     rows = np.full((count, len(present)), -1)
-    rows[keys[::-1], codes[::-1]] = here[::-1]  # if several observations have the same place, the first one is used
+    rows[keys[::-1], codes[::-1]] = here[::-1]  # if several observations have the same key and level, the first one is used
     return Split(factor, [own.levels[each] for each in present], rows)
 
 
 def combined(columns, length):
-    """Numbers the combinations of codes from 0 on. Returns the numbers, and how many combinations there are."""
+    """Numbers the combinations of codes, starting from 0. Returns the number of each row, and how many combinations there
+    are."""
     keys = np.zeros(length, dtype=np.int64)
     count = 1
     for column in columns:
@@ -47,7 +49,7 @@ def combined(columns, length):
 
 
 def factors_of(dataset):
-    """The sorted names of the factors with at least two levels. "camera" is replaced by its parts."""
+    """Returns the sorted names of the factors with at least two levels. "camera" is replaced by its parts."""
     found = []
     for name in scope(dataset, np.arange(len(dataset)))["varied"]:
         if name == "camera":
@@ -58,7 +60,7 @@ def factors_of(dataset):
 
 
 def scope(dataset, rows):
-    """Describes the observations behind a number: how many there are, which factors vary, and which are fixed."""
+    """Describes observations: how many there are, which factors vary, and which factors are fixed at which level."""
     held, varied = {}, []
     for name, factor in dataset.factors.items():
         present = np.unique(factor.codes[rows])
@@ -71,10 +73,11 @@ def scope(dataset, rows):
 
 
 def fullest_block(dataset, factors, among=None):
-    """Selects observations (of all, or of `among`) that differ only in the given factors, so that they can be compared. A key is a
-    combination of all other factors. Keys are grouped by the set of combinations of the given factors with which they occur. The
-    group with the largest set is selected; among equals, the one with the most observations. If a given factor is a part of the
-    camera, the whole camera is excluded from the key."""
+    """Selects observations (from all observations, or from `among`) whose means can be compared, because they differ only in
+    the given factors. A key is a combination of levels of all other factors. Each key was measured with a set of combinations
+    of the given factors, and keys with the same set form a group. The group with the largest set is selected; if several groups
+    have a set of that size, the group with the most observations. If a given factor is a part of the camera, the whole camera
+    is excluded from the key."""
     own = [dataset.factor(each).codes for each in factors]
     here = np.arange(len(dataset)) if among is None else among
     here = here[np.all([each[here] >= 0 for each in own], axis=0)]
@@ -94,7 +97,7 @@ def fullest_block(dataset, factors, among=None):
 
 
 def levels_in(dataset, factor, rows):
-    """{level: its observations} for these observations, in natural order."""
+    """Returns {level: its observations} for the observations in `rows`, in natural order."""
     of = dataset.factor(factor)
     codes = of.codes[rows]
     return {level: rows[codes == of.levels.index(level)]

@@ -8,23 +8,23 @@ import pandas as pd
 
 
 class InputError(Exception):
-    """The input cannot be used. The message says what is wrong, where, and what to do."""
+    """The input cannot be used. The message states what is wrong, where, and what to do."""
 
 
-# The columns that the analysis uses, in addition to those of factors and cost.
+# The columns that the analysis uses, in addition to the columns with factors and cost.
 RECORD_COLUMNS = ["record", "run", "suite", "plan", "configuration", "technique", "device", "outcome", "injected",
                   "median_wall_ns", "median_device_ns", "device_clock_trusted", "counted_by", "same_as"]
 TEXT = {"run", "suite", "plan", "configuration", "technique", "device", "outcome", "injected", "counted_by", "same_as",
         "started_at", "device_key", "processor", "store"}
-# Columns that a store has under another name or in another table.
+# Columns that have another name in a store, or are in another table there.
 IN_STORE = {"record": "seq", "same_as": "(SELECT configuration FROM same_as WHERE same_as.record = record.seq)"}
 FACTOR, COST = "factor_", "cost_"
 
 
 def read(paths, plan=None):
-    """Reads one row for each record of all folders and stores, or only for those of one plan. The columns are RECORD_COLUMNS,
-    `store`, `started_at`, `processor`, `device_key`, a `factor_NAME` for each factor and a `cost_NAME` for each kind of cost. Missing
-    values are None (text) or NaN."""
+    """Reads the records from all folders and stores, or only the records of one plan. Returns one row for each record. The
+    columns are RECORD_COLUMNS, `store`, `started_at`, `processor`, `device_key`, a `factor_NAME` for each factor and a
+    `cost_NAME` for each kind of cost. Missing values are None in text columns and NaN in other columns."""
     if isinstance(paths, (str, os.PathLike)):
         paths = [paths]
     frames = [_read_one(os.fspath(path)) for path in paths]
@@ -44,7 +44,7 @@ def _read_one(path):
         return _read_folder(path)
     if os.path.isfile(path):
         return _read_store(path)
-    raise InputError(f"{path}: no such file or folder; `triptych export STORE --out {path}` makes one")
+    raise InputError(f"{path}: no such file or folder; to create the folder, run `triptych export STORE --out {path}`")
 
 
 def _read_folder(folder):
@@ -63,22 +63,22 @@ def _dictionary(folder):
         with open(file, encoding="utf-8") as text:
             dictionary = json.load(text)
         if dictionary["schema"] != 1:
-            raise InputError(f"{file}: schema {dictionary['schema']}, expected 1: export again with this Triptych")
+            raise InputError(f"{file}: schema {dictionary['schema']}, expected 1; export the store again with this version of Triptych")
         return dictionary
     except FileNotFoundError:
-        raise InputError(f"{folder}: no dictionary.json, which an export writes last: either the export was interrupted, "
-                         "or this folder is not an export") from None
+        raise InputError(f"{folder}: there is no dictionary.json, which an export writes last; either the export was interrupted, "
+                         "or this folder was not written by an export") from None
     except (ValueError, KeyError) as error:
-        raise InputError(f"{file}: damaged ({error}): export again") from None
+        raise InputError(f"{file}: damaged ({error}); export the store again") from None
 
 
 def _csv(folder, table, dictionary, columns):
-    """Reads columns of a table with the types of the dictionary, and checks the number of rows."""
+    """Reads columns of a table, with the types that the dictionary states, and checks the number of rows."""
     described = dictionary["tables"][table]
     types = {each["name"]: each["type"] for each in described["columns"]}
     lacking = [each for each in columns if each not in types]
     if lacking:
-        raise InputError(f"{folder}: {table}.csv has no column {', '.join(lacking)}: export again with this Triptych")
+        raise InputError(f"{folder}: {table}.csv has no column {', '.join(lacking)}; export the store again with this version of Triptych")
     numbers = [each for each in columns if types[each] != "text"]
     file = os.path.join(folder, f"{table}.csv")
     try:
@@ -87,11 +87,11 @@ def _csv(folder, table, dictionary, columns):
                             dtype={each: "float64" if each in numbers else "category" for each in columns})
     except (OSError, ValueError) as error:
         raise InputError(f"{file}: {error}") from None
-    # Texts that a spreadsheet would run as formulas were exported with an apostrophe before them.
+    # Removes the apostrophe with which the export protects strings that a spreadsheet would evaluate as formulas.
     for each in set(columns) - set(numbers):
         frame[each] = frame[each].cat.rename_categories(lambda text: text[1:] if text.startswith("'") else text)
     if len(frame) != described["rows"]:
-        raise InputError(f"{file}: {len(frame)} rows; its dictionary lists {described['rows']}: export again")
+        raise InputError(f"{file}: found {len(frame)} rows, but dictionary.json states {described['rows']}; export the store again")
     return _texts(frame)
 
 

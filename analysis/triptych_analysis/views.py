@@ -1,5 +1,5 @@
-"""Tests whether a camera path represents all views (sections 5.3 and 6.3 of the paper): two-sample Kolmogorov–Smirnov tests of its
-values against all values, compared with the same tests of random subsets."""
+"""Tests whether a camera path represents all views (sections 5.3 and 6.3 of the paper). A two-sample Kolmogorov–Smirnov test
+compares the values of the path with all values. For comparison, the same test is applied to random subsets."""
 
 import warnings
 
@@ -12,31 +12,32 @@ from .splits import fullest_block, levels_in, scope
 
 SUBSETS = 100
 REJECTED_BELOW = 0.05
-MOST_FOR_EXACT = 4_000_000  # largest n · m for which the exact distribution is computed
+MOST_FOR_EXACT = 4_000_000  # the largest n · m for which the exact distribution is computed
 
 
 def ks_two_samples(a, b):
-    """(D, p) of the two-sided test of a and b. b must be sorted. For small samples p is exact (assuming no ties), otherwise it is
-    Kolmogorov's p for a sample of size n·m/(n + m)."""
+    """Returns (D, p) of the two-sided test of a and b. b must be sorted. For small samples, p is exact if there are no ties.
+    For large samples, p is Kolmogorov's p for a sample of size n·m/(n + m)."""
     n, m = len(a), len(b)
     if n * m <= MOST_FOR_EXACT:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # SciPy warns when the exact count overflows, and then uses the limit
+            warnings.simplefilter("ignore")  # SciPy warns if the exact count overflows, and then uses the asymptotic p
             test = stats.ks_2samp(a, b, method="exact")
         return float(test.statistic), float(test.pvalue)
     a = np.sort(a)
-    here = np.searchsorted(b, a, side="right") / m  # shares of b up to each of a …
-    before = np.searchsorted(b, a, side="left") / m  # … and below it
+    here = np.searchsorted(b, a, side="right") / m  # the share of b that is ≤ each value in a …
+    before = np.searchsorted(b, a, side="left") / m  # … and < each value in a
     up_to, below = np.searchsorted(a, a, side="right") / n, np.searchsorted(a, a, side="left") / n
     d = float(max(np.abs(here - up_to).max(), np.abs(before - below).max()))
     return d, float(stats.kstwo.sf(d, np.round(n * m / (n + m))))
 
 
 def path_tests(dataset, seed):
-    """Tests each path, using the configurations that were measured from the most views. There are two rows for each path: one compares
-    it with random subsets of equally many values of any view, as in the paper, the other with all values of equally many views. Subsets
-    are part of all values and therefore closer to them than independent samples, so their p are larger than uniform. The result is empty
-    if there is only one path."""
+    """Tests each path, using the configurations that were measured from the most views. Returns two rows for each path. In the
+    first row, the path is compared with random subsets of as many values from any views, as in the paper. In the second row, it
+    is compared with random sets of as many views. Random subsets are taken from all values, so they are closer to all values
+    than independent samples would be, and their p are larger than uniformly distributed ones. Returns an empty table if there
+    is only one path."""
     columns = ["path", "views", "samples", "all_views", "all_samples", "d", "p", "subsets_of", "subsets", "rejected",
                "d_mean", "p_minimum", "p_mean", "p_median", "p_maximum", "held"]
     values, by_view = values_by_view(dataset)
@@ -62,7 +63,8 @@ def path_tests(dataset, seed):
 
 
 def values_by_view(dataset):
-    """The sorted values of the configurations that were measured from the most views, and the values of each view."""
+    """Returns the sorted values of the configurations that were measured from the most views, and a dictionary with the values
+    of each view."""
     rows = fullest_block(dataset, ["camera"])
     return np.sort(dataset.values[rows]), {view: dataset.values[each]
                                   for view, each in levels_in(dataset, "camera", rows).items()}

@@ -112,7 +112,7 @@ class Tables(unittest.TestCase):
 
     def test_an_export_that_was_cut_off_is_refused(self):
         self.write("records.csv", ",".join(self.columns) + "\n")
-        self.refused("records.csv: 0 rows; its dictionary lists 1")
+        self.refused("records.csv: found 0 rows, but dictionary.json states 1")
         os.remove(os.path.join(self.folder.name, "dictionary.json"))
         self.refused("no dictionary.json")
 

@@ -1,6 +1,6 @@
-# Adds a technique to a copy of the sources, following docs/adding-a-technique.md. If a file is forgotten, the configuration must
-# fail and name the file. When all files are there, the backend's generated table must compile.
-# Variables set by the caller: SOURCE, FOLDER (is emptied), COMPILER.
+# Adds a technique to a copy of the sources, following docs/adding-a-technique.md. As long as a file is missing, CMake must fail
+# and name the file. When all files exist, the generated table of the backend's techniques must compile.
+# Variables set by the caller: SOURCE, FOLDER (its contents are deleted), COMPILER.
 set(copy ${FOLDER}/source)
 file(REMOVE_RECURSE ${FOLDER})
 file(COPY ${SOURCE}/CMakeLists.txt ${SOURCE}/cmake ${SOURCE}/src ${SOURCE}/backends ${SOURCE}/suites
@@ -19,7 +19,7 @@ endfunction()
 function(expect_refused what)
   configure(code said)
   if(code EQUAL 0)
-    message(FATAL_ERROR "the configuration succeeded although it should fail with: ${what}")
+    message(FATAL_ERROR "CMake succeeded, but it should have failed with: ${what}")
   endif()
   string(FIND "${said}" "${what}" at)
   if(at EQUAL -1)
@@ -46,7 +46,7 @@ expect_refused("give the reason in backends/vulkan/unsupported.txt")
 file(APPEND ${copy}/backends/vulkan/unsupported.txt "again: it exists only for this test\n")
 configure(code said)
 if(NOT code EQUAL 0)
-  message(FATAL_ERROR "the configuration failed: ${said}")
+  message(FATAL_ERROR "CMake failed: ${said}")
 endif()
 foreach(object again device)
   execute_process(COMMAND ninja -C ${FOLDER}/build backends/opencl/CMakeFiles/triptych_backend_opencl.dir/${object}.cpp.o
