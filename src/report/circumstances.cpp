@@ -14,7 +14,8 @@ namespace triptych::report {
 
 namespace {
 
-// Names one missing file, because the others are usually in the same folder.
+// Reports results that were skipped because data files are missing. Names only one of the files,
+// because the others are usually in the same folder.
 std::string absent_data(std::span<const judge::GateResult* const> results) {
   std::set<std::string> files;
   std::set<std::tuple<std::string, std::string, std::string>> missing;
@@ -27,8 +28,8 @@ std::string absent_data(std::span<const judge::GateResult* const> results) {
   }
   if (files.empty()) return {};
   return fmt::format(
-      "data: missing files: {} ({}{}), so {} results were skipped; see docs/data.md, or use "
-      "--without-data if that is intended",
+      "missing data files: {} ({}{}), so {} results were skipped; see docs/data.md, or use "
+      "--without-data if this machine does not need the data",
       files.size(), *files.begin(), files.size() > 1 ? ", …" : "", missing.size());
 }
 
@@ -42,7 +43,7 @@ bool lacks_data(record::Outcome outcome, const record::Reason& reason) {
 std::vector<std::string> circumstances(std::span<const judge::GateResult* const> results) {
   std::set<std::string> injected;
   std::size_t injected_records = 0;
-  // Loaders and drivers by the reason why they cannot be used.
+  // Unusable loaders and drivers, by the reason.
   std::map<std::string, std::set<std::string>> unusable;
   std::set<std::string> programs;
   std::set<std::string> days;
@@ -68,11 +69,11 @@ std::vector<std::string> circumstances(std::span<const judge::GateResult* const>
   }
   if (!days.empty()) {
     lines.push_back(
-        fmt::format("measured on {}, and not today: the store has no later run of the plan",
+        fmt::format("measured on {}, not today, because the store has no newer run of the plan",
                     fmt::join(days, " and ")));
   }
   for (const auto& [reason, what] : unusable) {
-    lines.push_back(fmt::format("not usable here: {}: {}", fmt::join(what, ", "), reason));
+    lines.push_back(fmt::format("unusable on this machine: {}: {}", fmt::join(what, ", "), reason));
   }
   if (std::string data = absent_data(results); !data.empty()) lines.push_back(std::move(data));
   return lines;

@@ -1,5 +1,5 @@
 #pragma once
-// Facts that readers of any verdict must know.
+// Facts that a reader must know regardless of the verdict.
 
 #include <span>
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace triptych::report {
 
-// Returns a line about the faults that were injected into the runs, a line for each build of
-// Triptych that measured and is not the one that judges, and a line for each reason why a loader or
-// driver could not be used while devices were listed.
+// Returns lines about: faults that were injected into the runs; builds of Triptych that measured,
+// other than the one that judges; runs that are older than a day; loaders and drivers that failed
+// during device enumeration, one line for each reason; and missing data files.
 [[nodiscard]] std::vector<std::string> circumstances(
     std::span<const judge::GateResult* const> results);
 
-// Whether a record was skipped because its data file, which is the reason's subject, is missing on
-// this machine.
+// Whether a record was skipped because its data file is missing on this machine. The file is the
+// subject of the reason.
 [[nodiscard]] bool lacks_data(record::Outcome outcome, const record::Reason& reason);
 
 }  // namespace triptych::report

@@ -1,5 +1,5 @@
 #pragma once
-// Commands that users can paste.
+// Commands that users can copy and run.
 
 #include <chrono>
 #include <map>
@@ -9,28 +9,29 @@
 
 namespace triptych::report {
 
-// `triptych COMMAND OBJECT`, for one configuration on one device if these are given.
+// The command line `triptych COMMAND OBJECT …`. `device` and `factors` may be empty.
 struct Command {
   std::string command;  // "render"
   std::string object;   // a suite or a plan
   std::string device;
-  std::map<std::string, std::string> factors;  // only factors without their default level
-  std::vector<std::string> injected = {};      // faults
-  // The time limit of a frame, if it is not the default.
+  std::map<std::string, std::string> factors;  // factor levels for --set
+  std::vector<std::string> injected = {};      // faults for --inject
+  // The time limit for --limit, which is printed only if it is not the default.
   std::optional<std::chrono::seconds> limit = {};
-  std::vector<std::string> more = {};  // words at the end of the command
-  // Variables that are set for the device's driver.
+  std::vector<std::string> more = {};  // further words at the end of the command
+  // Environment variables, which are printed before the command.
   std::map<std::string, std::string> environment = {};
 };
 
-// The variables of a device that a printed command may set. They come from a store, which anybody
-// may have written, and users paste the command. Therefore a variable that names code to load, such
-// as LD_PRELOAD or VK_DRIVER_FILES, is repeated only if it is set to the same value in this
-// process. Settings of known drivers that do not name a file are always repeated.
+// Returns the environment variables of a device that a printed command may set. The variables come
+// from a store, which anybody may have written, and users run the printed command. Therefore a
+// variable that can name code to load, such as LD_PRELOAD or VK_DRIVER_FILES, is printed only if it
+// has the same value in this process. Settings of known drivers that do not name a file are always
+// printed.
 [[nodiscard]] std::map<std::string, std::string> repeatable(
     std::map<std::string, std::string> environment);
 
-// The command for a shell, with the variables before it.
+// Returns the command as shell input.
 [[nodiscard]] std::string text_of(const Command& command);
 
 }  // namespace triptych::report

@@ -1,5 +1,5 @@
 #pragma once
-// The command that continues a comparison.
+// Creates a command that repeats the comparison of one configuration.
 
 #include <string>
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace triptych::report {
 
-// The parts of the command line that determine what was compared. Commands that continue the
-// comparison are made from them.
+// The parts of the command line that determine what was compared.
 struct ComparisonCommand {
   std::string plan;
   std::string sides;                // "--a … --b …"
-  std::vector<std::string> varied;  // factors that identify a configuration of this plan
+  std::vector<std::string> varied;  // the factors that distinguish the plan's configurations
 };
-// The command that measures only this configuration, and as long as a verdict needs.
+// Returns the command that compares only this configuration, so that the whole time budget goes
+// into its verdict.
 [[nodiscard]] std::string command_for(const comparison::Compared& compared,
                                       const ComparisonCommand& command);
 

@@ -18,13 +18,14 @@ bool is_number(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-// Whether a spreadsheet would run the text as a formula. Texts that begin with an apostrophe count
-// as well, so that a reader who removes one apostrophe restores every text.
+// Whether the text gets a leading apostrophe, because a spreadsheet would evaluate it as a formula.
+// Text that begins with an apostrophe gets a second one, so that removing one leading apostrophe
+// restores the original text in all cases.
 bool is_marked(std::string_view text) {
   constexpr std::string_view starts = "=+-@\t\r\n'";
   if (text.empty()) return false;
   const bool wide = text.starts_with("＝") || text.starts_with("＋") || text.starts_with("－") ||
-                    text.starts_with("＠");  // Japanese spreadsheets read these alike
+                    text.starts_with("＠");  // full-width forms, which some spreadsheets accept
   return wide || (starts.find(text.front()) != std::string_view::npos && !is_number(text));
 }
 
@@ -36,7 +37,7 @@ struct Field {
   std::string operator()(std::uint64_t number) const { return fmt::format("{}", number); }
   std::string operator()(const std::string& text) const {
     const std::string_view mark = is_marked(text) ? "'" : "";
-    // Semicolons and tabs are included, because they separate fields in some spreadsheet settings.
+    // Text with semicolons or tabs is quoted, because spreadsheets may use these as separators.
     if (text.find_first_of(",;\t\"\r\n") == std::string::npos) return std::string(mark) + text;
     std::string quoted = "\"";
     quoted += mark;

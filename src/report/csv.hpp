@@ -1,5 +1,5 @@
 #pragma once
-// Tables as CSV (RFC 4180, with lines that end in LF), written row by row.
+// Writes tables as CSV (RFC 4180, but with LF line endings) row by row.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,18 +15,18 @@ namespace triptych::report {
 // A missing value is an empty field, never zero.
 using Cell = std::variant<std::monostate, std::string, double, std::uint64_t>;
 
-// NaN is written as missing. A text that contains a separator, a quotation mark or the end of a
-// line is quoted. A text that a spreadsheet would run as a formula, or that begins with an
-// apostrophe, gets an apostrophe before it. Numbers have as few digits as are needed to read the
-// same number again.
+// Formats one field. NaN becomes an empty field. Text that contains a separator, a quotation mark
+// or a line break is quoted. Text that a spreadsheet would evaluate as a formula, or that begins
+// with an apostrophe, gets a leading apostrophe. Numbers have the fewest digits from which the same
+// number can be read again.
 [[nodiscard]] std::string csv_field(const Cell& cell);
 
 class CsvFile {
  public:
-  // Replaces the file. Throws core::IoError, as do all functions of this class.
+  // Replaces the file. All functions of this class throw core::IoError.
   CsvFile(std::filesystem::path file, std::span<const std::string> columns);
   void add(std::span<const Cell> row);  // `row` has one cell for each column
-  void close();                         // after this, the file contains everything that was added
+  void close();                         // writes everything to the file
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
 
  private:

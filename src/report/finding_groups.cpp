@@ -35,7 +35,8 @@ std::string technique_of(const Finding& finding) {
   return found == factors.end() ? std::string() : found->second;
 }
 
-// "128x96" → 12288, "generate:ball:64" → 64; 1 if there is no number.
+// Returns the product of all numbers in a level: "128x96" → 12288, "generate:ball:64" → 64. Returns
+// 1 if there is no number.
 double size_in(std::string_view value) {
   double product = 1;
   double number = 0;
@@ -64,8 +65,8 @@ double size_of(const Finding& finding) {
   return size;
 }
 
-// Whether a configuration left the line because its own instructions increased. A finding of the
-// check cost already reports that cause.
+// Whether the finding is a regression of the check `correlation` that a finding of the check `cost`
+// already reports: the instructions of the same device increased.
 bool is_told_by_cost(const Finding& finding, std::span<const Finding> findings) {
   if (finding.check != Check::correlation || finding.verdict != Verdict::regression) return false;
   return std::ranges::any_of(findings, [&](const Finding& other) {
@@ -98,7 +99,7 @@ bool is_smaller(const Finding* a, const Finding* b) {
   return key(a) < key(b);
 }
 
-// The size of a finding's error. It is used to compare findings of one kind.
+// Returns the size of a finding's error, which can be compared between findings of the same kind.
 double severity_of(const Finding& finding) {
   if (finding.cause == judge::Cause::pixels_over_bound) return finding.number("pixels_over");
   double largest = 0;
@@ -110,13 +111,13 @@ double severity_of(const Finding& finding) {
   return largest;
 }
 
-// If both are equally bad, returns the first one.
+// Returns the finding with the larger error, or `a` if both are equal. Both may be nullptr.
 const Finding* worse_of(const Finding* a, const Finding* b) {
   if (a == nullptr || b == nullptr) return a == nullptr ? b : a;
   return severity_of(*b) > severity_of(*a) ? b : a;
 }
 
-// Data about all findings that are needed to make groups.
+// Collects the data about all findings that are needed to group them.
 class Grouping {
  public:
   explicit Grouping(std::span<const Finding> findings) {
@@ -154,7 +155,7 @@ class Grouping {
       const auto techniques = known.find("technique");
       const bool all_say_it =
           techniques == known.end() || techniques->second.size() == by_technique.size();
-      // If at least this many techniques fail in the same way, they have one cause.
+      // If at least this many techniques fail in the same way, they probably have the same cause.
       constexpr std::size_t several = 3;
       if (all_say_it || by_technique.size() >= several) by_technique = {{"", members}};
       for (const auto& [technique, same] : by_technique) all.push_back(group_of(same));
@@ -197,7 +198,8 @@ class Grouping {
     return group;
   }
 
-  // Devices of other families that are wrong in some of these configurations, and right in none.
+  // Returns the devices with other drivers that fail in some of these configurations and pass in
+  // none.
   [[nodiscard]] std::vector<std::string> also_wrong(const Members& members) const {
     std::set<std::string> wrong;
     std::set<std::string> right;
@@ -217,8 +219,8 @@ class Grouping {
     return {wrong.begin(), wrong.end()};
   }
 
-  // Returns at most two affected levels, or one unaffected level, for each factor. More would not
-  // help the reader.
+  // Returns the affected levels of each factor if there are at most two of them, or else the only
+  // level that is not affected. Longer lists would not help the reader.
   [[nodiscard]] std::string signature_of(const Members& members) const {
     Levels here;
     for (const Finding* each : members) {
@@ -249,25 +251,26 @@ class Grouping {
   std::map<std::tuple<Verdict, Check, std::string_view, std::string>, Members> by_kind_;
 };
 
-// Whether drawing the image again shows the finding. This includes a hang, because `render` accepts
-// a time limit.
+// Whether `triptych render` reproduces the finding. This includes hangs, because `render` has a
+// time limit.
 bool is_told_by_a_picture(const Finding& finding) {
   return finding.check == Check::image || finding.check == Check::stress || finding.reason.limit();
 }
 
-// A finding that compares with stored values can be reproduced only by measuring and judging again,
-// into a separate store.
+// Creates a command that measures and judges again, with a separate store. A difference from stored
+// values cannot be reproduced in any other way.
 void judge_again(const Finding& finding, const judge::GateResult& result, Command& command) {
   command.command = "gate";
   command.object = result.argument.empty() ? result.plan : result.argument;
   if (finding.check == Check::correlation) {
-    // The line is fitted to the configurations of all devices, so all devices are measured.
+    // The line is fitted to all configurations of several devices, so all of them are measured.
     command.device.clear();
     command.factors.clear();
   } else {
     command.factors.insert(result.defaults.begin(), result.defaults.end());
   }
-  // The order is fitted to errors at several steps, so all steps are measured.
+  // The order of convergence is fitted to errors at several step sizes, so all of them are
+  // measured.
   if (finding.check == Check::accuracy) command.factors.erase("step");
   command.more = {"--measure", "--check", std::string(judge::name_of(finding.check)), "--store",
                   "repro.sqlite"};
@@ -279,8 +282,8 @@ void judge_again(const Finding& finding, const judge::GateResult& result, Comman
   }
 }
 
-// Whether the plan can be named: a plan from a file is named by its path, which a store does not
-// contain.
+// Whether a command can name the plan. A plan from a file is named by its path, which a store does
+// not contain.
 bool is_known(const judge::GateResult& result) {
   return !result.argument.empty() || result.plan.find('/') != std::string::npos;
 }
@@ -351,7 +354,7 @@ bool is_open(const Finding& finding) {
 }
 
 std::string command_of(const Finding& finding, const judge::GateResult& result) {
-  // A command could only reproduce the skip.
+  // A skipped configuration cannot be reproduced: it would only be skipped again.
   if (finding.device.empty() || finding.verdict == Verdict::skipped) return {};
   if (finding.configuration.empty() && finding.check != Check::correlation) return {};
   Command command{.command = "render",
@@ -361,13 +364,13 @@ std::string command_of(const Finding& finding, const judge::GateResult& result) 
                   .injected = finding.injected,
                   .limit = finding.reason.limit(),
                   .more = {"--truth", "--out", "repro"}};
-  // The check of code draws nothing; the command prints the compiled code and its statistics.
+  // The check `code` draws nothing. The command prints the compiled code and its statistics.
   if (finding.check == Check::code) {
     command.command = "code";
     command.more.clear();
     return text_of(command);
   }
-  // Counting has a separate time limit.
+  // Counting instructions has its own time limit.
   if (finding.check == Check::cost) command.limit.reset();
   if (!is_told_by_a_picture(finding)) {
     if (!is_open(finding) || !is_known(result)) return {};

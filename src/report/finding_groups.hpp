@@ -11,62 +11,67 @@
 
 namespace triptych::report {
 
-// The component at fault, which follows from the results of the other devices.
+// Whether the driver is at fault, derived from the results of other devices.
 struct Blame {
   enum class Of : std::uint8_t {
     unknown,
-    driver,                 // `devices` with the same API pass
-    driver_since_accepted,  // devices with the same API passed when they were accepted
-    not_the_driver          // `devices` of other driver families fail too
+    driver,                 // it is, because `devices` with the same API pass
+    driver_since_accepted,  // it is, because `devices` with the same API passed when accepted
+    not_the_driver          // it is not, because `devices` with other drivers fail, too
   };
   Of of = Of::unknown;
   std::vector<std::string> devices = {};
 };
 
-// Contains pointers into the findings from which it was made.
+// Findings with the same cause. Contains pointers into the array of findings passed to grouped().
 struct FindingGroup {
-  const judge::Finding* first;  // the smallest case: the fewest pixels and the least data
+  const judge::Finding* first;  // the finding about the smallest case: fewest pixels, least data
   std::size_t configurations = 1;
-  // The levels that distinguish its configurations from the others that were checked on that
-  // device: "technique=raycast, step=0.5" or "technique≠tiles". Empty if there are no such levels.
+  // The factor levels that distinguish the configurations of this group from the other
+  // configurations that were checked on the device: "technique=raycast, step=0.5" or
+  // "technique≠tiles". Empty if there are no such levels.
   std::string signature = {};
   // Devices on which the smallest case passes.
   std::vector<std::string> right_on = {};
-  // Devices of other driver families that fail the same check in some of its configurations and
-  // pass it in none.
+  // Devices with other drivers that fail the same check in some of the configurations and pass it
+  // in none of them.
   std::vector<std::string> wrong_on = {};
-  // For a wrong image: the number of its configurations in which the counters or statistics
-  // changed as well.
+  // For wrong images: the number of configurations in which the counters or statistics changed,
+  // too.
   std::size_t changed_with_it = 0;
   std::vector<const judge::Finding*> members = {};
-  std::string kind = {};  // judge::kind_of its findings
-  // The member with the largest error: the most wrong pixels, the largest change.
+  std::string kind = {};  // judge::kind_of() of the findings
+  // The member with the largest error: the one with the most wrong pixels or the largest change.
   const judge::Finding* worst = nullptr;
   [[nodiscard]] Blame blame() const;
 };
 
-// The findings of a group have the same check, verdict, device and cause. They also have the same
-// technique, unless all techniques, or three of them, have that cause. Groups are sorted with the
-// worst first: regressions, then what could not be judged, then the rest. Within these, what ended
-// a program comes before what it drew; then the order of the checks decides, and then the number of
-// configurations, largest first. Two kinds of regressions are left out: one of correlation that a
-// regression of cost explains, and one of counters or statistics where the image is wrong, which
-// is counted in changed_with_it.
+// Groups findings. All findings of a group have the same check, verdict, device and cause. They
+// also have the same technique, unless all techniques, or at least three, have this cause.
+//
+// The worst group comes first: groups are sorted by verdict, then crashes and other abnormal ends
+// come before wrong results, then the order of the checks decides, and then the number of
+// configurations, largest first.
+//
+// Two kinds of regressions are left out: regressions of the check `correlation` that a regression
+// of `cost` explains, and regressions of counters or statistics for a wrong image, which are only
+// counted in changed_with_it.
 [[nodiscard]] std::vector<FindingGroup> grouped(std::span<const judge::Finding> findings);
 
-// Whether groups of two plans have one cause: they have the same device, verdict, check, technique
-// and kind. If the program ended in the same way, the check does not matter.
+// Whether groups from two plans have the same cause: they have the same device, verdict, kind and
+// check, and at least one technique in common. If a configuration crashed or ended abnormally, the
+// check and the techniques may differ.
 [[nodiscard]] bool have_one_cause(const FindingGroup& a, const FindingGroup& b);
 
 // Adds another group with the same cause. Returns true if the smallest case of that group became
 // the smallest case of the result.
 bool take_in(FindingGroup& group, const FindingGroup& other);
 
-// Whether the finding needs attention: it is neither a pass nor advisory.
+// Whether the finding needs attention: it is a regression, or could not be judged.
 [[nodiscard]] bool is_open(const judge::Finding& finding);
 
-// A command that reproduces a finding of the result and can be pasted. It contains the settings
-// that were made for the device. Empty if no such command is known.
+// Returns a command that reproduces a finding of the result and that users can copy. It sets the
+// environment variables with which the device was measured. Returns "" if there is no such command.
 [[nodiscard]] std::string command_of(const judge::Finding& finding,
                                      const judge::GateResult& result);
 

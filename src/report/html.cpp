@@ -18,7 +18,8 @@ namespace {
 
 // Removes the first character from the text and returns it.
 std::string_view take_character(std::string_view& text) {
-  const std::string_view character = text.substr(0, std::max<std::size_t>(core::utf8_length(text), 1));
+  const std::string_view character =
+      text.substr(0, std::max<std::size_t>(core::utf8_length(text), 1));
   text.remove_prefix(character.size());
   return character;
 }
@@ -121,8 +122,8 @@ Html without_repeated_pictures(const Html& whole) {
 
 namespace {
 
-// Whether a cell is a quantity, a number with a unit of at most two letters: "12.3 ms", "1 234",
-// "-0.5 ± 0.1".
+// Whether a cell contains a quantity: a number, with or without a unit of at most two letters:
+// "12.3 ms", "1 234", "-0.5 ± 0.1".
 bool is_quantity(std::string_view cell) {
   cell = cell.substr(0, cell.find(" ±"));
   if (cell.empty() || (cell[0] != '-' && cell[0] != '+' &&
@@ -135,7 +136,7 @@ bool is_quantity(std::string_view cell) {
   return letters <= 2 && std::ranges::count(cell, '.') <= 1 && !is_time;
 }
 
-// The columns in which all cells below the head that are not empty are quantities.
+// Returns which columns contain only quantities, not counting the header and empty cells.
 std::vector<bool> columns_of_quantities(const Rows& rows) {
   std::vector<bool> result;
   for (std::size_t column = 0; column < rows.front().size(); ++column) {

@@ -1,7 +1,7 @@
 #pragma once
-// The HTML that the pages need. Markup has its own type, which only a format in this program and
-// escaped text can produce. So a name from a store cannot become an element, even if somebody
-// forgets to escape it.
+// The HTML that the pages need. Markup has its own type, Html, which can be created only from
+// format strings in this program and from escaped text. So a name from a store cannot inject an
+// element, even if somebody forgets to escape it.
 
 #include <fmt/format.h>
 
@@ -18,14 +18,14 @@
 
 namespace triptych::report {
 
-// Escapes text for HTML and XML, for the content of elements and for attributes. Hidden characters
-// (core/text.hpp) except the ends of lines and tabs become visible escapes, and malformed
+// Escapes text for HTML and XML, both in elements and in attributes. Hidden characters
+// (core/text.hpp), except line breaks and tabs, become visible escape sequences, and malformed
 // characters become U+FFFD.
 [[nodiscard]] std::string escape(std::string_view text);
 
 class Html;
 
-// How markup() treats an argument: text is escaped, markup and numbers are not changed.
+// Converts an argument of markup(): escapes text, but returns markup and numbers unchanged.
 template <typename Arg>
 auto as_markup(const Arg& arg) {
   if constexpr (std::same_as<Arg, Html>) {
@@ -40,7 +40,7 @@ auto as_markup(const Arg& arg) {
 template <typename... Args>
 using MarkupFormat = fmt::format_string<decltype(as_markup(std::declval<const Args&>()))...>;
 
-// Markup that can be put on a page as it is.
+// Markup that can be put on a page without escaping.
 class Html {
  public:
   Html() = default;
@@ -64,8 +64,8 @@ class Html {
   friend Html without_repeated_pictures(const Html& page);
 };
 
-// The only function that makes elements. The format is markup, a literal in the program; arguments
-// that are text are escaped.
+// The only function that creates elements. The format string is a literal that contains markup;
+// arguments that are text are escaped.
 template <typename... Args>
 Html markup(MarkupFormat<Args...> format, const Args&... args) {
   const auto all = std::make_tuple(as_markup(args)...);
@@ -76,7 +76,7 @@ Html markup(MarkupFormat<Args...> format, const Args&... args) {
       all));
 }
 
-// The content of an element: text, which is escaped, or markup.
+// The content of an element: markup, or text, which is escaped.
 class Content {
  public:
   template <typename Text>
@@ -91,30 +91,29 @@ class Content {
 using TableRow = std::vector<Content>;
 using Rows = std::vector<TableRow>;
 
-// A "data:image/png;base64,…" URI.
+// Returns the text, in which a line may break after each of the characters ".:,=/".
 [[nodiscard]] Html breakable(std::string_view text);
 
-// The style sheet and the script that are built into the program, and their hashes for a
-// Content-Security-Policy: SHA-256 in base64.
+// Returns a "data:image/png;base64,…" URI.
 [[nodiscard]] Html data_uri(std::span<const std::byte> png);
 
-// The style sheet and the script that are built into the program, and their names in a
+// Return the style sheet or the script that is built into the program, and its hash for a
 // Content-Security-Policy: SHA-256 in base64.
 [[nodiscard]] Html embedded_markup(std::string_view file);
 [[nodiscard]] std::string embedded_sha256(std::string_view file);
 
-// The page, with the bytes of each image only once. An image that repeats an earlier one has no
-// `src` but `data-same`, with the number of that image among all `img` elements.
+// Returns the page with the bytes of each image only once. A repeated image has the attribute
+// `data-same` instead of `src`: the index of its first occurrence among all `img` elements.
 [[nodiscard]] Html without_repeated_pictures(const Html& page);
 
-// A table whose first row is its head. Columns of quantities get the class "number" of the style
-// sheet, which aligns them to the right.
+// Returns a table. The first row is its header. Columns of quantities get the CSS class "number",
+// which aligns them to the right.
 [[nodiscard]] Html table(const Rows& rows, std::string_view css_class = {});
 
-// "12.3 ms", "850 µs": three significant digits.
+// Formats a duration with three significant digits: "12.3 ms", "850 µs".
 [[nodiscard]] std::string duration(double nanoseconds);
 
-// 1234567 → "1 234 567" with thin spaces.
+// Groups the digits of a number with thin spaces: 1234567 → "1 234 567".
 [[nodiscard]] std::string grouped(std::uint64_t number);
 
 }  // namespace triptych::report

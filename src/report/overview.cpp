@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "report/circumstances.hpp"
 #include "core/exit_code.hpp"
+#include "report/circumstances.hpp"
 #include "report/words/check.hpp"
 
 namespace triptych::report {
@@ -48,7 +48,7 @@ std::string places(const std::map<std::string, Tally>& by_device, Verdict verdic
                         device.empty() ? "the plan" : device, found->second, tally.decided);
     if (shown == 1) text += fmt::format(" checks {}", word);
   }
-  return rest > 0 ? text + fmt::format("; {} devices more", rest) : text;
+  return rest > 0 ? text + fmt::format("; {} more devices", rest) : text;
 }
 
 KindRow row_of(const words::CheckWords& kind, std::span<const GateResult* const> results) {
@@ -58,8 +58,8 @@ KindRow row_of(const words::CheckWords& kind, std::span<const GateResult* const>
   for (const GateResult* result : results) {
     for (const Finding& finding : result->findings) {
       if (finding.check != kind.check) continue;
-      // A finding without a device is about the reference image: it has its stored hash, which does
-      // not mean that an image is within its bound.
+      // A finding without a device states that the reference image is the accepted one. It does not
+      // count as an image that is within its bound.
       const bool of_truth = finding.check == Check::image && finding.device.empty();
       const bool is_right =
           finding.verdict == Verdict::pass || finding.verdict == Verdict::improved;
@@ -70,7 +70,7 @@ KindRow row_of(const words::CheckWords& kind, std::span<const GateResult* const>
       if (decides(finding.verdict)) ++tally.decided;
     }
   }
-  const bool shown =  // only shown, because no verdict was requested
+  const bool shown =  // times are shown but do not affect the verdict
       kind.check == Check::timing &&
       std::ranges::none_of(results, [](const GateResult* each) { return each->times_decided; });
   KindRow row{kind.check, kind.label, "–", Verdict::skipped, std::string(kind.none)};
@@ -105,7 +105,7 @@ bool was_checked(const words::CheckWords& kind, std::span<const GateResult* cons
   });
 }
 
-// Merges findings of several plans that have one cause.
+// Adds a group. Merges it with a group from another plan that has the same cause.
 void add(std::vector<Cause>& causes, const GateResult& result, FindingGroup group) {
   const auto same = std::ranges::find_if(
       causes, [&](const Cause& cause) { return have_one_cause(cause.group, group); });

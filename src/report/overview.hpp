@@ -1,6 +1,6 @@
 #pragma once
-// The verdict over all plans in a few rows. The last screen, the page and the Markdown summary
-// begin with it.
+// The verdict on all plans in a few rows. The last screen, the page and the Markdown summary begin
+// with this overview.
 
 #include <span>
 #include <string>
@@ -16,14 +16,14 @@ namespace triptych::report {
 
 struct KindRow {
   judge::Check check;
-  std::string_view kind;     // "Pictures"
+  std::string_view kind;     // "Images"
   std::string_view verdict;  // "FAIL", "pass", "no verdict", "waived", "–"
-  judge::Verdict worst;      // skipped if there is none
-  std::string sentence;      // text of unknown origin, which must be escaped
+  judge::Verdict worst;      // Verdict::skipped if there is no verdict
+  std::string sentence;      // must be escaped
 };
 
 struct Cause {
-  const judge::GateResult* result;  // the result of the plan that contains the smallest case
+  const judge::GateResult* result;  // the result that contains the finding `group.first`
   FindingGroup group;
   std::size_t plans = 1;
 };
@@ -31,16 +31,17 @@ struct Cause {
 struct Overview {
   core::ExitCode code = core::ExitCode::cannot_judge;
   std::size_t devices = 0;
-  // At least one plan is incomplete: only a shard or only some levels were measured.
+  // Whether only a part of some plan was measured: a shard, or some levels (--set).
   bool part = false;
   std::vector<KindRow> rows;
   std::vector<Cause> open;   // findings that need attention, the worst first
-  std::vector<Cause> aside;  // waived, improved, advisory or skipped; not what passed
+  std::vector<Cause> aside;  // waived, improved, advisory or skipped findings, without passes
   std::vector<NearestBound> bounds;
   std::vector<std::string> circumstances;  // see report/circumstances.hpp
 };
 
-// Contains pointers into the results. If nothing was judged, that is not a pass.
+// Summarizes the results. The overview contains pointers into them. If there are no results, its
+// code is cannot_judge.
 [[nodiscard]] Overview overview(std::span<const judge::GateResult* const> results);
 [[nodiscard]] Overview overview(std::span<const judge::GateResult> results);
 

@@ -44,7 +44,7 @@ TEST_F(AbsentData, IsASkipForCTestAndNotToBeJudgedForTheGate) {
   }
   const Result gate = program.run("gate plan --baselines baselines --store s.sqlite");
   EXPECT_EQ(gate.code, 2) << gate.output;
-  EXPECT_NE(gate.output.find("data: missing files: 1 (field.nrrd)"), std::string::npos)
+  EXPECT_NE(gate.output.find("missing data files: 1 (field.nrrd)"), std::string::npos)
       << gate.output;
 }
 

@@ -56,11 +56,12 @@ TEST(Reduce, TheFolderHoldsWhatAReportNeeds) {
     EXPECT_TRUE(std::filesystem::exists(program.folder() / "r" / file)) << file;
   }
   const std::string text = program.read("r/README.md");
-  EXPECT_THAT(text, HasSubstr("# A frame that null:scripted gets wrong"));
+  EXPECT_THAT(text, HasSubstr("# A frame that null:scripted draws incorrectly"));
   EXPECT_THAT(text, HasSubstr("| viewport | 1 |"));
   EXPECT_THAT(text, HasSubstr("triptych render volume --device null:scripted"));
-  EXPECT_THAT(text,
-              HasSubstr("With a simpler level of any factor it no longer fails in this way."));
+  EXPECT_THAT(
+      text,
+      HasSubstr("With a simpler level of any factor, the frame no longer fails in this way."));
   EXPECT_THAT(program.read("r/frame.json"), HasSubstr("transfer_function"));
   EXPECT_FALSE(std::filesystem::exists(program.folder() / "r/.reduce.sqlite"));
   const Result again = program.run(last_command(result.output), failing("crash", "none"));

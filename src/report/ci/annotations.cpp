@@ -19,7 +19,8 @@ using judge::Verdict;
 
 constexpr std::size_t most_of_each = 10;
 
-// The text of a workflow command. Everything that could end it or begin another one is escaped.
+// Escapes a part of a workflow command, so that it cannot end the command or begin another one.
+// `also` contains further characters to escape.
 std::string escaped(std::string_view text, std::string_view also) {
   std::string result;
   for (const char c : text) {

@@ -1,5 +1,5 @@
 #pragma once
-// Annotations of a commit for CI systems.
+// Annotations for commits, as CI systems show them.
 
 #include <span>
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace triptych::report {
 
-// Workflow commands of GitHub Actions, one on each line: an error for each cause of a regression,
-// and a warning for each cause that could not be judged, the worst first. GitHub shows at most ten
-// of each for a step, so no more are written.
+// Returns GitHub Actions workflow commands, one per line, the worst first: an error for each cause
+// of a regression, and a warning for each cause that could not be judged. Returns at most ten
+// errors and ten warnings, because GitHub shows no more for a step.
 [[nodiscard]] std::string github_annotations(std::span<const judge::GateResult> results,
                                              const FindingPlaces& places);
 
-// A Code Quality report of GitLab with all of these causes.
+// Returns a GitLab Code Quality report with all of these causes.
 [[nodiscard]] std::string gitlab_code_quality(std::span<const judge::GateResult> results,
                                               const FindingPlaces& places);
 

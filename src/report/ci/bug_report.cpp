@@ -37,15 +37,18 @@ struct File {
 };
 constexpr std::array files{
     File{"frame.json", "camera, scene, transfer function and every factor"},
-    File{"image.png", "the device's image; `image.exr`: as floats, linear and premultiplied"},
-    File{"truth.png", "the reference image, rendered in double precision; `truth.exr`: as floats"},
+    File{"image.png",
+         "the device's image (`image.exr`: the same image with linear, premultiplied floats)"},
+    File{"truth.png",
+         "the reference image, rendered in double precision (`truth.exr`: the same image with "
+         "floats)"},
     File{
         "difference.png",
         "the error as a share of the pixel's bound: black is no error, white is the bound, cyan is "
         "beyond it"},
     File{"dump",
-         "all input of the driver: device code, options, buffers, for some techniques a program in "
-         "C; `compile.sh` compiles the device code"},
+         "all input of the driver: device code, options and buffers, and for some techniques a C "
+         "program that draws the frame; `compile.sh` compiles the device code"},
     File{"dump/pixel.txt",
          "the device's results for the worst pixel, with the first difference marked"},
 };
@@ -71,7 +74,7 @@ std::string text_of(const std::vector<BugReport::Change>& changes) {
 
 std::string markdown(const BugReport& report) {
   std::string text =
-      fmt::format("# A frame that {} gets wrong\n\n{}\n", markdown_escaped(report.device.id),
+      fmt::format("# A frame that {} draws incorrectly\n\n{}\n", markdown_escaped(report.device.id),
                   markdown_escaped(report.message));
   text += facts(report);
   text += "\n## How to reproduce it\n" + fenced(report.command, "");
@@ -79,11 +82,11 @@ std::string markdown(const BugReport& report) {
           list_of_files(report);
   text += "\n## The frame\n\n| factor | level |\n|---|---|\n";
   for (const auto& [factor, level] : report.factors) text += row(factor, level);
-  text += fmt::format("\n{} frames were drawn to find it. Simplified: {}.\n", report.frames,
+  text += fmt::format("\nThe search drew {} frames. It simplified: {}.\n", report.frames,
                       markdown_escaped(text_of(report.changes)));
   text += report.complete
-              ? "With a simpler level of any factor it no longer fails in this way.\n"
-              : "The search stopped at its limit of frames, so a simpler frame may fail, too.\n";
+              ? "With a simpler level of any factor, the frame no longer fails in this way.\n"
+              : "The search stopped at its limit on frames, so a simpler frame may fail, too.\n";
   return text;
 }
 

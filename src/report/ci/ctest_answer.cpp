@@ -23,12 +23,12 @@ std::string number(std::string_view name, double value) {
       "<CTestMeasurement type=\"numeric/double\" name=\"{}\">{}</CTestMeasurement>\n", name, value);
 }
 
-// Writes an image of a test; `what` is part of the file's name. CTest reads the file after this
-// process has ended, so it is not removed. It is in a folder in which nobody else can create a link
-// with that name.
+// Writes an image of a test. `what` becomes a part of the file name. The file is not removed,
+// because CTest reads it after this process has ended. It lies in a private folder, so that no
+// other user can plant a link with its name.
 std::string picture(std::string_view name, std::string test, std::string_view what,
                     const core::Image& image) {
-  // Names come from a store, so they must not contain a path to another folder.
+  // The test id comes from a store, so it must not be able to name a path to another folder.
   std::ranges::replace_if(
       test, [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-'; }, '_');
   const core::PrivateFolder folder = core::private_temporary_folder("ctest");
@@ -79,8 +79,8 @@ std::optional<std::string> reason_to_skip(const judge::GateResult& result) {
   for (const judge::Finding& finding : result.findings) {
     const bool idle =
         finding.verdict == judge::Verdict::advisory || finding.verdict == judge::Verdict::skipped;
-    // A pass about a whole device only summarises other findings, so it judges nothing itself. A
-    // pass of a correlation does.
+    // A pass about a whole device only summarizes other findings, so it judges nothing itself. The
+    // check `correlation` is an exception.
     const bool sums_up = finding.verdict == judge::Verdict::pass && finding.configuration.empty() &&
                          finding.check != judge::Check::correlation;
     if (!idle && !sums_up) return std::nullopt;

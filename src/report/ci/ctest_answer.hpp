@@ -1,5 +1,5 @@
 #pragma once
-// The result of a check as output of a CTest test: text for the log, numbers and images for the
+// The output of a CTest test that runs a check: text for the log, and numbers and images for the
 // dashboard.
 
 #include <optional>
@@ -11,14 +11,14 @@
 
 namespace triptych::report {
 
-// The findings, the numbers of the worst one, and the headline. With `truth`, also the three
-// images for the configuration of the worst finding, which are written among the temporary files;
-// without it, no images.
+// Returns the findings that do not pass, the numbers of the worst finding, and the headline. If
+// `truth` is not empty, also writes the device image, the reference image and the difference image
+// for the worst finding to a temporary folder and adds their paths.
 [[nodiscard]] std::string ctest_answer(const judge::GateResult& result, const record::Store& store,
                                        const judge::FindTruth& truth);
 
-// A check that has only advisory findings or skips has judged nothing. It is a skip with this
-// reason, never a pass.
+// Returns the reason why the test counts as skipped, or nullopt if it does not. A check with only
+// advisories and skips has judged nothing, so it must not count as a pass.
 [[nodiscard]] std::optional<std::string> reason_to_skip(const judge::GateResult& result);
 
 }  // namespace triptych::report

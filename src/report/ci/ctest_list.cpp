@@ -21,12 +21,12 @@ struct Test {
   std::string lock = {};
 };
 
-// A bracket argument of CMake takes every text literally, as long as the text does not contain the
-// closing bracket.
+// Returns a CMake bracket argument, which CMake does not interpret. The number of equals signs is
+// chosen so that the text does not contain the closing bracket.
 std::string bracketed(const std::string& text) {
   std::string equals = "=";
   while ((text + "]").find("]" + equals + "]") != std::string::npos) equals += '=';
-  // CMake ignores a line break right after the opening bracket, so it is written twice.
+  // CMake ignores a line break right after the opening bracket, so a leading line break is doubled.
   return fmt::format("[{0}[{1}{2}]{0}]", equals, text.starts_with('\n') ? "\n" : "", text);
 }
 
@@ -86,8 +86,8 @@ std::vector<Test> tests_of(const PlanTests& plan, std::span<const record::Device
            .command = {"test-check", argument, "--check", check, "--device", device.id, "--store",
                        store},
            .labels = {suite, check, "device", device.api, device.id},
-           // A score compares a device with all others, and so does a correlation, so all of them
-           // must be measured before.
+           // The checks `stress` and `correlation` compare a device with all other devices, so all
+           // of them must have been measured.
            .requires_fixtures = is_of_all(each) ? measured : std::vector<std::string>{fixture}});
     }
   }

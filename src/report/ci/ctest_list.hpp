@@ -1,6 +1,6 @@
 #pragma once
-// The tests that CTest is given. Fixtures make each device measure a plan once, and the checks
-// judge the records in the store.
+// Generates the CTest tests for plans and devices. Each device measures a plan once, in a fixture,
+// and the tests of the checks judge the records in the store.
 
 #include <span>
 #include <string>
@@ -13,20 +13,20 @@ namespace triptych::report {
 
 struct PlanTests {
   std::string suite;
-  std::string plan;   // the plan in the form that commands accept
-  std::string stem;   // the names of its tests begin with it
-  std::string store;  // the store of its records
+  std::string plan;   // the plan as a command-line argument
+  std::string stem;   // the names of the plan's tests begin with this
+  std::string store;  // the file to which its records are written
   record::Checks checks;
   // If several devices have the same driver, only the first one measures the plan.
   bool one_per_driver = false;
 };
 
-// "volume.quick" for volume/quick, and also for a file quick.yaml of that suite: letters that names
-// of tests and files can contain.
+// Returns the stem of the names of a plan's tests: "volume.quick" for volume/quick. Characters that
+// are not allowed in names of tests and files become '_'.
 [[nodiscard]] std::string ctest_stem(std::string_view suite, std::string_view plan);
 
-// The file that CTest reads. Its tests call `program` with the commands test-start, test-measure
-// and test-check.
+// Returns the content of the file that CTest reads. Its tests run `program` with the commands
+// test-start, test-measure and test-check.
 [[nodiscard]] std::string ctest_list(const std::string& program, std::span<const PlanTests> plans,
                                      std::span<const record::Device> devices);
 

@@ -19,8 +19,8 @@
 namespace triptych::report {
 namespace {
 
-// Details of a group that is open: its configurations, if the line names more than one, and the
-// command.
+// Returns further lines about a group that needs attention: its configurations, if there are
+// several, and the command that reproduces it.
 std::string details_of(const FindingGroup& group, const judge::GateResult& result) {
   if (!is_open(*group.first)) return {};
   std::vector<std::string> lines;
@@ -35,8 +35,8 @@ std::string details_of(const FindingGroup& group, const judge::GateResult& resul
   return text;
 }
 
-// All findings except those that pass, by cause, and then the number of findings of each verdict
-// and the headline.
+// Returns all findings that do not pass, grouped by cause, followed by the number of findings with
+// each verdict and the headline.
 std::string log_of(const judge::GateResult& result) {
   std::string text;
   for (const FindingGroup& group : grouped(result.findings)) {

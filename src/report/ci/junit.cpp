@@ -21,7 +21,8 @@ bool is_skip(const Finding& finding) {
   return finding.verdict == Verdict::skipped || finding.verdict == Verdict::advisory;
 }
 
-// The cause and all numbers, so that a reader need not parse the message.
+// Returns the cause and all numbers as properties, so that programs do not have to parse the
+// message.
 std::string properties(const Finding& finding) {
   std::string text;
   const auto add = [&](std::string_view name, std::string_view value) {
@@ -55,7 +56,7 @@ std::string name_of(const Finding& finding) {
   return name.empty() ? finding.configuration : name;
 }
 
-// One document. Remembers which configurations have had their time.
+// One document. Remembers the configurations whose time was already written.
 class Junit {
  public:
   explicit Junit(const JunitFacts& facts) : facts_(facts) {}

@@ -51,7 +51,8 @@ std::string bounds(const Overview& all) {
   return text + "\n</details>\n";
 }
 
-// Skips and advice are only on the page, because they would hide new findings in a summary.
+// Returns only the number of advisories and skips, because listing them in the summary would bury
+// new findings. They are listed on the page.
 std::string counted(const std::map<std::string_view, std::size_t>& remarks) {
   if (remarks.empty()) return {};
   std::size_t all = 0;
@@ -60,8 +61,8 @@ std::string counted(const std::map<std::string_view, std::size_t>& remarks) {
     all += count;
     checks += fmt::format("{}{} {}", checks.empty() ? "" : ", ", check, count);
   }
-  return fmt::format("\n{} remark{} without effect on the verdict, in report.html: {}\n", all,
-                     all == 1 ? "" : "s", checks);
+  return fmt::format("\n{} remark{} in report.html that {} not affect the verdict: {}\n", all,
+                     all == 1 ? "" : "s", all == 1 ? "does" : "do", checks);
 }
 
 }  // namespace
@@ -85,7 +86,7 @@ std::string markdown_escaped(std::string_view text, std::size_t limit) {
       case '>':
         result += "&gt;";
         break;
-      case '@':  // otherwise a pattern could notify somebody
+      case '@':  // a name after '@' would notify that user
         result += "@\u200B";
         break;
       default:

@@ -7,15 +7,17 @@
 
 namespace triptych::report {
 
-// Escapes a text for the Markdown of GitHub and GitLab and puts it on one line, so that nothing in
-// it is taken for markup, HTML or a control character. The result has at most `limit` characters.
+// Escapes text for GitHub and GitLab Markdown and puts it on one line, so that nothing in it is
+// interpreted as markup, HTML or a control character. The text is shortened to `limit` characters
+// before it is escaped.
 [[nodiscard]] std::string markdown_escaped(std::string_view text, std::size_t limit = 500);
 
-// A command as a code block that no text within the command can close.
+// Returns a code block with a command. No characters in the command can close the block.
 [[nodiscard]] std::string fenced(std::string_view command, std::string_view indent);
 
-// A summary for a pull request, with the rows and causes of the last screen: the worst are visible,
-// the rest and the advice are folded. It has fewer than 65,000 characters, whatever was found.
+// Returns a summary for a pull request, with the rows and causes of the last screen. The worst
+// causes are visible, and all others are folded. The summary always has fewer than 65,000
+// characters.
 [[nodiscard]] std::string markdown(std::span<const judge::GateResult> results);
 [[nodiscard]] std::string markdown(const judge::GateResult& result);
 

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 using judge::Check;
 using judge::Layout;
 
-// The file of a plan's baselines with the values of the check; empty if it depends on a device that
-// is not known.
+// Returns the file of a plan's baselines that contains the values of the check. Returns "" if the
+// file depends on the device and the device is not known.
 std::string stored_in(Check check, const record::Device* device) {
   switch (check) {
     case Check::image:
@@ -43,7 +43,7 @@ std::string stored_in(Check check, const record::Device* device) {
   }
 }
 
-// The line of the first place at which the text contains the key; 0 if it does not.
+// Returns the number of the first line that contains the key, or 0 if no line does.
 std::size_t line_of(const std::string& text, const std::string& key) {
   if (key.empty()) return 0;
   const std::size_t at = text.find(core::json_text(core::Json(key)));
@@ -57,7 +57,7 @@ std::size_t line_of(const std::string& text, const std::string& key) {
 FindingPlaces::FindingPlaces(Sources sources) : sources_(std::move(sources)) {}
 
 std::string FindingPlaces::in_repository(const fs::path& file) const {
-  std::error_code error;  // a file that cannot be resolved is not in a repository
+  std::error_code error;  // a path that cannot be resolved is not in the repository
   const fs::path found = fs::weakly_canonical(file, error);
   if (error) return {};
   const fs::path root = fs::weakly_canonical(sources_.repository, error);
@@ -73,7 +73,7 @@ const std::string& FindingPlaces::text_of(const fs::path& file) const {
     try {
       entry->second = core::read_text(file);
     } catch (const core::Error&) {
-      entry->second.clear();  // the gate itself reports baselines that cannot be read
+      entry->second.clear();  // the gate reports baselines that cannot be read
     }
   }
   return entry->second;
@@ -93,7 +93,7 @@ SourcePlace FindingPlaces::of(const judge::Finding& finding,
     if (line > 0) return {file, line};
   }
   for (const fs::path& whole : {folder / Layout::manifest, fs::path(result.argument)}) {
-    std::error_code unreadable;  // a name may be too long for a file
+    std::error_code unreadable;  // for example, the name is too long for a file
     const std::string file =
         fs::is_regular_file(whole, unreadable) ? in_repository(whole) : std::string();
     if (!file.empty()) return {file, 1};

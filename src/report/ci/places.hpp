@@ -1,5 +1,6 @@
 #pragma once
-// The place in a repository to which a finding is attached: the line of a stored value, or a file.
+// Finds the place in a repository to which a CI system attaches a finding: the line of a stored
+// value, or a file.
 
 #include <cstddef>
 #include <filesystem>
@@ -12,7 +13,7 @@
 namespace triptych::report {
 
 struct SourcePlace {
-  std::string file;  // relative to the repository; empty: nowhere
+  std::string file;  // relative to the repository; empty if there is no place
   std::size_t line = 1;
 };
 
@@ -27,8 +28,9 @@ class FindingPlaces {
 
   explicit FindingPlaces(Sources sources);
 
-  // The stored value with which the configuration was compared, if its file is in the repository;
-  // otherwise the file of the plan, and otherwise the file that defines the job.
+  // Returns the line of the stored value with which the configuration was compared, if its file is
+  // in the repository. Otherwise returns the first line of the manifest, of the plan's file, or of
+  // the file that defines the job.
   [[nodiscard]] SourcePlace of(const judge::Finding& finding,
                                const judge::GateResult& result) const;
 

@@ -135,7 +135,7 @@ TEST(LastScreen, HasAtMostFortyLinesAndSaysWhatIsLeftOut) {
       last_screen(std::vector{result}, 3, std::vector<std::string>{"page"}, {.width = 120});
   EXPECT_LE(std::ranges::count(text, '\n'), 40);
   EXPECT_THAT(text, HasSubstr("more causes"));
-  EXPECT_THAT(text, HasSubstr("; 57 devices more"));
+  EXPECT_THAT(text, HasSubstr("; 57 more devices"));
 }
 
 TEST(LastScreen, SaysWhereTheOtherCausesAreToldAndHowToMendThem) {
