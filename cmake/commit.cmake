@@ -4,7 +4,8 @@
 set(commit "")
 execute_process(COMMAND git -C "${SOURCE}" rev-parse --show-toplevel
                 OUTPUT_VARIABLE top OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-# The sources may have been unpacked inside another project's checkout. They do not belong to the commits of that project.
+# If the sources were unpacked inside another project's checkout, git would find that project's commit, which says nothing about
+# these sources.
 if(top STREQUAL SOURCE)
   execute_process(COMMAND git -C "${SOURCE}" describe --always --exclude=* --abbrev=12 --dirty=+
                   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)

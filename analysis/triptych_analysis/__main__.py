@@ -16,7 +16,7 @@ def arguments_of(words):
         epilog="Exit codes: 0 success, 2 nothing could be computed, 3 usage or I/O error.")
     parser.add_argument("source", nargs="+", help="a folder that `triptych export` wrote, or a store")
     parser.add_argument("--out", required=True, help="write tables and figures to this folder")
-    parser.add_argument("--plan", help="use only this plan, as it was named in the run (default: all plans; their records are combined for each suite)")
+    parser.add_argument("--plan", help="use only the records of this plan, SUITE/PLAN (default: the records of all plans)")
     parser.add_argument("--clock", choices=["auto", "device", "wall"], default="auto",
                         help="clock to use; auto is the device clock if it is trusted for every record, otherwise the wall clock")
     parser.add_argument("--reference", action="append", default=[], metavar="FACTOR=LEVEL",

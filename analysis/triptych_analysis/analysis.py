@@ -1,4 +1,4 @@
-"""The complete analysis of the paper for one data set. It lists the reason for each part that cannot be computed."""
+"""Runs the paper's complete analysis on one data set, and lists the reason for each part that cannot be computed."""
 
 from dataclasses import dataclass
 

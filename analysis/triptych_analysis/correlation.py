@@ -44,8 +44,8 @@ def correlations(dataset, of_split):
 
 
 def box(matrix):
-    """Returns the numbers of a factor's box in the overview plot, computed from the r in its matrix, or None if there is no
-    r."""
+    """Returns the numbers of a factor's box in the overview plot, computed from the correlation coefficients in `matrix`, or
+    None if all of them are NaN."""
     r = matrix["r"].dropna()
     if r.empty:
         return None

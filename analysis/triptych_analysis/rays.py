@@ -101,7 +101,7 @@ def main(words=None):
         epilog="Exit codes: 0 success, 3 usage or I/O error.")
     parser.add_argument("source", nargs="+", help="a folder that `triptych export` wrote, or a store")
     parser.add_argument("--out", required=True, help="write the table and the figure to this folder")
-    parser.add_argument("--plan", default=PLAN, help=f"use this plan, as it was named in the run (default: {PLAN})")
+    parser.add_argument("--plan", default=PLAN, help=f"use the records of this plan, SUITE/PLAN (default: {PLAN})")
     try:
         return run(parser.parse_args(words))
     except SystemExit as left:  # argparse exits with code 2, which has another meaning in Triptych

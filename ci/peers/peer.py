@@ -23,7 +23,8 @@ def arguments_of(description):
 
 
 def start(parser, compare):
-    """Runs compare(arguments, folder) on an X display that Mesa draws, and exits with the code that it returns."""
+    """Runs compare(arguments, folder) on a virtual X display with Mesa's software OpenGL, and exits with the code that it
+    returns."""
     arguments = parser.parse_args()
     if "DISPLAY" not in os.environ:  # Debian's VTK needs GLX to open a window
         os.environ["LIBGL_ALWAYS_SOFTWARE"] = "1"
