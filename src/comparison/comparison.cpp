@@ -19,7 +19,7 @@ measure::RunOptions options_for(const measure::SideOptions& side,
           .worker_environment = side.environment};
 }
 
-// If a side cannot be opened for its first configuration, the whole comparison ends.
+// Ends the whole comparison if a side cannot be opened for its first configuration.
 void require_opened(const record::Store& store, const record::Record* record) {
   if (record == nullptr || record->outcome == record::Outcome::measured) return;
   if (store.devices(record->run).empty()) {

@@ -1,6 +1,6 @@
 #pragma once
-// Compares two sides over a plan. Measurements that repeat exactly (images, counters, statistics,
-// cost, memory) come first, and then interleaved times.
+// Compares two sides over a plan. Deterministic measurements (images, counters, statistics, cost,
+// memory) are compared first, and then interleaved times.
 
 #include <array>
 #include <chrono>
@@ -23,44 +23,45 @@ struct ComparisonOptions {
   measure::SideOptions a;
   measure::SideOptions b;
   std::vector<measure::InjectedFault> faults;  // injected into side b
-  // The time budget, which begins with the comparison. When it ends, no more blocks are measured. A
-  // part of the budget is reserved for confirming suspects. Measurements that repeat exactly, the
-  // first look at each configuration and the confirmation are always made, because there is no
-  // result without them.
+  // The time budget, which starts with the comparison. When it is used up, no further blocks are
+  // measured. Part of the budget is reserved for confirming suspects. The deterministic
+  // measurements, the first look at each configuration and the confirmation are always done,
+  // regardless of the budget, because there would be no result without them.
   std::optional<std::chrono::seconds> budget;
   std::chrono::seconds limit{60};
   std::uint64_t seed = 1;
-  bool times = true;  // whether to measure times, if the plan has them
+  bool times = true;  // whether to measure times if the plan includes them
   SequentialDesign design = SequentialDesign::standard();
   ConfirmationDesign confirmation;
 };
 
-// Frame times of one side: the median and the quartiles over all blocks of the first process run.
+// The frame times of one side: the median and the quartiles over all blocks of the first process
+// run.
 using SideTime = record::Summary;
 
 // The results of one configuration.
 struct Compared {
   std::string key;
   measure::Configuration configuration;
-  // The outcome of the side that did not finish. `skipped` means that it does not support the
-  // configuration.
+  // The outcome of the side that did not finish. `skipped` means that this side does not support
+  // the configuration.
   std::optional<record::Outcome> ended;
   PairVerdict verdict = PairVerdict::undecided;
-  TimeReason reason;     // the reason why there is no verdict, or why the confirmation withdrew it
-  Shift shift;           // shift of ln t, b relative to a; meaningless if a side did not finish
+  TimeReason reason;     // why there is no verdict, or why the confirmation withdrew it
+  Shift shift;           // of ln t, b relative to a; meaningless if a side did not finish
   int blocks = 0;        // number of blocks of the first process run
   int process_runs = 0;  // number of new process runs for the confirmation
   int frames_per_batch = 1;
   measure::SideClock clock = measure::SideClock::wall;
   WallClockCause why_wall = WallClockCause::none;
-  double seconds = 0;                                 // time spent on it
-  std::optional<std::array<SideTime, 2>> times = {};  // frame times of a and b in nanoseconds
+  double seconds = 0;                                 // time spent on this configuration
+  std::optional<std::array<SideTime, 2>> times = {};  // frame times of a and b, in ns
   std::optional<judge::WorkChange> work;
   std::vector<Difference> differences;
 
   [[nodiscard]] bool is_regression() const;
   [[nodiscard]] bool is_doubtful(bool timed) const;
-  // The verdict on its time: "slower", …, "skipped", "undecided".
+  // The verdict on the time of this configuration: "slower", …, "skipped", "undecided".
   [[nodiscard]] std::string_view verdict_name() const;
   // Whether `shift` was measured.
   [[nodiscard]] bool has_time() const { return blocks > 0 && !ended; }
@@ -70,7 +71,7 @@ struct ComparisonResult {
   record::Device a;
   record::Device b;
   bool timed = false;
-  std::vector<Difference> device;        // between the two devices themselves
+  std::vector<Difference> device;        // between the devices, such as their limits
   std::vector<Compared> configurations;  // in the plan's order
   double seconds = 0;
 
@@ -79,7 +80,7 @@ struct ComparisonResult {
 };
 
 enum class ComparisonStage : std::uint8_t {
-  deterministic,  // images, counters, statistics, cost, memory
+  deterministic,  // images, counters, statistics, cost and memory
   first_look,
   more_blocks,
   fresh_process_runs
@@ -87,19 +88,20 @@ enum class ComparisonStage : std::uint8_t {
 
 struct ComparisonProgress {
   ComparisonStage stage = ComparisonStage::deterministic;
-  std::size_t process_run = 0;   // number of the current one of fresh_process_runs
-  std::size_t process_runs = 0;  // their total number
+  std::size_t process_run = 0;   // number of the current run, for fresh_process_runs
+  std::size_t process_runs = 0;  // total number of fresh process runs
   std::string configuration;
   int done = 0;
   int total = 0;
-  std::chrono::seconds left{0};  // upper limit of the remaining time
+  std::chrono::seconds left{0};  // upper limit for the remaining time
   std::optional<measure::Loading> loading;
 };
 
 using Tell = std::function<void(const ComparisonProgress&)>;
 
-// Both sides' runs are written to the store. Throws what measure::run_sides and
-// measure::Interleaved throw, and record::NotMeasured if a side cannot be opened.
+// Compares the sides. The runs of both sides are written to the store. Throws the same exceptions
+// as measure::run_sides() and measure::Interleaved, and record::NotMeasured if a side cannot be
+// opened.
 [[nodiscard]] ComparisonResult compare(const ComparisonOptions& options,
                                        const measure::Suite& suite, record::Store& store,
                                        measure::Truths& truths, const Tell& tell);

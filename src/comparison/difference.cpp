@@ -77,7 +77,7 @@ constexpr Names<WallClockCause, 5> wall_clock_cause_names{{
     {WallClockCause::implausible, "implausible"},
 }};
 
-// The size of a change, independent of its direction.
+// Returns the size of a change, regardless of its direction.
 double size_of(double ratio) {
   return std::abs(std::log(ratio));
 }

@@ -1,6 +1,6 @@
 #pragma once
-// One difference between two records or devices, as data. report/words/comparison.hpp makes the
-// sentences, and docs/compare.md lists the causes for other programs.
+// A difference between two records or two devices, as data. report/words/comparison.hpp turns it
+// into sentences, and docs/compare.md lists the causes for programs that read the JSON output.
 
 #include <array>
 #include <cstdint>
@@ -20,11 +20,11 @@
 namespace triptych::comparison {
 
 enum class DifferenceKind : std::uint8_t {
-  regression,   // b is wrong, does more, or changed something that must not change
-  unjudged,     // no reference image, or b can no longer draw a configuration that a can draw
-  fixed,        // a is wrong or cannot draw it, and b is right
+  regression,   // b is wrong, does more work, or changed something that must not change
+  unjudged,     // there is no reference image, or b can no longer draw what a can draw
+  fixed,        // a is wrong or cannot draw the configuration, and b is right
   calibration,  // a statistic that at least one of the drivers does not count exactly
-  changed       // an allowed difference between two devices, or b does less
+  changed       // an allowed difference between two devices, or b does less work
 };
 [[nodiscard]] std::string_view name_of(DifferenceKind kind);
 
@@ -43,16 +43,17 @@ enum class Subject : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(Subject subject);
 
-// The reason for a difference. report/words/ has one sentence for each cause. Brackets list the
-// data of a cause: numbers in quotes, facts in <angles>, other members by their names.
+// The reason for a difference. report/words/ has one sentence for each cause. The brackets list the
+// data of each cause: numbers in quotes, facts in <angle brackets>, and other members by their
+// names.
 enum class DifferenceCause : std::uint8_t {
-  ended,                   // a side did not measure the configuration [sides: how it ended]
+  ended,                   // a side did not measure the configuration [sides: the outcome]
   only_one_side,           // only one side has the configuration [side]
   no_reference,            // there is no reference image [sides: the reason]
   wrong_image,             // an image is wrong [sides: the errors of each wrong image]
   other_bits,              // both images are right, but not identical ["pixels" of "total", …]
-  other_bits_of_one_code,  // the same, although device, settings and device code are equal
-  two_counters,            // different emulators counted the instructions [<a> <b>]
+  other_bits_of_one_code,  // as above, although device, settings and device code are equal
+  two_counters,            // the sides used different instruction counters [<a> <b>]
   values_changed,          // values differ [changes]
   code_changed,            // the compiler's report differs [code]
   code_total,              // the total over all configurations differs [total]
@@ -64,12 +65,12 @@ enum class DifferenceCause : std::uint8_t {
   drivers_must_agree,      // the APIs define this value [changes]
   drivers_may_differ,      // the APIs leave this value to the driver [changes]
   counted_differently,     // a driver does not count the value exactly [changes, worths]
-  calibration_changed,     // a driver now counts a statistic in another way [worths]
+  calibration_changed,     // a driver now counts a statistic differently [worths]
   limit_changed            // a limit of the device changed; a device may lack it [<a> <b>]
 };
 [[nodiscard]] std::string_view name_of(DifferenceCause cause);
 
-// The observations of side a, and those of side b.
+// The observations for side a and for side b.
 template <typename T>
 using BySide = std::array<std::optional<T>, 2>;
 
@@ -78,8 +79,8 @@ struct Difference {
   Subject subject = Subject::outcome;
   DifferenceCause cause = DifferenceCause::values_changed;
   std::string name = {};                   // name of the counter, statistic, limit or total
-  std::optional<double> ratio = {};        // b divided by a, if both report it and it is not zero
-  std::optional<measure::Side> side = {};  // the only side that has it
+  std::optional<double> ratio = {};        // b divided by a, if both values exist and are not zero
+  std::optional<measure::Side> side = {};  // the side, if only one side has the value
   std::map<std::string, double> numbers = {};
   std::map<std::string, std::string> facts = {};
   std::vector<judge::Change> changes = {};  // from a to b
@@ -87,23 +88,24 @@ struct Difference {
   BySide<record::StatisticWorth> worths = {};
   std::optional<judge::CodeComparison> code = {};
   std::optional<judge::CodeTotal> total = {};
-  std::string injected = {};  // faults that `run --inject` put into a side
+  std::string injected = {};  // faults injected into a side with --inject
 
-  [[nodiscard]] std::string about() const;  // "image", "counter samples"
+  [[nodiscard]] std::string about() const;  // such as "image" or "counter samples"
 };
 
-// Differences of one kind about one measurement, which are reported once.
+// Differences of the same kind in the same measurement, which are reported as one.
 struct DifferenceGroup {
-  Difference difference;  // the one with the largest change, otherwise the first
-  std::string where;      // its configuration; empty: the device
+  Difference difference;  // the difference with the largest change, or the first one
+  std::string where;      // the configuration of `difference`; empty: the device
   int count = 0;
-  std::optional<std::pair<double, double>> ratios;  // smallest and largest
+  std::optional<std::pair<double, double>> ratios;  // the smallest and the largest
 };
 
-// A difference with its configuration; empty: the device.
+// A configuration, and a difference in it. The configuration is empty for a difference between the
+// devices.
 using Located = std::pair<std::string, Difference>;
-// Sorted by kind with the worst first, then by measurement. Injected faults form groups of their
-// own, so that nobody takes them for a driver's.
+// Groups the differences. The groups are sorted by kind (worst first) and then by measurement.
+// Injected faults form separate groups, so that nobody mistakes them for driver faults.
 [[nodiscard]] std::vector<DifferenceGroup> grouped(const std::vector<Located>& differences);
 
 }  // namespace triptych::comparison

@@ -18,11 +18,11 @@ using Kind = DifferenceKind;
 using Cause = DifferenceCause;
 using measure::Side;
 
-// The additional share of instructions that is allowed for a frame of another driver, or of the
-// same driver with other settings. A time must grow by the same share to count as slower.
+// The relative increase in instructions that is allowed for a frame on another driver, or on the
+// same driver with other settings. A time must increase by the same amount to count as slower.
 constexpr double frame_across_setups = 0.01;
-// Smaller changes of the cost of preparing are not reported, because that cost varies from run to
-// run.
+// Changes in the preparation cost up to this fraction are not reported, because that cost varies
+// from run to run.
 constexpr double of_preparing = 0.05;
 
 template <typename Map>
@@ -38,7 +38,8 @@ std::optional<std::uint64_t> value_in(const record::Counts& counts, const std::s
   return found == counts.end() ? std::nullopt : std::optional(found->second);
 }
 
-// The number of pixels in which two images differ, and the pixel with the largest difference.
+// Returns the number of pixels in which two images differ, and the pixel with the largest
+// difference.
 std::map<std::string, double> image_change(const core::Image& a, const core::Image& b) {
   core::Image no_bound(a.width, a.height);
   core::Image colours_a = a;
@@ -62,7 +63,8 @@ std::map<std::string, double> image_change(const core::Image& a, const core::Ima
   return numbers;
 }
 
-// The value of a counter or statistic on both sides; missing is not zero.
+// Returns the values of a counter or statistic on both sides. A missing value does not count as
+// zero.
 judge::Change change_of(const std::string& name, std::optional<std::uint64_t> a,
                         std::optional<std::uint64_t> b) {
   judge::Change change{.name = name};
@@ -103,7 +105,7 @@ class Finder {
     return result_.differences.back();
   }
 
-  // The outcome of a side; empty if it measured the configuration.
+  // Returns the outcome of a side, or nullopt if the side measured the configuration.
   static std::optional<judge::Observation> end_of(const record::Record& record) {
     if (record.outcome == record::Outcome::measured) return std::nullopt;
     return judge::Observation{
@@ -121,7 +123,7 @@ class Finder {
                        .side = blames_b ? Side::b : Side::a,
                        .outcome = ended.outcome,
                        .reason = ended.reason};
-    // If neither side supports the configuration, that is not a difference.
+    // If neither side supports the configuration, there is no difference.
     if (a == b && a == Outcome::skipped) return false;
     Difference& found = add(kind_of_end(a, b), Subject::outcome, Cause::ended);
     if (!blames_b || found.kind == Kind::unjudged) found.sides[0] = end_of(a_.record);
@@ -139,7 +141,8 @@ class Finder {
     return new_fault ? Kind::regression : Kind::unjudged;
   }
 
-  // nullopt if the image is right, or if there is no reference image to compare it with.
+  // Returns the fault in a side's image. Returns nullopt if the image is right, or if there is no
+  // reference image.
   static std::optional<judge::Observation> fault_of(const ComparedSide& side) {
     if (side.truth == nullptr) return std::nullopt;
     judge::Observation what = judge::image_observation(
@@ -183,8 +186,8 @@ class Finder {
   }
 
   // If both sides are the same device, each part of the frame is compared within its small
-  // tolerance, even if the programs differ. For two versions of a device, the frame as a whole may
-  // grow by frame_across_setups.
+  // tolerance, even if the programs differ. For two versions of a device, the cost of the whole
+  // frame may grow by frame_across_setups.
   void cost() {
     const record::Counts& before = a_.record.cost;
     const record::Counts& now = b_.record.cost;
@@ -217,8 +220,8 @@ class Finder {
     found.ratio = now / before;
   }
 
-  // Worse code for the same device id is a regression, even across driver versions. Code for two
-  // different devices may differ.
+  // For the same device id, worse code is a regression, even across driver versions. The code of
+  // two different devices may differ.
   void code() {
     if (a_.record.code.empty() || b_.record.code.empty()) return;
     judge::CodeComparison comparison = judge::compare_code(a_.record.code, b_.record.code);
@@ -249,7 +252,7 @@ class Finder {
     found.ratio = all_b / all_a;
   }
 
-  // Adds a counter or a statistic that only one side reports.
+  // Adds a counter or statistic that only one side reports.
   void add_of_one_side(Subject subject, const judge::Change& change) {
     const bool lost = !change.now && same_driver_;
     Difference& found =
@@ -347,8 +350,8 @@ std::vector<Difference> find_differences(const record::Device& a, const record::
           });
   changed(a.statistics_calibration, b.statistics_calibration,
           [&](const std::string& name, const auto* before, const auto* now) {
-            // A run calibrates only the statistics that its techniques need. A statistic that one
-            // run did not calibrate is not compared.
+            // A run calibrates only the statistics needed by its techniques. A statistic that one
+            // of the runs did not calibrate is not compared.
             if (before == nullptr || now == nullptr) return;
             differences.push_back({.kind = Kind::calibration,
                                    .subject = Subject::statistic,

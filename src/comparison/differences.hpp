@@ -1,5 +1,5 @@
 #pragma once
-// Finds the differences between two records of one configuration, except in time.
+// Finds all differences, except times, between two records of the same configuration.
 
 #include <string>
 #include <vector>
@@ -12,11 +12,11 @@
 
 namespace triptych::comparison {
 
-// One side of a comparison: the record, and its device.
+// One side of a comparison: a record and its device.
 struct ComparedSide {
   const record::Record& record;
   const record::Device& device;
-  const core::Image& image;  // empty for a technique without an image
+  const core::Image& image;  // empty if the technique produces no image
   const judge::TruthPair* truth = nullptr;
   std::string no_truth = {};  // why there is no reference image
   judge::FindOpenCounts open_counts = {};
@@ -24,17 +24,18 @@ struct ComparedSide {
 
 struct Comparison {
   std::vector<Difference> differences;  // worst first
-  // Why times of this configuration are meaningless; empty if they are valid.
+  // The reason why the times of this configuration are meaningless; empty if the times are valid.
   TimeReason no_time;
 };
 
-// `same_setup`: both sides run the same program in the same environment, so that the same device
-// code on the same device must give the same bits.
+// Finds the differences between two records. `same_setup` means that both sides run the same
+// program in the same environment. In this case, the same device code on the same device must
+// produce bit-identical images.
 [[nodiscard]] Comparison find_differences(const ComparedSide& a, const ComparedSide& b,
                                           bool same_setup);
 
-// Limits and capabilities that were gained, lost or changed, and changes of the statistics
-// calibration, for two versions of one device. For two different devices nothing is compared.
+// Finds limits and capabilities that were gained, lost or changed, and changes in the statistics
+// calibration, between two versions of the same device. Returns nothing for two different devices.
 [[nodiscard]] std::vector<Difference> find_differences(const record::Device& a,
                                                        const record::Device& b);
 

@@ -29,8 +29,8 @@ std::map<std::string, MeasuredByConfiguration> by_device(const record::Store& st
   return devices;
 }
 
-// The shortest end of the store's path that no other store has: the file name, with as many folders
-// as necessary.
+// Returns the shortest suffix of the store's path that is unique among the stores: the file name,
+// preceded by as many folders as necessary.
 std::string name_among(const std::string& store, const std::set<std::string>& stores) {
   std::filesystem::path name;
   const std::filesystem::path path(store);
@@ -129,9 +129,9 @@ void HistoryBuilder::add_changes(const record::Store& store,
   }
 }
 
-// Adds the values of one store to the chain, and returns their mean ratio to the first store, which
-// is 1 for the first store itself. nullopt if there is no value, or if no earlier store has a value
-// of the same configurations.
+// Adds the values from one store to the chain. Returns their mean ratio to the first store, which
+// is 1 for the first store itself. Returns nullopt if there is no value, or if no earlier store has
+// values for any of the same configurations.
 std::optional<double> HistoryBuilder::extend(Chain& chain, const MeasuredByConfiguration& here,
                                              std::optional<double> Measured::*value) {
   double sum = 0;

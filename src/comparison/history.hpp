@@ -1,6 +1,6 @@
 #pragma once
-// The changes from store to store over many days or commits, except in times, and the development
-// of cost and time since the first store.
+// The changes from store to store over many days or commits, except in times, and how cost and time
+// have developed since the first store.
 
 #include <map>
 #include <optional>
@@ -13,32 +13,33 @@
 
 namespace triptych::comparison {
 
-// A device in one store.
+// The results of a device in one store.
 struct HistoryPoint {
   std::string store;       // the file name
-  std::string started_at;  // start of its first run
+  std::string started_at;  // when the first run in the store started
   std::string driver_version;
-  std::string triptych;            // version of the program
-  std::set<std::string> injected;  // faults that `run --inject` put into it
+  std::string triptych;            // version of the program that measured
+  std::set<std::string> injected;  // faults injected with `run --inject`
   // Cost and time relative to the first point. From point to point, they change by the geometric
-  // mean of the ratios of all configurations, each relative to the last store that has it. Empty if
-  // no earlier store has any of the configurations.
+  // mean of the ratios of all configurations. Each ratio is relative to the most recent earlier
+  // store that contains the configuration. nullopt if no earlier store contains any of the
+  // configurations.
   std::optional<double> cost;  // instructions of generated code and driver
-  std::optional<double> time;  // median of the frames by the wall clock, which all stores have
-  // The changes of each configuration relative to the last store that has it.
+  std::optional<double> time;  // median frame time on the wall clock, which all stores have
+  // The changes of each configuration relative to the most recent earlier store that contains it.
   std::vector<DifferenceGroup> changes;
-  bool worse = false;  // whether a regression is among them
+  bool worse = false;  // whether `changes` contains a regression
 };
 
 struct DeviceHistory {
   std::string device;
   std::vector<HistoryPoint> points;
 
-  // The first point that is worse than the previous one; nullptr if there is none.
+  // Returns the first point that is worse than the previous point, or nullptr if there is none.
   [[nodiscard]] const HistoryPoint* first_worse() const;
 };
 
-// A configuration on a device, with cost and time if it was measured.
+// A configuration on a device. Cost and time are set if it was measured.
 struct Measured {
   std::optional<double> cost;
   std::optional<double> time;
@@ -46,35 +47,37 @@ struct Measured {
 };
 using MeasuredByConfiguration = std::map<std::string, Measured>;  // by plan and configuration
 
-// Sorts the stores by the start of their first run. Stores with equal starts keep the given order.
+// Sorts the stores by the start of their first run. Stores with equal start times keep the given
+// order.
 [[nodiscard]] std::vector<record::Store*> in_order(const std::vector<record::Store*>& stores);
 
-// `devices` are globs; if empty, all devices. Throws what record::Store throws.
+// Builds the histories of the devices that match one of the globs `devices`, or of all devices if
+// there are no globs. Throws the same exceptions as record::Store.
 class HistoryBuilder {
  public:
   explicit HistoryBuilder(std::vector<std::string> devices) : devices_(std::move(devices)) {}
 
   // Adds the next store, which must outlive this object. `truths` must provide the reference images
-  // for its records and for those of the previous stores.
+  // for the records of this store and of all previous stores.
   void add(const record::Store& store, measure::Truths& truths);
   [[nodiscard]] const std::vector<DeviceHistory>& devices() const { return history_; }
 
  private:
   using Points = std::map<std::string, HistoryPoint>;  // by device
-  // The last values of a configuration, and their ratios to the first point.
+  // The most recent value of a configuration, and its ratio to the first point.
   struct Link {
     double amount;
     double value;
   };
   using Chain = std::map<std::string, Link>;
-  struct Known {  // about a device
+  struct Known {  // known values of a device
     Chain cost;
     Chain time;
-    const record::Store* last = nullptr;                 // the last store with the device
-    std::map<std::string, const record::Store*> holder;  // the last store with each configuration
+    const record::Store* last = nullptr;                 // the latest store with the device
+    std::map<std::string, const record::Store*> holder;  // the latest store with each configuration
 
-    // The store with which a configuration is compared: the last one with the device if none has
-    // the configuration.
+    // Returns the store with which a configuration is compared: the latest store that contains the
+    // configuration, or else the latest store that contains the device.
     [[nodiscard]] const record::Store* before(const std::string& configuration) const;
   };
   [[nodiscard]] Points points_of(const record::Store& store) const;
@@ -91,7 +94,8 @@ class HistoryBuilder {
   std::map<std::string, Known> known_;  // by device
 };
 
-// The shortest end of each store's path that distinguishes it from the others, by path.
+// Returns, for each store, the shortest suffix of its path that distinguishes it from the other
+// stores. The key is the path.
 [[nodiscard]] std::map<std::string, std::string> names_of(
     const std::vector<DeviceHistory>& history);
 

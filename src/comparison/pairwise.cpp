@@ -17,8 +17,8 @@ double upper_tail(double z) {
   return estimation::student_t_upper_tail(z, infinite);
 }
 
-// Ranks by distance from 0, doubled so that the mean ranks of ties are whole numbers, and the sum
-// of t³ − t over the groups of t ties.
+// Ranks by distance from 0, and the sum of t³ − t over all groups of t ties. The ranks are doubled,
+// so that the mean ranks of ties are integers.
 struct Ranks {
   std::vector<std::size_t> doubled;  // smallest distance first
   std::size_t doubled_statistic = 0;
@@ -43,7 +43,7 @@ Ranks rank(std::vector<double> values) {
   return ranks;
 }
 
-// P(sum = s) for s = 0, 1, …, where each rank is in the sum with probability ½.
+// Returns P(sum = s) for s = 0, 1, …, where each rank is part of the sum with probability ½.
 std::vector<double> null_distribution(std::span<const std::size_t> ranks) {
   std::vector<double> share{1};
   for (const std::size_t rank : ranks) {
@@ -64,8 +64,8 @@ double statistic_variance(double n, double ties) {
   return n * (n + 1) * (2 * n + 1) / 24 - ties / 48;
 }
 
-// The number of sorted Walsh averages outside of the interval at each end: the largest k with
-// P(V ≤ k − 1) ≤ tail for distinct differences; 0 if there is none.
+// Returns the number of sorted Walsh averages that are outside the interval at each end. This is
+// the largest k with P(V ≤ k − 1) ≤ tail for distinct differences, or 0 if there is no such k.
 std::size_t averages_outside(std::size_t n, double tail) {
   if (n > most_for_exact) {
     const auto count = static_cast<double>(n);
@@ -86,8 +86,8 @@ std::size_t averages_outside(std::size_t n, double tail) {
   return k;
 }
 
-// The smallest assumed variance between process runs. No clock resolves a millionth of a batch, so
-// a smaller variance would be an artefact of the timers.
+// The smallest variance that is assumed between process runs. No clock resolves a millionth of a
+// batch, so a smaller variance would be an artefact of the timers.
 constexpr double least_variance = 1e-12;
 
 PairVerdict unconfirmed(const Interval& interval, const SequentialDesign& design) {

@@ -1,5 +1,5 @@
 #pragma once
-// The differences between two runs of one plan, configuration by configuration, except in time.
+// The differences, except times, between two runs of one plan, configuration by configuration.
 
 #include <array>
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace triptych::comparison {
 
-// One device of one run.
+// A device in a run.
 struct RunSide {
   const record::Store& store;
   std::string run;
@@ -23,21 +23,21 @@ struct RunSide {
 struct ConfigurationDiff {
   std::string key;
   std::vector<Difference> differences;  // worst first
-  // The reason why its times are meaningless, and the outcome of the side that did not measure it,
-  // if that is the reason.
+  // The reason why the times of this configuration are meaningless. If the reason is that a side
+  // did not measure the configuration, `ended` is the outcome of that side.
   TimeReason no_time;
   std::optional<record::Outcome> ended;
   std::optional<judge::WorkChange> work;       // b relative to a
-  std::array<bool, 2> device_clock_trusted{};  // of a and of b
+  std::array<bool, 2> device_clock_trusted{};  // for a and for b
 };
 
 struct RunDiff {
-  std::vector<Difference> device;  // between the two devices themselves
-  // In the order of a, followed by those that only b has.
+  std::vector<Difference> device;  // between the devices, such as their limits
+  // The configurations in the order of a, followed by the configurations that only b has.
   std::vector<ConfigurationDiff> configurations;
 };
 
-// `same_setup`: see find_differences.
+// Compares two runs. See find_differences() for `same_setup`.
 [[nodiscard]] RunDiff diff_runs(const RunSide& a, const RunSide& b, measure::Truths& truths,
                                 bool same_setup);
 

@@ -11,10 +11,10 @@
 namespace triptych::comparison {
 namespace {
 
-using Value = double (*)(const record::Record&);  // 0 if there is none
+using Value = double (*)(const record::Record&);  // returns 0 if the record has no value
 using ByDevice = std::map<std::string, const record::Record*>;
 
-// Counters for the work of a frame, which every API counts in the same way.
+// Counters that describe the work of a frame. Every API counts them in the same way.
 constexpr std::array<const char*, 3> telling_work{"samples", "fragments", "primitives"};
 
 double instructions_of(const record::Record& record) {
@@ -32,7 +32,8 @@ double wall_time_of(const record::Record& record) {
   return time_by(record, "wall");
 }
 
-// Technique → configuration → the devices that measured it, if there are several.
+// Returns, for each technique, the configurations that several devices measured, with the devices'
+// records.
 std::map<std::string, std::vector<ByDevice>> measured_by(std::span<const record::Record> records,
                                                          Value value) {
   std::map<std::string, ByDevice> by_configuration;
@@ -56,7 +57,8 @@ double geometric_mean(const std::vector<ByDevice>& configurations, const std::st
   return std::exp(logs / static_cast<double>(configurations.size()));
 }
 
-// `shared`: the configurations that all `devices` measured; not empty.
+// Returns the row of a technique. `shared` contains the configurations that all `devices` measured,
+// and must not be empty.
 SideBySide::Row row_of(const std::string& technique, const std::vector<ByDevice>& shared,
                        const std::set<std::string>& devices, Value value) {
   SideBySide::Row row{technique, shared.size(), {}, {}};
@@ -80,7 +82,8 @@ SideBySide::Row row_of(const std::string& technique, const std::vector<ByDevice>
   return row;
 }
 
-// Times on different clocks are never compared.
+// Returns whether all times were measured on device clocks. Times on different clocks are never
+// compared.
 bool all_by_device_clock(std::span<const record::Record> records) {
   return std::ranges::all_of(records, [](const record::Record& each) {
     return each.time_ns().empty() || each.clock() == "device";

@@ -1,5 +1,6 @@
 #pragma once
-// A table with the cost or time of each technique on each device, relative to the best device.
+// A table with the cost or time of each technique on each device, relative to the best device for
+// that technique.
 
 #include <map>
 #include <optional>
@@ -11,31 +12,32 @@
 
 namespace triptych::comparison {
 
-// Means are geometric, over the configurations that all devices of the row measured, so that no
-// large scene outweighs the others.
+// Values are geometric means over the configurations that all devices of a row measured. With a
+// geometric mean, no large scene outweighs the others.
 struct SideBySide {
   struct Cell {
     double value = 0;  // instructions or nanoseconds per frame
-    double ratio = 1;  // to the best device of the row
-    // Counters that explain the difference, as ratios to the best device.
+    double ratio = 1;  // relative to the best device of the row
+    // Counters that explain the difference, relative to the best device.
     std::map<std::string, double> work = {};
   };
   struct Row {
     std::string technique;
     std::size_t configurations = 0;
-    std::string best;  // device
-    // By device; absent if the device does not have the technique.
+    std::string best;  // the best device
+    // The cells by device. A device that does not support the technique has no cell.
     std::map<std::string, Cell> cells;
   };
   std::string unit;   // "instructions" or "ns"
-  std::string clock;  // for times "device" or "wall"
+  std::string clock;  // "device" or "wall"; empty if the unit is not "ns"
   std::vector<std::string> devices;
   std::vector<Row> rows;
 };
 
-// The table of one run. It contains instructions if at least two devices counted them, otherwise
-// times: by the device clock if all of them trust it, otherwise by the wall clock. nullopt if no
-// configuration was measured by two devices.
+// Returns the table for one run. It contains instructions if at least two devices counted them.
+// Otherwise it contains times: on the device clocks if the device clocks of all devices are
+// trusted, or else on the wall clock. Returns nullopt if no configuration was measured by two
+// devices.
 [[nodiscard]] std::optional<SideBySide> side_by_side(std::span<const record::Record> records);
 
 }  // namespace triptych::comparison

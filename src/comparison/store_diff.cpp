@@ -27,7 +27,7 @@ std::map<std::string, record::Device> devices_of(const record::Store& store, con
   return devices;
 }
 
-// Adds an entry for each key that exists in only one of two maps. `made_of` makes the entry.
+// Adds an entry for each key that exists in only one of two maps. `made_of` creates the entry.
 template <typename Map, typename MadeOf>
 void add_only_one(const Map& a, const Map& b, const MadeOf& made_of, std::set<OnlyOne>& out) {
   for (const auto& [name, value] : a) {
@@ -38,14 +38,14 @@ void add_only_one(const Map& a, const Map& b, const MadeOf& made_of, std::set<On
   }
 }
 
-// Whether two differences between the same two devices are the same one.
+// Returns whether two differences found in two runs of the same two devices are equal.
 bool is_same(const Difference& a, const Difference& b) {
   return a.subject == b.subject && a.name == b.name && a.facts == b.facts && a.worths == b.worths &&
          a.total == b.total;
 }
 
-// Each run contains a description of the device, so the same difference may be found in several
-// runs.
+// Adds the differences that are not in the list yet. Each run contains a description of the device,
+// so the same difference may be found in several runs.
 void add_new(const std::vector<Difference>& more, std::vector<Difference>& differences) {
   for (const Difference& each : more) {
     const bool known = std::ranges::any_of(

@@ -1,6 +1,6 @@
 #pragma once
-// The differences between two stores, for example before and after a driver upgrade, except in
-// time. Neither driver needs to be installed.
+// The differences, except times, between two stores, for example from before and after a driver
+// upgrade. Neither driver needs to be installed.
 
 #include <compare>
 #include <string>
@@ -11,22 +11,23 @@
 
 namespace triptych::comparison {
 
-// The changes of a device over all plans that have a run in both stores.
+// The changes on one device, over all plans that have a run in both stores.
 struct DeviceChange {
   record::Device a;
   record::Device b;
-  std::vector<Difference> device;                 // between the two devices themselves
-  std::vector<ConfigurationDiff> configurations;  // each "PLAN CONFIGURATION"
+  std::vector<Difference> device;                 // between the devices, such as their limits
+  std::vector<ConfigurationDiff> configurations;  // their keys are "PLAN CONFIGURATION"
 
   [[nodiscard]] bool has(DifferenceKind kind) const;
 };
 
-// The differences, grouped so that each is reported once even if several configurations share it.
+// Groups the differences, so that a difference that several configurations share is reported only
+// once.
 [[nodiscard]] std::vector<DifferenceGroup> groups_of(const DeviceChange& change);
-// Whether any configuration was measured on both sides.
+// Returns whether any configuration was measured on both sides.
 [[nodiscard]] bool was_measured(const DeviceChange& change);
 
-// A plan, or a device of a plan, that only one store has.
+// A plan, or a device in a plan, that exists in only one of the two stores.
 struct OnlyOne {
   std::string plan;
   std::string device;  // empty: the whole plan
@@ -38,14 +39,15 @@ struct StoreDiff {
   std::vector<DeviceChange> devices;
   std::vector<OnlyOne> only_one;
 
-  // cannot_judge if no device is in both stores, if one store lacks something, or if neither side
-  // measured anything.
+  // Returns regression if there is a regression. Returns cannot_judge if no configuration was
+  // measured on both sides, if one of the stores lacks a plan or device, or if something could not
+  // be judged.
   [[nodiscard]] core::ExitCode exit_code() const;
 };
 
-// Compares the latest run of each plan in both stores, for the devices that match one of the globs,
-// or for all without globs. `truths` must provide the reference images for the records of both
-// stores. Throws what record::Store throws.
+// Compares the latest run of each plan in both stores, for the devices that match one of the globs
+// `devices`, or for all devices if there are no globs. `truths` must provide the reference images
+// for the records of both stores. Throws the same exceptions as record::Store.
 [[nodiscard]] StoreDiff diff_stores(const record::Store& a, const record::Store& b,
                                     const std::vector<std::string>& devices,
                                     measure::Truths& truths);

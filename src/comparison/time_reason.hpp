@@ -1,6 +1,6 @@
 #pragma once
-// Why there is no verdict on the time of a configuration, and why it was measured by the wall
-// clock, as data. report/words/comparison.hpp makes the sentences.
+// The reasons why there is no verdict on the time of a configuration, and why the wall clock was
+// used to measure it, as data. report/words/comparison.hpp turns them into sentences.
 
 #include <cstdint>
 #include <map>
@@ -13,14 +13,16 @@
 
 namespace triptych::comparison {
 
-// Brackets list the data of a cause: numbers in quotes, other members by their names.
+// The reason why there is no verdict on a time. The brackets list the data of each cause: numbers
+// in quotes, and other members by their names.
 enum class TimeCause : std::uint8_t {
   none,
   side_ended,             // a side did not measure the configuration [side, outcome, reason]
   only_one_side,          // only one side has the configuration [side]
   wrong_image,            // the image of a side is wrong, so its time has no meaning [side]
   no_fresh_process_runs,  // new process runs could not be measured [suspected]
-  not_confirmed,          // new process runs did not confirm it [suspected "ratio" "process_runs"]
+  not_confirmed,          // new process runs did not confirm the suspicion [suspected "ratio"
+                          // "process_runs"]
   undecided,              // all blocks were measured without a decision ["blocks" "half_width"]
   budget_ended            // the time budget ended before a decision ["blocks" "half_width"]
 };
@@ -40,7 +42,7 @@ struct TimeReason {
 // Why the wall clock was used instead of the device clocks.
 enum class WallClockCause : std::uint8_t {
   none,              // the device clocks were used
-  a_not_calibrated,  // the device clock of a did not pass its calibration
+  a_not_calibrated,  // the device clock of side a failed its calibration
   b_not_calibrated,
   neither_calibrated,
   implausible  // the device times of the batches are implausible

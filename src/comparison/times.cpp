@@ -1,4 +1,4 @@
-// Interleaved frame times of two sides.
+// Measures interleaved frame times of two sides.
 
 #include "comparison/times.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 using measure::Side;
 using measure::SideClock;
 
-// A configuration with the data that is needed to measure more of its blocks.
+// A configuration, and the data needed to measure more blocks of it.
 struct Entry {
   Compared& compared;
   std::array<std::vector<std::string>, 2> faults;
@@ -35,7 +35,7 @@ class Timer {
                       .seed = options.seed},
                      options.a, options.b) {
     for (Compared& each : compared) {
-      if (!each.reason.empty()) continue;  // its times would be meaningless
+      if (!each.reason.empty()) continue;  // because its times would be meaningless
       entries_.push_back({each,
                           {std::vector<std::string>{},
                            measure::faults_for(options_.faults, each.key, options_.b.device)},
@@ -51,8 +51,8 @@ class Timer {
   }
 
  private:
-  // Runs `act` for a configuration and counts its time. If a side dies, only this configuration
-  // ends.
+  // Calls `act` for a configuration and adds the elapsed time to it. If the worker of a side dies,
+  // only this configuration ends.
   template <typename Act>
   void about(Entry& entry, const Act& act) {
     const measure::Stopwatch stopwatch;
@@ -145,7 +145,7 @@ class Timer {
     return options_.budget && since_begin_.elapsed() >= *options_.budget;
   }
 
-  // The least time that confirming the current suspects takes.
+  // Returns the minimum time needed to confirm the current suspects.
   [[nodiscard]] double confirmation_s() const {
     double seconds = 0;
     for (const Entry& entry : entries_) {
@@ -160,7 +160,7 @@ class Timer {
     return seconds;
   }
 
-  // Whether more blocks would take the time that the confirmation needs.
+  // Returns whether measuring more blocks would use up the time needed for the confirmation.
   [[nodiscard]] bool must_confirm() const {
     return options_.budget && since_begin_.seconds() + confirmation_s() >=
                                   std::chrono::duration<double>(*options_.budget).count();
@@ -173,7 +173,8 @@ class Timer {
            options_.design.next_look(compared.blocks) > 0;
   }
 
-  // An upper limit: every block that could still be requested, or the budget.
+  // Returns an upper limit for the remaining time: the time for all blocks that could still be
+  // requested, or the rest of the budget.
   [[nodiscard]] double most_left_s() const {
     double left = 0;
     for (const Entry& entry : entries_) {
@@ -202,7 +203,8 @@ class Timer {
       const int total = static_cast<int>(entries_.size());
       show({.stage = ComparisonStage::more_blocks}, *widest, total - open, total, most_left_s());
       about(*widest, [&] {
-        // If the budget ends first, the blocks so far are evaluated in place of the planned look.
+        // If the budget ends first, the blocks measured so far are evaluated instead of the planned
+        // look.
         draw_until(*widest, options_.design.next_look(widest->compared.blocks));
         judge_blocks(*widest);
       });
@@ -254,7 +256,7 @@ class Timer {
     }
   }
 
-  // Returns whether fresh process runs can be measured.
+  // Restarts both sides. Returns whether fresh process runs can be measured.
   bool restarted() {
     held_ = nullptr;
     try {
@@ -324,7 +326,7 @@ class Timer {
   measure::Stopwatch since_start_;         // runs since the first timing block
   measure::Interleaved interleaved_;
   std::vector<Entry> entries_;
-  const Entry* held_ = nullptr;  // the configuration that both workers keep ready
+  const Entry* held_ = nullptr;  // the configuration that both workers have loaded
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// The second half of a comparison: interleaved frame times of both sides.
+// The second half of a comparison, which measures interleaved frame times of both sides.
 
 #include <vector>
 
@@ -9,8 +9,8 @@
 namespace triptych::comparison {
 
 // Sets the verdict on the time of each configuration whose times are meaningful. `since` is the
-// start of the comparison, because the budget includes everything since then. Throws what
-// measure::Interleaved throws.
+// start of the comparison, because the budget includes everything since then. Throws the same
+// exceptions as measure::Interleaved.
 void measure_times(const ComparisonOptions& options, const measure::Stopwatch& since,
                    const Tell& tell, std::vector<Compared>& compared);
 

@@ -13,7 +13,8 @@
 namespace triptych::reduction {
 namespace {
 
-// "generate:mandelbulb:96" → "generate:mandelbulb:" and {96}; "256x128" → "" and {256, 128}.
+// A level that contains a size. "generate:mandelbulb:96" has the name "generate:mandelbulb:" and
+// the sides {96}, and "256x128" has the name "" and the sides {256, 128}.
 struct Sized {
   std::string name;
   std::vector<int> sides;
@@ -43,8 +44,9 @@ std::string text_of(const Sized& sized) {
                              : fmt::format("{}", fmt::join(sized.sides, "x")));
 }
 
-// 1, 2, 3, 4, 6, 8, 12, …, and then closer and closer to `size` from below. If all sizes above a
-// threshold fail, this finds a size near the threshold in few steps.
+// Returns 1, 2, 3, 4, 6, 8, 12, …, and then sizes that approach `size` from below in ever smaller
+// steps. If all sizes above a threshold fail, the search finds a size near this threshold in few
+// steps.
 std::vector<int> smaller_sizes(int size) {
   std::set<int> sizes;
   for (int each = 1; each < size; each *= 2) {

@@ -20,7 +20,8 @@ bool is_taken(const measure::Suite& suite, const measure::Factor& factor,
   }
 }
 
-// Factors that make a frame smaller come first, because then all further frames are drawn sooner.
+// Returns the factors, beginning with those that make a frame smaller, because then all further
+// frames are drawn faster.
 std::vector<const measure::Factor*> in_order(const measure::Suite& suite) {
   std::vector<const measure::Factor*> factors;
   for (const measure::Factor& each : suite.factors()) factors.push_back(&each);
@@ -49,14 +50,15 @@ class Search {
   }
 
  private:
-  // Returns whether any level could be replaced.
+  // Replaces levels of one factor as often as possible. Returns whether any level was replaced.
   bool make_plainer(const measure::Factor& factor) {
     bool any = false;
     while (take_first(factor)) any = true;
     return any;
   }
 
-  // Chooses the simplest level that still fails.
+  // Replaces the factor's level with the simplest level that still fails. Returns false if there is
+  // no such level.
   bool take_first(const measure::Factor& factor) {
     const std::string from = result_.smallest.at(factor.name);
     for (const std::string& level : plainer(factor, from)) {

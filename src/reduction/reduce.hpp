@@ -1,6 +1,6 @@
 #pragma once
-// Makes a failing configuration smaller while it still fails: greedy delta debugging over the
-// levels of its factors.
+// Makes a failing configuration smaller as long as it still fails, by greedy delta debugging over
+// the levels of its factors.
 
 #include <functional>
 #include <optional>
@@ -12,10 +12,11 @@
 
 namespace triptych::reduction {
 
-// Draws a configuration and returns how it fails; nullopt if it does not fail or cannot be drawn.
+// A function that draws a configuration and returns how it fails. It returns nullopt if the
+// configuration does not fail or cannot be drawn.
 using Try = std::function<std::optional<Failure>(const measure::Configuration&)>;
 
-// The replacement of a level by a simpler one.
+// The replacement of a level with a simpler level.
 struct Step {
   std::string factor;
   std::string from;
@@ -25,21 +26,21 @@ struct Step {
 
 struct Reduction {
   measure::Configuration smallest;
-  Failure failure;  // failure of the smallest configuration
+  Failure failure;  // the failure of the smallest configuration
   std::vector<Step> steps;
   int frames = 0;        // number of frames drawn
-  bool complete = true;  // no simpler level of any factor fails in this way; otherwise the search
-                         // reached its limit
+  bool complete = true;  // false if the search reached `most_frames` before it knew that no
+                         // simpler level of any factor fails in the same way
 };
 
-// `first` describes how `start` fails, and every smaller configuration must fail in the same way.
-// The result depends only on the answers of `attempt`, which is called at most once for a
-// configuration.
+// Reduces `start`. `first` describes how `start` fails. Every smaller configuration must fail in
+// the same way. The result depends only on the results of `attempt`, which is called at most once
+// per configuration.
 [[nodiscard]] Reduction reduce(const measure::Suite& suite, const measure::Configuration& start,
                                const Failure& first, int most_frames, const Try& attempt,
                                const std::function<void(const Step&)>& on_step);
 
-// For each factor that changed, in the suite's order: its first and its last level.
+// Returns, for each factor that changed, its first and its last level, in the suite's order.
 [[nodiscard]] std::vector<Step> changes(const measure::Suite& suite,
                                         const measure::Configuration& start,
                                         const measure::Configuration& smallest);

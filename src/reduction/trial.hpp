@@ -1,5 +1,5 @@
 #pragma once
-// Draws frames on one device, one at a time, and determines how each fails.
+// Draws frames on one device, one at a time, and determines how each frame fails.
 
 #include <chrono>
 #include <optional>
@@ -13,26 +13,27 @@
 
 namespace triptych::reduction {
 
-// The results of drawing the first frame twice, because a failure that does not repeat cannot be
-// reduced.
+// The results of drawing the first frame twice. This is done because a failure that does not repeat
+// cannot be reduced.
 struct FirstFrames {
-  std::optional<Failure> first;  // nullopt: it is right, and was drawn only once
+  std::optional<Failure> first;  // nullopt: the frame is right and was drawn only once
   std::optional<Failure> again;
 
   [[nodiscard]] bool repeats() const { return first && again && is_same_kind(*again, *first); }
 };
 
-// All arguments must outlive this object.
+// Draws configurations. All arguments of the constructor must outlive this object.
 class Trial {
  public:
-  // `other` is the device whose counters are right; empty if counters are not compared.
+  // `other` is the device whose counters are correct, or empty if counters are not compared.
   Trial(const measure::Suite& suite, const std::string& device, const std::string& other,
         const measure::RunOptions& options, measure::Truths& truths, record::Store& store);
 
-  // Throws what measure::SingleFrames::draw throws.
+  // Throws the same exceptions as measure::SingleFrames::draw().
   std::optional<Failure> operator()(const measure::Configuration& configuration);
 
-  // Draws the first frame, and again if it fails. Throws record::NotMeasured if it was skipped.
+  // Draws the first frame, and draws it again if it fails. Throws record::NotMeasured if it was
+  // skipped.
   [[nodiscard]] FirstFrames first(const measure::Configuration& start);
 
   [[nodiscard]] const record::Record& last() const noexcept { return last_; }
@@ -48,10 +49,10 @@ class Trial {
   record::Record last_;
 };
 
-// The time after which a frame of the search counts as hung. It should be short, because each frame
-// that hangs takes this time. But a driver may take longer than that to crash, and the crash would
-// then look like a hang. Therefore the limit depends on the time of the first frame, which is drawn
-// with the limit of a normal run.
+// Returns the time after which a frame of the search counts as hung. The limit should be short,
+// because each hanging frame takes this time. But if it is too short, a driver that takes a long
+// time to crash would look as if it hangs. Therefore the limit is derived from the time of the
+// first frame, which is drawn with the limit of a normal run.
 [[nodiscard]] std::chrono::seconds limit_by_first_frame(const measure::Suite& suite,
                                                         const std::string& device,
                                                         const measure::Configuration& start,

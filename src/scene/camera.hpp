@@ -35,8 +35,8 @@ struct Box {
   glm::dvec3 hi{1, 1, 1};
 };
 
-// Returns the camera that a value of the `camera` factor describes: "PATH:i/n" with 0 ≤ i < n and λ
-// = i/n, "random:SEED", or "view:…" (free_view.hpp). Let c be the box's centre, s its size, L its
+// Returns the camera that a level of the factor `camera` describes: "PATH:i/n" with 0 ≤ i < n,
+// "random:SEED", or "view:…" (free_view.hpp). Let λ = i/n, c the box's centre, s its size, L its
 // largest extent, and D = (L/2)/tan(fov/2). The paths are:
 // clang-format off
 //   orbit_x|y|z      a circle of radius L/2 + D about that axis, at the angle 2πλ, looking at c

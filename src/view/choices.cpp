@@ -18,7 +18,7 @@ void offer(std::vector<std::string>& offers, const std::string& value) {
   if (std::ranges::find(offers, value) == offers.end()) offers.push_back(value);
 }
 
-// Sorts numbers by size, and puts words after them in their original order.
+// Sorts numbers by value, and moves other words to the end in their original order.
 void sort_numbers(std::vector<std::string>& offers) {
   const auto number = [](const std::string& text) {
     double value = 0;
@@ -29,7 +29,8 @@ void sort_numbers(std::vector<std::string>& offers) {
   std::ranges::stable_sort(offers, {}, number);
 }
 
-// Returns "generate:NAME" with the size of the default, such as ":96" of "generate:mandelbulb:96".
+// Returns "generate:NAME" with the size of the default data, such as ":96" in
+// "generate:mandelbulb:96".
 std::string generated(std::string_view name, std::string_view standard) {
   const std::size_t colon = standard.rfind(':');
   const std::string_view size =
@@ -37,13 +38,13 @@ std::string generated(std::string_view name, std::string_view standard) {
   return fmt::format("generate:{}{}", name, size);
 }
 
-// The values of a factor in an entry of a plan, each in its canonical spelling.
+// Returns the levels of a factor in an entry of a plan, in their canonical spelling.
 std::vector<std::string> values_of(const measure::Suite& suite, const measure::Factor& factor,
                                    const measure::PlanEntry& entry) {
   try {
     return measure::canonical_values(suite, factor, entry.values);
   } catch (const core::Error&) {
-    return {};  // the file does not exist here
+    return {};  // the file does not exist on this machine
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The configuration that the window shows, and the values that its controls offer.
+// The configuration that the window shows, and the levels that its controls offer.
 
 #include <map>
 #include <string>
@@ -12,13 +12,13 @@ namespace triptych::view {
 
 class Choices {
  public:
-  // The suite must outlive this object. Only its factors, plans and checks are used, so no data are
+  // `suite` must outlive this object. Only its factors, plans and checks are used, so no data are
   // loaded.
   Choices(const measure::Suite& suite, measure::Configuration first);
 
   [[nodiscard]] const measure::Suite& suite() const noexcept { return suite_; }
   [[nodiscard]] const measure::Configuration& configuration() const noexcept { return now_; }
-  // See measure::configuration_key.
+  // Returns the configuration's key (see measure::configuration_key).
   [[nodiscard]] std::string key() const;
   [[nodiscard]] const std::string& value(const std::string& factor) const {
     return now_.at(factor);
@@ -27,14 +27,15 @@ class Choices {
     return standard_.at(factor);
   }
 
-  // Sets a factor to a value, which is brought into its canonical spelling. Returns the reason if
-  // the value is rejected, and then nothing changes; empty if it is accepted.
+  // Sets a factor to a level, which is converted to its canonical spelling. Returns an empty
+  // string, or the reason if the level is rejected. In that case the configuration does not change.
   [[nodiscard]] std::string set(const std::string& factor, std::string_view value);
   // Restores the configuration with which the window was opened.
   void reset() { now_ = first_; }
 
-  // The values to choose from, in addition to any text that the user types: the levels of a factor,
-  // or the values in the suite's plans together with the data that it generates.
+  // Returns the levels that the control of a factor offers, in addition to anything that the user
+  // types. These are the factor's levels, or the levels in the suite's plans together with the
+  // suite's data generators.
   [[nodiscard]] const std::vector<std::string>& offers(const std::string& factor) const {
     return offers_.at(factor);
   }

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::chrono::seconds opening_limit{60};
 
-// A frame with a still camera is measured like one whose times are only reported. A moving camera
-// needs one frame to warm up and one time.
+// Returns how a frame is measured. A frame with a resting camera is measured like frames whose
+// times are only reported. A moving camera needs only one warm-up frame and one timed frame.
 measure::Protocol protocol_of(const Wanted& wanted) {
   measure::Protocol protocol = measure::brief_protocol;
   protocol.measure_every = true;

@@ -1,5 +1,5 @@
 #pragma once
-// A device that draws whatever the window requests, in a worker process of its own. If a driver
+// A device that draws the frames that the window requests, in its own worker process. If a driver
 // crashes or hangs, the window survives, and the worker is replaced for the next frame.
 
 #include <atomic>
@@ -29,22 +29,22 @@ struct Wanted {
   std::uint64_t number = 0;  // later frames have larger numbers
   measure::Configuration configuration;
   std::string key;  // measure::configuration_key
-  // While the mouse moves, only the image and one time are measured.
+  // While the mouse moves, only the image and a single time are measured.
   bool moving = false;
 };
 
-// The answer to a request.
+// The result of a request.
 struct Drawn {
   Wanted wanted;
   record::Record record;
   core::Image image;         // empty unless the frame was measured
-  core::RgbPicture picture;  // the image in the form in which it is displayed
+  core::RgbPicture picture;  // the image as displayed
 
   [[nodiscard]] bool has_image() const { return image.width > 0; }
 };
 
 struct LiveOptions {
-  std::string program;  // path of the program, see ViewRequest
+  std::string program;  // path of `triptych`, see ViewRequest
   std::string suite;
   std::vector<measure::InjectedFault> faults;
   std::chrono::seconds limit{};
@@ -53,26 +53,26 @@ struct LiveOptions {
 class LiveDevice {
  public:
   struct State {
-    std::shared_ptr<const Drawn> drawn;  // the last frame; nullptr before the first
+    std::shared_ptr<const Drawn> drawn;  // the latest frame; nullptr if there is none yet
     bool drawing = false;
     std::optional<measure::Loading> loading;  // set while a large data set is loading
   };
 
-  // `changed` is called on another thread whenever the state has changed. The guard must outlive
-  // this object. Throws IoError if there is no folder for the driver's cache.
+  // `changed` is called on another thread whenever the state has changed. `interrupts` must outlive
+  // this object. Throws IoError if the folder for the driver's cache cannot be created.
   LiveDevice(const measure::ViewSide& side, LiveOptions options,
              measure::InterruptGuard& interrupts, std::function<void()> changed);
-  // Waits until the thread has finished retire().
+  // Calls retire(), and waits until the thread has finished.
   ~LiveDevice();
   LiveDevice(const LiveDevice&) = delete;
   LiveDevice& operator=(const LiveDevice&) = delete;
 
-  // Requests a frame. This replaces an earlier request that is not being drawn yet.
+  // Requests a frame. Replaces an earlier request whose frame is not being drawn yet.
   void draw(Wanted wanted);
   [[nodiscard]] State state() const;
 
-  // Lets the worker exit normally. If it is drawing, it finishes its frame, or it is killed if the
-  // guard has been interrupted. Does not wait for it.
+  // Lets the worker exit normally, and does not wait for it. If the worker is drawing, it first
+  // finishes its frame. If the guard has been interrupted, the worker is killed instead.
   void retire();
   [[nodiscard]] bool is_gone() const { return gone_; }
 
@@ -81,7 +81,8 @@ class LiveDevice {
   [[nodiscard]] std::optional<Wanted> next();
   [[nodiscard]] Drawn drawn(const Wanted& wanted);
   [[nodiscard]] record::Record measured(const Wanted& wanted, std::vector<std::byte>& exr);
-  // Whether there is a worker whose clock for this kind of work is calibrated.
+  // Ensures that there is a worker whose clock is calibrated for this kind of work. Returns false
+  // if there is none.
   [[nodiscard]] bool open_for(const std::string& kind);
   [[nodiscard]] measure::Job job(const Wanted& wanted) const;
   void publish(const std::function<void(State&)>& change);
@@ -99,7 +100,7 @@ class LiveDevice {
   bool stop_ = false;
   std::atomic<bool> gone_ = false;  // the worker has exited
   State state_;
-  std::thread thread_;  // the last member, because its code uses all others
+  std::thread thread_;  // the last member, because its code uses all other members
 };
 
 }  // namespace triptych::view

@@ -22,7 +22,7 @@ struct Asked {
   std::map<std::string, double> precision;
 };
 
-// Two records with equal keys have the same reference image and bound.
+// Returns a key. Records with equal keys have the same reference image and bound.
 std::string key_of(const record::Record& record) {
   return core::Json{record.factors, record.precision}.dump(-1, ' ', true,
                                                            core::Json::error_handler_t::replace);
@@ -40,7 +40,8 @@ struct References::Shared {
   std::map<std::string, std::shared_ptr<const Reference>> ready;  // by key_of
   bool stop = false;
 
-  // Only the thread uses this: images by SuiteWithTruth::truth_key, with the newest last.
+  // Images by SuiteWithTruth::truth_key, with the newest image last. Only the thread uses this
+  // member.
   std::deque<std::pair<std::string, std::shared_ptr<const Reference>>> rendered = {};
 
   [[nodiscard]] std::shared_ptr<const Reference> reference(const Asked& wanted) {
@@ -115,7 +116,7 @@ void References::serve(const std::shared_ptr<Shared>& shared) {
       reference = std::make_shared<const Reference>(Reference{.pair = {}, .error = error.what()});
     }
     lock.lock();
-    // If the window shows another configuration by now, nobody waits for this image.
+    // If the window now shows another configuration, this image is no longer needed.
     const auto done = std::ranges::find(shared->asked, wanted.key, &Asked::key);
     if (done == shared->asked.end()) continue;
     shared->asked.erase(done);

@@ -1,5 +1,5 @@
 #pragma once
-// Reference images for the window, rendered on a thread of low priority.
+// Reference images for the window. They are rendered on a thread with low priority.
 
 #include <functional>
 #include <map>
@@ -15,23 +15,24 @@ namespace triptych::view {
 
 struct Reference {
   accuracy::TruthPair pair;
-  std::string error;  // the reason if there is no pair, otherwise empty
+  std::string error;  // the reason if there is no pair; otherwise empty
 };
 
 class References {
  public:
-  // Only the other thread uses `suite`. It calls `changed` when an image is ready.
+  // Starts the thread. Only this thread uses `suite`. It calls `changed` whenever an image is
+  // ready.
   References(std::unique_ptr<measure::SuiteWithTruth> suite, std::function<void()> changed);
-  // Does not wait for an image that is being rendered, which cannot be cancelled. Therefore the
-  // process must then end by std::_Exit.
+  // Does not wait for an image that is being rendered, because rendering cannot be cancelled. The
+  // process must therefore end with std::_Exit.
   ~References();
   References(const References&) = delete;
   References& operator=(const References&) = delete;
 
   // Requests the reference images of the records that are visible now. Missing images are rendered
-  // one after the other. Images of records that are no longer visible are not rendered.
+  // one after the other. Pending images of records that are no longer visible are not rendered.
   void show(const std::vector<const record::Record*>& records);
-  // Returns nullptr until the image is rendered.
+  // Returns nullptr if the image is not rendered yet.
   [[nodiscard]] std::shared_ptr<const Reference> find(const record::Record& record) const;
 
  private:

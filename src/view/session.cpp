@@ -15,7 +15,7 @@
 namespace triptych::view {
 namespace {
 
-// The camera counts as resting if the mouse has not turned it for this time.
+// The camera counts as resting if the mouse has not turned it for this long.
 constexpr std::chrono::milliseconds rest{250};
 
 LiveOptions live_options(const measure::ViewRequest& request) {
@@ -25,8 +25,8 @@ LiveOptions live_options(const measure::ViewRequest& request) {
           .limit = std::chrono::seconds(request.limit_s)};
 }
 
-// The free view for a camera, or for the default camera `standard` if only the worker knows the
-// camera, as is the case for "own".
+// Returns the free view for a camera. Only the worker knows cameras such as "own"; for these,
+// returns the free view for the default camera `standard`.
 scene::FreeView view_of(const std::string& camera, const std::string& standard) {
   try {
     return scene::free_view_near(camera);
@@ -61,8 +61,8 @@ Session::~Session() {
   for (Column& each : columns_) retire(each);
   const bool drawing =
       std::ranges::any_of(retired_, [](const auto& each) { return each->state().drawing; });
-  // All threads that wait for an answer react to the signal (measure::InterruptGuard). Nothing else
-  // handles it at this point.
+  // All threads that wait for a worker react to this signal (measure::InterruptGuard). No other
+  // code handles the signal at this point.
   if (drawing) ::kill(::getpid(), SIGTERM);
 }
 
@@ -159,7 +159,7 @@ std::optional<Session::Clock::time_point> Session::next_update() const {
   return rests_at_;
 }
 
-// Returns the reason why a column cannot be compared; empty if it can.
+// Returns the reason why a column cannot be compared, or an empty string if it can be compared.
 std::string Session::why_not_compared(std::size_t index) const {
   const Column& column = columns_[index];
   if (!column.shown || !column.shown->has_image()) return "no image";

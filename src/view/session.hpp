@@ -1,6 +1,6 @@
 #pragma once
-// The content of the window: columns for the devices, which share one configuration and one camera.
-// This part does not depend on a window library.
+// The content of the window: a column for each device. All columns share one configuration and one
+// camera. This part does not depend on a window library.
 
 #include <chrono>
 #include <cstdint>
@@ -23,9 +23,9 @@ struct Column {
   measure::ViewSide side;
   std::unique_ptr<LiveDevice> live;
   LiveDevice::State state = {};
-  std::shared_ptr<const Drawn> shown = {};          // the frame that is displayed
-  std::shared_ptr<const Reference> reference = {};  // its reference image, if it is rendered
-  std::shared_ptr<const ShownError> error = {};     // `why_no_error` is the reason for nullptr
+  std::shared_ptr<const Drawn> shown = {};          // the displayed frame
+  std::shared_ptr<const Reference> reference = {};  // nullptr until it is rendered
+  std::shared_ptr<const ShownError> error = {};     // if nullptr, see `why_no_error`
   std::string why_no_error = {};
 
   // The inputs from which `error` was computed.
@@ -39,7 +39,7 @@ struct Column {
   Inputs inputs = {};
 };
 
-// A session needs two suites of the same kind: one checks the values that the user types, and the
+// A session needs two suites with the same name. One checks the levels that the user types. The
 // other renders reference images on another thread.
 struct Suites {
   std::unique_ptr<measure::SuiteWithTruth> checks;
@@ -50,11 +50,11 @@ class Session {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // `changed` is called on other threads when update() has work to do. Both references must outlive
-  // this object.
+  // `changed` is called on other threads when update() has work to do. `request` and `interrupts`
+  // must outlive this object.
   Session(const measure::ViewRequest& request, Suites suites, measure::InterruptGuard& interrupts,
           std::function<void()> changed);
-  // Lets the workers exit. Workers that are drawing are killed.
+  // Lets the workers exit. Workers that are still drawing are killed.
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -66,30 +66,32 @@ class Session {
 
   void add_column(const measure::ViewSide& side);
   void remove_column(std::size_t column);
-  // Shows another device in the column, or restarts the worker of the same device.
+  // Shows another device in the column. If `side` names the same device, its worker is restarted.
   void set_side(std::size_t column, const measure::ViewSide& side);
-  // All devices of this machine, and all sides that the command line named.
+  // Returns all devices of this machine, and all sides that were named on the command line.
   [[nodiscard]] std::vector<measure::ViewSide> sides() const;
 
-  // The column with which the others are compared; nullopt if this is the reference image.
+  // Returns the column with which the other columns are compared, or nullopt if all columns are
+  // compared with the reference image.
   [[nodiscard]] std::optional<std::size_t> against() const noexcept { return against_; }
   void compare_with(std::optional<std::size_t> column) { against_ = column; }
 
-  // turn() rotates the camera by a drag of the mouse, given in shares of the image's height.
-  // approach() moves it closer by notches of the wheel.
+  // turn() rotates the camera for a mouse drag, which is given in fractions of the image height.
+  // approach() moves the camera closer by notches of the mouse wheel.
   void turn(double right, double down, Clock::time_point now);
   void approach(double notches, Clock::time_point now);
 
-  // Requests frames from the devices if the configuration has changed, and collects the frames and
-  // reference images that are finished. Returns whether anything visible has changed.
+  // Requests frames from the devices if the configuration has changed, and collects finished frames
+  // and reference images. Returns whether anything visible has changed.
   bool update(Clock::time_point now);
-  // The time at which update() must be called even if nothing else happens, because the camera will
-  // then have come to rest.
+  // Returns the time at which update() must be called even if nothing else happens, because the
+  // camera will have come to rest by then. Returns nullopt if the camera does not move.
   [[nodiscard]] std::optional<Clock::time_point> next_update() const;
-  // Whether all columns show the configuration of the controls, and each image has its error.
+  // Returns whether all columns show the current configuration, and the error of each image has
+  // been computed.
   [[nodiscard]] bool settled() const;
 
-  // The command for a column's frame, or for one pixel of it.
+  // Returns the command that draws a column's frame, or that explains one of its pixels.
   [[nodiscard]] std::string command(const Column& column,
                                     std::optional<std::pair<int, int>> pixel = std::nullopt) const;
 
@@ -110,9 +112,9 @@ class Session {
   Choices choices_;
   References references_;
   std::vector<Column> columns_;
-  std::vector<std::unique_ptr<LiveDevice>> retired_;  // of columns that are no longer visible
+  std::vector<std::unique_ptr<LiveDevice>> retired_;  // devices of columns that have been removed
   std::optional<std::size_t> against_;
-  Wanted asked_;  // the latest request, for all columns
+  Wanted asked_;  // the latest request to all columns
   std::optional<Clock::time_point> rests_at_;
 };
 

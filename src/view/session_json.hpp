@@ -1,5 +1,5 @@
 #pragma once
-// The content of a session as JSON, for `triptych view --json`.
+// Converts the content of a session to JSON, for `triptych view --json`.
 
 #include <array>
 #include <nlohmann/json_fwd.hpp>
@@ -9,8 +9,8 @@
 
 namespace triptych::view {
 
-// `images` contains for each column the position of its image in the window: x, y, width and height
-// in pixels.
+// `images` contains, for each column, the rectangle of its image in the window: x, y, width and
+// height in pixels.
 [[nodiscard]] nlohmann::json session_json(const Session& session,
                                           const std::vector<std::array<int, 4>>& images);
 

@@ -14,8 +14,8 @@
 namespace triptych::view {
 namespace {
 
-// The sum is rounded up. Two equal infinities, such as two depths without a surface, have the
-// distance 0.
+// Returns the sum of both bounds and of the distance between the reference values, rounded up. Two
+// equal infinities, such as two depths without a surface, have the distance 0.
 float sum_of_bounds(float a, float b, float truth_a, float truth_b) {
   const double apart = truth_a == truth_b
                            ? 0
@@ -31,7 +31,8 @@ std::string headline_of(const accuracy::ImageComparison& comparison) {
                ? std::string("no difference")
                : fmt::format("at most {:.3g} of the bound", comparison.worst.ratio);
   }
-  if (comparison.non_finite > 0) return fmt::format("{} pixels not finite", comparison.non_finite);
+  if (comparison.non_finite > 0)
+    return fmt::format("{} pixels are not finite", comparison.non_finite);
   if (comparison.over_bound > 0) {
     return fmt::format("{} pixel{} beyond the bound", comparison.over_bound,
                        comparison.over_bound == 1 ? "" : "s");
@@ -46,11 +47,10 @@ std::string sentence_of(const accuracy::ImageComparison& comparison, const core:
     return report::words::text_of(
         judge::image_observation(comparison, image, expected, judge::Against::reference));
   }
-  if (comparison.size_mismatch) return fmt::format("the image of {} has another size", other);
+  if (comparison.size_mismatch) return fmt::format("the image from {} has a different size", other);
   return fmt::format(
       "{} of {} pixels differ from {} by more than both bounds allow; largest difference {:.3g}, "
-      "root mean square {:.3g}; the pixel nearest to its bound is ({}, {}): difference {:.3g}, "
-      "bound {:.3g}",
+      "root mean square {:.3g}; the worst pixel is ({}, {}): difference {:.3g}, bound {:.3g}",
       comparison.over_bound, comparison.pixels, other, comparison.largest.error, comparison.rmse,
       comparison.worst.x, comparison.worst.y, comparison.worst.error, comparison.worst.bound);
 }
@@ -78,7 +78,8 @@ core::Image bound_between(const accuracy::TruthPair& a, const accuracy::TruthPai
   core::Image bound = a.bound;
   if (a.truth.rgba.size() != b.truth.rgba.size() || a.truth.ids.size() != b.truth.ids.size() ||
       a.bound.depth.size() != b.bound.depth.size()) {
-    throw core::InputError("two reference images of different sizes have no common bound");
+    throw core::InputError(
+        "the reference images have different sizes, so they have no common bound");
   }
   for (std::size_t i = 0; i < bound.rgba.size(); ++i) {
     bound.rgba[i] =

@@ -1,6 +1,6 @@
 #pragma once
-// The difference of a frame from the reference image or from another device, in the form in which
-// the window shows it.
+// The difference between a frame and the reference image, or between the frames of two devices, as
+// shown in the window.
 
 #include <string>
 #include <vector>
@@ -12,32 +12,33 @@
 namespace triptych::view {
 
 struct ShownError {
-  core::RgbPicture picture;  // errors as shares of the bound, in colour; may be empty
+  core::RgbPicture picture;  // errors relative to the bound, colour-coded; may be empty
   struct Ring {
     int x;
     int y;
   };
   std::vector<Ring> rings = {};  // around pixels beyond the bound
-  int ring_radius = 0;           // in pixels
-  bool right = false;            // true if no pixel is beyond the bound
-  double share = 0;              // largest error as a share of its pixel's bound
-  std::size_t beyond = 0;        // pixels beyond the bound
-  std::string headline = {};     // a short line
-  std::string sentence = {};     // the complete result in words
+  int ring_radius = 0;           // in image pixels
+  bool right = false;            // true if no pixel exceeds its bound
+  double share = 0;              // largest ratio of a pixel's error to its bound
+  std::size_t beyond = 0;        // number of pixels that exceed their bound
+  std::string headline = {};     // the result in a few words
+  std::string sentence = {};     // the complete result as a sentence
 };
 
-// `bound` is the bound of `expected`. `other` is the name of the device that drew `expected`; it is
-// empty if `expected` is the reference image.
+// Compares `image` with `expected`. `bound` is the bound of `expected`. `other` is the name of the
+// device that drew `expected`, or empty if `expected` is the reference image.
 [[nodiscard]] ShownError shown_error(const core::Image& image, const core::Image& expected,
                                      const core::Image& bound, const std::string& other);
 
-// The largest difference that two correct images may have. Each differs from its reference image by
-// at most its bound, so the images differ by at most the sum of both bounds and of the difference
-// of the two reference images. If a particle is certain in both, it must be the same in both.
-// Throws InputError if the sizes differ.
+// Returns the largest difference that two correct images may have. Each image differs from its
+// reference image by at most its bound. Therefore the images differ by at most the sum of both
+// bounds and the difference between the two reference images. If both bounds allow only one
+// particle in a pixel, and it is the same particle, the images must agree on it. Throws InputError
+// if the sizes differ.
 [[nodiscard]] core::Image bound_between(const accuracy::TruthPair& a, const accuracy::TruthPair& b);
 
-// The colours for shares from 0 to just beyond the bound, from left to right.
+// Returns the colour scale for errors from 0 to slightly more than the bound, from left to right.
 [[nodiscard]] core::RgbPicture scale_of_bounds(int width);
 
 }  // namespace triptych::view

@@ -1,5 +1,5 @@
 #pragma once
-// The command that draws what a column of the window shows.
+// The command that draws the content of a column.
 
 #include <optional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace triptych::view {
 
-// Makes the command `triptych render …` for a configuration, given by its key. With `pixel`, the
+// Returns the command `triptych render …` for the configuration with this key. With `pixel`, the
 // command explains that pixel instead of comparing the image with the reference image.
 [[nodiscard]] std::string render_command(const measure::ViewRequest& request,
                                          const measure::ViewSide& side, const std::string& key,

@@ -25,7 +25,7 @@ void explain(const measure::Factor& factor, const std::string& standard) {
   ImGui::EndTooltip();
 }
 
-// Draws the factor's name. It is bright if the factor does not have its default.
+// Draws the factor's name, which is bright if the factor does not have its default level.
 void draw_label(const Choices& choices, const measure::Factor& factor) {
   const std::string& standard = choices.standard(factor.name);
   const bool changed = choices.value(factor.name) != standard;
@@ -38,7 +38,7 @@ void draw_label(const Choices& choices, const measure::Factor& factor) {
   explain(factor, standard);
 }
 
-// The width of the longest name, with some space after it.
+// Returns the width of the longest name, plus some space after it.
 float labels_of(const measure::Suite& suite) {
   float width = 0;
   for (const measure::Factor& each : suite.factors()) {
@@ -47,7 +47,7 @@ float labels_of(const measure::Suite& suite) {
   return width + ImGui::GetStyle().ItemSpacing.x;
 }
 
-// Returns the value that the user has chosen, or an empty text.
+// Returns the level that the user has chosen, or an empty string if nothing was chosen.
 std::string choose(const std::vector<std::string>& offers, const std::string& now) {
   std::string chosen;
   for (const std::string& each : offers) {
@@ -150,7 +150,7 @@ void Controls::draw_columns(Session& session) const {
 }
 
 float Controls::width(const Session& session) {
-  constexpr float values = 11;  // in multiples of the height of a line
+  constexpr float values = 11;  // in multiples of the font size
   return labels_of(session.choices().suite()) + values * ImGui::GetFontSize();
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The controls on the left: one for each factor of the suite.
+// The controls on the left side of the window: one for each factor of the suite.
 
 #include <map>
 #include <string>
@@ -10,9 +10,9 @@ namespace triptych::view {
 
 class Controls {
  public:
-  // The width that the names of the suite's factors and their values need.
+  // Returns the width needed for the names and the levels of the suite's factors.
   [[nodiscard]] static float width(const Session& session);
-  // Draws the controls into the current ImGui window and applies what the user changes.
+  // Draws the controls into the current ImGui window, and applies the changes that the user makes.
   void draw(Session& session);
 
  private:
@@ -22,10 +22,10 @@ class Controls {
   static void draw_against(Session& session);
   void draw_columns(Session& session) const;
 
-  float labels_ = 0;                          // width of the names
-  std::map<std::string, std::string> typed_;  // what is being typed, by factor
+  float labels_ = 0;                          // width of the factors' names
+  std::map<std::string, std::string> typed_;  // text that is being typed, by factor
   std::string refused_factor_;
-  std::string refusal_;  // the reason why the last change was rejected
+  std::string refusal_;  // the reason why the latest change was rejected
 };
 
 }  // namespace triptych::view

@@ -1,5 +1,5 @@
-// triptych-view: the window of `triptych view`, which starts this program with a request as its
-// only argument. This process loads only the driver of its own window; the devices run in worker
+// triptych-view: the window of `triptych view`, which runs this program with a request as its only
+// argument. This process loads only the driver that displays its window. The devices run in worker
 // processes of `triptych`.
 
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// The content of the window, and the text that the user has just copied.
+// The content of the window, and the command that the user has most recently copied.
 class Screen {
  public:
   Screen(Window& window, Session& session)
@@ -81,8 +81,8 @@ class Screen {
     ImGui::PushStyleColor(ImGuiCol_Text, colours::quiet);
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(
-        "Drag an image to turn the camera, use the wheel to move closer. Hold R for the "
-        "reference image. Click the right button for the commands about a pixel.");
+        "Drag an image to turn the camera. Use the mouse wheel to move closer. Hold R to show the "
+        "reference image. Right-click an image for the commands about a pixel.");
     if (!copied_.empty()) {
       ImGui::Spacing();
       ImGui::TextUnformatted(("Copied: " + core::printable(copied_)).c_str());
@@ -98,7 +98,7 @@ class Screen {
   std::string copied_;
 };
 
-// Draws when there is something new to show, and sleeps otherwise.
+// Draws the window when there is something new to show, and sleeps otherwise.
 class Loop {
  public:
   Loop(Window& window, Session& session, Screen& screen, measure::InterruptGuard& interrupts)
@@ -114,7 +114,7 @@ class Loop {
       window_.begin_frame();
       screen_.draw();
       --frames_due_;
-      // In the last of the frames that are due, everything has its final position.
+      // Everything has its final position in the last of the frames that are due.
       const auto picture = window_.end_frame(capture && frames_due_ == 0);
       if (!picture) continue;
       return core::write_file(core::encode_png(*picture), session_.request().screenshot);
@@ -126,8 +126,8 @@ class Loop {
   static constexpr int frames_after_input = 3;
 
   void sleep() {
-    constexpr auto blink = 400ms;    // blinking of the text cursor
-    constexpr auto signals = 500ms;  // GLFW cannot wait for the descriptor that signals arrive at
+    constexpr auto blink = 400ms;    // the text cursor blinks at this rate
+    constexpr auto signals = 500ms;  // signals are polled, because GLFW cannot wait for them
     if (frames_due_ > 0) return window_.wait(0ms);
     const auto before = Session::Clock::now();
     auto limit = ImGui::GetIO().WantTextInput ? blink : signals;
@@ -137,7 +137,7 @@ class Loop {
     }
     window_.wait(limit);
     if (Session::Clock::now() - before < limit) {
-      frames_due_ = frames_after_input;  // there was input
+      frames_due_ = frames_after_input;  // there was input or a call of wake()
     } else if (ImGui::GetIO().WantTextInput) {
       frames_due_ = 1;
     }
@@ -160,16 +160,16 @@ core::ExitCode show(const measure::ViewRequest& request, measure::InterruptGuard
     Loop(*window, session, screen, interrupts).run();
     if (request.json) std::fputs((core::json_text(screen.json(), 2) + "\n").c_str(), stdout);
   }
-  window.reset();  // closes the window while drivers are shutting down
+  window.reset();  // closes the window before the drivers shut down
   return core::ExitCode::pass;
 }
 
 core::ExitCode run(int argc, char** argv) {
   if (argc != 2) {
-    throw core::InputError("triptych-view cannot be started directly; use `triptych view`");
+    throw core::InputError("triptych-view cannot be run directly; use `triptych view`");
   }
   const auto request = core::Json::parse(argv[1]).get<measure::ViewRequest>();
-  measure::InterruptGuard interrupts;  // before any thread is started
+  measure::InterruptGuard interrupts;  // created before any thread is started
   return show(request, interrupts);
 }
 
@@ -184,7 +184,7 @@ int main(int argc, char** argv) {
     std::fputs(("triptych: " + triptych::core::printable(error.what()) + "\n").c_str(), stderr);
   }
   if (std::fflush(stdout) != 0) code = triptych::core::ExitCode::usage;
-  // A reference image that is being rendered cannot be cancelled, and its thread must not use
-  // objects that have been destroyed.
+  // The process exits without destroying objects. A reference image that is being rendered cannot
+  // be cancelled, and its thread must not use destroyed objects.
   std::_Exit(static_cast<int>(code));
 }

@@ -12,7 +12,7 @@
 namespace triptych::view {
 namespace {
 
-// Formats a number such as "1,234,567".
+// Formats a number with thousands separators, such as "1,234,567".
 std::string grouped(std::uint64_t value) {
   std::string digits = std::to_string(value);
   for (std::size_t from_end = 3; from_end < digits.size(); from_end += 4) {
@@ -47,11 +47,12 @@ void time_row(const record::Record& record) {
   const auto summary = record::summarise(record.time_ns());
   if (!summary) return;
   row("frame", ImGui::GetStyleColorVec4(ImGuiCol_Text), milliseconds(summary->median),
-      fmt::format("median of {} frames on the {} clock: {} to {}", record.time_ns().size(),
+      fmt::format("median of {} frames on the {} clock; range {} to {}", record.time_ns().size(),
                   record.clock(), milliseconds(summary->minimum), milliseconds(summary->maximum)));
 }
 
-// The same counter of the first column, if that is another column and shows the same frame.
+// Returns the value of the same counter in the first column. Returns nullptr if this is the first
+// column or if the first column shows another frame.
 const std::uint64_t* counted_first(const Session& session, std::size_t index,
                                    const std::string& name) {
   const Column& first = session.columns().front();

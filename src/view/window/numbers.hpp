@@ -1,5 +1,5 @@
 #pragma once
-// Shows the times and counters of a column as a table.
+// Shows a column's times and counters as a table.
 
 #include <cstddef>
 
@@ -7,8 +7,8 @@
 
 namespace triptych::view {
 
-// Draws the table into the rest of the current ImGui window. It marks counters that differ from
-// those of the first column by more than devices may differ.
+// Draws the table into the rest of the current ImGui window. Highlights counters that differ from
+// the first column by more than is allowed between devices.
 void draw_numbers(const Session& session, std::size_t index);
 
 }  // namespace triptych::view

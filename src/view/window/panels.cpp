@@ -15,8 +15,8 @@
 namespace triptych::view {
 namespace {
 
-// The largest rectangle in the area with the aspect ratio of the image. Pixels are enlarged only by
-// whole numbers, so that each of them remains a square.
+// Returns the largest rectangle in the area that has the aspect ratio of the image. Pixels are
+// enlarged only by whole numbers, so that each pixel remains a square.
 Panels::Place fitted(ImVec2 corner, ImVec2 area, int width, int height) {
   const auto w = static_cast<float>(std::max(1, width));
   const auto h = static_cast<float>(std::max(1, height));
@@ -33,7 +33,7 @@ void frame(const Panels::Place& place) {
                                       {place.to.x + 1, place.to.y + 1}, colours::frame);
 }
 
-// Draws text in the middle of a rectangle.
+// Draws text in the centre of a rectangle.
 void say(const Panels::Place& place, const ImVec4& colour, const std::string& text) {
   const float margin = ImGui::GetFontSize();
   const float width = place.to.x - place.from.x - 2 * margin;
@@ -45,8 +45,8 @@ void say(const Panels::Place& place, const ImVec4& colour, const std::string& te
                                       ImGui::GetColorU32(colour), shown.c_str(), nullptr, width);
 }
 
-// Draws text at the top left of an image, on a dark ground, because the image may be bright or
-// noisy.
+// Draws text in the top left corner of an image. The text has a dark background, because the image
+// may be bright or noisy.
 void caption(const Panels::Place& place, const std::string& text) {
   const std::string shown = core::printable(text, 100);
   const ImVec2 size = ImGui::CalcTextSize(shown.c_str());
@@ -64,7 +64,7 @@ std::string name_of(const measure::ViewSide& side) {
   return name;
 }
 
-// The pixel of the image under the mouse.
+// Returns the pixel of the image that is under the mouse pointer.
 std::optional<std::pair<int, int>> pixel_under_mouse(const Panels::Place& place,
                                                      const core::Image& image) {
   const ImVec2 mouse = ImGui::GetMousePos();
@@ -272,7 +272,7 @@ void Panels::draw(Session& session, bool reference) {
   const std::size_t count = session.columns().size();
   uploaded_.resize(count);
   images_.resize(count);
-  // Two square pictures and some lines of numbers share the height.
+  // The height is divided between two square images and some lines of numbers.
   const float line = ImGui::GetFrameHeightWithSpacing();
   constexpr float lines_of_numbers = 7.5F;
   const ImVec2 room = ImGui::GetContentRegionAvail();

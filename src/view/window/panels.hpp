@@ -1,6 +1,6 @@
 #pragma once
-// The columns of the window. Each shows the image, the error, the times and the counters of a
-// device.
+// The columns of the window. Each column shows the image, the error, the times and the counters of
+// one device.
 
 #include <imgui.h>
 
@@ -16,17 +16,17 @@ namespace triptych::view {
 
 class Panels {
  public:
-  // `copy` is called with a command that is to be put on the clipboard.
+  // `copy` is called with a command that should be copied to the clipboard.
   explicit Panels(std::function<void(const std::string&)> copy) : copy_(std::move(copy)) {}
 
-  // Draws all columns into the current ImGui window. With `reference`, the reference image replaces
-  // each image.
+  // Draws all columns into the current ImGui window. With `reference`, each image is replaced with
+  // its reference image.
   void draw(Session& session, bool reference);
 
-  // Draws the meaning of the colours in the lower pictures.
+  // Draws the legend for the colours of the lower images.
   void draw_legend(float width);
 
-  // The rectangle in which a column's image was drawn, in pixels of the window.
+  // The rectangle of a column's image, in window pixels.
   struct Place {
     ImVec2 from;
     ImVec2 to;
@@ -34,7 +34,7 @@ class Panels {
   [[nodiscard]] const std::vector<Place>& images() const noexcept { return images_; }
 
  private:
-  // The textures of a column, and the data from which they were made.
+  // The textures of a column, and the data from which they were created.
   struct Uploaded {
     const void* frame = nullptr;
     const void* reference = nullptr;

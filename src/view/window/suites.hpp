@@ -6,8 +6,8 @@
 
 namespace triptych::view {
 
-// Makes two suites with this name, which search for files in the folders. Throws InputError for an
-// unknown name.
+// Creates two suites with this name, which search for data files in these folders. Throws
+// InputError for an unknown name.
 [[nodiscard]] Suites make_suites(const std::string& name, const std::vector<std::string>& folders);
 
 }  // namespace triptych::view

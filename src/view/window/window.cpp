@@ -17,7 +17,7 @@
 namespace triptych::view {
 namespace {
 
-// GLFW reports reasons for errors only to a callback.
+// GLFW reports the reason for an error only to a callback, which stores it here.
 std::string& last_reason() {
   static std::string reason;
   return reason;
@@ -31,20 +31,21 @@ void keep_reason(int /*code*/, const char* text) {
   std::string reason = std::exchange(last_reason(), {});
   glfwTerminate();
   throw core::IoError(fmt::format(
-      "the window cannot be opened: {}{}{}; view needs a display, for instance that of xvfb-run",
-      what, reason.empty() ? "" : ": ", reason));
+      "cannot open the window: {}{}{}; view needs a display, for example one from xvfb-run", what,
+      reason.empty() ? "" : ": ", reason));
 }
 
-// Threads may still call wake() after the window has been closed.
+// Threads may call wake() even after the window has been closed.
 std::atomic<bool> is_open = false;
 
-// The font of most Debian desktops. Without it, ImGui's own font is used, which has only one size.
+// The default font of most Debian desktops. Without it, ImGui's built-in font is used, which has
+// only one size.
 constexpr const char* font_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
 void set_style(float scale) {
   constexpr float font_size = 14;
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // settings are not stored
+  io.IniFilename = nullptr;  // do not save ImGui's settings
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   static const ImWchar ranges[] = {0x20, 0xff, 0x2010, 0x2026, 0x2190, 0x2193, 0x2260, 0x2264, 0};
   if (!std::filesystem::exists(font_file) ||
@@ -60,7 +61,7 @@ void set_style(float scale) {
   style.ScaleAllSizes(scale);
 }
 
-// ImTextureID is a pointer in some versions of ImGui and a number in others.
+// ImTextureID is a pointer in some versions of ImGui and an integer in others.
 template <typename Id = ImTextureID>
 Id texture_id(unsigned int name) {
   if constexpr (std::is_pointer_v<Id>) {
@@ -78,7 +79,7 @@ Window::Window(int width, int height, const std::string& title) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 0);
   window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
-  if (window_ == nullptr) refuse("there is no OpenGL 3.0");
+  if (window_ == nullptr) refuse("OpenGL 3.0 is not available");
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
   float scale = 1;
@@ -134,7 +135,7 @@ std::optional<core::RgbPicture> Window::end_frame(bool capture) const {
     picture->rgb.resize(row * static_cast<std::size_t>(height));
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, picture->rgb.data());
-    // OpenGL's first row is the bottom row.
+    // The first row from OpenGL is the bottom row, so the rows are reversed.
     for (std::size_t top = 0, low = static_cast<std::size_t>(height) - 1; top < low; ++top, --low) {
       std::swap_ranges(picture->rgb.data() + top * row, picture->rgb.data() + (top + 1) * row,
                        picture->rgb.data() + low * row);

@@ -1,5 +1,5 @@
 #pragma once
-// The window itself, made with GLFW and Dear ImGui on OpenGL, and textures for it.
+// The window, based on GLFW and Dear ImGui with OpenGL, and textures for it.
 
 #include <imgui.h>
 
@@ -15,7 +15,7 @@ namespace triptych::view {
 
 class Window {
  public:
-  // Throws IoError with the reason if there is no display or no OpenGL.
+  // Opens the window. Throws IoError with the reason if there is no display or no OpenGL.
   Window(int width, int height, const std::string& title);
   ~Window();
   Window(const Window&) = delete;
@@ -25,19 +25,19 @@ class Window {
   // Sleeps until there is input, wake() is called, or the time limit has passed.
   void wait(std::chrono::milliseconds limit) const;
   void begin_frame() const;
-  // Finishes the frame and displays it. With `capture`, returns the displayed picture.
+  // Finishes and displays the frame. With `capture`, returns the displayed image.
   std::optional<core::RgbPicture> end_frame(bool capture) const;
   [[nodiscard]] bool is_reference_key_pressed() const;
   [[nodiscard]] ImVec2 size() const;
   void copy_to_clipboard(const std::string& text) const;
-  // Makes wait() return. Any thread may call this.
+  // Makes wait() return. This may be called from any thread.
   static void wake();
 
  private:
   GLFWwindow* window_ = nullptr;
 };
 
-// A picture that the window can draw. It needs an open window, and must be destroyed before the
+// An image that the window can draw. It requires an open window, and must be destroyed before the
 // window.
 class Texture {
  public:
@@ -52,8 +52,7 @@ class Texture {
   [[nodiscard]] bool is_empty() const noexcept { return width_ == 0; }
   [[nodiscard]] int width() const noexcept { return width_; }
   [[nodiscard]] int height() const noexcept { return height_; }
-  // Draws the picture into a rectangle of the current ImGui window. Enlarged pixels keep sharp
-  // edges.
+  // Draws the image into a rectangle of the current ImGui window. Enlarged pixels have sharp edges.
   void draw(ImVec2 from, ImVec2 to) const;
 
  private:
