@@ -79,7 +79,7 @@ TEST_F(OnlyCompile, AnUnknownFamilyIsToldInOneLine) {
       << result.output;
   EXPECT_NE(result.output.find("vulkan:radv-nosuch: the installed driver"), std::string::npos)
       << result.output;
-  EXPECT_NE(result.output.find("know this family"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("know this GPU family"), std::string::npos) << result.output;
 }
 
 // The fault `flipped_axis` adds an arithmetic operation to each sample of a ray, and

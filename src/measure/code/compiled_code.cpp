@@ -61,7 +61,7 @@ void CompiledCode::add(const std::string& name, std::map<std::string, double> st
 
 Compiled CompiledCode::take() {
   if (compiled_.code.empty()) {
-    throw core::NotSupported("this driver reports no statistics of the code that it generates");
+    throw core::NotSupported("this driver reports no statistics for the code that it generates");
   }
   return std::exchange(compiled_, {});
 }

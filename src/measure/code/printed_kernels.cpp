@@ -15,8 +15,8 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-// The kernel in "=== Printing nir for 'raycast' after spirv_to_nir" and in
-// "=== Printing nir variant 'Default' for 'raycast' before driver finalization"; empty for other
+// Returns the kernel's name in a line such as "=== Printing nir for 'raycast' after spirv_to_nir"
+// or "=== Printing nir variant 'Default' for 'raycast' before driver finalization"; empty for other
 // lines.
 std::string_view kernel_in(std::string_view line) {
   constexpr std::string_view start = "=== Printing nir ";
@@ -34,7 +34,7 @@ std::vector<PrintedKernel> parse_printed_kernels(std::string_view printed) {
   enum class Part { other, disassembly, statistics };
   std::vector<PrintedKernel> kernels;
   std::string name;
-  int variants = 0;  // of the current kernel, so far
+  int variants = 0;  // number of variants of the current kernel so far
   Part part = Part::other;
   PrintedKernel kernel;
   while (!printed.empty()) {

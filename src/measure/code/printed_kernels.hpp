@@ -1,7 +1,7 @@
 #pragma once
-// Reads the text that rusticl on radeonsi prints to standard error while it builds a program, with
-// the variables RUSTICL_DEBUG=nir and AMD_DEBUG=cs,asm: the names of kernels, their disassembly and
-// their statistics.
+// Reads the output that rusticl on radeonsi prints to standard error while it builds a program, if
+// the environment variables RUSTICL_DEBUG=nir and AMD_DEBUG=cs,asm are set: the names of kernels,
+// their disassembly and their statistics.
 
 #include <map>
 #include <string>
@@ -11,8 +11,8 @@
 namespace triptych::measure {
 
 struct PrintedKernel {
-  // The kernel's name. rusticl may compile a second variant for the usual size of a work group; its
-  // name ends with " (optimized)".
+  // The kernel's name. rusticl may compile a second variant of a kernel for the usual work-group
+  // size. The name of this variant ends with " (optimized)".
   std::string name;
   std::map<std::string, double> statistics;
   std::string assembly;

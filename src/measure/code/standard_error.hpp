@@ -1,5 +1,5 @@
 #pragma once
-// Some drivers report their compiled code only on standard error.
+// Captures standard error, because some drivers report their compiled code only there.
 
 #include <functional>
 #include <string>

@@ -1,6 +1,7 @@
 #pragma once
-// The interface between API-independent code and one API. Callers name techniques and never use
-// commands of the API: list → open → unsupported → prepare → frame → image.
+// The interface between API-independent code and the backend of one API. Callers name techniques
+// and never call the API themselves. They call these functions in this order: list → open →
+// unsupported → prepare → frame → image.
 
 #include <cstdint>
 #include <memory>
@@ -26,16 +27,17 @@ struct VolumeWork {
   technique::RaycastOptions options;
 };
 
-// The images have depth (Z, the distance along the view axis) and ids. The counters are
-// technique::particle_counts.
+// A scene with particles. Its images have depth (Z, the distance along the view axis) and ids. Its
+// counters are technique::particle_counts.
 struct ParticleWork {
   scene::ParticleScene scene;
   technique::ParticleOptions options;
-  // The camera of a frame that is drawn before the first one. Culling::occlusion uses the
-  // visibility from that frame. If empty, that frame has the same camera as all others.
+  // The camera of an extra frame that is drawn before the first frame. Culling::occlusion uses the
+  // visibility in the extra frame. If empty, the extra frame has the same camera as all other
+  // frames.
   std::optional<scene::Camera> camera_before = {};
 
-  // The work with that camera.
+  // Returns the work with the camera of the extra frame.
   [[nodiscard]] ParticleWork before() const {
     ParticleWork work = *this;
     if (camera_before) work.scene.camera = *camera_before;
@@ -53,8 +55,8 @@ struct Work {
 // Each frame has only one purpose, so that counting never affects times.
 enum class Purpose : std::uint8_t {
   timing,      // nothing is counted
-  statistics,  // pipeline statistics are queried; its time is never used
-  counters     // a build of the device code that counts; never timed
+  statistics,  // pipeline statistics are queried; the frame's time is never used
+  counters     // drawn with a build of the device code that counts; never timed
 };
 
 struct Frame {
@@ -62,7 +64,7 @@ struct Frame {
   // Reading the image back is not included.
   double wall_ns = 0;
   std::optional<double> device_ns;  // only for Purpose::timing, if the device reports it
-  record::Counts counts;            // statistics or counters; what cannot be counted is absent
+  record::Counts counts;            // statistics or counters; absent if they cannot be counted
 };
 
 // A technique with its scene, ready to be drawn repeatedly: the data are uploaded and the device
@@ -75,15 +77,15 @@ class Prepared {
   virtual ~Prepared() = default;
 
   // Overwrites all outputs of a frame (image, ids, depth, counters) with values that no frame
-  // produces: until the next frame is drawn, image() returns NaN in every channel. This reveals a
-  // frame that was not drawn and left the values of an earlier one. It is never called within the
-  // timed or counted part of a frame.
+  // produces: until the next frame is drawn, image() returns NaN in every channel. Otherwise, a
+  // frame that was not drawn would leave the values of an earlier frame and seem correct. Never
+  // called within the timed or counted part of a frame.
   virtual void poison() = 0;
   // Draws one frame and waits for it without spinning. Throws ApiError, DeviceLost, NotDrawn.
   [[nodiscard]] virtual Frame frame(Purpose purpose) = 0;
-  // The image of the last frame, read back.
+  // Reads the image of the latest frame back from the device.
   [[nodiscard]] virtual core::Image image() = 0;
-  // The hash of the device code of the timed build and the options with which it was built.
+  // Returns the hash of the timed build's device code and build options.
   [[nodiscard]] virtual std::string kernel_hash() const = 0;
 };
 
@@ -100,28 +102,28 @@ struct VolumeKind {
   scene::VoxelFormat native = scene::VoxelFormat::f32;
   std::array<int, 3> size{1, 1, 1};
   std::optional<technique::Sampler> sampler = std::nullopt;  // the one that the plan sets, if any
-  // One filtered value for each sample is sufficient: there is no shading, and neither cells nor
-  // doubles are needed.
+  // True if one filtered value is sufficient for each sample. False for shading, the quadrature
+  // `cells`, double precision, and volumes that are drawn in parts.
   bool filter_suffices = true;
   [[nodiscard]] bool may_be_packed() const {
     return sampler.value_or(technique::Sampler::packed) == technique::Sampler::packed;
   }
 };
 
-// The properties of the device's rasterizer that the API does not specify and that determine which
-// fragments an edge covers.
+// Properties of the device's rasterizer that the API does not specify but that determine which
+// fragments a primitive covers.
 struct Rasterizer {
-  int sub_pixel_bits = 8;  // vertices are moved to a grid of 2⁻ᵇ pixel
+  int sub_pixel_bits = 8;  // vertices are snapped to a grid of 2⁻ᵇ pixels, where b is this number
   // Triptych makes points larger than their sprites by this many pixels, because a driver may round
-  // sizes down. A driver may round them up by as much in addition.
+  // point sizes down. A driver may instead round them up, by the same amount.
   double point_margin = 0;
-  double largest_point = 0;  // pixels, without the margin; larger sprites are quads
+  double largest_point = 0;  // in pixels, without the margin; larger sprites are drawn as quads
 };
 
 // The compiler's report about the timed build.
 struct Compiled {
   record::Code code;
-  std::map<std::string, std::string> listings;  // disassembly by its content hash
+  std::map<std::string, std::string> listings;  // disassemblies by content hash
 };
 
 class Device {
@@ -133,35 +135,35 @@ class Device {
 
   [[nodiscard]] virtual const record::Device& info() const = 0;
 
-  // Empty if the device can do it. Otherwise the reason: a feature that it lacks, a limit that the
-  // scene exceeds (with both numbers), or memory that it does not have.
+  // Returns nullopt if the device can draw the work. Otherwise returns the reason: a missing
+  // feature, a limit that the scene exceeds (with both numbers), or insufficient memory.
   [[nodiscard]] virtual std::optional<std::string> unsupported(const Work& work) const = 0;
 
   [[nodiscard]] virtual VolumePath default_path(const VolumeKind& volume) const = 0;
 
-  // The largest error of this device's trilinear filter, as a share of the difference between
-  // neighbouring voxels. A probe measured it when the device was opened. For Sampler::manual it is
-  // 0 except for rounding.
+  // Returns the largest error of this device's trilinear filter, as a fraction of the difference
+  // between neighbouring voxels. It is measured by a probe when the device is opened. For
+  // Sampler::manual it is 0 except for round-off.
   [[nodiscard]] virtual double filter_weight_error(const VolumePath& path) const = 0;
 
-  // nullopt if the device has no rasterizer.
+  // Returns nullopt if the device has no rasterizer.
   [[nodiscard]] virtual std::optional<Rasterizer> rasterizer() const { return std::nullopt; }
 
-  // The bytes that the backend currently has allocated on the device, as "buffers" and "images".
-  // "moved" counts the bytes that every frame of the prepared work uploads to the device
+  // Returns the bytes that the backend has currently allocated on the device, as "buffers" and
+  // "images". "moved" counts the bytes that every frame of the prepared work uploads to the device
   // (technique/volume/parts.hpp). Memory that the driver allocates for itself is not included.
-  // Empty if the backend does not count them.
+  // The result is empty if the backend does not count its memory.
   [[nodiscard]] virtual record::Counts memory() const { return {}; }
 
   // Throws NotSupported, ApiError, DeviceLost.
   [[nodiscard]] virtual std::unique_ptr<Prepared> prepare(const Work& work) = 0;
 
-  // Compiles the timed build and returns the compiler's report. Nothing is drawn. On a device with
-  // record::Device::compiles_for nothing is executed and no data are moved; frame() and image()
-  // throw NotSupported there. Throws as prepare() does, and NotSupported if the driver reports
-  // nothing.
+  // Compiles the timed build and returns the compiler's report. Nothing is drawn. On a compile-only
+  // device (record::Device::compiles_for), no data are uploaded either, and frame() and image()
+  // throw NotSupported. Throws the same exceptions as prepare(), and NotSupported if the driver
+  // reports nothing.
   [[nodiscard]] virtual Compiled compile(const Work& /*work*/) {
-    throw core::NotSupported("this driver reports no statistics of the code that it generates");
+    throw core::NotSupported("this driver reports no statistics for the code that it generates");
   }
 };
 
@@ -169,7 +171,7 @@ class Device {
 struct Broken {
   std::string what;                          // "OpenCL platform Clover"
   std::string reason;                        // the message of the loader or the driver
-  std::optional<record::Reason> ended = {};  // how the process that listed it ended
+  std::optional<record::Reason> ended = {};  // how the process that listed it failed
 };
 
 struct Listing {
@@ -185,10 +187,11 @@ class Backend {
   virtual ~Backend() = default;
 
   [[nodiscard]] virtual std::string_view api() const = 0;
-  // Everything that the loaders list. Never throws: a platform that is broken or empty is listed in
-  // `broken` and does not affect the others. If there is no loader, there is one `broken` entry.
+  // Lists all devices that the loaders report. Never throws. A platform that is broken or empty is
+  // added to `broken` and does not affect other platforms. If no loader is installed, `broken` has
+  // one entry.
   [[nodiscard]] virtual Listing list() const = 0;
-  // Throws NotSupported if there is no such device, ApiError if it cannot be opened.
+  // Throws NotSupported if there is no such device, and ApiError if the device cannot be opened.
   [[nodiscard]] virtual std::unique_ptr<Device> open(std::string_view device_id) const = 0;
 };
 

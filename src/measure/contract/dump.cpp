@@ -60,8 +60,8 @@ for file in program-*.cl;
   do
   [ -e "$file" ] || continue
   options=$(sed -n "s/^$file: built in [0-9.]* ms with //p" what-was-given.txt | head -n 1)
-#The options contain no quotes.
-#shellcheck disable = SC2086
+# The options contain no quotes.
+# shellcheck disable=SC2086
   clang -x cl -target spir64 -Xclang -finclude-default-header -fsyntax-only $options "$file" || failed=1
 done
 exit $failed

@@ -11,19 +11,21 @@
 
 namespace triptych::measure {
 
-// The value of the environment variable TRIPTYCH_DUMP; nullopt if nothing is to be written.
+// Returns the folder in the environment variable TRIPTYCH_DUMP, or nullopt if nothing is to be
+// written.
 [[nodiscard]] std::optional<std::filesystem::path> dump_folder();
 
-// Writes a file into the folder and appends `about` as one line to what-was-given.txt in it, which
-// lists everything in the order of the calls. `name` has no extension; a content hash is appended
-// to it, so equal contents share one file. Does nothing if dump_folder() is empty. Returns the
-// file's name.
+// Writes a file to the dump folder and appends a line with the file's name and `about` to
+// what-was-given.txt in that folder, which therefore lists all files in the order of the calls. The
+// file's name is `name`, a content hash and `extension`, so equal contents share one file. Returns
+// the file's name. Does nothing if dump_folder() is empty.
 std::string write_dump(std::string_view name, std::string_view extension,
                        std::span<const std::byte> content, const std::string& about);
 std::string write_dump(std::string_view name, std::string_view extension, std::string_view content,
                        const std::string& about);
 
-// Writes compile.sh into the folder, which compiles the device code in it with public tools.
+// Writes the script compile.sh to the folder. It compiles the device code in the folder with public
+// tools.
 void write_compile_script(const std::filesystem::path& folder);
 
 }  // namespace triptych::measure

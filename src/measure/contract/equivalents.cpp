@@ -12,8 +12,8 @@
 namespace triptych::measure {
 namespace {
 
-// Alpha is computed as 1 − T + T·background in floats: three roundings of numbers up to 1, each by
-// at most half of 2⁻²³.
+// A bound on the rounding of alpha, which is computed as 1 − T + T·background in floats: three
+// roundings of numbers up to 1, each by at most half of 2⁻²³.
 constexpr double alpha_rounding = 0x1.0p-22;
 
 std::string reason_for(const PlainWork& known, const PlainWork& wanted, double transmittance) {

@@ -1,6 +1,6 @@
 #pragma once
-// Configurations that do exactly the same work in a scene. One of them is measured, and the others
-// copy its results.
+// Configurations that do exactly the same work in a scene. Only one of them is measured, and all
+// others copy its results.
 
 #include <map>
 #include <optional>
@@ -12,16 +12,16 @@
 
 namespace triptych::measure {
 
-// A configuration that was measured before and does exactly the work of another one.
+// A measured configuration that does exactly the same work as another configuration.
 struct Equivalent {
   std::string key;
   std::string reason;  // for display: "skip: no brick of this scene is empty"
 };
 
-// The configurations that one device has measured. If the transmittance of a ray never falls below
-// some value, an early termination below it changes nothing. For configurations that differ only in
-// that threshold, the image of one frame therefore shows whether they are equivalent. A suite knows
-// all other equivalences in advance (Suite::plain).
+// The configurations that one device has measured. Two configurations that differ only in the
+// threshold for early ray termination are equivalent if no ray's transmittance falls below either
+// threshold. Whether this is true follows from the image of one of them. A suite knows all other
+// equivalences in advance (Suite::plain).
 class Equivalents {
  public:
   [[nodiscard]] std::optional<Equivalent> find(const PlainWork& plain) const;
@@ -39,8 +39,9 @@ class Equivalents {
   std::map<Configuration, std::vector<Known>> known_;  // by PlainWork::levels
 };
 
-// The smallest transmittance of all pixels' rays, from the alpha of a premultiplied image over the
-// work's background; 0 if the background is opaque, and for anything other than a volume.
+// Returns the smallest transmittance of the rays of all pixels, which is computed from the alpha of
+// a premultiplied image and of the work's background. Returns 0 if the background is opaque or the
+// scene is not a volume.
 [[nodiscard]] double least_transmittance(const Work& work, const core::Image& picture);
 
 }  // namespace triptych::measure

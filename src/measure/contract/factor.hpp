@@ -1,5 +1,5 @@
 #pragma once
-// Functions for the factor lists of all suites.
+// Functions that create and read factors, used by all suites.
 
 #include <array>
 #include <string>
@@ -19,21 +19,21 @@ enum class Decides : std::uint8_t { the_picture, how_it_is_made };
 [[nodiscard]] Factor number(std::string name, double minimum, double maximum, std::string standard,
                             Decides decides, std::string summary,
                             std::vector<std::string> words = {});
-// A factor that decides the image and whose values are checked by Suite::check.
+// Returns a factor that determines the image and whose values are checked by Suite::check().
 [[nodiscard]] Factor text(std::string name, std::string standard, std::string summary);
 
-// The factor `technique` of a suite, with the techniques of the catalogue in its order. "auto"
-// stands for those that draw an image.
+// Returns the factor `technique` of a suite. Its levels are the suite's techniques, in the order of
+// the catalogue. "auto" stands for all techniques that draw an image.
 [[nodiscard]] Factor technique_factor(std::string_view suite, std::string standard,
                                       std::string summary);
 
 // Parses "N" or "WxH" to {width, height}. Throws InputError.
 [[nodiscard]] std::array<int, 2> parse_viewport(std::string_view value);
 
-// The value of a numeric factor.
+// Returns the value of a numeric factor.
 [[nodiscard]] double as_number(const Configuration& configuration, const std::string& factor);
 
-// The value of "camera" in frame.json.
+// Returns the value of "camera" in frame.json.
 [[nodiscard]] nlohmann::json camera_json(const scene::Camera& camera);
 
 }  // namespace triptych::measure

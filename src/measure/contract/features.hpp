@@ -1,6 +1,6 @@
 #pragma once
-// Probes of features that visualization programs use, but that no scene of Triptych needs. Each is
-// one small computation or draw with a known result.
+// Probes of features that visualization programs use, but that no scene of Triptych needs. Each
+// probe is one small computation or draw with a known result.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,12 +18,12 @@ struct ProbedFeature {
   std::string detail = {};  // the error, or the reason for the skip
 };
 
-// The verdict on a probe that should produce `expected` values and produced `right` of them
-// correctly.
+// Returns the verdict on a probe that should produce `expected` values, of which `right` are
+// correct.
 [[nodiscard]] ProbedFeature judged_feature(std::uint64_t right, std::uint64_t expected,
                                            std::string size);
 
-// The number of values that are equal to `expected(i)`.
+// Returns the number of values that are equal to `expected(i)`, where i is their index.
 template <class Value, class Expected>
 [[nodiscard]] std::uint64_t count_right(const std::vector<Value>& values,
                                         const Expected& expected) {
@@ -34,7 +34,8 @@ template <class Value, class Expected>
 
 struct FeatureProbe {
   std::string name;
-  // Throws NotSupported with the reason if the device lacks the feature, and ApiError.
+  // Throws NotSupported with the reason if the device lacks the feature, and ApiError if a call
+  // fails.
   std::function<ProbedFeature()> run;
 };
 
@@ -46,7 +47,7 @@ class ProbesFeatures {
   ProbesFeatures& operator=(const ProbesFeatures&) = delete;
   virtual ~ProbesFeatures() = default;
 
-  // The probes of the API, which may be called as long as the device lives.
+  // Returns the API's probes. They must not be run after the device is destroyed.
   [[nodiscard]] virtual std::vector<FeatureProbe> feature_probes() = 0;
 };
 

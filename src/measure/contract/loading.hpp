@@ -10,17 +10,17 @@ namespace triptych::measure {
 
 struct Loading {
   std::string what;  // the value of the factor `data`
-  double share = 0;  // share that is done, in [0, 1]
-  // A sentence about something in the data that had to be guessed or left out; usually empty.
+  double share = 0;  // share of the load that is done, in [0, 1]
+  // A sentence about a property of the data that had to be guessed or ignored; usually empty.
   std::string note = {};
 };
 
 using OnLoading = std::function<void(const Loading&)>;
 
-// Returns a function that forwards only useful reports to `tell`: none for a load shorter than two
-// seconds; for others at most one report every two seconds, and the end (share 1) if the load was
-// reported before. A report with another name or a smaller share than the previous one begins a new
-// load. Tests replace `now`.
+// Returns a function that forwards only useful reports to `tell`. It forwards none for a load
+// shorter than two seconds. For a longer load, it forwards at most one report every two seconds,
+// and the end of the load (share 1). A report whose name differs from the previous one, or whose
+// share is smaller, begins a new load. Notes are forwarded once. Tests replace `now`.
 [[nodiscard]] OnLoading paced(
     OnLoading tell,
     std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now);

@@ -1,5 +1,6 @@
 #pragma once
-// The memory that a backend uses on its device, recorded by the backend's own objects.
+// Sums up the memory that a backend uses on its device. Each buffer and image of the backend has an
+// entry.
 
 #include <atomic>
 #include <cstdint>
@@ -58,7 +59,7 @@ class MemoryLedger {
   // frames are drawn.
   [[nodiscard]] Entry moved(std::uint64_t bytes) const { return {sums_, &Sums::moved, bytes}; }
 
-  // The result of Device::memory().
+  // Returns the result of Device::memory().
   [[nodiscard]] record::Counts counts() const {
     record::Counts counts{{"buffers", sums_->buffers}, {"images", sums_->images}};
     if (sums_->moved > 0) counts.emplace("moved", sums_->moved);

@@ -10,9 +10,8 @@ void check_counted(std::span<const std::uint32_t> counters) {
   });
   if (untouched) {
     throw NotDrawn(
-        "the frame for the counters was not drawn: all counters still have the value that they "
-        "were "
-        "filled with before");
+        "the frame for the counters was not drawn: all counters still have the value with which "
+        "they were filled before the frame");
   }
 }
 

@@ -6,15 +6,16 @@
 
 namespace triptych::measure {
 
-// A frame that the driver reported as finished was not drawn: its outputs still have the values of
-// Prepared::poison(), or differ from those of an equal frame before it.
+// Thrown if a frame was not drawn although the driver reported it as finished: its outputs still
+// have the values of Prepared::poison(), or they differ from those of an earlier frame that should
+// be equal.
 class NotDrawn : public core::Error {
  public:
   using core::Error::Error;
 };
 
-// The driver did not provide a frame's pipeline statistics although it was asked to wait for them.
-// All other results of the frame may be right.
+// Thrown if the driver did not provide a frame's pipeline statistics although it was asked to wait
+// for them. All other results of the frame may be correct.
 class StatisticsNotReady : public core::ApiError {
  public:
   using ApiError::ApiError;
@@ -25,7 +26,7 @@ class StatisticsNotReady : public core::ApiError {
 inline constexpr std::uint32_t poison_word = 0xFFFFFFFF;
 
 // Throws NotDrawn if all counters of a frame still contain poison_word. If only some of them do,
-// the comparison with the expected counts finds it.
+// the comparison with the expected counts reveals the error.
 void check_counted(std::span<const std::uint32_t> counters);
 
 }  // namespace triptych::measure

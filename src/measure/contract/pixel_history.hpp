@@ -1,6 +1,7 @@
 #pragma once
-// The history of one pixel: the device's results, and the results that the reference expects.
-// Prepared works and suites that can report it implement these interfaces in addition to their own.
+// Interfaces for the history of one pixel, which consists of the device's results and the results
+// that the reference renderer expects. A Prepared or a Suite that can report them implements one of
+// these interfaces in addition to its own.
 
 #include <cstdint>
 #include <span>
@@ -12,19 +13,19 @@
 
 namespace triptych::measure {
 
-// A pixel, counted from the upper left corner.
+// The position of a pixel, counted from the upper left corner.
 struct PixelPlace {
   int x = 0;
   int y = 0;
 };
 
-// The reason why TracesPixel::trace() refuses a work.
+// The reason that TracesPixel::trace() states if it rejects a work.
 inline constexpr const char* not_traced =
     "the history of a pixel is recorded only for the quadratures midpoint and preintegrated, not "
     "for cells";
 
 // A prepared work that can draw a frame with a build of its device code that records the samples of
-// one pixel. This build also counts, and has the same control flow as the counting build.
+// one pixel. This build also counts, because it has the same control flow as the counting build.
 class TracesPixel {
  public:
   TracesPixel() = default;
@@ -32,8 +33,8 @@ class TracesPixel {
   TracesPixel& operator=(const TracesPixel&) = delete;
   virtual ~TracesPixel() = default;
 
-  // Draws the frame; afterwards Prepared::image() returns its image. Throws as Prepared::frame()
-  // does, and NotSupported if the technique records nothing.
+  // Draws the frame; afterwards Prepared::image() returns its image. Throws the same exceptions as
+  // Prepared::frame(), and NotSupported if the technique records nothing.
   [[nodiscard]] virtual technique::RayTrace trace(int x, int y) = 0;
 };
 
@@ -61,13 +62,13 @@ class ExpectsSprites {
   ExpectsSprites& operator=(const ExpectsSprites&) = delete;
   virtual ~ExpectsSprites() = default;
 
-  // The indices of the particles that the pixel's ray may meet, from front to back, hidden ones
-  // included. The parameters are those of SuiteWithTruth::truth.
+  // Returns the indices of the particles that the pixel's ray may hit, from front to back,
+  // including hidden particles. The parameters are those of SuiteWithTruth::truth.
   [[nodiscard]] virtual std::vector<std::uint32_t> particles_near(
       const Configuration& configuration, const std::map<std::string, double>& precision, int x,
       int y) = 0;
-  // The expected result in the pixel if only these particles exist. The bounds are those of the
-  // whole scene.
+  // Returns the expected result in the pixel if the scene has only these particles. The bounds are
+  // those for the whole scene.
   [[nodiscard]] virtual accuracy::ExpectedSurface expected_surface(
       const Configuration& configuration, const std::map<std::string, double>& precision,
       std::span<const std::uint32_t> particles, int x, int y) = 0;

@@ -9,8 +9,8 @@
 namespace triptych::measure {
 namespace {
 
-// Shader sources are split into string literals of this many characters, so that the C program has
-// few lines.
+// Shader sources are split into string literals of this many characters. They are long, so that the
+// C program has few lines.
 constexpr std::size_t characters_of_a_line = 4000;
 
 std::string escaped(char c) {

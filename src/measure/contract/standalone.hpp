@@ -1,6 +1,6 @@
 #pragma once
-// Makes parts of the C program that `render --dump` writes, which draws one frame and prints one of
-// its pixels. Each backend has a template of the program for its API.
+// Generates parts of the C program that `render --dump` writes. The program draws one frame and
+// prints one of its pixels. Each backend has a template of the program for its API.
 
 #include <cstddef>
 #include <map>
@@ -10,13 +10,15 @@
 
 namespace triptych::measure {
 
-// "static const uint32_t NAME[N] = {…};" in a few long lines. The last word is padded with zeros.
+// Returns "static const uint32_t NAME[N] = {…};" in a few long lines. The last word is padded with
+// zeros.
 [[nodiscard]] std::string c_words(std::string_view name, std::span<const std::byte> bytes);
 
-// "static const char NAME[] = …;" with string literals for the text.
+// Returns "static const char NAME[] = …;" with string literals for the text.
 [[nodiscard]] std::string c_text(std::string_view name, std::string_view text);
 
-// The template with each "@NAME@" replaced. Throws std::out_of_range for a name without a value.
+// Returns the template with each "@NAME@" replaced by its value. Throws std::out_of_range for a
+// name without a value.
 [[nodiscard]] std::string fill_template(std::string_view text,
                                         const std::map<std::string, std::string>& values);
 

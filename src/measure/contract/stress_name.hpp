@@ -1,6 +1,6 @@
 #pragma once
-// The names of stress data in plans, "stress:CASE" or "stress:CASE:VARIANT". The level `own` of
-// another factor, such as the camera, selects the value that the case defines.
+// The names of stress data in plans, "stress:CASE" or "stress:CASE:VARIANT". If another factor,
+// such as the camera, has the level `own`, it has the value that the stress case defines.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,7 +18,7 @@ namespace triptych::measure {
 inline constexpr std::string_view own_level = "own";
 inline constexpr std::string_view stress_prefix = "stress:";
 
-// A case of a suite's catalogue with one of its variants.
+// A case from a suite's catalogue, with one of its variants.
 template <typename Case>
 struct StressChoice {
   const Case* of = nullptr;  // in the catalogue
@@ -32,8 +32,8 @@ template <typename Case>
 }
 
 // Finds the case of a stress name in `cases`, which must outlive the result. A Case has a `name`
-// and `variants`. Returns nullopt if `data` is not a stress name. Throws InputError with the known
-// names for an unknown case or variant.
+// and `variants`. Returns nullopt if `data` does not begin with "stress:". For an unknown case or
+// variant, throws an InputError that lists the known names.
 template <typename Case>
 [[nodiscard]] std::optional<StressChoice<Case>> choose_stress(std::string_view data,
                                                               const std::vector<Case>& cases) {
@@ -44,8 +44,8 @@ template <typename Case>
   if (found == cases.end()) {
     std::vector<std::string_view> names;
     for (const Case& each : cases) names.push_back(each.name);
-    throw core::InputError(fmt::format("'{}': expected {}CASE with one of {}", data, stress_prefix,
-                                       fmt::join(names, ", ")));
+    throw core::InputError(fmt::format("'{}': expected {}CASE, where CASE is one of {}", data,
+                                       stress_prefix, fmt::join(names, ", ")));
   }
   const auto& variants = found->variants;
   if (variants.empty()) {
@@ -55,8 +55,9 @@ template <typename Case>
   }
   const auto known = std::ranges::find(variants, rest.substr(std::min(colon + 1, rest.size())));
   if (known == variants.end()) {
-    throw core::InputError(fmt::format("'{}': expected {}{}:VARIANT with one of {}", data,
-                                       stress_prefix, found->name, fmt::join(variants, ", ")));
+    throw core::InputError(fmt::format("'{}': expected {}{}:VARIANT, where VARIANT is one of {}",
+                                       data, stress_prefix, found->name,
+                                       fmt::join(variants, ", ")));
   }
   return StressChoice<Case>{&*found, *known};
 }

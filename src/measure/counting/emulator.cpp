@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 5> environment{
     "LP_NUM_THREADS=0", "POCL_MAX_PTHREAD_COUNT=1", "POCL_CPU_MAX_CU_COUNT=1",
     "POCL_CACHE_DIR={cache}", "MESA_SHADER_CACHE_DIR={cache}"};
 
-// "valgrind-3.19.0" → "3.19".
+// Returns the version without the patch release, "3.19" for "valgrind-3.19.0".
 std::string short_version(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_of("0123456789"), text.size()));
   return std::string(text.substr(0, text.find_first_not_of("0123456789", text.find('.') + 1)));
@@ -54,12 +54,13 @@ std::variant<Emulator, std::string> look() {
     return fmt::format("{}: Valgrind cannot be started; install the package valgrind", cannot);
   const std::string tool = tool_file();
   if (tool.empty()) {
-    return fmt::format("{}: Valgrind's tool is missing; build the target triptych_counter", cannot);
+    return fmt::format(
+        "{}: Triptych's tool for Valgrind is missing; build the target triptych_counter", cannot);
   }
   Emulator found{.name = fmt::format("valgrind {} {}", short_version(*version), processor_name()),
-                 // Valgrind uses the name of the tool to find what it preloads. With "none" it
-                 // preloads nothing; otherwise it would replace malloc. Drivers generate code at
-                 // run time, so Valgrind must check whether code has changed. The C and C++
+                 // The name of the tool determines which libraries Valgrind preloads. With "none"
+                 // it preloads nothing; with other names it would replace malloc. Drivers generate
+                 // code at run time, so Valgrind must check whether code has changed. The C and C++
                  // libraries need not free their memory at exit, because there is no leak check.
                  .command = {tool, "--tool=none", "--quiet", "--smc-check=all-non-file",
                              "--run-libc-freeres=no", "--run-cxx-freeres=no"},

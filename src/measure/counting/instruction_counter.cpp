@@ -12,7 +12,7 @@
 namespace triptych::measure {
 namespace {
 
-// In the order of protocol.h.
+// The names of the counts, in the order of protocol.h.
 constexpr std::array<const char*, TRIPTYCH_COUNTS> names{"device_code", "driver",      "libc",
                                                          "program",     "allocations", "misses"};
 
@@ -20,8 +20,8 @@ constexpr std::array<const char*, TRIPTYCH_COUNTS> names{"device_code", "driver"
 constexpr std::array<const char*, 6> allocators{"malloc",        "calloc",         "realloc",
                                                 "aligned_alloc", "posix_memalign", "memalign"};
 
-// Sends a request to the emulator. Natively, the request is five instructions without effect, and
-// the result is false.
+// Sends a request to the emulator and returns whether it was handled. Without the emulator, the
+// request consists of five instructions that have no effect, and the result is false.
 bool request(unsigned operation, std::uintptr_t value) {
   return VALGRIND_DO_CLIENT_REQUEST_EXPR(0, VG_USERREQ_TOOL_BASE('T', 'Y') + operation, value, 0, 0,
                                          0, 0) == TRIPTYCH_COUNTS;

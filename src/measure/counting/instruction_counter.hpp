@@ -1,6 +1,6 @@
 #pragma once
-// The worker's side of counting: the number of instructions that this process has executed,
-// reported by the emulator that it runs under (counting/emulator.hpp).
+// The worker's part in counting instructions: it asks the emulator under which it runs
+// (counting/emulator.hpp) how many instructions this process has executed.
 
 #include <array>
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace triptych::measure {
 
-// Counts over all threads. Reading the counter costs the process a few instructions.
+// Counts the instructions of all threads. Reading the counter itself takes a few instructions.
 class InstructionCounter {
  public:
   // Counts since the process began, in the order of counting/protocol.h.
   using Snapshot = std::array<std::uint64_t, TRIPTYCH_COUNTS>;
 
-  // nullopt if this process runs natively, or under another tool.
+  // Returns nullopt if this process runs without the emulator, or under another tool.
   [[nodiscard]] static std::optional<InstructionCounter> of_this_process();
 
   [[nodiscard]] Snapshot now() const;
@@ -35,9 +35,9 @@ class InstructionCounter {
     return result;
   }
 
-  // Returns when no other thread executes instructions any more, but after two seconds at the
-  // latest. Without this wait, the instructions of a driver's thread that still writes a cache
-  // would be counted with the next frame.
+  // Waits until no other thread executes instructions, but no longer than two seconds. Otherwise,
+  // the instructions of a driver thread that is still writing a cache would be included in the
+  // count of the next frame.
   void wait_until_quiet() const;
 
  private:

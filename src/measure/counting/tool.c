@@ -1,17 +1,17 @@
-/* The instruction counter: a tool of Valgrind's, linked from the libraries in Debian's package, under which the
- * worker runs. It adds up the instructions that are executed, by whose code they are:
- *   device_code  memory without a file (code that a driver writes at run time) and the files of a driver's kernel
- *                cache, whose paths hold the text of --device-files
- *   libc         the C library, the loader, the C++ runtime and compression: what depends on how the heap lies,
- *                or on whether a cache is written
- *   program      the counted program itself, the path of --program
- *   driver       every other library
- * and counts the calls of up to eight functions (malloc and its kin) whose addresses it is told. What device code
- * loads and stores goes through a simulated cache, whose misses are counted: a stride that costs time costs no
- * instruction.
+/* The instruction counter: a Valgrind tool under which the worker runs. It is linked from the libraries in Debian's
+ * Valgrind package. It counts the executed instructions, grouped by the location of their code:
+ *   device_code  memory that is not mapped from a file (code that a driver generates at run time), and the files of a
+ *                driver's kernel cache, whose paths contain the value of --device-files
+ *   libc         the C library, the loader, the C++ runtime and compression libraries. Their counts depend on the layout
+ *                of the heap and on whether a cache is written.
+ *   program      the counted program itself, whose path is the value of --program
+ *   driver       all other libraries
+ * It also counts the calls of up to eight functions, such as malloc, whose addresses the worker sends. The loads and
+ * stores of device code pass through a simulated cache, whose misses are counted, because an unfavourable memory access
+ * pattern takes time but no additional instructions.
  *
- * Valgrind runs one thread at a time, so that one set of counters is enough. The worker speaks to the tool by
- * client requests, see protocol.h. */
+ * Valgrind runs only one thread at a time, so one set of counters is sufficient. The worker controls the tool by client
+ * requests (protocol.h). */
 #include "pub_tool_basics.h"
 #include "pub_tool_aspacemgr.h"
 #include "pub_tool_libcassert.h"
@@ -52,7 +52,7 @@ static UInt owner_at(Addr address) {
   return is_of_the_runtime(VG_(strrchr)(path, '/') + 1) ? TRIPTYCH_LIBC : TRIPTYCH_DRIVER;
 }
 
-/* counts[which] += amount, in place: a call for it would cost more than the block that it counts. */
+/* Adds code for counts[which] += amount to the block. It is inlined, because a call would take longer than the block. */
 static void add(IRSB* block, UInt which, UInt amount) {
   if (amount == 0) return;
   IRExpr* const place = mkIRExpr_HWord((HWord)&counts[which]);
@@ -64,13 +64,14 @@ static void add(IRSB* block, UInt which, UInt amount) {
   addStmtToIRSB(block, IRStmt_Store(Iend_LE, place, IRExpr_RdTmp(after)));
 }
 
-/* A data cache of the first level, 32 KiB in lines of 64 bytes, of which the least recently used one goes. Any line
- * may lie anywhere: with sets, misses would depend on where buffers happen to lie, by 16 % from run to run. */
+/* A first-level data cache of 32 KiB with lines of 64 bytes, which replaces the least recently used line. It is fully
+ * associative: in a set-associative cache, the number of misses would depend on the addresses of buffers, and would vary
+ * by 16 % from run to run. */
 enum { line_bits = 6, line_count = 512, bucket_count = 1024, nothing = line_count };
 static struct {
   Addr number;
-  UShort newer, older;    /* in order of use; `nothing` stands between the newest and the oldest */
-  UShort next_in_bucket;  /* or `nothing` */
+  UShort newer, older;    /* a ring in order of use; `nothing` is between the newest and the oldest line */
+  UShort next_in_bucket;  /* `nothing` ends the list */
 } lines[line_count + 1];
 static UShort buckets[bucket_count];
 
@@ -98,7 +99,7 @@ static void make_cache(void) {
   for (UInt i = 0; i < bucket_count; ++i) buckets[i] = nothing;
   lines[nothing].newer = lines[nothing].older = nothing;
   for (UShort i = 0; i < line_count; ++i) {
-    put_into_bucket(i, ~(Addr)i); /* where no memory is */
+    put_into_bucket(i, ~(Addr)i); /* a number that no memory has */
     put_behind(nothing, i);
   }
 }
@@ -109,7 +110,7 @@ static void touch_line(Addr number) {
   while (line != nothing && lines[line].number != number) line = lines[line].next_in_bucket;
   if (line == nothing) {
     ++counts[TRIPTYCH_MISSES];
-    line = lines[nothing].newer; /* the oldest */
+    line = lines[nothing].newer; /* the least recently used line */
     take_out_of_bucket(line);
     put_into_bucket(line, number);
   }
@@ -123,7 +124,7 @@ static VG_REGPARM(2) void touched(Addr address, SizeT size) {
   for (Addr line = address >> line_bits; line <= last; ++line) touch_line(line);
 }
 
-/* `guard`: NULL where memory is touched in any case. */
+/* Adds a call of touched() to the block. `guard` is the condition of a conditional access, or NULL for other accesses. */
 static void touch(IRSB* block, IRExpr* address, Int size, IRExpr* guard) {
   IRDirty* const call = unsafeIRDirty_0_N(2, "touched", VG_(fnptr_to_fnentry)(touched),
                                           mkIRExprVec_2(address, mkIRExpr_HWord((HWord)size)));
@@ -160,7 +161,7 @@ static Bool is_allocation(Addr address) {
   return False;
 }
 
-/* What was executed is added before each way out of the block. */
+/* Adds the number of executed instructions to the counts before each exit from the block. */
 static IRSB* instrument(VgCallbackClosure* closure, IRSB* in, const VexGuestLayout* layout,
                         const VexGuestExtents* extents, const VexArchInfo* host, IRType guest_word,
                         IRType host_word) {
@@ -201,7 +202,7 @@ static Bool requested(ThreadId thread, UWord* arguments, UWord* result) {
     VG_(memcpy)((void*)arguments[1], counts, sizeof counts);
   } else if (operation == TRIPTYCH_FUNCTION && function_count < most_functions) {
     function_at[function_count++] = arguments[1];
-    VG_(discard_translations_safely)(arguments[1], 1, "triptych"); /* so that its calls are seen */
+    VG_(discard_translations_safely)(arguments[1], 1, "triptych"); /* translate it again, with counting */
   }
   return True;
 }
@@ -222,7 +223,7 @@ static void at_end(Int code) { (void)code; }
 static void before_options(void) {
   VG_(details_name)("triptych");
   VG_(details_version)(NULL);
-  VG_(details_description)("counts a worker's instructions by whose code they are");
+  VG_(details_description)("counts a worker's instructions by the location of their code");
   VG_(details_copyright_author)("");
   VG_(details_bug_reports_to)("");
   VG_(basic_tool_funcs)(after_options, instrument, at_end);

@@ -76,7 +76,7 @@ Done DeviceRun::perform(const Configuration& configuration, const std::string& k
 }
 
 // A failure under the emulator is recorded as a skip, because the emulator may have caused it.
-// Other plans draw the same configuration natively.
+// Other plans draw the same configuration without the emulator.
 void DeviceRun::only_counted(record::Record& record) const {
   if (record.outcome == record::Outcome::measured) {
     record.counted_by = std::get<Emulator>(find_emulator()).name;
@@ -108,8 +108,8 @@ void DeviceRun::finish() {
   context_.store.add_device(context_.run, *known_, clocks_);
 }
 
-// Reads the clock calibration with which a resumed run began, so that all records of a run depend
-// on one calibration.
+// Reads the clock calibration with which a resumed run began, so that all records of the run use
+// the same calibration.
 void DeviceRun::remember() {
   for (auto& entry : context_.store.devices(context_.run)) {
     if (entry.device.id != device_) continue;
@@ -155,13 +155,14 @@ void DeviceRun::sign(const Job& job, const std::string& key, record::Record& rec
   if (record.factors.empty()) record.factors = job.configuration;
 }
 
-// A driver may keep compiled code, which at first takes some MB for each configuration. If the peak
-// of the worker's memory grows by more than that for most configurations, the driver does not free
-// its memory. Peaks are compared, because memory that is freed and used again does not raise them.
+// A driver may keep compiled code, which takes a few megabytes for each new configuration. If the
+// worker's peak memory grows by more than that for most configurations, the driver does not free
+// its memory. Peaks are compared, because reusing freed memory does not raise the peak.
 void DeviceRun::watch_memory(std::uint64_t peak_bytes) {
   constexpr std::size_t least_configurations = 8;
   constexpr std::uint64_t most_growth = std::uint64_t{16} << 20U;
-  if (!peaks_.empty() && peak_bytes < peaks_.back()) peaks_.clear();  // an earlier worker's peaks
+  // A smaller peak comes from a new worker.
+  if (!peaks_.empty() && peak_bytes < peaks_.back()) peaks_.clear();
   peaks_.push_back(peak_bytes);
   const bool known = std::ranges::any_of(known_->faults, [](const record::DeviceFault& each) {
     return each.kind == record::DeviceFaultKind::memory_grows;
@@ -174,14 +175,14 @@ void DeviceRun::watch_memory(std::uint64_t peak_bytes) {
   if (median <= most_growth) return;
   known_->faults.push_back(
       {.kind = record::DeviceFaultKind::memory_grows,
-       .detail =
-           fmt::format("the median growth is {} MiB over {} configurations, and the peak is {} MiB",
-                       median >> 20U, growth.size(), peak_bytes >> 20U)});
+       .detail = fmt::format("the worker's memory grew by {} MiB per configuration (median of {} "
+                             "configurations) and reached {} MiB",
+                             median >> 20U, growth.size(), peak_bytes >> 20U)});
   context_.store.add_device(context_.run, *known_, clocks_);
 }
 
-// A scene of the calibration that failed may have left the driver in a state in which it draws
-// nothing more. The configurations are therefore drawn by another worker, which does not calibrate.
+// A calibration scene that failed may have left the driver in a state in which it does not draw any
+// more. The configurations are therefore drawn by a new worker, which does not calibrate.
 bool DeviceRun::ensure_worker() {
   bool is_spoilt = false;
   const auto open = [&] {
@@ -206,8 +207,8 @@ bool DeviceRun::ensure_worker() {
 void DeviceRun::greet(const Hello& hello) {
   if (known_ && known_->key() != hello.device.key()) {
     throw core::InputError(
-        fmt::format("{} has changed since run {} began (then {}; now {}): begin a new run "
-                    "instead of resuming",
+        fmt::format("the device {} has changed since run {} began (then {}; now {}); start a new "
+                    "run instead of using --resume",
                     device_, context_.run, known_->key(), hello.device.key()));
   }
   if (known_ && clocks_ == hello.clocks) return;

@@ -28,7 +28,8 @@ struct RunContext {
   std::vector<std::string> kinds;  // kinds of work whose clocks are needed
 };
 
-// The result of one configuration on one device, and the part of its time that the device took.
+// The result of one configuration on one device. `work_ns` is the part of its time that was spent
+// on the device's work.
 struct Done {
   record::Record record;
   std::vector<std::byte> exr = {};
@@ -36,29 +37,29 @@ struct Done {
   double work_ns = 0;
 };
 
-// A worker that died is replaced for the next configuration. If it cannot be started twice in a
-// row, it is not tried again.
+// Measures configurations on one device. A worker that has died is replaced for the next
+// configuration. If two attempts in a row to start a worker fail, no further attempt is made.
 class DeviceRun {
  public:
   DeviceRun(const RunContext& context, std::string device);
 
   using Ended = WorkerSlot::Ended;
 
-  // All functions throw Interrupted, and InputError if the device is no longer the one with which
-  // the run began.
+  // All functions throw Interrupted, and InputError if the device has changed since the run began.
 
   // Measures the configuration by the complete protocol.
   [[nodiscard]] Done perform(const Configuration& configuration, const std::string& key,
                              const OnLoading& on_loading);
 
-  // Records the expected outcome of the configuration without drawing it on the device.
+  // Returns a record with the outcome `why`, without drawing the configuration on the device.
   [[nodiscard]] Done pass_by(const Configuration& configuration, const std::string& key,
                              const Ended& why) const;
 
   // Lets the worker exit normally.
   void finish();
 
-  // Opening the driver and calibrating its clocks counts as the device's time, not as overhead.
+  // Returns the time for opening the device and calibrating its clocks. It counts as the device's
+  // time, not as overhead.
   [[nodiscard]] double opening_ns() const { return slot_.opening_ns(); }
 
  private:
@@ -76,8 +77,8 @@ class DeviceRun {
   // Reports a worker whose memory grows from configuration to configuration.
   void watch_memory(std::uint64_t peak_bytes);
   void only_counted(record::Record& record) const;
-  // The reason why a plan that counts instructions cannot do so on this machine; nullopt if it can,
-  // and for other plans.
+  // Returns the reason why this machine cannot count instructions, if the plan counts them; nullopt
+  // otherwise.
   [[nodiscard]] std::optional<record::Reason> no_emulator() const;
 
   const RunContext& context_;
@@ -86,7 +87,7 @@ class DeviceRun {
   WorkerSlot slot_;
   std::optional<record::Device> known_;
   std::vector<record::ClockTrust> clocks_;
-  std::vector<std::uint64_t> peaks_;  // peaks of the worker's memory, for each configuration
+  std::vector<std::uint64_t> peaks_;  // the worker's peak memory after each configuration
 };
 
 }  // namespace triptych::measure

@@ -1,6 +1,6 @@
 #pragma once
-// Draws one frame in this process and nothing before it, for debuggers and for tools that record
-// the calls of an API.
+// Draws a single frame in this process, with no other frame before it, for debuggers and for tools
+// that record API calls.
 
 #include <optional>
 #include <span>
@@ -20,22 +20,23 @@ namespace triptych::measure {
 struct TracedPixel {
   PixelPlace place;
   technique::RayTrace trace;  // for a volume
-  core::Image image;          // image of the build that recorded the trace
-  std::optional<accuracy::SpriteHistory> sprites = {};  // for particles, in place of both
+  core::Image image;          // the image that the tracing build drew
+  // For particles, instead of `trace` and `image`.
+  std::optional<accuracy::SpriteHistory> sprites = {};
 };
 
 struct FrameInProcess {
   record::Record record;
   core::Image image;
   record::Device device;
-  std::optional<TracedPixel> traced;  // if a pixel was named
+  std::optional<TracedPixel> traced;  // set if a pixel was named
 };
 
 // Draws the only configuration of the plan: opens the device, prepares it, draws one frame and
 // reads its image. Nothing is calibrated, counted or repeated. If RenderDoc is loaded into the
 // process, its capture contains the frame and nothing else, and its file name begins with
-// `capture`. If a pixel is named, further frames are drawn to record its history. Throws what the
-// device's functions throw, and InputError for a pixel outside of the image.
+// `capture`. If a pixel is named, further frames are drawn to record its history. Throws the
+// exceptions of the device's functions, and InputError for a pixel outside the image.
 [[nodiscard]] FrameInProcess draw_in_process(const Backend& backend, std::string_view device_id,
                                              Suite& suite, const Plan& plan,
                                              std::span<const InjectedFault> faults,

@@ -74,7 +74,7 @@ class Interleaved::Slot {
   [[nodiscard]] const Hello& hello() const { return hello_; }
   [[nodiscard]] const record::Reason& why_closed() const { return slot_.why_closed(); }
 
-  // Like WorkerSlot::open. Later workers use the clock calibration of the first one.
+  // Like WorkerSlot::open. Later workers use the clock calibration of the first worker.
   bool open() {
     return slot_.open(
         [this] {
@@ -87,7 +87,7 @@ class Interleaved::Slot {
 
   void close() { slot_.finish(); }
 
-  // Throws SideEnded unless the answer is a message of the expected kind.
+  // Sends a request. Throws SideEnded unless the answer is a message of the expected kind.
   template <typename As>
   auto ask(const Message& message, As as, const OnLoading& on_loading) {
     if (!open()) throw SideEnded(side_, record::Outcome::failed, why_closed());
@@ -109,7 +109,7 @@ class Interleaved::Slot {
     give_up(record::Outcome::failed, {.cause = record::Cause::bad_answer});
   }
 
-  // Throws SideEnded unless the outcome is that of a measured configuration.
+  // Throws SideEnded unless the outcome is `measured`.
   void require_measured(record::Outcome outcome, const record::Reason& reason) {
     if (outcome == record::Outcome::measured) return;
     slot_.vacate_after(outcome, reason);

@@ -1,9 +1,10 @@
 #pragma once
-// Two workers that take turns on one machine, so that a disturbance slows down both. A block has
-// four batches in the random order A B B A or B A A B, so that a drift that is linear over the four
-// batches cancels out of the difference. If batches are short, a block repeats the four batches
-// several times and uses the minimum for each of the four. A disturbance of one side's processor
-// lasts for tens of milliseconds and can only make a batch slower, so the minimum removes it.
+// Measures two workers that take turns on one machine (interleaved A/B), so that a disturbance
+// slows down both. A block has four batches. Their order is chosen at random, either ABBA or BAAB,
+// so that a drift that is linear over the four batches cancels out of the difference. If batches
+// are short, a block repeats the four batches several times and uses the minimum for each of the
+// four. A disturbance of one side's processor lasts for tens of milliseconds and can only
+// make a batch slower, so the minimum removes it.
 
 #include <array>
 #include <chrono>
@@ -44,19 +45,20 @@ class SideEnded : public record::NotMeasured {
 // each value is the minimum over the repetitions.
 struct SideTimes {
   std::array<double, 2> wall_ns{};
-  std::optional<std::array<double, 2>> device_ns;  // if the device reported it for every frame
+  std::optional<std::array<double, 2>> device_ns;  // set if reported for every frame
 };
 
 struct Block {
-  bool b_first = false;  // the order is B A A B
+  bool b_first = false;  // the order is B A A B, otherwise A B B A
   SideTimes a;
   SideTimes b;
 };
 
 enum class SideClock : std::uint8_t { wall, device };
 
-// d = ½(ln b₁ + ln b₂ − ln a₁ − ln a₂) for each block. SideClock::device requires that the blocks
-// have device times. A time of 0 counts as one nanosecond.
+// Returns d = ½(ln b₁ + ln b₂ − ln a₁ − ln a₂) for each block, where a and b are the batch times of
+// the sides. SideClock::device requires that the blocks have device times. A time of 0 counts as
+// one nanosecond.
 [[nodiscard]] std::vector<double> differences(std::span<const Block> blocks, SideClock clock);
 
 // Whether the device times of both sides are plausible (plausible(), measure/protocol/clock.hpp).
@@ -67,12 +69,12 @@ struct InterleavedOptions {
   std::vector<std::string> kinds;  // kinds of work in the plan, for which the clocks are calibrated
   std::chrono::seconds limit{60};  // for one answer; a worker that exceeds it is killed
   std::chrono::seconds start_limit{60};  // for opening a device and calibrating its clocks
-  // Frames that are shorter are drawn in batches, of the same number on both sides, so that a batch
-  // lasts this long.
+  // Frames that are shorter than this are drawn in batches that last this long. The number of
+  // frames in a batch is the same on both sides.
   double least_batch_ns = 1e6;
   // A block repeats its four batches until it lasts this long.
   double least_block_ns = 40e6;
-  std::uint64_t seed = 1;  // for the orders of the blocks
+  std::uint64_t seed = 1;  // for the random order of each block
 };
 
 class Interleaved {
@@ -89,9 +91,9 @@ class Interleaved {
 
   // All functions below throw SideEnded, and Interrupted if a signal asks the program to stop.
 
-  // Both sides prepare the configuration, keep it and draw a few frames. This warms them up and
-  // determines, with `clock`, the number of frames in a batch and how often a block repeats its
-  // batches. The previous configuration is released.
+  // Makes both sides prepare the configuration, keep it and draw a few frames. These frames warm up
+  // both sides. Their times on `clock` determine the number of frames in a batch and how often a
+  // block repeats its batches. The previous configuration is released.
   void hold(const Configuration& configuration,
             const std::array<std::vector<std::string>, 2>& faults, SideClock clock,
             const OnLoading& on_loading = {});
@@ -102,12 +104,12 @@ class Interleaved {
   [[nodiscard]] Block block();
   void release();
 
-  // Both workers exit and new ones are started. No configuration is kept.
+  // Replaces both workers with new workers, which keep no configuration.
   void restart();
 
  private:
   class Slot;
-  // Measures the four batches again, and stores each new time in `block` if it is smaller.
+  // Measures the four batches once more, and stores each new time in `block` if it is smaller.
   void take_batches(Block& block);
   [[nodiscard]] Slot& slot(Side side) const { return *slots_.at(side == Side::a ? 0 : 1); }
 

@@ -8,8 +8,8 @@
 
 namespace triptych::measure {
 
-// Reports the progress of the plan, with the remaining time estimated from the mean of the finished
-// configurations.
+// Reports the progress of the plan. The remaining time is estimated from the mean time of the
+// finished configurations.
 class Report {
  public:
   Report(std::size_t total, const PlanRun::Tell& tell)
@@ -142,7 +142,7 @@ void PlanRun::stop_if_asked() {
   if (const auto signal = context_.interrupts.take()) throw Interrupted(*signal);
 }
 
-// The configurations that a resumed run has not yet measured on a device.
+// Returns the configurations that still have to be measured on a device.
 std::vector<const Configuration*> PlanRun::pending(const std::string& device,
                                                    Report& report) const {
   std::vector<const Configuration*> result;
@@ -175,8 +175,8 @@ void PlanRun::measure(const std::string& device, const Configuration& configurat
   report.done(done.record);
 }
 
-// Does not draw a configuration that earlier attempts began and never ended, because a driver that
-// crashes the machine would crash it again with each --resume.
+// Measures a configuration, unless two earlier attempts began but never ended. Otherwise, a driver
+// that crashes the machine would crash it again with each --resume.
 Done PlanRun::attempt(const std::string& device, const Configuration& configuration,
                       const std::string& key, Report& report) {
   if (const auto end = failures_of(device).foretold(configuration)) {

@@ -18,8 +18,8 @@ namespace triptych::measure {
 
 class Report;
 
-// Every record is written to the store as soon as it exists. measure_all() throws what run_plans()
-// throws.
+// Every record is written to the store as soon as it exists. measure_all() throws the same
+// exceptions as run_plans().
 class PlanRun {
  public:
   using Tell = std::function<void(const Progress&)>;
@@ -27,8 +27,8 @@ class PlanRun {
   // All arguments must outlive this object.
   PlanRun(const RunContext& context, const std::vector<std::string>& devices, const Tell& tell);
 
-  // Measures everything by the complete protocol, except for the records that a resumed run already
-  // contains.
+  // Measures all configurations by the complete protocol, except those of which a resumed run
+  // already has a record.
   [[nodiscard]] RunResult measure_all();
 
  private:

@@ -22,15 +22,15 @@
 namespace triptych::measure {
 namespace {
 
-// The kinds of work for which clocks and statistics have to be calibrated.
+// Returns the kinds of work for which clocks and statistics have to be calibrated.
 std::vector<std::string> kinds_of(const Plan& plan, const Protocol& protocol) {
   const bool asked = protocol.timed || protocol.statistics;
   return plan.timed() && asked ? work_kinds(plan) : std::vector<std::string>{};
 }
 
-// The run to resume is found by the plan's name, and the plan's text may have changed since the run
-// began. In this case, the run is refused if it contains a configuration that the plan does not
-// have.
+// The run to be resumed is found by the plan's name, so the plan may have changed since the run
+// began. If it has changed, throws if the run contains a configuration that the plan no longer
+// contains.
 void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& suite,
                          const record::Store& store) {
   if (run.plan_hash == plan.hash) return;
@@ -40,15 +40,15 @@ void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& 
   }
   for (const record::Record& record : store.records(run.id)) {
     if (keys.contains(record.configuration)) continue;
-    throw core::InputError(
-        fmt::format("run {} of {} has {}, which this plan does not measure: the plan has changed, "
-                    "or it is another plan of that name; leave out --resume to begin a new run",
-                    run.id, plan.name, record.configuration));
+    throw core::InputError(fmt::format(
+        "run {} of {} contains {}, which this plan does not contain: the plan has changed, or it "
+        "is another plan with the same name; leave out --resume to start a new run",
+        run.id, plan.name, record.configuration));
   }
 }
 
-// The id of the run to which records are added: a new one, or the plan's latest if it is resumed.
-// The planned configurations are stored before anything is measured.
+// Returns the id of the run to which records are added: a new run, or the plan's latest run if it
+// is resumed. Stores the planned configurations before anything is measured.
 std::string open_run(const PlannedRun& planned, const std::vector<std::string>& devices,
                      record::Store& store) {
   const auto& [plan, suite, options] = planned;
@@ -81,7 +81,8 @@ void refuse_bad_options(const RunOptions& options) {
   for (const InjectedFault& each : options.faults) check_fault(each.fault);
 }
 
-// Combines the progress of several parallel parts: sums, and the longest time left.
+// Combines the progress of parallel parts: adds up their numbers and reports the longest remaining
+// time.
 class JointProgress {
  public:
   explicit JointProgress(const PlanRun::Tell& tell) : tell_(tell) {}
@@ -127,8 +128,9 @@ struct Part {
   std::string device;
 };
 
-// If no times are measured, devices cannot disturb each other. Each part has its own connection to
-// the store. If parts fail, the first error is thrown after all have ended.
+// Measures parts in parallel. This is used only if no times are measured, so that parts cannot
+// disturb each other's times. Each part has its own connection to the store. If parts fail, the
+// first error is thrown after all parts have ended.
 std::vector<RunResult> measure_side_by_side(const std::vector<Part>& parts, std::size_t at_once,
                                             const PlanRun::Tell& on_progress) {
   JointProgress joint(on_progress);
@@ -168,9 +170,9 @@ std::size_t processors() {
   return std::max(1U, std::thread::hardware_concurrency());
 }
 
-// Divides a plan into parts, without empty ones. Each part has pieces from the whole plan, because
-// neighbouring configurations take about the same time. Within a piece, configurations share their
-// data.
+// Divides a plan into parts, none of which is empty. Each part has pieces from all over the plan,
+// so that all parts take about the same time although neighbouring configurations are similar. The
+// configurations of a piece are neighbours, so that they share their data.
 std::vector<Plan> parts_of(const Plan& plan, std::size_t count) {
   constexpr std::size_t pieces_each = 8;
   constexpr std::size_t longest_piece = 16;

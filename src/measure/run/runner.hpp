@@ -1,6 +1,6 @@
 #pragma once
 // Runs a plan with one supervised worker process for each device. Records are stored as soon as
-// they are made.
+// they exist.
 
 #include <array>
 #include <chrono>
@@ -29,8 +29,7 @@ struct RunOptions {
   std::chrono::seconds limit = record::standard_limit;
   std::chrono::seconds start_limit{60};  // for opening a device and calibrating its clocks
   bool resume = false;                   // continue the plan's latest run and keep its records
-  // The device and the configuration of each record that a resumed run draws again although it
-  // contains it.
+  // The device and the configuration of each record that a resumed run contains but measures again.
   std::set<std::pair<std::string, std::string>> again = {};
   std::vector<InjectedFault> faults;
   // The number of workers that run at the same time if nothing is timed; one device may have
@@ -40,7 +39,8 @@ struct RunOptions {
   std::vector<std::string> worker_environment = {};  // see SideOptions::environment
   // The devices that the command requested, those that it found, and those that it measures.
   record::Beginning begun = {};
-  // The version with its commit, which is written to the run; empty: the version only.
+  // The version of the program with its commit, which is stored in the run. If empty, only the
+  // version is stored.
   std::string program = {};
 };
 
@@ -50,13 +50,14 @@ struct Progress {
   int done = 0;
   int total = 0;
   std::chrono::seconds left{0};
-  const record::Record* record = nullptr;  // the configuration that was just done
-  std::optional<Loading> loading;          // otherwise, of the configuration that is being measured
+  const record::Record* record = nullptr;  // the record that was just completed
+  std::optional<Loading> loading;          // otherwise, for the current configuration
 };
 
 struct RunResult {
   std::string run;  // id in the store
-  // The records of the plan's run on its devices; with `resume`, including earlier ones.
+  // The number of records of each outcome, on all devices; with `resume`, including earlier
+  // records.
   int measured = 0;
   // The number of measured records whose results were copied from an equivalent configuration
   // (measure/contract/equivalents.hpp).
@@ -67,11 +68,11 @@ struct RunResult {
   double wall_ns = 0;
   // Sum of the wall-clock times of all devices; more than wall_ns if they ran in parallel.
   double devices_ns = 0;
-  // The part of devices_ns outside of opening devices, preparing and drawing.
+  // The part of devices_ns that was not spent on opening devices, preparing and drawing.
   double overhead_ns = 0;
 };
 
-// A few lines about the plan's run in the file of the store, and its result.
+// Returns a few lines about the result of the plan's run. `store` is the file of the store.
 [[nodiscard]] std::string describe(const RunResult& result, const std::string& plan,
                                    const std::string& store);
 
@@ -82,11 +83,11 @@ struct PlannedRun {
   const RunOptions& options;
 };
 
-// Measures every configuration of each plan on every device, with one device after the other, so
-// that none disturbs the times of another. A crash, a hang or a lost device costs one
-// configuration. If the worker of a device cannot be started twice in a row, all remaining
-// configurations of the device fail with that reason. There is one result for each plan, and each
-// is a run of its own. Throws InputError for an unknown fault, for environment variables that must
+// Measures every configuration of each plan on every device. If times are measured, the devices are
+// measured one after the other, so that they do not disturb each other. A crash, a hang or a lost
+// device affects only one configuration. If the worker of a device cannot be started twice in a
+// row, all remaining configurations of the device fail with that reason. Each plan has its own run
+// and its own result. Throws InputError for an unknown fault, for environment variables that must
 // not be set while measuring, for a resumed run whose device has changed, and for a resumed run
 // that contains something that the changed plan does not measure; IoError if the store cannot be
 // written; Interrupted.
@@ -94,8 +95,9 @@ struct PlannedRun {
     std::span<const PlannedRun> runs, const std::vector<std::string>& devices, record::Store& store,
     const std::function<void(const Progress&)>& on_progress);
 
-// Faults of these runs that apply to none of their configurations on these devices. A user who
-// injects a fault and sees a pass would otherwise think that it was not found.
+// Returns the injected faults that apply to none of the configurations on these devices. If they
+// were not reported, a user who injects a fault and sees a pass would think that the fault was not
+// detected.
 [[nodiscard]] std::vector<InjectedFault> faults_that_hit_nothing(
     std::span<const PlannedRun> runs, const std::vector<std::string>& devices);
 
@@ -107,7 +109,8 @@ struct SidesRun {
   std::array<RunOptions, 2> options;
 };
 
-// In parallel if nothing is timed, otherwise one after the other. Throws as run_plans().
+// Measures both sides, in parallel if nothing is timed, otherwise one after the other. Throws the
+// same exceptions as run_plans().
 [[nodiscard]] std::array<RunResult, 2> run_sides(
     const SidesRun& sides, record::Store& store,
     const std::function<void(const Progress&)>& on_progress);

@@ -14,7 +14,7 @@ bool ended_the_worker(record::Outcome outcome) {
          outcome == record::Outcome::lost;
 }
 
-// The factors in which two configurations of a plan differ.
+// Returns the factors in which two configurations of a plan differ.
 std::set<std::string> differing(const Configuration& a, const Configuration& b) {
   std::set<std::string> factors;
   for (const auto& [factor, level] : a) {

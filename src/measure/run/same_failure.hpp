@@ -1,7 +1,7 @@
 #pragma once
-// A fault in a driver that ends the worker usually affects many configurations, and each of them
-// costs a worker or the whole time limit. If two configurations have failed in the same way,
-// similar ones are therefore not tried.
+// A driver fault that ends the worker usually affects many configurations, and each of them takes a
+// new worker or the whole time limit. Therefore, if two configurations have failed in the same way,
+// similar configurations are not tried.
 
 #include <map>
 #include <optional>
@@ -29,11 +29,11 @@ class SameFailure {
     // marked as not tried.
     record::Reason reason;
   };
-  // The predicted outcome of the configuration; nullopt if it has to be tried. A factor is
-  // irrelevant if two configurations that differ in it failed in the same way. A configuration is
-  // predicted to fail like one that crashed, hung or lost the device if it differs from that one
-  // only in irrelevant factors, and if no configuration that differs from it only in these factors
-  // was measured.
+  // Returns the predicted outcome of the configuration, or nullopt if it has to be tried. A factor
+  // is irrelevant if two configurations that differ in this factor failed in the same way. A
+  // configuration is predicted to fail like an earlier configuration that crashed, hung or lost the
+  // device if two conditions are met: both differ only in irrelevant factors, and no configuration
+  // that differs from the earlier one only in irrelevant factors was measured successfully.
   [[nodiscard]] std::optional<Foretold> foretold(const Configuration& configuration) const;
 
  private:

@@ -1,5 +1,6 @@
 #pragma once
-// Draws frames one at a time. Each can be chosen after the previous one was seen.
+// Draws frames one at a time, so that each configuration can be chosen after the previous frame was
+// seen.
 
 #include <string>
 
@@ -7,19 +8,20 @@
 
 namespace triptych::measure {
 
-// One device with its worker, which is replaced if it dies. For each configuration it draws one
-// frame for the image and one for the counters, without times. Records and images are written to
-// the store. All arguments must outlive this object.
+// One device with its worker, which is replaced if it dies. For each configuration, it draws one
+// frame for the image and one frame for the counters. No times are measured. Records and images are
+// written to the store. All arguments must outlive this object.
 class SingleFrames {
  public:
-  // Throws InputError like run_plans().
+  // Throws InputError in the same cases as run_plans().
   SingleFrames(const Suite& suite, std::string device, record::Store& store,
                const RunOptions& options, InterruptGuard& interrupts);
 
   // Throws Interrupted, and IoError if the store cannot be written.
   [[nodiscard]] record::Record draw(const Configuration& configuration);
 
-  // The device as it was when it was opened. Throws InputError if it was never opened.
+  // Returns the device as it was when it was opened. Throws InputError if the device was never
+  // opened.
   [[nodiscard]] record::Device device() const;
 
  private:

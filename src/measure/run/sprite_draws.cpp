@@ -46,7 +46,7 @@ class SpriteDraws {
                                      place_.x, place_.y);
   }
 
-  // The device's image of these particles in the pixel.
+  // Returns the pixel if the device draws only these particles.
   [[nodiscard]] accuracy::ShownSurface shown(const Particles& particles) {
     std::get<ParticleWork>(work_.scene).scene.particles =
         std::make_shared<const scene::ParticleSet>(scene::particle_subset(*all_, particles));

@@ -1,6 +1,7 @@
 #pragma once
-// The history of one pixel of a particle scene: the device draws each sphere that the pixel's ray
-// may meet alone, with the technique, the camera and the device code of the whole frame.
+// Determines the history of one pixel of a particle scene. For each sphere that the pixel's ray may
+// hit, the device draws a frame that contains only this sphere, with the technique, the camera and
+// the device code of the whole frame.
 
 #include <map>
 #include <string>
@@ -11,7 +12,7 @@
 
 namespace triptych::measure {
 
-// The data on which the reference depends.
+// The arguments of the reference renderer.
 struct Described {
   const Configuration& configuration;
   const std::map<std::string, double>& precision;  // Record::precision
@@ -19,9 +20,10 @@ struct Described {
 
 [[nodiscard]] accuracy::ShownSurface shown_at(const core::Image& image, PixelPlace place);
 
-// `whole` is the result of the frame with all particles. If it is wrong but no sphere alone is
-// wrong, the device draws fewer and fewer particles as long as the pixel is still wrong. Throws
-// NotSupported if the suite does not implement ExpectsSprites, and the errors of the device.
+// Returns the history of the pixel. `whole` is the pixel in the frame with all particles. If it is
+// wrong although each sphere alone is drawn correctly, the device draws fewer and fewer particles
+// as long as the pixel remains wrong. Throws NotSupported if the suite does not implement
+// ExpectsSprites, and the errors of the device.
 [[nodiscard]] accuracy::SpriteHistory sprite_history(Device& device, const Work& work, Suite& suite,
                                                      const Described& described, PixelPlace place,
                                                      const accuracy::ShownSurface& whole);

@@ -15,18 +15,18 @@ namespace triptych::measure {
 struct FeatureRow {
   std::string name;
   ProbedFeature probed;
-  std::optional<record::Reason> ended = {};  // if the process crashed or was too slow
+  std::optional<record::Reason> ended = {};  // set if the process crashed or exceeded the limit
 };
 
-// All probes of the device in their order; with `only`, the one with that name. If the device
-// cannot be opened, there is one row without a name that has the reason. `limit` applies to each
-// probe.
+// Runs all probes of the device in their order, or only the probe with the name `only` if it is not
+// empty. If the device cannot be opened, the result is one row without a name that states the
+// reason. `limit` is the time limit for each probe.
 [[nodiscard]] std::vector<FeatureRow> probe_features(const std::string& device,
                                                      const std::string& only,
                                                      std::chrono::seconds limit);
 
-// The main function of that process: it opens the device and answers requests until there are no
-// more.
+// The main function of the separate process: opens the device and answers requests until the pipe
+// is closed.
 void answer_features(const Backend& backend, const std::string& device);
 
 }  // namespace triptych::measure

@@ -21,8 +21,8 @@ namespace {
 constexpr std::chrono::seconds listing_limit{30};
 // On a busy machine it takes half a minute to load the driver of a compile-only device.
 constexpr std::chrono::seconds compiler_limit{120};
-constexpr std::chrono::seconds greeting_limit{
-    120};  // opening may compile; calibrating draws frames
+// Opening a device may compile code, and calibrating its clocks draws frames.
+constexpr std::chrono::seconds greeting_limit{120};
 
 core::Json as_json(const Listing& listing) {
   core::Json broken = core::Json::array();
@@ -79,10 +79,11 @@ bool any_matches(const std::vector<std::string>& globs, const std::string& id) {
       globs, [&](const std::string& glob) { return ::fnmatch(glob.c_str(), id.c_str(), 0) == 0; });
 }
 
-// Asks the driver whether it compiles for the family of this device, and adds the result.
+// Asks the driver whether it can compile for the GPU family of this device, and adds the result to
+// `listing`.
 void list_compiler(const std::string& id, Listing& listing) {
   constexpr const char* newer =
-      "but a newer one may: Mesa 25.0 of Debian 13 supports AMD's families up to gfx1201";
+      "but a newer driver may: Mesa 25.0 in Debian 13 supports AMD's GPU families up to gfx1201";
   const std::string api = id.substr(0, id.find(':'));
   const auto refuse = [&](std::string reason) {
     listing.broken.push_back({.what = id, .reason = std::move(reason)});
@@ -97,10 +98,10 @@ void list_compiler(const std::string& id, Listing& listing) {
           fmt::format("the installed driver did not respond within {} s", compiler_limit.count()));
     }
     if (answer == nullptr) {
-      // RADV aborts if the requested family is not known to it.
+      // RADV aborts if it does not know the requested family.
       listing.broken.push_back({.what = id,
                                 .reason = std::string("the installed driver exited without an "
-                                                      "answer; it may not know this family, ") +
+                                                      "answer; it may not know this GPU family, ") +
                                           newer,
                                 .ended = reason_of(reply)});
       return;
@@ -108,13 +109,13 @@ void list_compiler(const std::string& id, Listing& listing) {
     for (record::Device& device : from_json(answer->json).devices) {
       if (device.id == id) return listing.devices.push_back(std::move(device));
     }
-    refuse(std::string("the installed driver does not know this family, ") + newer);
+    refuse(std::string("the installed driver does not know this GPU family, ") + newer);
   } catch (const core::NotSupported& error) {
     refuse(error.what());
   }
 }
 
-// Throws an error with the reason why no device of the listing matches `glob`.
+// Throws an error that states why no device in the listing matches `glob`.
 [[noreturn]] void refuse_devices(const Listing& listing, std::string_view glob) {
   if (listing.devices.empty()) {
     throw core::NotSupported(fmt::format(

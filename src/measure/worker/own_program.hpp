@@ -1,18 +1,18 @@
 #pragma once
-// This program also serves devices in separate processes. Started as "worker --device ID" it calls
-// serve_worker(), and started as "list-api API" it calls answer_listing()
-// (measure/worker/listing.hpp).
+// This program starts itself again in separate processes that use devices. If it is started as
+// "worker --device ID", it calls serve_worker(). If it is started as "list-api API", it calls
+// answer_listing() (measure/worker/listing.hpp).
 
 #include <string>
 #include <vector>
 
 namespace triptych::measure {
 
-// The file of this program.
+// Returns the path of this program's file.
 [[nodiscard]] std::string own_program();
 
-// The value of SideOptions::command for this program, or for another build of it. `more`: further
-// arguments.
+// Returns the value of SideOptions::command for this program or for another build of it. `more`
+// contains further arguments.
 [[nodiscard]] std::vector<std::string> worker_command(std::string program = own_program(),
                                                       const std::vector<std::string>& more = {});
 

@@ -1,21 +1,24 @@
 #pragma once
-// The messages between supervisor and worker, sent over two pipes. Both are the same program on the
-// same machine, so numbers are sent in native byte order. A message is
-//   8 bytes magic, 4 bytes size of the JSON text, 4 bytes size of the binary part, JSON, binary
-//   part
+// The messages between the supervisor and a worker, which are sent over two pipes. Both processes
+// run the same program on the same machine, so numbers are sent in native byte order. A message is
+//   8 bytes magic number, 4 bytes size of the JSON text, 4 bytes size of the binary part, the JSON
+//   text, the binary part
 //
-//   supervisor → worker   start   suite, kinds of work the plan needs, clocks already known
-//   worker → supervisor   hello   device, clocks      | refused   reason
-//   supervisor → worker   job     one configuration with the protocol and its injected faults
-//   worker → supervisor   loading progress of loading a large data set; zero or more of these come
-//                                 before the answer
-//   worker → supervisor   answer  record, time taken; the image is the binary part, as EXR
-// and, for measuring two workers by interleaved A/B:
-//   supervisor → worker   hold    one configuration that the worker prepares and keeps
-//   supervisor → worker   frames  number of timed frames of the kept configuration to draw now
-//   supervisor → worker   release the worker frees the kept configuration
-//   worker → supervisor   turn    the answer to each of these three: times of the drawn frames, or
-//                                 the reason why there are none; loading may come before it
+//   supervisor → worker   start    the suite, the kinds of work in the plan, the clocks that are
+//                                  known already
+//   worker → supervisor   hello    the device and its clocks, or
+//                         refused  the reason why the device cannot be used
+//   supervisor → worker   job      one configuration with the protocol and its injected faults
+//   worker → supervisor   loading  progress of loading a large data set; any number of these
+//                                  messages precede the answer
+//   worker → supervisor   answer   the record and the time taken; the binary part is the EXR image
+// These messages are used to measure two workers by interleaved A/B:
+//   supervisor → worker   hold     one configuration that the worker prepares and keeps
+//   supervisor → worker   frames   the number of timed frames to draw of the kept configuration
+//   supervisor → worker   release  makes the worker free the kept configuration
+//   worker → supervisor   turn     the answer to each of these three requests: the times of the
+//                                  drawn frames, or the reason why there are none; `loading`
+//                                  messages may precede it
 
 #include <cstddef>
 #include <map>
@@ -36,18 +39,18 @@ struct Message {
   std::vector<std::byte> binary;
 };
 
-// Writes the whole message; throws IoError if the other side is gone.
+// Writes the whole message. Throws IoError if the other process has closed the pipe.
 void send(int fd, const Message& message);
-// Waits for one message; nullopt if the other side has closed the pipe. Throws IoError if it closed
-// the pipe within a message, InputError for bytes that are not a message.
+// Waits for one message. Returns nullopt if the other process has closed the pipe. Throws IoError
+// if it closed the pipe within a message, and InputError for bytes that are not a message.
 [[nodiscard]] std::optional<Message> receive(int fd);
 
-// Combines the pieces that a pipe returns into messages.
+// Assembles messages from the pieces that are read from a pipe.
 class MessageBuffer {
  public:
   void append(std::span<const std::byte> bytes);
-  // The next complete message, if it has arrived. Throws InputError for bytes that are not a
-  // message.
+  // Returns the next message, or nullopt if it has not arrived completely. Throws InputError for
+  // bytes that are not a message.
   [[nodiscard]] std::optional<Message> next();
   [[nodiscard]] bool empty() const noexcept { return bytes_.empty(); }
 
@@ -60,7 +63,7 @@ struct Start {
   std::vector<std::string> kinds;  // see technique::name_of
   // The clocks that are known already, so that a replaced worker need not calibrate them again.
   std::vector<record::ClockTrust> clocks;
-  // False: the driver crashed when statistics were read, so they are not requested.
+  // False if the driver crashed when pipeline statistics were read, so they must not be requested.
   bool statistics = true;
 };
 
@@ -71,9 +74,9 @@ struct Hello {
 
 struct Refused {
   record::Reason reason;
-  // Whether the device lacks something.
+  // Whether the device does not support what is requested.
   [[nodiscard]] bool unsupported() const { return reason.cause == record::Cause::not_supported; }
-  // False if the worker sent its Hello instead.
+  // Whether there is a refusal. False if the worker sent its Hello instead.
   [[nodiscard]] bool is_one() const { return reason.cause != record::Cause::none; }
 };
 
@@ -85,15 +88,14 @@ struct Job {
 };
 
 struct Answer {
-  // Everything that does not depend on the plan; in `factors` every "auto" is resolved.
+  // All fields that do not depend on the plan. In `factors`, every "auto" is resolved.
   record::Record record;
-  double worker_ns = 0;  // from reading the job until the answer is ready
-  std::map<std::string, std::string> listings = {};  // disassembly by the hash of its content
+  double worker_ns = 0;  // time from reading the job until the answer is ready
+  std::map<std::string, std::string> listings = {};  // disassemblies by content hash
   std::vector<std::byte> exr;
 };
 
-// Requests that the worker prepares and keeps a configuration, in place of the one that it has kept
-// so far.
+// Requests that the worker prepare a configuration and keep it in place of the previous one.
 struct Hold {
   Configuration configuration;
   std::vector<std::string> faults;
@@ -105,12 +107,13 @@ struct Frames {
 
 struct Release {};
 
-// The answer to Hold, Frames and Release. After a failure no configuration is kept any longer.
+// The answer to Hold, Frames and Release. After a failure, the worker no longer keeps a
+// configuration.
 struct Batch {
   record::Outcome outcome = record::Outcome::measured;
   record::Reason reason;          // for every outcome except measured
   std::vector<double> wall_ns;    // one for each frame
-  std::vector<double> device_ns;  // empty if the device did not report it for every frame
+  std::vector<double> device_ns;  // empty unless the device reported it for every frame
 };
 
 [[nodiscard]] Message to_message(const Start& start);
@@ -124,7 +127,8 @@ struct Batch {
 [[nodiscard]] Message to_message(const Release& release);
 [[nodiscard]] Message to_message(const Batch& batch);
 
-// nullopt if the message has another type. Throws InputError if a member is missing.
+// These functions return nullopt if the message has another type, and throw InputError if a member
+// is missing.
 [[nodiscard]] std::optional<Start> as_start(const Message& message);
 [[nodiscard]] std::optional<Hello> as_hello(const Message& message);
 [[nodiscard]] std::optional<Refused> as_refused(const Message& message);

@@ -32,8 +32,8 @@
 namespace triptych::measure {
 namespace {
 
-// The peak memory of this process since it began. ru_maxrss would not do, because it survives exec,
-// so that a worker would begin with the peak of its supervisor.
+// Returns the peak memory of this process since it began. ru_maxrss is used only if /proc is
+// unavailable, because it survives exec: a worker would begin with the peak of its supervisor.
 std::uint64_t peak_memory_bytes() {
   std::ifstream lines("/proc/self/status");
   for (std::string line; std::getline(lines, line);) {
@@ -51,7 +51,7 @@ technique::Work kind_named(std::string_view name) {
   throw core::InputError(fmt::format("unknown kind of work '{}'", name));
 }
 
-// Adds the settings that depend only on the work to the protocol.
+// Returns the protocol of the job, with the settings that depend on the work.
 Protocol protocol_for(const Job& job, const Work& work, bool has_statistics) {
   Protocol protocol = job.protocol;
   protocol.statistics = protocol.statistics && has_statistics;
@@ -61,12 +61,14 @@ Protocol protocol_for(const Job& job, const Work& work, bool has_statistics) {
   return protocol;
 }
 
-// The input is broken, which is not the device's fault, so the configuration is skipped.
+// Thrown if the input is broken. The configuration is skipped, because this is not the device's
+// fault.
 struct BadInput : core::NotSupported {
   using NotSupported::NotSupported;
 };
 
-// A data file is missing, which is not the device's fault either.
+// Thrown if a data file is missing. The configuration is skipped, because this is not the device's
+// fault.
 class MissingData : public core::NotSupported {
  public:
   MissingData(const std::string& reason, std::string data)
@@ -77,8 +79,8 @@ class MissingData : public core::NotSupported {
   std::string data_;
 };
 
-// Host memory is exhausted. The reason contains the limit that --memory or the user's limits set
-// for a worker.
+// Returns the reason for exhausted host memory. It contains the memory limit of the worker, if
+// --memory or the user's resource limits set one.
 record::Reason out_of_memory(const std::string& data) {
   record::Reason reason{.cause = record::Cause::out_of_memory, .subject = data};
   rlimit limit{};
@@ -92,8 +94,8 @@ record::Reason api_reason(record::Cause cause, const core::ApiError& error) {
   return {.cause = cause, .subject = error.call(), .code = error.code(), .detail = error.what()};
 }
 
-// Converts every typed error to the outcome of one configuration. `data` is the data set that may
-// have needed too much memory.
+// Runs `act` and converts each type of error to the outcome of the configuration. `data` is the
+// data set that is named if memory is exhausted.
 template <typename Act, typename OnFailure>
 void outcome_of(const Act& act, const std::string& data, const OnFailure& on_failure) {
   using record::Cause;
@@ -128,12 +130,13 @@ class Worker {
         info_(device_->info()),
         clocks_(std::move(clocks)) {}
 
-  // Includes the calibrations for the kinds of work that were calibrated here.
+  // Includes the results of the calibrations that this worker made.
   [[nodiscard]] const record::Device& info() const { return info_; }
   [[nodiscard]] const std::vector<record::ClockTrust>& clocks() const { return clocks_; }
 
-  // Kinds of work whose clock is known already are left out, because the supervisor also has their
-  // calibration of statistics. `statistics`: whether statistics are read.
+  // Calibrates the clock and the pipeline statistics for each kind of work. Leaves out the kinds
+  // whose clock is known already, because the supervisor also has their statistics calibration.
+  // `statistics`: whether pipeline statistics may be read.
   void calibrate_for(const std::vector<std::string>& kinds, bool statistics) {
     has_statistics_ = statistics;
     if (!info_.compiles_for.empty()) return;
@@ -203,7 +206,8 @@ class Worker {
         [&] { act(batch); }, data_,
         [&](record::Outcome outcome, record::Reason reason) {
           batch = {.outcome = outcome, .reason = std::move(reason), .wall_ns = {}, .device_ns = {}};
-          // Freeing the objects of a lost device is where drivers fail most often.
+          // The objects of a lost device are not freed, because drivers fail most often in that
+          // case.
           if (outcome == record::Outcome::lost) {
             static_cast<void>(held_.release());
           } else {
@@ -213,8 +217,8 @@ class Worker {
     return batch;
   }
 
-  // If a driver changes the arithmetic of this process, the configuration during which that
-  // happened has failed: data that are generated later would differ from the accepted ones.
+  // Fails the configuration during which a driver changed the floating-point arithmetic of this
+  // process, because data that are generated later would differ from the accepted data.
   template <typename OnFailure>
   void blame_arithmetic(const OnFailure& on_failure) {
     std::string changed = restore_arithmetic();
@@ -225,7 +229,8 @@ class Worker {
         .detail = "the driver changed the floating-point mode of this process: " + changed});
   }
 
-  // Removes everything that would look as if the configuration had been measured.
+  // Sets the outcome, and removes all results that would suggest that the configuration was
+  // measured.
   static void conclude(Answer& answer, record::Outcome outcome, record::Reason reason) {
     record::Record record;
     record.factors = std::move(answer.record.factors);
@@ -237,8 +242,8 @@ class Worker {
     answer.listings.clear();
   }
 
-  // Makes the work of the configuration and resolves its "auto" levels. Throws NotSupported if data
-  // is missing or if the device cannot draw it.
+  // Creates the work of the configuration and resolves its "auto" levels. Throws NotSupported if
+  // data is missing or if the device cannot draw the work.
   Work supported_work(Configuration& configuration, const std::vector<std::string>& faults) {
     const auto data = configuration.find("data");
     data_ = data == configuration.end() ? "none" : data->second;
@@ -251,8 +256,8 @@ class Worker {
     return work;
   }
 
-  // Broken input is not the device's fault: the configuration is skipped, and the reason names the
-  // place in the input.
+  // Like supported_work(), but throws BadInput for broken input. The message names the place in the
+  // input.
   Work work_or_skip(Configuration& configuration, const std::vector<std::string>& faults) {
     try {
       return supported_work(configuration, faults);
@@ -324,7 +329,7 @@ class Worker {
     }
   }
 
-  // Runs under the emulator, so it needs no clock.
+  // Counts instructions under the emulator. No clock is needed.
   void count(const Job& job, const Work& work, Configuration configuration, Answer& answer) {
     if (!counter_) counter_ = InstructionCounter::of_this_process();
     if (!counter_)
@@ -348,28 +353,28 @@ class Worker {
   record::Device info_;
   std::vector<record::ClockTrust> clocks_;
   std::optional<InstructionCounter> counter_;
-  // Created when the first loop needs them, because this loads a library.
+  // Created when the first loop needs it, because the constructor loads a library.
   std::optional<EnergyMeters> meters_;
   std::unique_ptr<Prepared> held_;
   std::optional<FrameProof> proof_;  // for the configuration that is held
   Equivalents equivalents_;
-  bool has_statistics_ = true;  // the driver reports statistics without a fault
+  bool has_statistics_ = true;  // false if reading pipeline statistics revealed a fault
   // The wrong rounding mode that the driver set while the device was opened and calibrated.
   std::string changed_arithmetic_;
-  std::string data_;         // the data of the current configuration
-  double measuring_ns_ = 0;  // for the last job: the time that measure() accounts for itself
+  std::string data_;         // name of the current configuration's data
+  double measuring_ns_ = 0;  // time of the last job for which measure() itself accounts
 };
 
-// Kills this worker when its supervisor dies. Otherwise it could keep the device, for example while
-// it hangs in a call of the driver.
+// Makes the kernel kill this worker when its supervisor dies. Otherwise, a worker that hangs in a
+// driver call, for example, would keep using the device.
 void die_with_parent() {
   const pid_t parent = ::getppid();
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) std::raise(SIGKILL);
 }
 
-// Closes the descriptor in processes that a driver starts, so that they do not keep the pipes to
-// the supervisor open after this process has ended.
+// Sets close-on-exec, so that processes that a driver starts do not keep the pipes to the
+// supervisor open after this process has ended.
 void keep_to_ourselves(int fd) {
   if (const int flags = ::fcntl(fd, F_GETFD); flags >= 0) ::fcntl(fd, F_SETFD, flags | FD_CLOEXEC);
 }
@@ -411,7 +416,7 @@ int serve(const Backend& backend, std::string_view device_id, const FindSuite& f
 
   while (const auto message = receive(request_fd)) {
     // Freeing the objects of a lost device is where drivers fail most often, so the process exits
-    // without it.
+    // without freeing them.
     if (serve_one(worker, *message, answer_fd) == record::Outcome::lost) ::_exit(0);
   }
   return 0;

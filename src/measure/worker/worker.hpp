@@ -9,12 +9,13 @@
 
 namespace triptych::measure {
 
-// The worker's side: serves one device over the two file descriptors until the first one is closed.
-// Returns the exit code of the process.
+// The main function of a worker: serves one device over two pipes until the pipe `request_fd` is
+// closed. Returns the exit code of the process.
 [[nodiscard]] int serve_worker(const Backend& backend, std::string_view device_id,
                                const FindSuite& find_suite, int request_fd, int answer_fd);
 
-// Records the facts about the data and the path that are needed to judge the image.
+// Stores the properties of the data and of the device's path in the record that are needed to judge
+// the image.
 void describe_work(const Work& work, const Device& device, record::Record& record);
 
 }  // namespace triptych::measure

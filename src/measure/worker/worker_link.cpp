@@ -16,8 +16,8 @@
 namespace triptych::measure {
 namespace {
 
-// Reads everything that is available from a non-blocking descriptor; false if the other side has
-// closed it.
+// Reads everything that is available from a non-blocking descriptor. Returns false if the other
+// process has closed the pipe.
 template <typename Take>
 bool drain(int fd, Take take) {
   std::array<char, 65536> piece;
@@ -33,7 +33,8 @@ bool drain(int fd, Take take) {
   }
 }
 
-// Whether the process was ended by a signal that comes from outside and that no driver raises.
+// Whether the process was ended by a signal that other processes send and that drivers do not
+// raise.
 bool is_ordered(const Exit& exit) {
   return exit.signal == SIGKILL || exit.signal == SIGTERM || exit.signal == SIGINT;
 }
@@ -78,8 +79,9 @@ WorkerLink::Reply WorkerLink::ask(const Message& request, std::chrono::milliseco
   for (;;) {
     const bool in_time = wait_for_event(deadline);
     if (const auto signal = interrupts_.take()) throw Interrupted(*signal);
-    const bool over = ended_;  // read before the pipe, so that everything that it wrote before its
-                               // end is then available
+    // This is read before the pipe is, so that everything that a worker wrote before its end is
+    // then available.
+    const bool over = ended_;
     read_answer();
     read_log();
     try {
@@ -116,7 +118,7 @@ std::optional<record::DeviceFault> WorkerLink::finish() {
   std::optional<Exit> exit;
   do {
     exit = process_.wait(step);
-    read_log();  // a process that waits for space in a full pipe does not end
+    read_log();  // a process that waits for space in a full pipe cannot exit
   } while (!exit && std::chrono::steady_clock::now() < deadline);
   if (!exit) {
     ask_for_stack();
@@ -182,8 +184,8 @@ bool WorkerLink::wait_for_event(Deadline deadline) {
 }
 
 std::optional<Exit> WorkerLink::reap() {
-  // A worker that closed its answer pipe is about to exit. It gets some time, so that its exit
-  // status can be read.
+  // A worker that closed its answer pipe is about to exit. It is not killed immediately, so that
+  // its exit status can be read.
   constexpr std::chrono::seconds patience{2};
   auto exit = process_.wait(patience);
   if (!exit) {
@@ -217,8 +219,9 @@ record::Reason WorkerLink::bury_for(record::Reason reason) {
   return reason;
 }
 
-// A batch system that ends a whole job ends the worker and this process at the same time. If the
-// worker ends first, this is not a fault of its configuration.
+// Waits for a signal that ends this process, and throws Interrupted if it arrives. A batch system
+// that ends a job ends the worker and this process at the same time. If the worker ends first, its
+// configuration is not at fault.
 void WorkerLink::await_own_end() {
   const Deadline deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
   for (;;) {
@@ -227,7 +230,8 @@ void WorkerLink::await_own_end() {
     pollfd event{interrupts_.fd(), POLLIN, 0};
     ::poll(&event, 1, static_cast<int>(std::max<std::int64_t>(0, left.count())));
     if (const auto signal = interrupts_.take()) throw Interrupted(*signal);
-    // Another thread may be about to report the signal that it took.
+    // The loop continues until the deadline, because another thread may have read the signal but
+    // not yet stored it.
     if (std::chrono::steady_clock::now() >= deadline) return;
   }
 }

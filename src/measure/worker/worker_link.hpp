@@ -1,6 +1,6 @@
 #pragma once
-// The supervisor's side of one worker: it sends a request, and gets an answer, the worker's death
-// or a timeout.
+// The supervisor's connection to one worker. The result of a request is an answer, the worker's
+// death or a timeout.
 
 #include <chrono>
 #include <cstddef>
@@ -22,7 +22,7 @@ class LogTail {
  public:
   void append(std::string_view text);
   void clear() noexcept { text_.clear(); }
-  // The last lines without blank ones, separated by " | "; empty if there are none.
+  // Returns the last lines that are not blank, separated by " | ".
   [[nodiscard]] std::string last_lines(std::size_t count) const;
 
  private:
@@ -32,11 +32,11 @@ class LogTail {
 
 class WorkerLink {
  public:
-  // The worker died: by a signal, with an exit code, or after an answer that makes no sense.
+  // The worker was killed by a signal, exited, or was killed because its answer was invalid.
   struct Died {
     record::Reason reason;
   };
-  // The worker gave no answer within the limit.
+  // The worker gave no answer within the limit and was killed.
   struct Late {
     record::Reason reason;
   };
@@ -46,38 +46,39 @@ class WorkerLink {
   WorkerLink(const std::vector<std::string>& command, const std::vector<std::string>& environment,
              InterruptGuard& interrupts);
 
-  // After Died and Late, the process is gone and reaped, and the link cannot be used any longer.
-  // Throws Interrupted if a signal asks the supervisor to stop. Progress of loading that the worker
-  // reports before its answer is passed to `on_loading`, which may be empty.
+  // Sends a request and waits for the reply. After Died and Late, the process has been reaped and
+  // the link must not be used any longer. Throws Interrupted if a signal asks the supervisor to
+  // stop. If the worker reports loading progress before its answer, it is passed to `on_loading`,
+  // which may be empty.
   [[nodiscard]] Reply ask(const Message& request, std::chrono::milliseconds limit,
                           const OnLoading& on_loading = {});
 
-  // Begins the conversation. Returns the worker's greeting, or the reason why its device cannot be
+  // Sends the first message. Returns the worker's greeting, or the reason why its device cannot be
   // opened.
   [[nodiscard]] std::variant<Hello, Refused> greet(const Start& start,
                                                    std::chrono::milliseconds limit);
 
-  // Lets an idle worker exit by itself, so that drivers can write their caches, and kills it if it
-  // does not do so within a few seconds. Returns the fault of a driver that crashes or hangs during
-  // this.
+  // Lets an idle worker exit by itself, so that drivers can write their caches. Kills the worker if
+  // it does not exit within a few seconds. Returns a fault if the driver crashes or hangs
+  // meanwhile.
   std::optional<record::DeviceFault> finish();
 
  private:
   using Deadline = std::chrono::steady_clock::time_point;
 
   void read_answer();
-  // The answer, if it has arrived. Messages before it are passed on.
+  // Returns the answer if it has arrived. Passes loading progress that precedes it to `on_loading`.
   [[nodiscard]] std::optional<Message> next_answer(const OnLoading& on_loading);
   void read_log();
-  // Waits until something happens at one of the descriptors; false if the deadline passes.
+  // Waits for an event on any of the descriptors. Returns false if the deadline passes first.
   [[nodiscard]] bool wait_for_event(Deadline deadline);
   [[nodiscard]] Died bury();
-  // Kills the worker for `reason`.
+  // Kills the worker, and returns `reason` with the worker's last output.
   [[nodiscard]] record::Reason bury_for(record::Reason reason);
-  // Waits until the worker is gone, and returns how it ended.
+  // Waits until the worker has ended, after killing it if necessary. Returns how it ended.
   [[nodiscard]] std::optional<Exit> reap();
   void await_own_end();
-  // Asks a process that hangs for the call stack of its thread, which arrives as log.
+  // Asks a worker that hangs to print the call stack of its thread, which is then part of the log.
   void ask_for_stack();
   [[nodiscard]] std::string last_words() const;
 

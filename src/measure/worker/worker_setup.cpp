@@ -15,8 +15,8 @@
 namespace triptych::measure {
 namespace {
 
-// Mesa's own cache folder is shared by all programs, so it may be used only with the environment
-// variables that all programs have.
+// Gives Mesa a separate shader cache. The default cache is shared by all programs, so a worker with
+// additional environment variables must not use it.
 void keep_shaders_apart(std::vector<std::string>& environment) {
   constexpr const char* name = "MESA_SHADER_CACHE_DIR";
   const auto sets_it = [&](const std::string& entry) {

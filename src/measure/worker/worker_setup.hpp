@@ -1,6 +1,6 @@
 #pragma once
-// Starts the worker of a device: its command (native or under the emulator), its environment and
-// its cache folder.
+// Determines how the worker of a device is started: its command (with or without the emulator), its
+// environment and its cache folder.
 
 #include <chrono>
 #include <string>
@@ -16,12 +16,12 @@ struct SideOptions {
   // The command that starts a worker; the device id is appended. The program must call serve_worker
   // with Process::child_request_fd and child_answer_fd (measure/system/process.hpp).
   std::vector<std::string> command;
-  // Each is "NAME=VALUE". They are set in addition to what every worker gets, before any driver is
-  // loaded.
+  // Environment variables ("NAME=VALUE") that are set before any driver is loaded, in addition to
+  // those that every worker has.
   std::vector<std::string> environment = {};
 };
 
-// Compiling for the first time takes minutes under the emulator, where it takes seconds natively.
+// The time limit under the emulator, where the first compilation takes minutes instead of seconds.
 inline constexpr std::chrono::seconds counted_limit{600};
 
 // The default time limit for a configuration in a compile-only plan. The most expensive
@@ -29,13 +29,14 @@ inline constexpr std::chrono::seconds counted_limit{600};
 // processes shared two processors it took longer than the minute that other plans allow.
 inline constexpr std::chrono::seconds compiled_limit{300};
 
-// The name of a cache folder. Code that is compiled for another processor, as under the emulator,
-// or with other environment variables is kept in a separate folder, because drivers do not include
-// everything that changes the code in the keys of their caches.
+// Returns the name of the worker's cache folder. A worker that runs under the emulator, and
+// therefore compiles for another processor, or that has additional environment variables, has a
+// separate folder. This is necessary because the keys in drivers' caches do not include everything
+// that affects the code.
 [[nodiscard]] std::string cache_name(const SideOptions& side, bool counted);
 
-// `counted`: under the emulator, if there is one. `limit`: the time for opening the device; under
-// the emulator it is counted_limit.
+// `counted`: whether the worker runs under the emulator, if it is available. `limit`: the time
+// limit for opening the device; if `counted` is true, counted_limit is used instead.
 [[nodiscard]] WorkerSetup worker_setup(const SideOptions& side, bool counted,
                                        const CacheFolder& cache, std::chrono::milliseconds limit);
 

@@ -39,8 +39,8 @@ bool WorkerSlot::open(const std::function<Start()>& start,
     });
     if (!refused.is_one()) continue;
     if (!refused.unsupported() && attempt + 1 < most_attempts) continue;
-    // A driver that crashes each time may work without pipeline statistics. If it crashes without
-    // them, too, they are not the cause.
+    // A driver that crashes in every attempt may work if no pipeline statistics are read. If it
+    // crashes even then, the statistics are not the cause.
     if (reads_statistics && died(refused.reason)) {
       statistics_fault_ = statistics_crash(refused.reason);
     } else {
@@ -91,7 +91,7 @@ Refused WorkerSlot::try_to_open(const Start& start,
   command.push_back(setup_.device);
   const auto closed = [this](Refused refused) {
     refused.reason.stage = record::Stage::opening;
-    refused.reason.subject = setup_.device;  // a call that failed is named in the detail
+    refused.reason.subject = setup_.device;  // `detail` names the call that failed
     return refused;
   };
   std::unique_ptr<WorkerLink> worker;

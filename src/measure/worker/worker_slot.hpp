@@ -1,5 +1,5 @@
 #pragma once
-// A slot for a device's worker. A worker that is gone is replaced when the next one is needed.
+// A slot for a device's worker. A worker that has ended is replaced when a worker is needed again.
 
 #include <chrono>
 #include <functional>
@@ -15,7 +15,7 @@ namespace triptych::measure {
 
 struct WorkerSetup {
   std::string device;
-  std::vector<std::string> command;  // the device is appended to it
+  std::vector<std::string> command;  // the device id is appended to it
   std::vector<std::string> environment;
   std::chrono::milliseconds limit{};  // for opening the device and calibrating its clocks
 };
@@ -25,42 +25,43 @@ class WorkerSlot {
   WorkerSlot(WorkerSetup setup, InterruptGuard& interrupts)
       : setup_(std::move(setup)), interrupts_(interrupts) {}
 
-  // Returns true if there is a worker, or if one could be started. A new worker is sent `start`.
-  // Its greeting is passed to `greeted`, which may refuse the worker by an exception. If a worker
-  // cannot be started twice in a row, or if the device lacks something, no further attempt is made:
-  // this and all later calls return false, and why_closed() has the reason.
+  // Starts a worker if there is none. Returns true if there is a worker now. A new worker receives
+  // the message that `start` returns, and its greeting is passed to `greeted`, which may throw an
+  // exception to reject the worker. If two attempts in a row to start a worker fail, or if the
+  // device does not support what is requested, no further attempt is made: this call and all later
+  // calls return false, and why_closed() has the reason.
   bool open(const std::function<Start()>& start, const std::function<void(const Hello&)>& greeted);
   [[nodiscard]] const record::Reason& why_closed() const noexcept { return why_closed_.reason; }
-  // Whether the reason is something that the device lacks.
+  // Whether the reason is that the device does not support what is requested.
   [[nodiscard]] bool unsupported() const noexcept { return why_closed_.unsupported(); }
 
-  // The worker. The slot must be open.
+  // Returns the worker. The slot must be occupied.
   [[nodiscard]] WorkerLink& worker() const { return *worker_; }
   [[nodiscard]] bool occupied() const noexcept { return worker_ != nullptr; }
 
-  // The end of a worker that gave no answer.
+  // How a worker ended that gave no answer.
   struct Ended {
     record::Outcome outcome;
     record::Reason reason;
   };
-  // Sends a job to the worker. The slot must be open. It is vacated if the worker has ended, and in
-  // the cases of vacate_after().
+  // Sends a job to the worker. The slot must be occupied. Vacates the slot if the worker has ended,
+  // and in the cases of vacate_after().
   [[nodiscard]] std::variant<Answer, Ended> ask(const Message& job, std::chrono::milliseconds limit,
                                                 const OnLoading& on_loading);
 
-  // Lets the worker exit normally. Returns the fault of a driver that appears while it does so.
+  // Lets the worker exit normally. Returns a fault if the driver crashes or hangs meanwhile.
   std::optional<record::DeviceFault> finish();
   void vacate() noexcept { worker_.reset(); }  // kills the worker if it still runs
-  // Vacates the slot if the device is lost or a frame was not drawn: drivers ignore all further
-  // commands after some errors without reporting any of them.
+  // Vacates the slot if the device is lost or a frame was not drawn, because after some errors,
+  // drivers ignore all further commands without reporting an error.
   void vacate_after(record::Outcome outcome, const record::Reason& reason) noexcept;
 
-  // The time for opening the device, over all workers.
+  // Returns the total time that all workers of this slot took to open the device.
   [[nodiscard]] double opening_ns() const noexcept { return opening_ns_; }
 
  private:
-  // The result has no reason if a worker has sent its greeting; otherwise it has the reason why
-  // there is none.
+  // Starts a worker. If the worker sends its greeting, the result contains no reason. Otherwise it
+  // contains the reason why there is no worker.
   [[nodiscard]] Refused try_to_open(const Start& start,
                                     const std::function<void(const Hello&)>& greeted);
 
@@ -68,7 +69,8 @@ class WorkerSlot {
   InterruptGuard& interrupts_;
   std::unique_ptr<WorkerLink> worker_;
   Refused why_closed_;
-  std::optional<record::DeviceFault> statistics_fault_;  // the driver crashes when they are read
+  // Set if the driver crashes when pipeline statistics are read.
+  std::optional<record::DeviceFault> statistics_fault_;
   double opening_ns_ = 0;
 };
 

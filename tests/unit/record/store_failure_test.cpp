@@ -279,7 +279,7 @@ TEST_F(StoreTest, FileTakenAwayWhileItIsOpen) {
 
 TEST_F(StoreTest, AFileNeedsAName) {
   for (const Mode mode : {Mode::read, Mode::append}) {
-    EXPECT_THAT(refusal<core::InputError>("", mode), HasSubstr("needs the name of a file"));
+    EXPECT_THAT(refusal<core::InputError>("", mode), HasSubstr("the name of the store is empty"));
   }
 }
 
