@@ -31,7 +31,7 @@ PARTICLES = {"suite": "particles", "technique": ["quad_ray", "quad_screen", "til
 FEW = [{"suite": "volume", "technique": ["raycast"], "data": ["generate:gaussian_blob:8"], "camera": CAMERAS, "viewport": [8, 12]},
        {"suite": "particles", "technique": ["quad_ray", "tiles"], "culling": ["none"], "data": ["generate:uniform:10", "generate:uniform:20"],
         "camera": CAMERAS[:4], "viewport": [8]}]
-REFERENCE = ["--reference", "data=generate:uniform:10"]  # this factor exists in one suite only
+REFERENCE = ["--reference", "data=generate:uniform:10"]  # only one suite has this factor
 FIGURES = {"volume": ["figure_03_distribution", "figure_04_correlation_boxes", "figure_05_correlation_device",
                       "figure_06_speed_up_device", "figure_07_speed_up_camera_path", "figure_08_mean_data_camera_path",
                       "camera_paths", "correlation_camera_distance", "correlation_camera_rotation", "prediction",
@@ -67,7 +67,7 @@ class EndToEnd(unittest.TestCase):
 
     @classmethod
     def raw_times(cls):
-        """Returns suite → [({factor: level}, ms)]: the medians of the raw samples on the clock that the analysis uses."""
+        """Returns {suite: [({factor: level}, ms)]}: the medians of the raw samples, on the clock that the analysis uses."""
         samples = {}
         for row in read(cls.folder, "tables", "samples.csv"):
             samples.setdefault((row["record"], row["clock"]), []).append(float(row["time_ns"]))
@@ -80,7 +80,7 @@ class EndToEnd(unittest.TestCase):
         return times
 
     def pairs(self, suite, factor, a, b, change=lambda factors: factors):
-        """Returns the times of a and of b for configurations that are equal in all other factors."""
+        """Returns the times of levels a and b for configurations that agree in all other factors."""
         by_rest = {}
         for factors, ms in self.times[suite]:
             factors = change(dict(factors))
@@ -132,7 +132,7 @@ class EndToEnd(unittest.TestCase):
         base, level = self.pairs("volume", "device", "null:scripted", "null:scripted#2")
         row = self.row("volume", "speed_ups", factor="device", level="null:scripted#2")
         self.assertAlmostEqual(float(row["speed_up"]), statistics.linear_regression(level, base).slope, places=9)
-        self.assertAlmostEqual(float(row["speed_up"]), 1 / 1.7, delta=0.05)  # the factor in the script of the device
+        self.assertAlmostEqual(float(row["speed_up"]), 1 / 1.7, delta=0.05)  # the factor in the device's script
 
     def test_a_reference_of_one_suite(self):
         self.row("particles", "speed_ups", factor="data", level="generate:uniform:20", reference="generate:uniform:10")
@@ -200,7 +200,8 @@ class EndToEnd(unittest.TestCase):
 
     def test_the_store_itself_says_the_same(self):
         again = os.path.join(self.folder, "again")
-        # Figures are drawn from the tables alone, and publish.py compares their bytes.
+        # The figures are drawn from the tables alone, and publish.py compares their bytes, so this test does not draw
+        # them.
         with unittest.mock.patch.object(output.figures, "every", return_value=[]):
             self.assertEqual(analyze.main([os.path.join(self.folder, "s.sqlite"), "--out", again, *REFERENCE]), 0)
         files = sorted(glob.glob(os.path.join(self.out, "*", "time", "*.csv")))
@@ -210,7 +211,7 @@ class EndToEnd(unittest.TestCase):
                 self.assertEqual(one.read(), other.read(), file)
 
     def test_frames_taken_over_are_no_observation(self):
-        """A full box has no empty brick, so two ways of skipping are the same work."""
+        """A full box has no empty bricks, so two skip modes do the same work."""
         with open(os.path.join(self.folder, "copies.yaml"), "w", encoding="utf-8") as file:
             json.dump({"suite": "volume", "technique": ["raycast"], "data": ["generate:uniform_box:8"], "viewport": [8],
                        "skip": ["none", "distance"]}, file)
@@ -232,7 +233,7 @@ class EndToEnd(unittest.TestCase):
         self.assertGreater(len(glob.glob(os.path.join(out, "cell_*.svg"))), 2)
         with open(file, encoding="utf-8") as text:
             for cell in json.load(text)["cells"]:
-                self.assertFalse(cell.get("outputs"), "outputs are not kept")
+                self.assertFalse(cell.get("outputs"), "the notebook must not contain outputs")
                 self.assertLessEqual(len(cell["source"]), 10)
 
     def test_wrong_words_end_with_3(self):

@@ -42,7 +42,7 @@ class Publish(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("after 1 of 4 shares", done.stderr)
             self.assertIn("8 of 32 configurations", self.readme())
-        with self.subTest("kept where a later one cannot be made"):
+        with self.subTest("kept if a later one cannot be created"):
             self.expect_kept(self.archive())
         with self.subTest("completed"):
             done = self.publish()
@@ -57,7 +57,7 @@ class Publish(unittest.TestCase):
         return (self.folder / "out/triptych-results/README.md").read_text()
 
     def expect_kept(self, first):
-        # Interrupted in the middle: the tables exist, but not the analysis.
+        # The script is interrupted in the middle: the tables exist, but the analysis does not.
         stand_in = self.folder / "triptych"
         stand_in.write_text('#!/bin/sh\n"$TRIPTYCH_PROGRAM" "$@" || exit\n'
                             '[ "$1" != export ] || rm "$4/dictionary.json"\n', encoding="utf-8")
@@ -68,7 +68,7 @@ class Publish(unittest.TestCase):
         self.assertEqual({each.name for each in (self.folder / "out").iterdir()}, {"work", "triptych-results", "triptych-results.tar.xz"})
 
     def expect_complete(self):
-        # Not with tar, which needs xz, and a minimal Debian does not have that.
+        # Does not use tar, because tar needs xz, which a minimal Debian system does not have.
         with tarfile.open(self.folder / "out/triptych-results.tar.xz") as tar:
             tar.extractall(self.folder / "user")
         found = self.folder / "user/triptych-results"

@@ -42,7 +42,7 @@ class Techniques(unittest.TestCase):
         self.assertEqual(len(choice.technique_for(None, "gl:*", 2000)), 0)
 
     def test_a_technique_without_a_count_is_not_compared(self):
-        """Otherwise, its mean would be over other configurations."""
+        """Otherwise, its mean would cover other configurations than the means of the other techniques."""
         data = spheres(without=lambda at: at["technique"] == "tiles" and at["camera"] == "orbit_y:1/2"
                        and at["data"] == "generate:uniform:16000" and at["device"] == "gl:x")
         counts = choice.by_count(data)
@@ -54,7 +54,8 @@ class Techniques(unittest.TestCase):
                                    lambda at: float(at["step"]),
                                    without=lambda at: at == {"device": "b", "data": "y", "step": "2"})
         means = choice.mean_values(data, "data", "device")
-        self.assertEqual(list(means["mean_ms"]), [1] * 4)  # with step 2, the other cells would have a longer time
+        # with step 2, the cells of the other techniques would have longer times
+        self.assertEqual(list(means["mean_ms"]), [1] * 4)
         self.assertEqual(set(means["held"]), {"step=1"})
         self.assertTrue(choice.mean_values(data, "data", "technique").empty)
 

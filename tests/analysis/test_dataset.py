@@ -108,7 +108,7 @@ class Tables(unittest.TestCase):
         self.assertTrue(np.isnan(record["median_device_ns"]))
         self.assertIsNone(record["injected"])
         self.assertIsNone(record["processor"])
-        self.assertEqual(record["factor_data"], "NA")  # a level, although pandas would read it as a missing value
+        self.assertEqual(record["factor_data"], "NA")  # a level, although pandas would read "NA" as a missing value
 
     def test_an_export_that_was_cut_off_is_refused(self):
         self.write("records.csv", ",".join(self.columns) + "\n")

@@ -1,4 +1,4 @@
-"""Tests which figures are drawn, and which are left out."""
+"""Tests which figures are drawn and which are omitted."""
 
 import io
 import unittest

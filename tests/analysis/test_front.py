@@ -1,4 +1,4 @@
-"""Tests the front of run time against error, from tables with known results."""
+"""Tests the Pareto front of run time and error with tables whose front is known."""
 
 import os
 import tempfile

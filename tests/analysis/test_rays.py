@@ -12,7 +12,7 @@ from triptych_analysis import dataset, rays
 
 
 def observed(rows):
-    """Makes a data set from tuples (device, count, camera, technique, structure, ms)."""
+    """Creates a data set from tuples (device, count, camera, technique, structure, ms)."""
     columns = list(zip(*rows))
     factors = {name: dataset.factor_of(list(texts))
                for name, texts in zip(("device", "data", "camera", "technique", "structure"),

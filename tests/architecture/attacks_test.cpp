@@ -1,5 +1,5 @@
-// Each row of docs/attacks.md names the tests that guard against an attack. All of these tests must
-// exist and be part of the build.
+// Each row of docs/attacks.md names the tests that cover an attack. All of these tests must exist
+// and be part of the build.
 
 #include <gtest/gtest.h>
 
@@ -11,15 +11,14 @@
 namespace triptych::architecture {
 namespace {
 
-// The source of a test program, "`gate_test`", with the cases in it that the row names. A file
-// without cases stands for all of its cases.
+// The source file of a test program, such as "`gate_test`", and the cases in it that the row names.
+// If the row names no case, it refers to all cases of the file.
 struct NamedTest {
   std::string file;
   std::vector<std::string> cases;
 };
 
-// The source of a test program, such as "`gate_test`", with the cases that the row names. If the
-// row names no case, it means all cases of the file.
+// Finds the tests in a table cell.
 std::vector<NamedTest> tests_of(const std::string& cell) {
   static const std::regex word(R"(`([a-z0-9_]+)`|([A-Z][A-Za-z0-9]+))");
   std::vector<NamedTest> tests;
@@ -33,7 +32,7 @@ std::vector<NamedTest> tests_of(const std::string& cell) {
   return tests;
 }
 
-// The last cell of each row except the head.
+// Returns the last cell of each row, without the header.
 std::vector<std::string> rows_of(const std::string& page) {
   std::vector<std::string> rows;
   std::istringstream lines(page);
@@ -47,8 +46,8 @@ std::vector<std::string> rows_of(const std::string& page) {
 
 class Sources {
  public:
-  // The texts of all sources with this name that the CMakeLists.txt next to them lists. The judge
-  // and the command line both have a gate_test.
+  // Returns the contents of all sources with this name that the CMakeLists.txt in the same folder
+  // lists. For example, both the judge and the command line have a gate_test.
   [[nodiscard]] std::optional<std::string> text(const std::string& name) const {
     std::optional<std::string> all;
     for (const auto& file : files_) {
@@ -78,7 +77,8 @@ TEST(Attacks, EveryRowNamesTestsThatExist) {
     EXPECT_FALSE(tests.empty()) << "no test in:" << cell;
     for (const NamedTest& test : tests) {
       const auto source = sources.text(test.file);
-      EXPECT_TRUE(source) << test.file << " is no source of a test program; named in:" << cell;
+      EXPECT_TRUE(source) << test.file
+                          << " is not a source file of any test program; named in:" << cell;
       for (const std::string& each : test.cases) {
         EXPECT_TRUE(source && has_case(*source, each)) << test.file << " has no case " << each;
       }
@@ -87,7 +87,7 @@ TEST(Attacks, EveryRowNamesTestsThatExist) {
   EXPECT_GT(rows, 40U);
 }
 
-TEST(Attacks, TheReaderOfTheTableFindsMistakes) {
+TEST(Attacks, TheTableParserFindsMistakes) {
   const std::vector<std::string> rows = rows_of(
       "| Attack | Guard | Test |\n|---|---|---|\n| a | b | `x_test` One, Two; `y_test` |\n");
   ASSERT_EQ(rows.size(), 1U);

@@ -1,5 +1,5 @@
-// The counting build has the same control flow as the timed build: in device code, TRI_COUNT only
-// affects counting.
+// Tests that the counting build has the same control flow as the timed build: in device code,
+// TRI_COUNT may only affect counting.
 
 #include <gtest/gtest.h>
 
@@ -19,13 +19,13 @@ std::vector<std::string> lines_of(const std::filesystem::path& file) {
   return lines;
 }
 
-// Statements that leave a loop or a function, or begin a loop.
+// Returns whether a line contains a statement that leaves a loop or function, or begins a loop.
 bool steers(const std::string& line) {
   static const std::regex word(R"(\b(return|break|continue|discard|for|while|do|goto)\b)");
   return std::regex_search(line, word);
 }
 
-// Whether TRI_COUNT appears in a line in one of the allowed ways.
+// Returns whether a line uses TRI_COUNT in one of the allowed ways.
 bool is_a_count(const std::string& line) {
   static const std::regex block(R"(^\s*#if TRI_COUNT\s*$)");
   static const std::regex statement(
@@ -33,7 +33,7 @@ bool is_a_count(const std::string& line) {
   return std::regex_match(line, block) || (std::regex_match(line, statement) && !steers(line));
 }
 
-TEST(Counting, TriCountDecidesOnlyWhatIsCounted) {
+TEST(Counting, TriCountAffectsOnlyCounting) {
   static const std::regex name(R"(\bTRI_COUNT\b)");
   std::size_t seen = 0;
   for (const std::string folder : {"backends", "src/technique"}) {

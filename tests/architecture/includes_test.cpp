@@ -1,5 +1,5 @@
-// Includes point only to lower floors, backends and suites do not know each other, and each API is
-// used only by its backend.
+// Tests that includes point only to lower floors, that backends and suites do not depend on each
+// other, and that each API is used only by its backend.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 const std::vector<std::string> code_endings{".hpp", ".cpp", ".h", ".in"};
 
-// The floors as CMake enforces them for links. There is only one list, in cmake/room.cmake.
+// Reads the floors from cmake/room.cmake, which uses the same list to check link dependencies.
 std::map<std::string, int> floors() {
   const std::string text = read(source_folder / "cmake/room.cmake");
   static const std::regex pattern(R"(\b([a-z]+)=(\d+)\b)");
@@ -26,7 +26,8 @@ std::map<std::string, int> floors() {
   return found;
 }
 
-// The room that an include names: "scene", "backend" for backends/…, "suite" for suites/….
+// Returns the room that an include names: "scene", or "backend" for backends/…, or "suite" for
+// suites/….
 std::optional<std::string> room_of_include(const std::string& include,
                                            const std::map<std::string, int>& known) {
   const std::string first = include.substr(0, include.find('/'));
@@ -50,19 +51,19 @@ void expect_downwards(const std::string& folder, const std::string& room) {
   }
 }
 
-TEST(Includes, FloorsAreRead) {
+TEST(Includes, FloorsAreParsed) {
   EXPECT_GE(floors().size(), 10U);
 }
 
-TEST(Includes, RoomsLookOnlyDownwards) {
+TEST(Includes, RoomsIncludeOnlyLowerFloors) {
   for (const auto& entry : std::filesystem::directory_iterator(source_folder / "src")) {
     const std::string room = entry.path().filename().string();
     expect_downwards("src/" + room, room);
   }
 }
 
-// Maps each folder of a room to the other folders of that room that its files include. Files
-// outside of folders are ignored.
+// For each folder of a room, returns the other folders of that room whose headers its files
+// include. Files outside of folders are ignored.
 std::map<std::string, std::set<std::string>> folders_of(const std::string& room) {
   std::map<std::string, std::set<std::string>> found;
   for (const auto& entry : std::filesystem::directory_iterator(source_folder / "src" / room)) {
@@ -82,7 +83,7 @@ std::map<std::string, std::set<std::string>> folders_of(const std::string& room)
 }
 
 // Repeatedly removes folders that need none of the remaining folders. The folders that cannot be
-// removed form a circle.
+// removed form a cycle.
 std::string circle_in(std::map<std::string, std::set<std::string>> needed) {
   while (true) {
     const auto free = std::ranges::find_if(needed, [&](const auto& folder) {
@@ -96,7 +97,7 @@ std::string circle_in(std::map<std::string, std::set<std::string>> needed) {
   return left;
 }
 
-TEST(Includes, FoldersOfARoomFormNoCircle) {
+TEST(Includes, FoldersOfARoomFormNoCycle) {
   EXPECT_EQ(circle_in({{"a", {"b"}}, {"b", {"a", "c"}}, {"c", {}}}), "a b ");
   EXPECT_GE(folders_of("judge").size(), 4U);
   EXPECT_TRUE(folders_of("judge").at("gate").contains("baselines"));
@@ -106,7 +107,7 @@ TEST(Includes, FoldersOfARoomFormNoCircle) {
   }
 }
 
-TEST(Includes, BackendsAndSuitesStandAlone) {
+TEST(Includes, BackendsAndSuitesAreIndependent) {
   for (const std::string kind : {"backend", "suite"}) {
     for (const auto& entry : std::filesystem::directory_iterator(source_folder / (kind + "s"))) {
       if (!entry.is_directory()) continue;
@@ -115,7 +116,7 @@ TEST(Includes, BackendsAndSuitesStandAlone) {
   }
 }
 
-TEST(Includes, ReferenceNeverSeesTechniques) {
+TEST(Includes, ReferenceDoesNotIncludeTechniques) {
   for (const auto& file : files_below("src/reference", code_endings)) {
     for (const std::string& include : includes_of(file)) {
       EXPECT_FALSE(include.starts_with("technique/")) << file;
@@ -130,7 +131,7 @@ TEST(Includes, NoApiHeaderOutsideItsBackend) {
       {"gl", std::regex(R"((EGL|GL|GLES\w*|glad|KHR)/.*)")},
   };
   for (const std::string& api : apis_of_backends()) {
-    EXPECT_TRUE(headers.contains(api)) << "add the pattern of the headers of " << api;
+    EXPECT_TRUE(headers.contains(api)) << "add a pattern for the headers of " << api;
   }
   for (const std::string folder : {"src", "backends", "suites"}) {
     for (const auto& file : files_below(folder, code_endings)) {
@@ -145,7 +146,7 @@ TEST(Includes, NoApiHeaderOutsideItsBackend) {
   }
 }
 
-TEST(Files, NoPathOfAMachine) {
+TEST(Files, NoFileContainsAPathOfOneMachine) {
   static const std::regex path(R"((^|[^A-Za-z0-9_.])/(home|work|Users)/)", std::regex::multiline);
   for (const std::string folder : {"src", "backends", "suites", "ci", "docs", "cmake"}) {
     for (const auto& file :

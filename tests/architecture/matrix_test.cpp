@@ -1,4 +1,4 @@
-// Every backend implements every technique, or gives the reason why it does not.
+// Tests that every backend implements every technique, or states the reason why it does not.
 
 #include <gmock/gmock.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 const std::vector<std::string> apis = apis_of_backends();
 
-// The lines "technique: reason" in a backend's unsupported.txt; # begins a comment.
+// Reads the lines "technique: reason" in a backend's unsupported.txt; # begins a comment.
 std::map<std::string, std::string> unsupported(const std::string& api) {
   std::map<std::string, std::string> reasons;
   std::istringstream text(read(source_folder / "backends" / api / "unsupported.txt"));
@@ -33,7 +33,7 @@ bool implemented(const std::string& api, const std::string& technique) {
   return std::ranges::any_of(files, [&](const auto& file) { return file.stem() == technique; });
 }
 
-TEST(Matrix, CatalogueIsThere) {
+TEST(Matrix, TheCatalogueIsNotEmpty) {
   EXPECT_GE(technique::catalogue().size(), 3U);
   EXPECT_GE(apis.size(), 3U);
 }
@@ -53,7 +53,7 @@ TEST(Matrix, EveryCellIsImplementedOrExplained) {
       const bool there = implemented(api, each.id);
       const bool explained = reasons.contains(each.id) && reasons.at(each.id).size() > 10;
       EXPECT_NE(there, explained) << api << "/" << each.id
-                                  << (there ? " is implemented and called unsupported"
+                                  << (there ? " is implemented but listed as unsupported"
                                             : " is missing without a reason");
       EXPECT_EQ(there, std::ranges::count(each.apis, api) == 1)
           << api << "/" << each.id << " differs from its catalogue line";
@@ -61,7 +61,7 @@ TEST(Matrix, EveryCellIsImplementedOrExplained) {
   }
 }
 
-// The texts of a suite's plans that have this check.
+// Returns the contents of the suite's plans that have this check.
 std::string judged_plans(const std::string& suite, const std::string& check) {
   const std::filesystem::path plans = source_folder / "suites" / suite / "plans";
   std::string all;
@@ -74,8 +74,8 @@ std::string judged_plans(const std::string& suite, const std::string& check) {
   return all;
 }
 
-// A technique that no plan of the gate draws is never judged.
-TEST(Matrix, EveryTechniqueIsInTheGatesPlans) {
+// The gate would never judge a technique that none of its plans draws.
+TEST(Matrix, EveryTechniqueIsInAGatePlan) {
   for (const technique::Technique& each : technique::catalogue()) {
     for (const char* check : {"image", "cost", "code"}) {
       const std::regex named("(^|[^a-z_])" + each.id + "($|[^a-z_])");
@@ -86,7 +86,7 @@ TEST(Matrix, EveryTechniqueIsInTheGatesPlans) {
   }
 }
 
-TEST(Matrix, UnsupportedNamesOnlyTechniquesThereAre) {
+TEST(Matrix, UnsupportedListsOnlyExistingTechniques) {
   for (const std::string& api : apis) {
     for (const auto& [technique, reason] : unsupported(api)) {
       EXPECT_NO_THROW(static_cast<void>(technique::technique(technique))) << api;
@@ -94,7 +94,7 @@ TEST(Matrix, UnsupportedNamesOnlyTechniquesThereAre) {
   }
 }
 
-// The ids of techniques that a text compares with.
+// Finds the technique ids with which the code compares.
 std::set<std::string> compared_ids(const std::string& text) {
   static const std::regex comparison(R"re(technique(?:\.id|"\))?\s*[=!]=\s*"([a-z_]+)")re");
   std::set<std::string> ids;
@@ -107,14 +107,14 @@ std::set<std::string> compared_ids(const std::string& text) {
   return ids;
 }
 
-// A rule for one technique would be forgotten for the next one, so differences between techniques
-// are columns of the catalogue.
-TEST(Matrix, SharedCodeComparesNoIdsOfTechniques) {
+// Code that handles one technique specially would be forgotten when the next technique is added.
+// Therefore differences between techniques are columns of the catalogue.
+TEST(Matrix, SharedCodeComparesNoTechniqueIds) {
   EXPECT_EQ(compared_ids("if (work.technique == \"point\" && at(\"technique\") != \"raycast\" && "
                          "technique.id == \"mesh\" && api == \"gl\")"),
             (std::set<std::string>{"mesh", "point", "raycast"}));
-  // Records know techniques only by name, so this file is allowed to compare ids; has_picture_test
-  // compares it with the catalogue.
+  // Records know techniques only by name, so this file may compare ids. has_picture_test checks it
+  // against the catalogue.
   static const std::set<std::string> tested_against_the_catalogue{"has_picture.hpp"};
   for (const std::string folder : {"src", "backends", "suites"}) {
     for (const auto& file : files_below(folder, {".hpp", ".cpp"})) {

@@ -1,5 +1,5 @@
-// A device that only compiles executes nothing. In each backend, calls that submit, draw or read
-// back are in a single place, which refuses them for such a device.
+// Tests that a device that only compiles executes nothing. In each backend, all calls that submit,
+// draw or read back are in a single place, which rejects them for such a device.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace triptych::architecture {
 namespace {
 
-// The files of a backend with a line that matches and is not a comment.
+// Returns the files of a backend that contain a matching line outside of comments.
 std::set<std::string> files_with(const std::string& folder, const std::regex& pattern) {
   std::set<std::string> found;
   for (const auto& file : files_below(folder, {".cpp", ".hpp"})) {
@@ -35,8 +35,9 @@ TEST(OnlyCompile, OpenclHasOneQueue) {
             (std::set<std::string>{"device.cpp", "objects.hpp"}));
 }
 
-// Every function of GL that this backend calls and that executes, reads back or waits is replaced.
-TEST(OnlyCompile, GlReplacesAllThatExecutes) {
+// Every GL function that this backend calls must be replaced if it executes work, reads results or
+// waits.
+TEST(OnlyCompile, GlReplacesAllExecutingCalls) {
   const std::string guard = read(source_folder / "backends/gl/only_compile.cpp");
   static const std::regex call(
       R"(\bgl_?(?:->|\.)((?:Draw(?:Arrays|Elements)|MultiDraw|Dispatch|Clear|Read(?!Buffer)|Copy|Get\w*SubData|GetQueryObject|GetTexImage|FenceSync|ClientWaitSync|Finish|Flush|Blit|BufferSubData|BufferData|TexImage|TexSubImage|GenerateMipmap|MapBuffer)\w*)\()");

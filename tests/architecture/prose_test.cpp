@@ -1,4 +1,4 @@
-// No code parses texts that are written for people.
+// Tests that no code parses text that is written for people.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@ namespace triptych::architecture {
 namespace {
 
 // Matches a search in text that is written for people, or a comparison with such text. Only the
-// folder `words` produces it, and core quotes it.
+// folder `words` produces such text, and core quotes it.
 const std::regex reads_prose(
     R"(\b(detail|last_words|message|what\(\)|text_of\([^()]*\)|headline\([^()]*\)|advice\([^()]*\)))"
     R"(\s*(\.\s*(find|rfind|starts_with|ends_with|contains|substr|compare)\b|[=!]=\s*"[^"]))");
@@ -25,7 +25,7 @@ TEST(Prose, IsRecognised) {
   }
 }
 
-TEST(Prose, DecidesNothing) {
+TEST(Prose, IsNeverParsed) {
   for (const std::string folder : {"src/record", "src/judge", "src/measure", "src/report",
                                    "src/reduction", "src/comparison", "src/app"}) {
     for (const auto& file : files_below(folder, {".hpp", ".cpp"})) {

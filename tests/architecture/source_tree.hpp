@@ -11,7 +11,7 @@ namespace triptych::architecture {
 
 inline const std::filesystem::path source_folder = TRIPTYCH_SOURCE_FOLDER;
 
-// Files below `folder` of the source tree whose name ends in one of `endings`, sorted.
+// Returns the files below `folder` in the source tree whose names end in one of `endings`, sorted.
 inline std::vector<std::filesystem::path> files_below(const std::string& folder,
                                                       const std::vector<std::string>& endings) {
   std::vector<std::filesystem::path> files;
@@ -35,8 +35,8 @@ inline std::string read(const std::filesystem::path& file) {
   return text.str();
 }
 
-// The names of the backends that draw through an API, which are the folders in backends/ except the
-// simulated one.
+// Returns the names of the backends that draw through an API: all folders in backends/ except that
+// of the simulated backend.
 inline std::vector<std::string> apis_of_backends() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(source_folder / "backends")) {
@@ -47,7 +47,7 @@ inline std::vector<std::string> apis_of_backends() {
   return names;
 }
 
-// The texts between the delimiters of every #include of a file.
+// Returns the paths of all #include directives of a file.
 inline std::vector<std::string> includes_of(const std::filesystem::path& file) {
   static const std::regex pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])", std::regex::multiline);
   const std::string text = read(file);

@@ -15,12 +15,12 @@ PROGRAMS = ["chromium-headless-shell", "chromium", "chromium-browser", "google-c
 
 
 def program():
-    """The first browser that is installed, or None."""
+    """Returns the first installed browser, or None."""
     return next(filter(None, map(shutil.which, PROGRAMS)), None)
 
 
 class Failed(Exception):
-    """The browser refused a command, or a script of the page threw an exception."""
+    """The browser rejected a command, or a script of the page threw an exception."""
 
 
 class Browser:
@@ -32,8 +32,9 @@ class Browser:
         self.rest = b""
         to_browser, self.commands = os.pipe()
         self.answers, from_browser = os.pipe()
-        # The pipes of the protocol are the descriptors 3 and 4. Chromium runs without its sandbox, which needs rights that a
-        # container does not have. The pages are made by the tests themselves.
+        # The DevTools protocol uses the file descriptors 3 and 4. Chromium runs without its sandbox, because the
+        # sandbox needs privileges that a container does not have. The tests create all pages themselves, so this is
+        # safe.
         launch = f'exec 3<&{to_browser} 4>&{from_browser}; exec "$@"'
         self.process = subprocess.Popen(
             ["bash", "-c", launch, "browser", program(), "--headless", "--no-sandbox", "--remote-debugging-pipe",
@@ -82,7 +83,7 @@ class Browser:
 
 
 class Page:
-    """Opens a file in a new tab. `complaints` collects the messages of its console."""
+    """Opens a file in a new tab. `complaints` collects the error messages and warnings of its console."""
 
     def __init__(self, browser, path, width, height, dark):
         self.browser = browser
@@ -118,7 +119,7 @@ class Page:
         end = time.monotonic() + self.browser.seconds
         while not self.value(expression):
             if time.monotonic() > end:
-                raise Failed(f"never true: {expression}")
+                raise Failed(f"did not become true: {expression}")
             time.sleep(0.02)
 
     def press(self, key, shift=False):

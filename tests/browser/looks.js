@@ -1,4 +1,4 @@
-// What a page's test asks of the page as it is drawn. Each function gives a list of complaints.
+// Checks how a page looks when it is drawn. Each function returns a list of complaints.
 'use strict';
 const looks = (() => {
   const all = (selector, within = document) => [...within.querySelectorAll(selector)];
@@ -71,7 +71,7 @@ const looks = (() => {
       return all('img[alt]').filter(image => seen(image) && !image.naturalWidth)
         .map(image => `${image.alt} is not shown`);
     },
-    // A frame, names or numbers on both axes, everything drawn within.
+    // Every chart must have a frame, names or numbers on both axes, and all marks within the frame.
     charts() {
       return all('svg.figure').filter(seen).flatMap(svg => {
         const frame = svg.querySelector('rect.frame')?.getBoundingClientRect();
@@ -88,7 +88,7 @@ const looks = (() => {
           .filter(Boolean);
       });
     },
-    // Texts of one chart that lie over each other.
+    // Finds texts of the same chart that overlap.
     overlaps() {
       return all('svg.figure').filter(seen).flatMap(svg => {
         const texts = all('text', svg).map(element => ({ element, box: element.getBoundingClientRect() }));

@@ -16,13 +16,14 @@ import devtools
 import pages
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-WIDE, NARROW, SMALL = (1400, 900), (390, 900), (700, 500)  # the smaller a window, the faster it is drawn
+WIDE, NARROW, SMALL = (1400, 900), (390, 900), (700, 500)  # smaller windows are drawn faster
 WAYS = [(size, dark) for size in (WIDE, NARROW) for dark in (False, True)]
 made = {}
 
 
 def setUpModule():
-    PageTest.browser = unittest.enterModuleContext(devtools.Browser())  # one for all tests: it takes a second to start
+    # shared by all tests, because it takes a second to start
+    PageTest.browser = unittest.enterModuleContext(devtools.Browser())
     folder = tempfile.TemporaryDirectory(prefix="triptych-page-")
     unittest.addModuleCleanup(folder.cleanup)
     triptych = pages.Triptych(os.path.abspath(os.environ["TRIPTYCH_PROGRAM"]), folder.name)
@@ -69,7 +70,7 @@ class Everywhere(PageTest):
             named = {"button", "link", "image", "img", "search", "dialog", "DisclosureTriangle"}
             self.assertEqual([role for role, text in told if role in named and not text], [], name)
 
-    # The Content-Security-Policy allows only the script whose hash it names.
+    # The Content-Security-Policy allows only the script whose hash it contains.
     def test_a_planted_script_does_not_run(self):
         pages_opened = {name: self.opened(name, SMALL) for name in made}
         for page in pages_opened.values():
@@ -168,7 +169,7 @@ class Keyboard(PageTest):
             if focused["tag"] == "BODY":
                 return seen
             seen.append(focused)
-        self.fail("the keyboard is caught")
+        self.fail("the keyboard focus is trapped")
 
     def test_the_focus_goes_through_the_page_in_its_order_and_is_seen(self):
         for name, dark in [("fail", False), ("fail", True), ("accuracy", False), ("history", False)]:
@@ -221,7 +222,7 @@ class Comparison(PageTest):
     def names_of(self, page):
         return page.value("[...document.querySelector('#compare select').options].map(each => each.value)")
 
-    # The visible parts of two images with the border at `place`, without the border itself.
+    # Returns the visible parts of two images with the border at `place`, without the border itself.
     def shown(self, page, left, right, place):
         page.value(f"""(() => {{
             const [a, b] = document.querySelectorAll('#compare select');

@@ -25,7 +25,8 @@ ert: [0]
 camera: ['orbit_y:1/9']
 viewport: [24]
 """
-# Small scenes of the suites' stress and accuracy plans. One data file is missing, because TRIPTYCH_DATA is empty.
+# Small scenes from the stress and accuracy plans of both suites. A data file is missing, because TRIPTYCH_DATA is
+# empty.
 HOSTILE = ["volume/stress", "particles/stress", "volume/accuracy"]
 PLANS = {
     "volume/quick": ["technique=raycast,raycast_fragment", "data=generate:marschner_lobb:32", "viewport=64",
@@ -34,7 +35,7 @@ PLANS = {
                         "camera=orbit_y:1/8"],
     "cost.yaml": [],
 }
-# Counting instructions takes seconds for each device, so that only two devices count, and only one counts again.
+# Counting instructions takes seconds per device, so only two devices count, and only one of them counts again.
 COUNTING = {"pass": ["gl:llvmpipe-egl", "vulkan:lavapipe"], "fail": ["vulkan:lavapipe"]}
 FAULTS = {
     "volume/quick": ["half_voxel_shift@vulkan:*", "lost_counter@opencl:*"],
@@ -44,7 +45,7 @@ FAULTS = {
 
 
 class Triptych:
-    """Runs the program in a separate folder."""
+    """Runs the program in its own folder."""
 
     def __init__(self, program, folder):
         self.program = program
@@ -61,8 +62,8 @@ class Triptych:
         return done.stdout
 
     def devices(self):
-        """Those of DEVICES that are there. The refusal of a device that no machine has lists all devices without opening
-        them; the command `devices` measures their clocks, which takes seconds."""
+        """Returns those of DEVICES that are available. Requesting a device that exists nowhere prints all devices without
+        opening them, whereas the command `devices` measures their clocks, which takes seconds."""
         listed = self.run("run", "volume/quick", "--device", "no:device").stderr.split()
         return [device for device in DEVICES if device in [word.rstrip(";") for word in listed]]
 
@@ -76,7 +77,8 @@ def chosen(devices):
 
 
 def measure(triptych, name, faults):
-    """`faults`: for each plan, those to inject. Only one run is timed: it takes seconds to check the devices' clocks."""
+    """`faults` contains the faults to inject for each plan. Only one run is timed, because checking the devices' clocks
+    takes seconds."""
     for plan in PLANS:
         devices = COUNTING[name] if plan == "cost.yaml" else DEVICES
         injected = [word for fault in faults.get(plan, []) for word in ("--inject", fault)]

@@ -23,7 +23,7 @@ CLUSTER = SOURCES / "ci/cluster"
 LARGE = os.environ.get("TRIPTYCH_FARM") == "paper"
 SHARDS = 200 if LARGE else 30
 DEVICES = 3
-# A frame takes so long that the test can find a job while it is running.
+# Frames are slow enough for the test to find a job while it is running.
 SCRIPT = '{"devices": [1, 1.7, 0.6], "base_ns": %d, "ns_per_sample": 0, "sleep": true}' % (1e4 if LARGE else 4e7)
 PLAN = """suite: volume
 technique: [raycast]
@@ -66,7 +66,7 @@ def wait(what, done, seconds):
 
 
 def running():
-    """Returns the indices of shards that are being measured, each with the id of its Slurm job."""
+    """Returns the indices of the shards that are being measured, each with the id of its Slurm job."""
     lines = run("squeue", "--noheader", "--array", "--states=RUNNING", "--format=%F %K").splitlines()
     return {int(index): f"{job}_{index}" for job, index in map(str.split, lines) if index.isdigit()}
 
@@ -77,7 +77,7 @@ def records_in(store):
     with contextlib.closing(sqlite3.connect(f"file:{store}?mode=ro", uri=True)) as database:
         try:
             return database.execute("SELECT count(*) FROM record").fetchone()[0]
-        except sqlite3.OperationalError:  # its tables are being created
+        except sqlite3.OperationalError:  # the store's tables are being created
             return 0
 
 

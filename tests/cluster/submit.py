@@ -9,7 +9,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# Each program appends its arguments to $CALLS. sbatch refuses the job with the number $REFUSED.
+# Each program appends its arguments to $CALLS. sbatch rejects the job with the number $REFUSED.
 STAND_INS = {
     "sbatch": 'echo "sbatch $*" >>"$CALLS"; n=$(grep -c ^sbatch "$CALLS"); [ "$n" != "${REFUSED:-}" ] || exit 1; echo "$n"',
     "scancel": 'echo "scancel $*" >>"$CALLS"',
@@ -46,10 +46,11 @@ class Submit(unittest.TestCase):
     def test_a_job_gets_200_configurations_of_all_plans(self):
         self.assertEqual(self.shards_of("plan340"), 2)
         self.assertEqual(self.shards_of("plan340", "plan340"), 4)
-        # A half of the plans has 51 and 150 configurations. If both plans have an odd number, one job may get the additional
-        # configuration of both.
+        # Half of the configurations of these plans are 51 and 150. If both plans have an odd number, one job may get
+        # the additional configuration of both.
         self.assertEqual(self.shards_of("plan101", "plan299"), 3)
-        # There are never more jobs than the largest plan has configurations, because the others would have nothing to do.
+        # There are never more jobs than the largest plan has configurations, because additional jobs would have nothing
+        # to do.
         self.assertEqual(self.shards_of(*["plan2"] * 500), 2)
 
     def test_what_slurm_refuses_leaves_nothing(self):

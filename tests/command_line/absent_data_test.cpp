@@ -1,4 +1,5 @@
-// The checks of CTest if a data file is missing that was there when the baselines were accepted.
+// Tests the checks for CTest if a data file is missing that existed when the baselines were
+// accepted.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +31,7 @@ class AbsentData : public testing::Test {
   Program program;
 };
 
-TEST_F(AbsentData, IsASkipForCTestAndNotToBeJudgedForTheGate) {
+TEST_F(AbsentData, SkipsCTestChecksAndCannotBeJudgedByTheGate) {
   ASSERT_EQ(program.run("run plan --device 'null:*' --store first.sqlite").code, 0);
   ASSERT_EQ(program.run("accept plan --reason new --baselines baselines --store first.sqlite").code,
             0);
@@ -48,8 +49,8 @@ TEST_F(AbsentData, IsASkipForCTestAndNotToBeJudgedForTheGate) {
       << gate.output;
 }
 
-// A machine may lack data files on purpose, but at least something has to be judged.
-TEST_F(AbsentData, IsExcusedByAnOptionUnlessNothingIsLeft) {
+// A machine may lack data files on purpose, but there must be something left to judge.
+TEST_F(AbsentData, CanBeExcusedUnlessNothingIsLeftToJudge) {
   ASSERT_EQ(program.run("run plan --device 'null:*' --store first.sqlite").code, 0);
   const std::string accept = "accept plan --reason new --baselines baselines --store ";
   ASSERT_EQ(program.run(accept + "first.sqlite").code, 0);
@@ -69,9 +70,9 @@ TEST_F(AbsentData, IsExcusedByAnOptionUnlessNothingIsLeft) {
       program.run("gate plan --check counters --baselines baselines --store both.sqlite").code, 2);
 }
 
-// The page shows everything that it can: the times, the image, and the reason why the image cannot
-// be judged.
-TEST_F(AbsentData, LeavesAPageWithoutATruth) {
+// The page shows everything that is available: the times, the image, and the reason why the image
+// cannot be judged.
+TEST_F(AbsentData, LeavesAPageWithoutAReferenceImage) {
   ASSERT_EQ(program.run("run plan --device 'null:*' --store s.sqlite").code, 0);
   std::filesystem::remove(program.folder() / "field.nrrd");
   const Result reported = program.run("report --store s.sqlite --baselines b --out page.html");
@@ -81,7 +82,7 @@ TEST_F(AbsentData, LeavesAPageWithoutATruth) {
   EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
 }
 
-TEST_F(AbsentData, LeavesNoLimitToJudgeBy) {
+TEST_F(AbsentData, LeavesNoLimitImageToJudgeBy) {
   const Result run = program.run(
       "run volume/accuracy --device 'null:*' --untimed --set data=field.nrrd --set "
       "technique=raycast "
@@ -92,7 +93,7 @@ TEST_F(AbsentData, LeavesNoLimitToJudgeBy) {
   EXPECT_EQ(judged.code, 2) << judged.output;
   const auto unknown = findings_of(judged.output.substr(judged.output.find('{')), "unknown_error");
   ASSERT_FALSE(unknown.empty()) << judged.output;
-  // One record for each configuration that was measured.
+  // There must be one record for each measured configuration.
   EXPECT_NE(run.output.find(std::to_string(unknown.size()) + " measured, 0 skipped, 0 failed"),
             std::string::npos)
       << run.output;
@@ -105,8 +106,8 @@ TEST_F(AbsentData, LeavesNoLimitToJudgeBy) {
   EXPECT_EQ(program.run("report --store s.sqlite --baselines b --out page.html").code, 0);
 }
 
-// A failure of a device is never excused by missing data of another one.
-TEST_F(AbsentData, ExcusesNothingElse) {
+// Missing data of one configuration never excuse a device's failure in another.
+TEST_F(AbsentData, DoesNotExcuseOtherFailures) {
   program.write("plan",
                 "suite: volume\ntechnique: [raycast]\ndata: [field.nrrd, "
                 "generate:gaussian_blob:12]\ntransfer_function: [haze]\nviewport: [16]\n");

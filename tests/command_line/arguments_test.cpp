@@ -1,4 +1,4 @@
-// The parsing of command lines, and the help texts about it.
+// Tests how command lines are parsed, and what help says about options.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,8 +31,8 @@ TEST_F(Arguments, APlanMayFollowAnOption) {
               HasSubstr("there are no baselines"));
 }
 
-// 10^10 pixels would take 160 GB.
-TEST_F(Arguments, AnImageOfTooManyPixelsIsRefused) {
+// 10^10 pixels would need 160 GB of memory.
+TEST_F(Arguments, AnImageWithTooManyPixelsIsRejected) {
   for (const char* size : {"100000", "100000x1", "16385", "0", "-1", "4294967297"}) {
     const Result result = program.run(
         std::string("render volume --device null:scripted --out o --set viewport=") + size);
@@ -41,13 +41,13 @@ TEST_F(Arguments, AnImageOfTooManyPixelsIsRefused) {
   }
 }
 
-TEST_F(Arguments, AWordAfterAnOptionsValueIsAPlan) {
+TEST_F(Arguments, AWordAfterAnOptionValueIsAPlan) {
   const Result result = program.run("run p.yaml --device 'null:*' extra.yaml --store s.sqlite");
   EXPECT_EQ(result.code, 3) << result.output;
   EXPECT_THAT(result.output, HasSubstr("extra.yaml: cannot read"));
 }
 
-TEST_F(Arguments, EveryGlobMatchesADevice) {
+TEST_F(Arguments, EveryGlobMustMatchADevice) {
   for (const std::string command : {"run p.yaml --store s.sqlite", "validate"}) {
     const Result result = program.run(command + " --device 'null:*' --device 'vulcan:*'");
     EXPECT_EQ(result.code, 2) << result.output;
@@ -80,7 +80,7 @@ TEST_F(Arguments, HelpNamesEveryFaultAndChoice) {
   EXPECT_THAT(program.run("render --help").output, HasSubstr("particles"));
 }
 
-TEST_F(Arguments, AFolderThatMayNotBeSearchedIsNoError) {
+TEST_F(Arguments, AnUnreadableFolderIsNotAnError) {
   namespace fs = std::filesystem;
   fs::permissions(program.folder(), fs::perms::owner_read);
   const Result version =
@@ -90,8 +90,8 @@ TEST_F(Arguments, AFolderThatMayNotBeSearchedIsNoError) {
   EXPECT_EQ(version.code, 0) << version.output;
 }
 
-// Progress and errors go to stderr. A run must continue even if stderr cannot be written.
-TEST_F(Arguments, AStderrThatTakesNothingEndsNothing) {
+// Progress and errors go to stderr. A run must continue even if writing to stderr fails.
+TEST_F(Arguments, ARunContinuesIfStderrFails) {
   const std::string full = R"(sh -c 'exec "$0" "$@" 2> /dev/full')";
   const Result measured = program.run("run p.yaml --device 'null:*' --store s.sqlite", "{}", full);
   EXPECT_EQ(measured.code, 0);
@@ -99,12 +99,12 @@ TEST_F(Arguments, AStderrThatTakesNothingEndsNothing) {
   EXPECT_EQ(program.run("list nowhere.yaml", "{}", full).code, 3);
 }
 
-TEST_F(Arguments, WhatIsNoTextIsRefusedWhereItStands) {
+TEST_F(Arguments, InvalidUtf8IsRejectedWithItsPosition) {
   program.write("bytes.yaml", "suite: volume\ndata: [a\xff.nrrd]\n");
   const Result listed = program.run("list bytes.yaml --json");
   EXPECT_EQ(listed.code, 3);
   EXPECT_THAT(listed.output, HasSubstr("bytes.yaml:2:8: 'data'"));
-  // A plan has the name of its file, which may be any text.
+  // The name of a plan is that of its file, which may contain any bytes.
   program.write("p\xff.yaml", one_step_plan);
   const Result named = program.run("list 'p\xff.yaml' --json");
   EXPECT_EQ(named.code, 0) << named.output;

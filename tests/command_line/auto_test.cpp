@@ -1,4 +1,4 @@
-// `technique=auto` measures every technique, reports the fastest one and draws it.
+// Tests `technique=auto`, which measures every technique, reports the fastest one and draws it.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ void expect_found(const Result& result, const std::string& words) {
   EXPECT_NE(result.output.find(words), std::string::npos) << result.output;
 }
 
-TEST(Auto, TellsTheFastestAndByHowMuch) {
+TEST(Auto, ReportsTheFastestAndTheRatio) {
   const Program program;
   program.write("plan",
                 "suite: particles\ntechnique: auto\ndata: [generate:uniform:100, "
@@ -37,13 +37,13 @@ TEST(Auto, TellsTheFastestAndByHowMuch) {
   }
   expect_found(result, " clock); ");
   expect_found(result, "polygon_adaptive ");
-  // The result comes from the store, whatever the device would report now.
+  // The result is read from the store, whatever the device would measure now.
   expect_found(program.run(run + " --resume", fast("point")), ": tiles is the fastest, ");
   expect_found(program.run("run plan --device null:scripted --store t.sqlite", fast("point")),
                ": point is the fastest, ");
 }
 
-TEST(Auto, IsNoLevelThatRecordsOrBaselinesKnow) {
+TEST(Auto, IsNeverStoredAsALevel) {
   const Program program;
   const Result listed =
       program.run(fmt::format("list particles/quick {}", "--set technique=auto --set viewport=16"));
@@ -61,7 +61,7 @@ TEST(Auto, DrawsTheFastest) {
   EXPECT_NE(program.read("o/frame.json").find("\"technique\": \"point\""), std::string::npos);
 }
 
-TEST(Auto, NeedsATimeAndOneRule) {
+TEST(Auto, NeedsTimesAndExcludesAnError) {
   const Program program;
   const Result untimed =
       program.run("run particles/quick --set technique=auto --device null:scripted --untimed");

@@ -1,4 +1,4 @@
-"""The program injects slowdowns into the configurations that ci/bench reports. The program is $TRIPTYCH_PROGRAM."""
+"""Checks that the program injects slowdowns into the configurations that ci/bench reports. The program is $TRIPTYCH_PROGRAM."""
 
 import contextlib
 import importlib.machinery
@@ -13,7 +13,7 @@ import unittest
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "ci/bench"
 PROGRAM = os.environ["TRIPTYCH_PROGRAM"]
-# The name of one technique begins with that of another, and one configuration contains all levels of another.
+# The name of one technique is the beginning of another's, and the levels of one configuration are part of another's.
 PLAN = "suite: volume\ntechnique: [raycast, raycast_fragment]\ndata: ['generate:gaussian_blob:8']\nstep: [1, 2]\nviewport: [8]\n"
 
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using test::Result;
 using testing::HasSubstr;
 
-// Records its arguments. The variable GATE is its exit code.
+// Replaces the program: records its arguments, and exits with the code in the variable GATE.
 constexpr const char* stand_in_program = R"(#!/bin/sh
 echo "$*" >> calls
 exit ${GATE:-0}
@@ -38,7 +38,7 @@ class Ci : public testing::Test {
     make("build/release/src/app/triptych", stand_in_program);
   }
 
-  // `environment`: NAME=VALUE…
+  // `environment` has the form NAME=VALUE…
   [[nodiscard]] Result gate(const std::string& environment,
                             const std::string& arguments = {}) const {
     make("ci/build", "#!/bin/sh\n");
@@ -59,19 +59,19 @@ class Ci : public testing::Test {
   }
 };
 
-TEST_F(Ci, TheVerdictIsTheProgramsOwn) {
+TEST_F(Ci, ExitsWithTheCodeOfTheProgram) {
   for (const int code : {0, 1, 2, 3}) {
     EXPECT_EQ(gate("GATE=" + std::to_string(code)).code, code);
   }
 }
 
-TEST_F(Ci, MeasuresAndKeepsEverythingInOneFolder) {
+TEST_F(Ci, KeepsAllFilesInOneFolder) {
   EXPECT_EQ(gate("TRIPTYCH_OUT=kept", "--require 'vulkan:*'").code, 0);
   EXPECT_EQ(folder.read("calls"),
             "gate --measure --store kept/gate.sqlite --out kept --require vulkan:*\n");
 }
 
-TEST_F(Ci, AFolderThatCannotBeMadeIsNoRegression) {
+TEST_F(Ci, AFolderThatCannotBeCreatedIsNotARegression) {
   EXPECT_EQ(gate("TRIPTYCH_OUT=/proc/none").code, 3);
 }
 
@@ -82,7 +82,7 @@ TEST_F(Ci, HelpMeasuresNothing) {
   EXPECT_EQ(folder.read("calls"), "");
 }
 
-TEST_F(Ci, AReleaseThatIsTooOldGetsOneLine) {
+TEST_F(Ci, ATooOldReleaseIsReportedInOneLine) {
   std::string setup = test::run_command("cat '" TRIPTYCH_SOURCE_FOLDER "/ci/setup'").output;
   const std::string_view facts = "/etc/os-release";
   ASSERT_NE(setup.find(facts), std::string::npos);
@@ -98,7 +98,7 @@ TEST_F(Ci, AReleaseThatIsTooOldGetsOneLine) {
   EXPECT_EQ(run("", "ci/setup --run").code, 0);
 }
 
-TEST_F(Ci, ACompilerThatIsTooOldGetsOneLine) {
+TEST_F(Ci, ATooOldCompilerIsReportedInOneLine) {
   static_cast<void>(folder.write("CMakeLists.txt",
                                  "cmake_minimum_required(VERSION 3.25)\n"
                                  "project(old LANGUAGES NONE)\nset(CMAKE_CXX_COMPILER_ID GNU)\n"

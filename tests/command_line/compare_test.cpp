@@ -1,4 +1,4 @@
-// Compares two scripted sides with known speeds, which are measured in turns.
+// Compares two scripted sides with known speeds, whose measurements are interleaved.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 class Compare : public testing::Test {
  protected:
-  // `keys`: more keys of the script, each with a comma before it.
+  // `keys` are more keys for the script, each preceded by a comma.
   [[nodiscard]] std::string script(double speed, int seed, const std::string& keys = "") const {
     return fmt::format(
         R"({{"images": {{"*": "{}"}}, "devices": [{}], "seed": {}, "base_ns": 5e6{}}})",
@@ -43,11 +43,11 @@ void expect_verdict(const Result& result, int code, std::string_view says) {
   EXPECT_NE(result.output.find(says), std::string::npos) << result.output;
 }
 
-TEST_F(Compare, ASideIsNotSlowerThanItself) {
+TEST_F(Compare, ASideIsNotSlowerThanAnIdenticalOne) {
   expect_verdict(compare(b_as(1)), 0, "PASS: 1 same");
 }
 
-TEST_F(Compare, FivePercentAreFoundEitherWay) {
+TEST_F(Compare, FindsFivePercentInBothDirections) {
   const Result slower = compare(b_as(1.05));
   expect_verdict(slower, 1, "FAIL: 1 slower");
   EXPECT_NE(slower.output.find(" ms ("), std::string::npos) << slower.output;
@@ -55,12 +55,12 @@ TEST_F(Compare, FivePercentAreFoundEitherWay) {
   expect_verdict(compare(b_as(1 / 1.05)), 0, "PASS: 1 faster");
 }
 
-TEST_F(Compare, AnInjectedSlowdownIsInSideBAlone) {
+TEST_F(Compare, AnInjectedSlowdownAffectsOnlySideB) {
   expect_verdict(compare(b_as(1), "--inject slowdown:5"), 1, "FAIL: 1 slower");
   expect_verdict(compare(b_as(1), "--inject 'slowdown:5@*step=7*'"), 0, "PASS: 1 same");
 }
 
-TEST_F(Compare, TooMuchNoiseCannotBeToldAndSaysWhatWouldSettleIt) {
+TEST_F(Compare, TooMuchNoiseGivesNoVerdictButAdvice) {
   const char* much = R"(, "noise": 0.3)";
   const Result result = compare(b_as(1, much), "", much);
   expect_verdict(result, 2, "undecided");
@@ -71,14 +71,14 @@ TEST_F(Compare, TooMuchNoiseCannotBeToldAndSaysWhatWouldSettleIt) {
       << result.output;
 }
 
-TEST_F(Compare, AWrongPictureIsARegressionWhateverTheTime) {
+TEST_F(Compare, AWrongImageIsARegressionWhateverTheTime) {
   const std::string wrong = R"(, "failures": [{"kind": "wrong_image", "at": "image"}])";
   const Result result = compare(b_as(0.5, wrong));
   expect_verdict(result, 1, "pixels exceed the error bound of the reference image");
   EXPECT_NE(result.output.find("the image of b is wrong"), std::string::npos) << result.output;
 }
 
-TEST_F(Compare, ACrashOfBIsARegressionOfAMerelyADoubt) {
+TEST_F(Compare, ACrashOfBIsARegressionButOfACannotBeJudged) {
   expect_verdict(compare(b_as(1), "--inject crash"), 1,
                  "b crashed: the worker was killed by SIGSEGV");
   const Result of_a = program.run(
@@ -88,7 +88,7 @@ TEST_F(Compare, ACrashOfBIsARegressionOfAMerelyADoubt) {
                  "technique=raycast,viewport=16: a crashed: the worker was killed by SIGABRT");
 }
 
-TEST_F(Compare, WithoutTimesOnlyWhatRepeatsIsTold) {
+TEST_F(Compare, WithoutTimesOnlyDeterministicResultsAreReported) {
   expect_verdict(compare(b_as(1.05), "--no-times"), 0, "PASS: 0 deterministic regressions");
   const std::string wrong = R"(, "failures": [{"kind": "wrong_image", "at": "image"}])";
   const Result result = compare(b_as(1, wrong), "--no-times");
@@ -96,14 +96,14 @@ TEST_F(Compare, WithoutTimesOnlyWhatRepeatsIsTold) {
   EXPECT_EQ(result.output.find("slower"), std::string::npos) << result.output;
 }
 
-TEST_F(Compare, NothingIsLeftBehindUnlessAStoreIsNamed) {
+TEST_F(Compare, LeavesNoFilesUnlessAStoreIsNamed) {
   expect_verdict(compare(b_as(1), "--no-times"), 0, "PASS");
   EXPECT_FALSE(std::filesystem::exists(program.folder() / "triptych.sqlite"));
   expect_verdict(compare(b_as(1), "--no-times --store kept.sqlite"), 0, "PASS");
   EXPECT_TRUE(std::filesystem::exists(program.folder() / "kept.sqlite"));
 }
 
-TEST_F(Compare, TheGateJudgesByABase) {
+TEST_F(Compare, TheGateCanCompareWithABase) {
   const auto gate = [&](const std::string& more) {
     return program.run(
         fmt::format("gate volume/quick --device null:scripted {} {}", tiny_plan, more),
@@ -120,20 +120,21 @@ TEST_F(Compare, TheGateJudgesByABase) {
   expect_verdict(gate("--bisect --no-such-option"), 125, "no-such-option");
 }
 
-TEST_F(Compare, AClockThatCannotBeBelievedIsNotUsed) {
+TEST_F(Compare, AnUntrustedClockIsNotUsed) {
   const Result result = compare(b_as(1, R"(, "noise": 0.01, "device_over_wall": 0.1)"));
   expect_verdict(result, 0, "the device clock of b did not pass its calibration");
 }
 
-TEST_F(Compare, JsonSaysTheSame) {
+TEST_F(Compare, JsonContainsTheSameResult) {
   const Result result = compare(b_as(1.05), "--json");
   ASSERT_EQ(result.code, 1) << result.output;
   const auto json = nlohmann::json::parse(
-      result.output.substr(result.output.find("\n{") + 1));  // after the progress
+      result.output.substr(result.output.find("\n{") + 1));  // after the progress output
   EXPECT_EQ(json.at("exit_code"), 1);
   const auto& compared = json.at("configurations").at(0);
-  // The verdict is the ratio of these scripted times. A block uses the smallest of several batches
-  // with 1 % noise: the smallest of 30 normal values is 2.04 standard deviations below the mean.
+  // The verdict is based on the ratio of these scripted times. A block uses the smallest of several
+  // batches with 1 % noise. The smallest of 30 normally distributed values is 2.04 standard
+  // deviations below the mean.
   EXPECT_NEAR(compared.at("a").at("median_ns").get<double>(), 5e6, 0.03 * 5e6);
   EXPECT_NEAR(compared.at("b").at("median_ns").get<double>(), 5.25e6, 0.03 * 5.25e6);
   EXPECT_LT(compared.at("b").at("lower_quartile_ns"), compared.at("b").at("median_ns"));
@@ -143,7 +144,7 @@ TEST_F(Compare, JsonSaysTheSame) {
   EXPECT_LT(compared.at("ratio_low"), compared.at("ratio_high"));
 }
 
-TEST_F(Compare, WrongUsageIsOneLine) {
+TEST_F(Compare, WrongUsageIsReportedInOneLine) {
   EXPECT_EQ(program.run("compare volume/quick --a null:scripted").code, 3);
   expect_verdict(compare("null"), 3, "expected a device such as");
   expect_verdict(compare("null:scripted,FAST"), 3, "after the device: expected NAME=VALUE");
@@ -153,13 +154,13 @@ TEST_F(Compare, WrongUsageIsOneLine) {
   expect_verdict(compare("null:nothing"), 2, "null:nothing cannot be opened");
 }
 
-TEST_F(Compare, AnotherProgramServesItsSide) {
+TEST_F(Compare, AnotherProgramCanServeSideB) {
   expect_verdict(compare(b_as(1), "--b-program " TRIPTYCH_PROGRAM), 0, "PASS: 1 same");
   expect_verdict(compare(b_as(1), "--b-program /bin/true"), 3,
                  "--b-program /bin/true: is not a build of triptych");
 }
 
-TEST_F(Compare, SideBySideNeedsAStoreOfTwoDevices) {
+TEST_F(Compare, SideBySideNeedsAStoreWithTwoDevices) {
   expect_verdict(program.run("compare --apis"), 3, "--apis needs --store");
   const std::string run = fmt::format("run volume/quick {} --store s.sqlite", tiny);
   ASSERT_EQ(program.run(run, script(1, 1)).code, 0);
@@ -167,8 +168,8 @@ TEST_F(Compare, SideBySideNeedsAStoreOfTwoDevices) {
   expect_verdict(program.run("compare volume/quick"), 3, "needs two sides");
 }
 
-// Each side is stored as a separate run.
-TEST_F(Compare, SideBySideReadsWhatAComparisonStored) {
+// Each side is stored as its own run.
+TEST_F(Compare, SideBySideReadsTheStoreOfAComparison) {
   const std::string two = R"({"devices": [1, 1.7], "base_ns": 1e6})";
   const Result compared =
       program.run(fmt::format("compare volume/quick {} --a null:scripted --b 'null:scripted#2' "

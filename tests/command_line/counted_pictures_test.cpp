@@ -1,4 +1,5 @@
-// In a plan that counts instructions and also judges images, both come from the same frames.
+// Tests that in a plan that both counts instructions and judges images, the two come from the same
+// frames.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ constexpr const char* counted_device = "vulkan:lavapipe";
 
 class CountedPictures : public testing::Test {
  protected:
-  // The records of a plan with these checks; empty if the device or the counter is missing.
+  // Returns the records of a plan with these checks; empty if the device or the counter is missing.
   std::vector<record::Record> counted(const std::string& name, const std::string& checks) {
     program.write(name + ".yaml",
                   fmt::format("suite: volume\nchecks: {}\ndata: [generate:mandelbulb:48]\n"
@@ -36,9 +37,10 @@ class CountedPictures : public testing::Test {
   Program program;
 };
 
-TEST_F(CountedPictures, AreThereWhereThePlanJudgesThem) {
+TEST_F(CountedPictures, AreStoredIfThePlanJudgesThem) {
   const auto alone = counted("alone", "[cost]");
-  if (alone.empty() && !HasFailure()) GTEST_SKIP() << counted_device << " is not counted here";
+  if (alone.empty() && !HasFailure())
+    GTEST_SKIP() << counted_device << " cannot be counted on this machine";
   const auto both = counted("both", "[cost, image, accuracy]");
   ASSERT_EQ(both.size(), alone.size());
   for (std::size_t i = 0; i < both.size(); ++i) {

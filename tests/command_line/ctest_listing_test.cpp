@@ -1,4 +1,4 @@
-// The list of tests for CTest.
+// Tests the list of tests for CTest.
 
 #include <gmock/gmock.h>
 
@@ -19,7 +19,8 @@ std::string tests_of(const Program& program, const std::string& plan) {
   return program.read("tests.cmake");
 }
 
-// Errors, orders, counters and images need no times, so these plans are measured without times.
+// Errors, convergence orders, counters and images need no times, so plans with only these checks
+// are not timed.
 TEST(CTestListing, AccuracyIsMeasuredWithoutTimes) {
   const Program program;
   for (const std::string plan : {"volume/accuracy", "particles/accuracy"}) {

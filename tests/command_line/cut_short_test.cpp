@@ -1,4 +1,5 @@
-// A run that was cut short, a machine that lost a device and a plan that lost a check do not pass.
+// Tests that a run that was cut short does not pass, and neither does a machine that lost a device
+// or a plan that lost a check.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,7 +22,7 @@ class CutShort : public testing::Test {
     program.write("p.yaml", memory_plan);
     program.write("both.yaml", std::string(tiny_plan) + "step: [1, 0.5]\nchecks: [counters, memory]\n");
   }
-  // Runs the plan on two devices and accepts the run.
+  // Runs the plan on two devices, and accepts the run.
   void accept(const std::string& plan = "p.yaml") {
     const std::string options = " --store accepted.sqlite";
     Result result = program.run("run " + plan + " --device 'null:*'" + options, two_devices);
@@ -40,15 +41,15 @@ class CutShort : public testing::Test {
   Program program;
 };
 
-TEST_F(CutShort, AWholeRunPasses) {
+TEST_F(CutShort, ACompleteRunPasses) {
   accept();
   ASSERT_EQ(run(two_devices).code, 0);
   EXPECT_EQ(gate().code, 0) << gate().output;
   EXPECT_EQ(program.run("merge --check s.sqlite").code, 0);
 }
 
-// The program is killed while the second device draws its first frame, which takes 10 s.
-TEST_F(CutShort, AKilledRunIsNamed) {
+// Kills the program while the second device draws its first frame, which takes 10 s.
+TEST_F(CutShort, AKilledRunIsReported) {
   accept();
   const std::string slow = R"({"devices": [1, 10000], "base_ns": 1e6, "ns_per_sample": 0, "sleep": true})";
   ASSERT_NE(run(slow, "", "timeout -s KILL 8").code, 0);
@@ -64,7 +65,7 @@ TEST_F(CutShort, AKilledRunIsNamed) {
   EXPECT_EQ(gate().code, 0) << gate().output;
 }
 
-TEST_F(CutShort, AnEmptyShardIsNamed) {
+TEST_F(CutShort, AnEmptyShardIsReported) {
   accept("both.yaml");
   const std::string shard = "--device 'null:*' --store s.sqlite --shard 3/3";
   EXPECT_EQ(program.run("run both.yaml " + shard, two_devices).code, 2);
@@ -72,7 +73,7 @@ TEST_F(CutShort, AnEmptyShardIsNamed) {
   EXPECT_EQ(program.run("merge --check s.sqlite").code, 2);
 }
 
-TEST_F(CutShort, ADeviceThatIsGoneIsNamedUnlessItIsMeantToBe) {
+TEST_F(CutShort, AMissingDeviceIsReportedUnlessItIsExcused) {
   accept();
   ASSERT_EQ(run("{}").code, 0);
   const Result judged = gate("--json");
@@ -84,7 +85,7 @@ TEST_F(CutShort, ADeviceThatIsGoneIsNamedUnlessItIsMeantToBe) {
 }
 
 // Neither failure ends the command itself.
-TEST_F(CutShort, AListingThatEndsIsNoListing) {
+TEST_F(CutShort, AFailedListingIsReported) {
   for (const char* kind : {"crash", "garbage", "exit"}) {
     const Result result =
         run(std::string(R"({"failures": [{"kind": ")") + kind + R"(", "at": "list"}]})");
@@ -92,7 +93,7 @@ TEST_F(CutShort, AListingThatEndsIsNoListing) {
   }
 }
 
-TEST_F(CutShort, APlanThatLostAcceptedChecksIsNamed) {
+TEST_F(CutShort, APlanThatLostAcceptedChecksIsReported) {
   accept();
   program.write("p.yaml", std::string(tiny_plan) + "checks: [memory]\n");
   ASSERT_EQ(run(two_devices).code, 0);

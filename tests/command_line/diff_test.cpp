@@ -1,4 +1,4 @@
-// Compares two stores, from before and after the upgrade of a driver.
+// Compares two stores, from before and after a driver update.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -30,7 +30,7 @@ class Diff : public testing::Test {
   std::filesystem::path picture = right_picture(program);
 };
 
-TEST_F(Diff, TheSameDriverDiffersInNothing) {
+TEST_F(Diff, TheSameDriverShowsNoDifference) {
   measure("old.sqlite");
   measure("new.sqlite");
   const Result result = diff();
@@ -39,7 +39,7 @@ TEST_F(Diff, TheSameDriverDiffersInNothing) {
   EXPECT_THAT(result.output, HasSubstr("no differences"));
 }
 
-TEST_F(Diff, WhatIsNewAndWhatIsFixedIsToldEitherWay) {
+TEST_F(Diff, NewAndFixedFailuresAreReported) {
   measure("old.sqlite");
   measure("new.sqlite", R"(, "failures": [{"kind": "wrong_image", "at": "image"}])");
   const Result worse = diff();
@@ -51,7 +51,7 @@ TEST_F(Diff, WhatIsNewAndWhatIsFixedIsToldEitherWay) {
   EXPECT_THAT(better.output, HasSubstr(R"("kind": "fixed")"));
 }
 
-TEST_F(Diff, WhatWasInjectedIsNoFaultOfADriver) {
+TEST_F(Diff, InjectedFaultsAreNotAttributedToADriver) {
   measure("old.sqlite");
   const std::string script = fmt::format(R"({{"images": {{"*": "{}"}}}})", picture.string());
   const std::string run = std::string("run volume/quick --untimed --store new.sqlite ") + tiny +
@@ -63,7 +63,7 @@ TEST_F(Diff, WhatWasInjectedIsNoFaultOfADriver) {
   EXPECT_THAT(diff("--json").output, HasSubstr(" [injected: crash]\""));
 }
 
-TEST_F(Diff, WhatOnlyOneHasCannotBeJudged) {
+TEST_F(Diff, APlanInOnlyOneStoreCannotBeJudged) {
   measure("old.sqlite");
   measure("new.sqlite");
   measure("new.sqlite", "", "volume/accuracy");
@@ -72,8 +72,9 @@ TEST_F(Diff, WhatOnlyOneHasCannotBeJudged) {
   EXPECT_THAT(result.output, HasSubstr("plan volume/accuracy exists only in b"));
 }
 
-// The driver could draw nothing, neither before nor after, which does not count as a pass.
-TEST_F(Diff, WhatNeitherMeasuredCannotBeJudged) {
+// The driver could not draw anything, neither before nor after the update. That must not count as a
+// pass.
+TEST_F(Diff, NothingMeasuredCannotBeJudged) {
   for (const char* store : {"old.sqlite", "new.sqlite"}) {
     const Result run =
         program.run(fmt::format("run volume/quick --untimed --store {} {}", store, tiny),
@@ -85,7 +86,7 @@ TEST_F(Diff, WhatNeitherMeasuredCannotBeJudged) {
   EXPECT_THAT(result.output, HasSubstr("nothing was compared: no configuration was measured"));
 }
 
-TEST_F(Diff, DevicesThatAreNotAskedForAreLeftOut) {
+TEST_F(Diff, OnlySelectedDevicesAreCompared) {
   measure("old.sqlite");
   measure("new.sqlite");
   const Result result = diff("--device 'gl:*'");
@@ -94,7 +95,7 @@ TEST_F(Diff, DevicesThatAreNotAskedForAreLeftOut) {
             "triptych: neither old.sqlite nor new.sqlite contains a run on a matching device\n");
 }
 
-TEST_F(Diff, AStoreThatIsNotThereIsNamed) {
+TEST_F(Diff, AMissingStoreIsReported) {
   measure("old.sqlite");
   EXPECT_THAT(diff().output, HasSubstr("new.sqlite"));
   EXPECT_THAT(diff().code, ::testing::AnyOf(2, 3));

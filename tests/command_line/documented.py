@@ -20,7 +20,7 @@ PLANS = {
     "volume": "suite: volume\ntechnique: [raycast]\ndata: ['generate:gaussian_blob:8']\ntransfer_function: [surfaces]\nviewport: [8]\n",
     "particles": "suite: particles\ntechnique: [quad_ray]\nculling: [none]\ndata: ['generate:uniform:10']\nviewport: [8]\n",
 }
-# Commands that another test or CI runs.
+# Commands that are run by another test or by CI.
 ELSEWHERE = {
     "ci/gate": "ci_test and CI", "ci/test": "CI", "ci/build": "ci_test", "ci/setup": "CI", "ci/lint": "CI",
     "ci/fresh": "needs root and a network", "ci/fuzz": "CI", "ci/package": "ci/fresh", "ci/arm64": "needs root and a network",
@@ -33,14 +33,14 @@ ELSEWHERE = {
     "apitrace": "the triptych command in it is run", "cat": "", "exit": "", "export": "",
 }
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-LANGUAGES = ("", "sh", "text")  # text: output of a program, which may print a command to paste
-# Leaves out the last line of `run`, which contains the time that "triptych itself" took.
+LANGUAGES = ("", "sh", "text")  # text: program output, which may contain a command to paste
+# Does not match the last line of `run`, which states the time that "triptych itself" took.
 COMMAND = re.compile(r"(?:^|[\s;(/])triptych (?!itself)(?P<words>[a-z][^)\n]*)")
-FORM = re.compile(r"…| {2,}[a-z]")  # "STORE…", or an explanation after blanks, marks a synopsis, which is not run
+FORM = re.compile(r"…| {2,}[a-z]")  # "STORE…" or an explanation after spaces marks a synopsis, which is not run
 
 
 def commands(page):
-    """Returns the lines of a page's blocks. A line that ends in a backslash continues on the next one."""
+    """Returns the lines of a page's code blocks. A line that ends in a backslash continues on the next line."""
     blocks = BLOCK.findall(page.read_text(encoding="utf-8"))
     for block in (text for language, text in blocks if language in LANGUAGES):
         for line in re.sub(r"\\\n\s*", "", block).splitlines():
@@ -56,7 +56,7 @@ def small(words):
     name = words.split()[0]
     if name in ("gate", "compare") and ".yaml" not in words and "--apis" not in words:
         words += " volume-quick.yaml particles-quick.yaml"
-    # Data files are not available, so generated data of the same kind replace them.
+    # Data files are not available, so they are replaced by generated data of the same kind.
     generated = "generate:uniform:10" if " particles" in words else "generate:gaussian_blob:8"
     words = re.sub(r"\bdata=[\w-]+\.\w[\w.]*", f"data={generated}", words)
     if name in ("gate", "accept"):
@@ -109,7 +109,7 @@ class Documented(unittest.TestCase):
         self.assertGreater(self.ran, 20)
 
     def test_every_example_in_help_runs(self):
-        """Every command that help lists shows an example, which runs after the examples of run and accept."""
+        """Runs the example of every command that help lists, after the examples of run and accept."""
         listed = subprocess.run([PROGRAM, "--help"], capture_output=True, text=True).stdout
         names = re.findall(r"^  ([a-z]+) ", listed[listed.index("ubcommands:"):], re.MULTILINE)
         self.assertGreater(len(names), 10)
@@ -126,12 +126,12 @@ class Documented(unittest.TestCase):
                     done = run(command, folder, environment)
                     if done is not None:
                         self.assertIn(done.returncode, (0, 1, 2), f"{command}\n{done.stdout[-500:]}{done.stderr[-500:]}")
-                if name == "run":  # makes the stores that other examples name
+                if name == "run":  # creates the stores that other examples use
                     for store in ("shard-1", "old", "new", "monday", "tuesday"):
                         shutil.copy(pathlib.Path(folder, "results.sqlite"), pathlib.Path(folder, f"{store}.sqlite"))
 
     def test_what_is_only_named_is_there(self):
-        """The program's help contains every command and option that a synopsis or a text in backquotes names."""
+        """The program's help must contain every command and option that appears in a synopsis or between backquotes."""
         helps = {}
         for page in PAGES:
             text = page.read_text(encoding="utf-8")

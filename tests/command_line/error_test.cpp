@@ -1,4 +1,5 @@
-// A requested error: the cheapest configuration that meets it, or the reason why there is none.
+// Tests requested errors (--error): the result is the cheapest configuration that meets the error,
+// or the reason why there is none.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,8 +15,8 @@
 namespace triptych::command_line {
 namespace {
 
-// A script for devices that draw the limit image of each of these scenes. If there are several
-// scenes, their data distinguish them.
+// Returns a script for devices that draw the limit image of each of these scenes. If there are
+// several scenes, they differ in their data.
 std::string drawing_the_limit(const Program& program, const std::vector<std::string>& data,
                               const std::string& viewport) {
   const auto suite = volume_suite::make_suite({});
@@ -32,7 +33,7 @@ std::string drawing_the_limit(const Program& program, const std::vector<std::str
 
 constexpr const char* blob = "generate:gaussian_blob:16";
 
-TEST(Error, IsKeptByTheFastestOfItsCandidates) {
+TEST(Error, IsMetByTheFastestCandidate) {
   const Program program;
   const Result kept = program.run("run volume/quick " + std::string(tiny) + " --error 0.001",
                                   drawing_the_limit(program, {blob}, "16"));
@@ -45,9 +46,9 @@ TEST(Error, IsKeptByTheFastestOfItsCandidates) {
       << kept.output;
 }
 
-// An image with few rows must not be searched with a line of few pixels, which shows nothing about
-// it.
-TEST(Error, OfALongPictureIsKept) {
+// An image with few rows must not be searched with a row of a few pixels, because such a row
+// reveals nothing about the image.
+TEST(Error, IsMetForAVeryWideImage) {
   const Program program;
   const Result kept = program.run(
       "run volume/quick --device 'null:*' --set technique=raycast --set transfer_function=haze "
@@ -57,7 +58,7 @@ TEST(Error, OfALongPictureIsKept) {
   EXPECT_EQ(kept.output.find("step=4096"), std::string::npos) << kept.output;
 }
 
-TEST(Error, IsOfTheMetricThatIsNamed) {
+TEST(Error, UsesTheNamedMetric) {
   const Program program;
   const std::string script = drawing_the_limit(program, {blob}, "16");
   for (const char* metric : {"rms", "covered", "p99.9", "max"}) {
@@ -69,7 +70,7 @@ TEST(Error, IsOfTheMetricThatIsNamed) {
   }
 }
 
-TEST(Error, ThatDrawingNothingKeepsIsNoChoice) {
+TEST(Error, ThatAnEmptyImageMeetsGivesNoResult) {
   const Program program;
   const Result empty = program.run("run volume/quick " + std::string(tiny) + " --error 0.9");
   EXPECT_EQ(empty.code, 2) << empty.output;
@@ -79,7 +80,7 @@ TEST(Error, ThatDrawingNothingKeepsIsNoChoice) {
   EXPECT_NE(empty.output.find("of 256 pixels show anything"), std::string::npos) << empty.output;
 }
 
-TEST(Error, OutOfReachInOneSceneIsToldAndAllOthersAreMeasured) {
+TEST(Error, OutOfReachInOneSceneStillMeasuresTheOthers) {
   const Program program;
   const std::string constant = "analytic:v1_constant:8";
   const std::string plan = fmt::format(
@@ -96,9 +97,9 @@ TEST(Error, OutOfReachInOneSceneIsToldAndAllOthersAreMeasured) {
   EXPECT_NE(result.output.find("of 1e-12:max"), std::string::npos) << result.output;
 }
 
-// If the plan leaves the sampler to the device, quadrature cells uses another sampler than
-// midpoint.
-TEST(Error, OfASceneHasOneAnswerWhateverSamplerItsCandidatesTake) {
+// If the plan leaves the sampler to the device, the quadrature `cells` uses another sampler than
+// the midpoint rule.
+TEST(Error, HasOneResultWhateverSamplersTheCandidatesUse) {
   const Program program;
   const Result kept = program.run("run volume/quick " + std::string(tiny) + " --error 0.0001",
                                   drawing_the_limit(program, {blob}, "16"));
@@ -110,7 +111,7 @@ TEST(Error, OfASceneHasOneAnswerWhateverSamplerItsCandidatesTake) {
   EXPECT_EQ(kept.output.find(answer, first + 1), std::string::npos) << kept.output;
 }
 
-TEST(Error, OfAStressCaseIsRefusedForItHasNoLimit) {
+TEST(Error, IsRejectedForStressCasesBecauseTheyHaveNoLimit) {
   const Program program;
   const Result result = program.run(
       "run volume/stress --device 'null:*' --set data=stress:inside:middle --set "
@@ -121,7 +122,7 @@ TEST(Error, OfAStressCaseIsRefusedForItHasNoLimit) {
       << result.output;
 }
 
-TEST(Error, ThatADeviceDoesNotKeepIsToldWithTheLeast) {
+TEST(Error, ThatNoCandidateMeetsIsReportedWithTheSmallest) {
   const Program program;
   const Result missed = program.run("run volume/quick " + std::string(tiny) + " --error 0.001");
   EXPECT_EQ(missed.code, 2) << missed.output;
@@ -130,7 +131,7 @@ TEST(Error, ThatADeviceDoesNotKeepIsToldWithTheLeast) {
       << missed.output;
 }
 
-TEST(Error, MustBePositiveAndOfASuiteWithAStep) {
+TEST(Error, MustBePositiveAndNeedsASuiteWithAStep) {
   const Program program;
   for (const char* wrong : {"0", "-1", "nan"}) {
     const Result result =

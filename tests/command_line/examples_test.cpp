@@ -1,6 +1,6 @@
-// The jobs in ci/examples. Their shell steps are run as their CI systems run them: in a folder with
-// a replacement for apt-get and on a scripted device, and also in a minimal Debian system, if one
-// can be made and a package is given.
+// Tests the jobs in ci/examples. Their shell steps are run in the same way as their CI systems run
+// them: in a folder with a replacement for apt-get, and on a scripted device. If a package is given
+// and a minimal Debian system can be created, the steps are also run in that system.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -30,7 +30,7 @@ const fs::path examples = fs::path(TRIPTYCH_SOURCE_FOLDER) / "ci/examples";
 struct Job {
   std::vector<std::string> steps;    // run until the first that fails
   std::vector<std::string> at_last;  // run even if a step failed
-  std::string kept;                  // the folder with the artifacts
+  std::string kept;                  // the folder in which the CI system keeps artifacts
   std::vector<std::string> reports;  // files and globs that the CI system reads
 };
 
@@ -57,9 +57,9 @@ Job gitlab() {
                       kept["reports"]["codequality"].as<std::string>()}};
 }
 
-// A shell script that runs these steps: each step of GitHub in a separate shell, and those of
-// GitLab in a common one. It then runs the last steps, prints the summary as GitHub does, and exits
-// with the code of the first step that failed.
+// Returns a shell script that runs these steps: GitHub's steps in a separate shell each, GitLab's
+// in a common one. Then the script runs the final steps, prints the summary as GitHub does, and
+// exits with the code of the first step that failed.
 std::string script_of(const Job& job) {
   std::vector<std::string> shells = job.steps;
   if (!job.reports.empty()) shells = {fmt::format("{}", fmt::join(job.steps, "\n"))};
@@ -76,8 +76,8 @@ std::string script_of(const Job& job) {
   return script + "cat summary\nexit $code\n";
 }
 
-// Replaces the program: it uses a scripted device and one small scene, whatever devices the job
-// requires, and accepts the remaining part of the plan.
+// Replaces the program. The replacement uses a scripted device and one small scene, whatever
+// devices the job requires, and accepts that part of the plan.
 constexpr const char* stand_in = R"(#!/bin/bash
 [ "$1" = gate ] || exec {0} "$@" --drop
 arguments=()
@@ -88,7 +88,8 @@ done
 exec {0} "${{arguments[@]}}" volume/quick {1}
 )";
 
-// Replaces `git clone URL FOLDER`: a checkout whose ci/package leaves a package.
+// Replaces `git clone URL FOLDER`. The replacement creates a checkout whose ci/package creates a
+// package.
 constexpr const char* stand_in_git = R"(#!/bin/sh
 [ "$1" = clone ] || exit 0
 mkdir -p "$3/ci"
@@ -122,12 +123,12 @@ class Examples : public testing::TestWithParam<Job (*)()> {
   }
   [[nodiscard]] Result pass() const { return run(right_); }
   [[nodiscard]] Result accept() const { return run(right_, "they are right"); }
-  // The driver draws the right image, but takes more samples for it.
+  // The driver draws the correct image, but takes more samples for it.
   [[nodiscard]] Result more_work(const std::string& accept = {}) const {
     return run(right_with_more_work_, accept);
   }
 
-  // The line of the file of the program's folder, counted from 1.
+  // Returns a line, counted from 1, of a file in the program's folder.
   [[nodiscard]] std::string line(const std::string& file, int number) const {
     std::istringstream text(program.read(file));
     std::string found;
@@ -147,8 +148,8 @@ class Examples : public testing::TestWithParam<Job (*)()> {
   std::string right_with_more_work_;
 };
 
-TEST_P(Examples, GoGreenRedAndGreenInARepositoryOfTheirOwn) {
-  // The scripted device is new to the baselines that come with Triptych.
+TEST_P(Examples, PassFailAndPassAgainInANewRepository) {
+  // The baselines that come with Triptych do not contain the scripted device.
   EXPECT_EQ(pass().code, 2);
   EXPECT_EQ(accept().code, 2);
   ASSERT_TRUE(fs::exists(program.folder() / "baselines/volume/quick/manifest.json"));
@@ -161,11 +162,12 @@ TEST_P(Examples, GoGreenRedAndGreenInARepositoryOfTheirOwn) {
               AllOf(HasSubstr("pixels exceed the error bound"), HasSubstr("image")));
   const Result mended = pass();
   EXPECT_EQ(mended.code, 0) << mended.output;
-  EXPECT_EQ(program.read("builds"), "built\n") << "the package is built once and then kept";
+  EXPECT_EQ(program.read("builds"), "built\n")
+      << "the package must be built once and then be reused";
 }
 
-// A change that is intended: it fails at the line of the stored value, is accepted, and passes from
-// then on.
+// Tests an intended change: the job fails and names the line of the stored value, the change is
+// accepted, and from then on the job passes.
 TEST_P(Examples, AcceptAnIntendedChange) {
   ASSERT_EQ(accept().code, 2);
   ASSERT_EQ(pass().code, 0);
@@ -188,7 +190,7 @@ TEST_P(Examples, AcceptAnIntendedChange) {
   EXPECT_EQ(pass().code, 1) << "fewer samples than accepted are now the change";
 }
 
-TEST_P(Examples, KeepEverythingAndAnnotate) {
+TEST_P(Examples, KeepAllArtifactsAndAnnotate) {
   ASSERT_EQ(accept().code, 2);
   const Result red = run("{}");
   const Job job = GetParam()();
@@ -203,8 +205,8 @@ TEST_P(Examples, KeepEverythingAndAnnotate) {
   EXPECT_THAT(program.read("out/codequality.json"), HasSubstr("\"severity\": \"major\""));
 }
 
-// All later steps use the user's own driver.
-TEST_P(Examples, UseTheDriverThatIsLeftInTheRepository) {
+// All later steps must use the user's own driver.
+TEST_P(Examples, UseADriverFromTheRepository) {
   const fs::path icd = program.folder() / "mesa/share/vulkan/icd.d";
   fs::create_directories(icd);
   program.write("mesa/share/vulkan/icd.d/lvp_icd.json", "{}");
@@ -214,14 +216,14 @@ TEST_P(Examples, UseTheDriverThatIsLeftInTheRepository) {
   EXPECT_THAT(pass().output, HasSubstr("driver: " + (icd / "lvp_icd.json").string()));
 }
 
-// Takes about ten minutes, so it runs only if a package for the release is given.
-TEST_P(Examples, RunInABareSystem) {
+// This takes about ten minutes, so it runs only if a package for the release is given.
+TEST_P(Examples, RunInAMinimalSystem) {
   const char* const package = std::getenv("TRIPTYCH_PACKAGE");
   const char* const release = std::getenv("TRIPTYCH_RELEASE");
   if (package == nullptr || release == nullptr) {
-    GTEST_SKIP() << "TRIPTYCH_PACKAGE and TRIPTYCH_RELEASE name no package and its release";
+    GTEST_SKIP() << "TRIPTYCH_PACKAGE and TRIPTYCH_RELEASE are not set";
   }
-  if (::geteuid() != 0) GTEST_SKIP() << "needs root, to make a bare system";
+  if (::geteuid() != 0) GTEST_SKIP() << "needs root to create a minimal system";
   Job job = GetParam()();
   // ci/fresh has installed the package.
   std::erase_if(job.steps, [](const std::string& step) {

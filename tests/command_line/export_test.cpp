@@ -1,4 +1,4 @@
-// The tables of stores that `triptych export` writes.
+// Tests the tables that `triptych export` writes from stores.
 
 #include <gmock/gmock.h>
 
@@ -27,7 +27,7 @@ class Export : public testing::Test {
   Program program;
 };
 
-TEST_F(Export, WritesTablesAndSaysHowManyRows) {
+TEST_F(Export, WritesTablesAndReportsTheirRows) {
   EXPECT_THAT(program.run("export s.sqlite --out tables").output,
               AllOf(HasSubstr("of volume/quick"), HasSubstr("tables/records.csv: 2 rows")));
   const Result result = program.run("export s.sqlite --out tables --json 2>/dev/null | cat");
@@ -49,9 +49,10 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// Run time against error can be drawn from the tables alone. A correct image has no error against
-// its reference image, and an error against the limit image that decreases with the step.
-TEST_F(Export, HasEveryErrorOfEveryImage) {
+// The tables alone are enough to plot run time against error. A correct image has no error with
+// respect to its reference image, but has an error with respect to the limit image, which decreases
+// with the step size.
+TEST_F(Export, ContainsEveryErrorOfEveryImage) {
   const std::string right = R"({"images": {"*": ")" + right_picture(program).string() + R"("}})";
   ASSERT_EQ(program
                 .run(std::string("run volume/quick --store e.sqlite ") + tiny +
@@ -76,7 +77,7 @@ TEST_F(Export, HasEveryErrorOfEveryImage) {
               HasSubstr(",volume.quick.raycast.gaussian_blob_16."));
 }
 
-TEST_F(Export, IsTheSameTwice) {
+TEST_F(Export, IsReproducible) {
   ASSERT_EQ(program.run("export s.sqlite --out a").code, 0);
   ASSERT_EQ(program.run("export s.sqlite --out b").code, 0);
   for (const char* file : {"records.csv", "samples.csv", "dictionary.json"}) {
@@ -84,7 +85,7 @@ TEST_F(Export, IsTheSameTwice) {
   }
 }
 
-TEST_F(Export, TakesAPlanAsOtherCommandsDo) {
+TEST_F(Export, AcceptsAPlanLikeOtherCommands) {
   program.write("p.yaml", tiny_plan);
   ASSERT_EQ(program.run("run ./p.yaml --device 'null:*' --untimed --store s.sqlite").code, 0);
   const Result result = program.run("export s.sqlite --out tables --plan ./p.yaml");
@@ -92,7 +93,7 @@ TEST_F(Export, TakesAPlanAsOtherCommandsDo) {
   EXPECT_THAT(result.output, HasSubstr("tables/runs.csv: 1 rows"));
 }
 
-TEST_F(Export, WhatItCannotDoItSays) {
+TEST_F(Export, ReportsErrors) {
   EXPECT_THAT(program.run("export none.sqlite --out t").output, HasSubstr("none.sqlite"));
   EXPECT_EQ(program.run("export none.sqlite --out t").code, 2);
   const Result of_no_plan = program.run("export s.sqlite --out t --plan volume/speed");

@@ -1,5 +1,6 @@
-// An injected slowdown is real work for the device. The tests count instructions to prove it,
-// because times could differ on a busy machine. The contract tests check that it changes no pixel.
+// Tests that an injected slowdown is real work for the device. The tests count instructions to
+// prove it, because times could vary on a busy machine. The contract tests check that the extra
+// work does not change a pixel.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,12 +15,12 @@
 namespace triptych::command_line {
 namespace {
 
-// Each plan has two levels of one factor with the same work within 0.01 %, so that one worker
-// counts the frames with and without the injected work: starting a worker under the emulator takes
-// longer than counting all its frames.
+// In each plan, one factor has two levels whose work differs by less than 0.01 %. Therefore a
+// single worker can count the frames with and without the injected work: starting a worker under
+// the emulator takes longer than counting all its frames.
 struct Counted {
   const char* plan;
-  const char* slower;  // the level at which work is injected
+  const char* slower;  // the level for which work is injected
 };
 constexpr Counted volumes{
     "suite: volume\nchecks: [cost]\ntechnique: [raycast, raycast_fragment]\n"
@@ -39,7 +40,8 @@ class ExtraWork : public testing::TestWithParam<const char*> {
     double slower = 0;
   };
 
-  // Instructions of device code by technique; empty if the device or the counter is missing.
+  // Returns the number of instructions in device code for each technique; empty if the device or
+  // the counter is missing.
   std::map<std::string, Pair> device_code(const Counted& counted) {
     program.write("p.yaml", counted.plan);
     std::filesystem::remove(program.folder() / "s.sqlite");
@@ -65,11 +67,13 @@ class ExtraWork : public testing::TestWithParam<const char*> {
 
 TEST_P(ExtraWork, IsDoneByEveryTechnique) {
   auto counted = device_code(volumes);
-  if (counted.empty() && !HasFailure()) GTEST_SKIP() << GetParam() << " is not counted here";
+  if (counted.empty() && !HasFailure())
+    GTEST_SKIP() << GetParam() << " cannot be counted on this machine";
   counted.merge(device_code(particles));
   EXPECT_GE(counted.size(), 6U);
   for (const auto& [technique, pair] : counted) {
-    // `tiles` sorts particles twice and has each entry twice. Passes over pixels are not repeated.
+    // `tiles` sorts particles twice and stores each entry twice, but does not repeat the passes
+    // over pixels.
     EXPECT_GT(pair.slower, (technique == "tiles" ? 1.1 : 1.8) * pair.plain) << technique;
     EXPECT_LT(pair.slower, 2.2 * pair.plain) << technique;
     EXPECT_GT(pair.plain, 0) << technique;

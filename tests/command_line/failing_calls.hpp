@@ -1,6 +1,6 @@
 #pragma once
-// Runs the program so that one of its system calls fails. The call is chosen by its number among
-// those that can fail, so it is the same one in every run. Works on x86-64 Linux if a process may
+// Runs the program so that one of its system calls fails. The call is selected by its number among
+// those that can fail, so it is the same call in every run. Works on x86-64 Linux if a process may
 // trace its child.
 
 #include <fcntl.h>
@@ -20,16 +20,18 @@
 namespace triptych::command_line {
 
 struct Outcome {
-  bool traced = true;  // false: tracing is not permitted on this machine, and nothing was run
-  long calls = 0;      // calls of the first thread that could have failed after the program started
-  int code = -1;       // exit code; -1: a signal ended it
+  bool traced = true;  // false if tracing is not permitted on this machine, so that nothing was run
+  // number of calls of the first thread that could have failed after the program started
+  long calls = 0;
+  int code = -1;  // exit code, or -1 if the program was killed by a signal
 };
 
 #if defined(__x86_64__)
 
 namespace failing_detail {
 
-// Covers calls about files, memory and processes, and returns an error that each of them can have.
+// Selects calls that concern files, memory and processes, and returns an error that the call can
+// have; 0 for other calls.
 inline int error_of(unsigned long long call, long number) {
   switch (call) {
     case SYS_read:
@@ -74,7 +76,7 @@ inline Outcome follow(pid_t child, long at) {
   Outcome outcome;
   long signal = 0;
   bool entering = true;
-  bool started = false;  // before that, the dynamic loader is at work
+  bool started = false;  // before that, the dynamic loader is running
   int pending = 0;
   for (;;) {
     if (::ptrace(PTRACE_SYSCALL, child, 0, signal) != 0) throw std::runtime_error("ptrace");
@@ -88,12 +90,12 @@ inline Outcome follow(pid_t child, long at) {
     user_regs_struct registers{};
     ::ptrace(PTRACE_GETREGS, child, 0, &registers);
     if (entering) {
-      // The C library asks for random bytes after all libraries are loaded.
+      // The C library requests random bytes after all libraries are loaded.
       started = started || registers.orig_rax == SYS_getrandom;
       const int error = started ? error_of(registers.orig_rax, at) : 0;
       if (error != 0 && ++outcome.calls == at) {
         pending = error;
-        registers.orig_rax = ~0ULL;  // the kernel executes no call
+        registers.orig_rax = ~0ULL;  // makes the kernel execute no call
         ::ptrace(PTRACE_SETREGS, child, 0, &registers);
       }
     } else if (pending != 0) {
@@ -107,7 +109,7 @@ inline Outcome follow(pid_t child, long at) {
 
 }  // namespace failing_detail
 
-// `told`: the name of the file in the folder to which the program's output is written.
+// `told` is the name of the file in the folder to which the program's output is written.
 inline Outcome run_failing(const std::filesystem::path& folder, const std::string& script,
                            const std::vector<std::string>& arguments, const std::string& told,
                            long at = std::numeric_limits<long>::max()) {

@@ -1,7 +1,7 @@
 // Makes system calls of a small run, accept, merge and gate fail. Each command must either exit
-// with 0 and have written everything, or exit with another code and a line that names the failure,
-// and must never leave a half-written baseline. TRIPTYCH_KILLS=N makes N calls of each command fail
-// instead of 12, distributed over all of its calls.
+// with 0 and have written everything, or exit with another code and a line that names the failure.
+// It must never leave a half-written baseline. By default, 12 calls of each command fail,
+// distributed over all of its calls. TRIPTYCH_KILLS=N makes N calls fail instead.
 
 #include "failing_calls.hpp"
 
@@ -41,14 +41,14 @@ class FailingCalls : public testing::Test {
                        1000 * base_us);
   }
 
-  // `before` prepares the folder; `check` gets the exit code and examines what is left.
+  // `before` prepares the folder. `check` receives the exit code and examines the resulting files.
   template <typename Before, typename Check>
   void fail_repeatedly(const std::string& command, const Before& before, const Check& check) {
     std::istringstream in(command);
     const std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
     before();
     const Outcome whole = run_failing(program.folder(), script(), words, "told");
-    if (!whole.traced) GTEST_SKIP() << "this machine lets no process trace its child";
+    if (!whole.traced) GTEST_SKIP() << "tracing child processes is not permitted on this machine";
     ASSERT_EQ(whole.code, 0) << program.read("told");
     ASSERT_GT(whole.calls, 0);
     const long step = std::max(1L, whole.calls / tries());
@@ -77,7 +77,7 @@ class FailingCalls : public testing::Test {
   fs::path picture = right_picture(program);
 };
 
-TEST_F(FailingCalls, ARunIsCompleteOrSaysThatItIsNot) {
+TEST_F(FailingCalls, ARunIsCompleteOrReportsThatItIsNot) {
   fail_repeatedly(
       "run " + volume + " --store s.sqlite", [&] { remove_store("s.sqlite"); },
       [&](int code) {
@@ -114,7 +114,7 @@ TEST_F(FailingCalls, AnAcceptIsAllOrNothing) {
       });
 }
 
-TEST_F(FailingCalls, AMergeIsWholeOrNotThere) {
+TEST_F(FailingCalls, AMergeIsCompleteOrAbsent) {
   measure("a.sqlite");
   measure("b.sqlite");
   fail_repeatedly(
@@ -129,7 +129,7 @@ TEST_F(FailingCalls, AMergeIsWholeOrNotThere) {
       });
 }
 
-TEST_F(FailingCalls, AGateThatPassesHasWrittenEverything) {
+TEST_F(FailingCalls, APassingGateHasWrittenEverything) {
   measure("s.sqlite");
   const std::string given = " --store s.sqlite --baselines b";
   ASSERT_EQ(program.run("accept volume/quick --reason x" + given, script()).code, 0);

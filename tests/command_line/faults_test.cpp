@@ -1,4 +1,4 @@
-// Workers that die, and the records that remain.
+// Tests workers that crash or hang, and the records that remain.
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 namespace triptych::command_line {
 namespace {
 
-// Three configurations. The one with step 0.5 has the fault.
+// Three configurations, of which the one with step 0.5 has the fault.
 const std::string three =
     std::string("run volume/quick ") + tiny + " --set step=0.25,0.5,1 --store s.sqlite";
 
@@ -27,8 +27,8 @@ TEST(Faults, AHangCostsOneConfiguration) {
   EXPECT_NE(result.output.find("hung"), std::string::npos) << result.output;
 }
 
-// The plan's value "haze" is a default, so no configuration's name contains it.
-TEST(Faults, AFaultThatHitsNothingIsTold) {
+// The plan's level "haze" is a default, so it does not appear in the name of any configuration.
+TEST(Faults, AFaultWithoutEffectIsReported) {
   const Program program;
   const Result missed = program.run(three + " --inject 'crash@*haze*'");
   EXPECT_EQ(missed.code, 0) << missed.output;
@@ -59,8 +59,9 @@ TEST(Faults, AKilledRunIsResumed) {
       << resumed.output;
 }
 
-// The result covers everything that a resumed run contains, and not only what was measured again.
-TEST(Faults, AResumedRunTellsWhatItHolds) {
+// The summary covers everything that a resumed run contains, not only what was measured after
+// resuming.
+TEST(Faults, AResumedRunReportsAllItsRecords) {
   const Program program;
   const std::string run = std::string("run volume/quick --set step=0.5,1 --set skip=none --set ") +
                           "camera=orbit_y:1/8 --store s.sqlite " + tiny;
@@ -73,7 +74,7 @@ TEST(Faults, AResumedRunTellsWhatItHolds) {
       << finished.output;
 }
 
-TEST(Faults, NothingMeasuredIsNoPass) {
+TEST(Faults, NothingMeasuredDoesNotPass) {
   const Program program;
   const Result result =
       program.run("run volume/quick --device 'null:*' --set data=gone.nrrd --store s.sqlite");
@@ -81,7 +82,7 @@ TEST(Faults, NothingMeasuredIsNoPass) {
   EXPECT_EQ(program.run("gate volume/quick --store s.sqlite --baselines b").code, 2);
 }
 
-TEST(Faults, ARunThatMeasuredNothingIsNoSuccess) {
+TEST(Faults, ARunThatMeasuredNothingDoesNotSucceed) {
   const Program program;
   const std::string run = std::string("run volume/quick --store s.sqlite ") + tiny;
   const Result crashed = program.run(run + " --inject crash");

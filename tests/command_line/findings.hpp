@@ -1,6 +1,6 @@
 #pragma once
-// The findings in the JSON of gate and validate: tests compare causes and numbers, and no
-// sentences.
+// Finds findings in the JSON output of gate and validate. Tests compare causes and numbers instead
+// of sentences.
 
 #include <string>
 #include <string_view>
@@ -10,8 +10,9 @@
 
 namespace triptych::command_line {
 
-// The findings with this cause, in the verdict of this plan or of all plans. `json` is the output
-// of `gate --json` or the file of `validate --json`, which may be one verdict or a list of them.
+// Returns the findings with this cause, in the verdict about this plan or about all plans. `json`
+// is the output of `gate --json` or the file written by `validate --json`. It may contain one
+// verdict or a list of verdicts.
 inline std::vector<core::Json> findings_of(const std::string& json, std::string_view cause,
                                            std::string_view plan = {}) {
   std::vector<core::Json> found;

@@ -1,4 +1,4 @@
-// Measures, accepts and judges from end to end, on scripted devices with known results.
+// Tests measuring, accepting and judging from end to end, on scripted devices with known results.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace triptych::command_line {
 namespace {
 
-// `speed`: a factor on all times of the device.
+// `speed` is a factor on all times of the device.
 std::string script(const std::filesystem::path& picture, double speed, int seed) {
   return fmt::format(
       R"({{"images": {{"*": "{}"}}, "devices": [{}], "seed": {}, "base_ns": 5e6, "noise": 0.003}})",
@@ -36,7 +36,7 @@ void accept_runs(const Program& program, const std::filesystem::path& picture, i
   }
 }
 
-TEST(Gate, PassesOnWhatWasAccepted) {
+TEST(Gate, PassesIfNothingChanged) {
   const Program program;
   const auto picture = right_picture(program);
   accept_runs(program, picture, 1);
@@ -59,8 +59,8 @@ TEST(Gate, CannotJudgeWithoutBaselines) {
       << judged.output;
 }
 
-// If a run read no statistics, the gate must give that as the reason why it does not pass.
-TEST(Gate, ATestOfACheckThatDecidesNothingIsSkipped) {
+// If a run did not read statistics, the gate must state this as the reason why it does not pass.
+TEST(Gate, ACheckWithoutAVerdictIsSkippedInCTest) {
   const Program program;
   std::filesystem::create_directory(program.folder() / "baselines");
   ASSERT_EQ(program.run(measure_into("s.sqlite") + " --untimed").code, 0);
@@ -75,7 +75,7 @@ TEST(Gate, ATestOfACheckThatDecidesNothingIsSkipped) {
       << judged.output;
 }
 
-TEST(Gate, APartIsFinishedInItsOwnStore) {
+TEST(Gate, APartialRunIsCompletedInItsOwnStore) {
   const Program program;
   const std::string accept = "accept volume/quick --reason x --baselines baselines --store ";
   ASSERT_EQ(program.run(measure_into("whole.sqlite") + " --set skip=none,bricks").code, 0);
@@ -88,8 +88,8 @@ TEST(Gate, APartIsFinishedInItsOwnStore) {
       << refused.output;
 }
 
-// A window or mapping changes the stored voxels of a volume, whose name stays the same.
-TEST(Gate, WindowsAndMappingsOfOneVolumeAreNoChangedData) {
+// A window or mapping changes the stored voxels of a volume, but not its name.
+TEST(Gate, WindowsAndMappingsDoNotCountAsChangedData) {
   const Program program;
   program.write("plan", std::string(tiny_plan) +
                             "window: [full, 0.1..0.5, p10..p90]\nmapping: [linear, log]\n"
@@ -102,8 +102,8 @@ TEST(Gate, WindowsAndMappingsOfOneVolumeAreNoChangedData) {
   EXPECT_EQ(pass.code, 0) << pass.output;
 }
 
-// The reference image in the store was drawn from the file's contents at that time.
-TEST(Gate, AnEditedTransferFunctionIsNotJudgedByWhatItWas) {
+// The reference image in the store was drawn with the earlier contents of the file.
+TEST(Gate, AnEditedTransferFunctionInvalidatesTheReferenceImage) {
   const Program program;
   program.write("plan",
                 "suite: volume\ntechnique: [raycast]\ndata: [generate:gaussian_blob:16]\n"
@@ -119,16 +119,16 @@ TEST(Gate, AnEditedTransferFunctionIsNotJudgedByWhatItWas) {
   }
 }
 
-TEST(Gate, AWrongPictureIsARegression) {
+TEST(Gate, AWrongImageIsARegression) {
   const Program program;
   accept_runs(program, right_picture(program), 1);
-  // The null device draws its own pattern.
+  // The null device draws its own pattern, which is wrong.
   ASSERT_EQ(program.run(measure_into("s.sqlite"), "{}").code, 0);
   EXPECT_EQ(program.run(judge_from("s.sqlite")).code, 1);
 }
 
-// A check that was not requested appears on neither the page nor the screen.
-TEST(Gate, ThePageSaysWhatTheScreenSays) {
+// A check that was not requested must appear neither on the page nor on the screen.
+TEST(Gate, ThePageAgreesWithTheScreen) {
   const Program program;
   accept_runs(program, right_picture(program), 1);
   ASSERT_EQ(program.run(measure_into("s.sqlite"), "{}").code, 0);  // the image is wrong
@@ -138,7 +138,7 @@ TEST(Gate, ThePageSaysWhatTheScreenSays) {
   EXPECT_NE(program.read("one/report.html").find("<h1>PASS (0)</h1>"), std::string::npos);
 }
 
-TEST(Gate, AnUntimedRunIsJudgedByItsPicturesAndCounters) {
+TEST(Gate, AnUntimedRunIsJudgedByImagesAndCounters) {
   const Program program;
   const auto picture = right_picture(program);
   accept_runs(program, picture, 6);
@@ -151,12 +151,12 @@ TEST(Gate, AnUntimedRunIsJudgedByItsPicturesAndCounters) {
   EXPECT_EQ(program.run(judge_from("w.sqlite")).code, 1);
 }
 
-TEST(Gate, WhatNeedsTimesRefusesARunWithoutThem) {
+TEST(Gate, OutputsThatNeedTimesRejectAnUntimedRun) {
   const Program program;
   EXPECT_EQ(program.run(measure_into("u.sqlite") + " --untimed --error 0.1").code, 3);
 }
 
-TEST(Gate, ARequiredDeviceThatIsAbsentIsNoPass) {
+TEST(Gate, AMissingRequiredDeviceDoesNotPass) {
   const Program program;
   const auto picture = right_picture(program);
   accept_runs(program, picture, 1);
@@ -166,9 +166,9 @@ TEST(Gate, ARequiredDeviceThatIsAbsentIsNoPass) {
   EXPECT_NE(judged.output.find("vulkan:*"), std::string::npos);
 }
 
-// An output whose name is that of another file is refused before anything is judged, and nothing is
+// An output that has the name of another file is rejected before anything is judged, and nothing is
 // written.
-TEST(Gate, NoOutputReplacesAnother) {
+TEST(Gate, OutputsWithTheSameNameAreRejected) {
   const Program program;
   ASSERT_EQ(program.run(measure_into("s.sqlite"), script(right_picture(program), 1, 1)).code, 0);
   const std::string store = program.read("s.sqlite");
@@ -190,7 +190,7 @@ TEST(Gate, NoOutputReplacesAnother) {
             2);
 }
 
-TEST(Gate, AChangedBaselineIsNamed) {
+TEST(Gate, AChangedBaselineIsReported) {
   const Program program;
   const auto picture = right_picture(program);
   accept_runs(program, picture, 1);
@@ -201,7 +201,7 @@ TEST(Gate, AChangedBaselineIsNamed) {
   EXPECT_NE(judged.output.find("counters.json was changed"), std::string::npos) << judged.output;
 }
 
-TEST(Gate, AcceptNeedsAReasonAndAnHonestRun) {
+TEST(Gate, AcceptNeedsAReasonAndNoInjectedFault) {
   const Program program;
   ASSERT_EQ(program.run(measure_into("s.sqlite") + " --inject half_voxel_shift").code, 0);
   EXPECT_EQ(program.run("accept volume/quick --store s.sqlite --baselines b --reason ok").code, 3);

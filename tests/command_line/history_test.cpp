@@ -1,4 +1,4 @@
-// Compares the stores of several days in their order.
+// Tests `triptych history`, which compares the stores of several days in their order.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ using ::testing::Not;
 
 class History : public testing::Test {
  protected:
-  // `base_ns`: the time of a frame; `keys`: more keys of the script.
+  // `base_ns` is the time of a frame. `keys` are more keys for the script.
   void measure(const std::string& store, const std::string& base_ns, const std::string& keys = "",
                const std::string& how = "") const {
     const std::string script = fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": {}{}}})",
@@ -35,7 +35,7 @@ class History : public testing::Test {
   std::filesystem::path picture = right_picture(program);
 };
 
-TEST_F(History, TellsWhatMovedAndTheFirstThatWasWorse) {
+TEST_F(History, ReportsChangesAndTheFirstStoreThatIsWorse) {
   measure("1.sqlite", "1e5");
   measure("2.sqlite", "2e5");
   measure("3.sqlite", "2e5", R"(, "failures": [{"kind": "wrong_image", "at": "image"}])");
@@ -49,14 +49,15 @@ TEST_F(History, TellsWhatMovedAndTheFirstThatWasWorse) {
   EXPECT_EQ(points[0].at("time"), 1.0);
   EXPECT_NEAR(points[1].at("time").get<double>(), 2, 0.2);
   EXPECT_FALSE(points[1].at("worse").get<bool>()) << "times are shown, not judged";
-  EXPECT_FALSE(points[1].contains("cost")) << "what was not counted is not 1";
+  EXPECT_FALSE(points[1].contains("cost")) << "an uncounted cost must be absent rather than 1";
   EXPECT_TRUE(points[2].at("worse").get<bool>());
-  EXPECT_FALSE(points[3].at("worse").get<bool>()) << "no worse than the one before";
+  EXPECT_FALSE(points[3].at("worse").get<bool>()) << "no worse than the previous store";
   EXPECT_THAT(history.at("first_worse").get<std::string>(), HasSubstr("3.sqlite"));
 }
 
-// The device clock of the second store cannot be trusted; its frames took the same time.
-TEST_F(History, ComparesTimesOnOneClock) {
+// The device clock of the second store is not trusted. Its frames take the same time as those of
+// the first store.
+TEST_F(History, ComparesTimesFromTheSameClock) {
   measure("1.sqlite", "1e5", R"(, "device_over_wall": 0.91)");
   measure("2.sqlite", "1e5", R"(, "device_over_wall": 0.1)");
   measure("3.sqlite", "2e5", R"(, "device_over_wall": 0.91)");
@@ -67,8 +68,8 @@ TEST_F(History, ComparesTimesOnOneClock) {
   EXPECT_NEAR(points[2].at("time").get<double>(), 2, 0.2);
 }
 
-// The store in between has no times, but images.
-TEST_F(History, GoesOnBehindAGap) {
+// The second store has images but no times.
+TEST_F(History, ContinuesAfterAGap) {
   const std::string wrong = R"(, "failures": [{"kind": "wrong_image", "at": "image"}])";
   measure("1.sqlite", "1e5");
   measure("2.sqlite", "1e5", "", "--untimed");
@@ -81,8 +82,9 @@ TEST_F(History, GoesOnBehindAGap) {
   EXPECT_TRUE(points[2].at("worse").get<bool>());
 }
 
-// The second store has only one of two configurations; the other one is wrong in the third store.
-TEST_F(History, HoldsEachConfigurationAgainstTheLastStoreThatHasIt) {
+// The second store has only one of the two configurations. The other configuration is wrong in the
+// third store.
+TEST_F(History, ComparesEachConfigurationWithThePreviousStoreThatHasIt) {
   const std::string wrong =
       R"(, "failures": [{"kind": "wrong_image", "at": "image", "only": "*skip=bricks*"}])";
   measure("1.sqlite", "1e5");
@@ -97,7 +99,7 @@ TEST_F(History, HoldsEachConfigurationAgainstTheLastStoreThatHasIt) {
   EXPECT_FALSE(points[3].at("worse").get<bool>());
 }
 
-TEST_F(History, TellsStoresOfOneNameApart) {
+TEST_F(History, DistinguishesStoresWithTheSameName) {
   for (const char* store : {"d1/gate.sqlite", "d2/gate.sqlite", "other.sqlite"}) {
     measure(store, "1e5");
   }
@@ -110,9 +112,10 @@ TEST_F(History, TellsStoresOfOneNameApart) {
   }
 }
 
-TEST_F(History, GoesByTimeWhateverTheOrder) {
+TEST_F(History, OrdersStoresByTime) {
   measure("b.sqlite", "1e5");
-  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // runs begin at whole seconds
+  // the start time of a run has a resolution of one second
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   measure("a.sqlite", "1e5");
   const Result told = program.run("history a.sqlite b.sqlite");
   ASSERT_EQ(told.code, 0) << told.output;
@@ -120,7 +123,7 @@ TEST_F(History, GoesByTimeWhateverTheOrder) {
   EXPECT_THAT(told.output, Not(HasSubstr("first store that is worse")));
 }
 
-TEST_F(History, NamesWhatWasInjected) {
+TEST_F(History, ReportsInjectedFaults) {
   measure("1.sqlite", "1e5");
   measure("2.sqlite", "1e5", "", "--inject slowdown:50");
   const Result told = program.run("history 1.sqlite 2.sqlite --out history.html");
@@ -136,7 +139,7 @@ TEST_F(History, WritesAPage) {
   const std::string page = program.read("history.html");
   EXPECT_THAT(page, HasSubstr("<svg"));
   EXPECT_THAT(page, HasSubstr("First store that is worse"));
-  // The only script saves the figures, and the page allows no other.
+  // The only script on the page saves figures, and the page must allow no other script.
   const std::size_t script = page.find("<script>");
   EXPECT_NE(script, std::string::npos);
   EXPECT_EQ(page.find("<script", script + 1), std::string::npos);
@@ -145,7 +148,7 @@ TEST_F(History, WritesAPage) {
   EXPECT_TRUE(core::Json::accept(json.output)) << json.output;
 }
 
-TEST_F(History, WhatIsNoStoreOrWouldBeOverwrittenIsRefused) {
+TEST_F(History, RejectsMissingStoresAndOverwriting) {
   measure("1.sqlite", "1e5");
   EXPECT_EQ(program.run("history nothing.sqlite").code, 2);
   const Result over = program.run("history 1.sqlite --out 1.sqlite");

@@ -1,5 +1,5 @@
-// Malicious input leads to an error of one line. Nothing reaches the terminal unescaped, and no
-// command hangs.
+// Tests that malicious input leads to a one-line error, that nothing reaches the terminal
+// unescaped, and that no command hangs.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -22,19 +22,19 @@ void expect_one_line(const Result& result, std::string_view says) {
   EXPECT_EQ(std::ranges::count(result.output, '\n'), 1) << result.output;
 }
 
-TEST(Hostile, APlanOfAFileIsListedForCTest) {
+TEST(Hostile, PlanFilesAreListedForCTest) {
   const Program program;
   program.write("p.yaml", tiny_plan);
   const Result listed = program.run("ctest p.yaml --out tests.cmake --folder .");
   EXPECT_EQ(listed.code, 0) << listed.output;
   const std::string tests = program.read("tests.cmake");
   EXPECT_THAT(tests, HasSubstr("[=[volume.p.start]=]"));
-  // The path is absolute, because CTest may start the test in any folder.
+  // The path must be absolute, because CTest may start the test in any folder.
   EXPECT_THAT(tests, HasSubstr("[=[" + (program.folder() / "p.yaml").string() + "]=]"));
 }
 
-// CMake would run what comes after the end of a bracket argument.
-TEST(Hostile, NoNameEndsAnArgumentInTheListForCTest) {
+// CMake would execute whatever follows the end of a bracket argument.
+TEST(Hostile, NoNameEndsABracketArgumentInTheListForCTest) {
   const Program program;
   const std::string command = "execute_process(COMMAND touch ran)";
   int number = 0;
@@ -53,7 +53,7 @@ TEST(Hostile, NoNameEndsAnArgumentInTheListForCTest) {
         test::run_command("cd '" + program.folder().string() + "' && cmake -P defined.cmake 2>&1");
     EXPECT_EQ(read.code, 0) << read.output;
     EXPECT_FALSE(std::filesystem::exists(program.folder() / "ran")) << name;
-    // The plan appears unchanged as an argument.
+    // The plan's path must appear unchanged as an argument.
     EXPECT_THAT(read.output, HasSubstr((program.folder() / folder / "p.yaml").string()));
   }
 }
@@ -74,7 +74,7 @@ TEST(Hostile, AStoreWithADamagedIndexIsNotJudged) {
   }
 }
 
-TEST(Hostile, APipeOrADeviceIsNoPlan) {
+TEST(Hostile, RejectsPipesAndDeviceFilesAsPlans) {
   const Program program;
   ASSERT_EQ(::mkfifo((program.folder() / "pipe.yaml").c_str(), 0600), 0);
   for (const char* plan : {"pipe.yaml", "/dev/zero"}) {
@@ -83,7 +83,7 @@ TEST(Hostile, APipeOrADeviceIsNoPlan) {
   }
 }
 
-TEST(Hostile, NamesReachNoTerminalAsTheyAre) {
+TEST(Hostile, NamesAreEscapedForTheTerminal) {
   const Program program;
   program.write("a\x1b[2J\nb.yaml", "suite: volume\nstepp: [1]\n");
   for (const char* arguments :
@@ -96,7 +96,7 @@ TEST(Hostile, NamesReachNoTerminalAsTheyAre) {
   }
 }
 
-TEST(Hostile, AnEndlessValueMakesNoEndlessLine) {
+TEST(Hostile, LongLevelsAreShortenedInMessages) {
   const Program program;
   program.write("p.yaml", "suite: volume\nstep: [" + std::string(1'000'000, 'x') + "]\n");
   const Result result = program.run("list p.yaml");
@@ -105,8 +105,8 @@ TEST(Hostile, AnEndlessValueMakesNoEndlessLine) {
   EXPECT_THAT(result.output, HasSubstr("…"));
 }
 
-// The lines of a run on stdout and stderr are escaped, too.
-TEST(Hostile, ARunPrintsNamesAsText) {
+// The lines that a run prints to stdout and stderr must be escaped too.
+TEST(Hostile, ARunEscapesNames) {
   const Program program;
   const std::string name = "a\x1b[2J\u202Eb.yaml";
   program.write(name, tiny_plan);
@@ -120,8 +120,8 @@ TEST(Hostile, ARunPrintsNamesAsText) {
   }
 }
 
-// 10¹² combinations are refused before the first one is listed.
-TEST(Hostile, AListThatWouldNotEndIsRefused) {
+// 10¹² combinations must be rejected before the first one is listed.
+TEST(Hostile, RejectsPlansWithTooManyCombinations) {
   const Program program;
   std::string steps;
   std::string cameras;

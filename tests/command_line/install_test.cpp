@@ -1,4 +1,4 @@
-// Tests an installation as a user has it: its version, its baselines and its shell completion.
+// Tests an installation as users get it: its version, its baselines and its shell completion.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,15 +32,15 @@ class Installed : public testing::Test {
   test::TemporaryFolder folder;
 };
 
-TEST_F(Installed, NamesVersionAndCommit) {
+TEST_F(Installed, PrintsVersionAndCommit) {
   const Result version = run("triptych --version");
   EXPECT_EQ(version.code, 0);
   EXPECT_THAT(version.output,
               MatchesRegex("triptych [0-9.]+(, commit [0-9a-f]+\\+?)?, device code [0-9a-f]+\n"));
 }
 
-// The Debian package is made from these files.
-TEST_F(Installed, NobodyElseCanWriteAndEverybodyCanRead) {
+// The Debian package is created from these files.
+TEST_F(Installed, FilesAreReadableByAllAndWritableByTheOwner) {
   for (const char* umask : {"000", "022"}) {
     const std::string to = (folder.path() / umask).string();
     ASSERT_EQ(test::run_command(std::string("umask ") + umask + "; cmake --install '" +
@@ -59,8 +59,8 @@ TEST_F(Installed, NobodyElseCanWriteAndEverybodyCanRead) {
   }
 }
 
-// Baselines are found where they were installed, also for plans that were not measured.
-TEST_F(Installed, JudgesByTheBaselinesInstalledWithIt) {
+// Baselines are found where they were installed, even for plans that were not measured.
+TEST_F(Installed, UsesTheInstalledBaselines) {
   const std::string kept = prefix() + "/share/triptych/baselines";
   ASSERT_TRUE(std::filesystem::exists(kept + "/volume/cost/manifest.json"));
   std::filesystem::remove_all(kept + "/volume/quick");
@@ -71,8 +71,8 @@ TEST_F(Installed, JudgesByTheBaselinesInstalledWithIt) {
   EXPECT_THAT(judged.output, HasSubstr("no baselines in " + kept + "/volume/quick"));
 }
 
-// Every link in the installed documentation leads to a file that is also installed.
-TEST_F(Installed, HasTheWholeDocumentation) {
+// Every link in the installed documentation must lead to a file that is also installed.
+TEST_F(Installed, ContainsTheCompleteDocumentation) {
   const std::filesystem::path documents = prefix() + "/share/doc/triptych";
   const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
   std::size_t links = 0;
@@ -87,10 +87,10 @@ TEST_F(Installed, HasTheWholeDocumentation) {
   EXPECT_GT(links, 100U);
 }
 
-// The first `accept` starts the user's own baselines, which are used from then on. The installed
-// ones must not change, because an installation may be shared, and changes inside a container are
-// lost.
-TEST_F(Installed, AcceptsIntoTheWorkingDirectoryAndNowhereElse) {
+// The first `accept` creates the user's own baselines, which are used from then on. The installed
+// baselines must not change, because several users may share an installation, and changes inside a
+// container would be lost.
+TEST_F(Installed, AcceptWritesOnlyToTheWorkingDirectory) {
   const std::filesystem::path installed = prefix() + "/share/triptych/baselines";
   const auto before = tree(installed);
   const std::string scene = std::string(" volume/quick --store s.sqlite ") + tiny;
@@ -128,7 +128,7 @@ TEST_F(Installed, CompletesCommandsOptionsAndPlans) {
   EXPECT_EQ(run(complete + "volume/q 2").output, "volume/quick\n");
 }
 
-TEST_F(Installed, TheManualNamesEveryOption) {
+TEST_F(Installed, TheManualContainsEveryOption) {
   const std::string manual = folder.read("usr/share/man/man1/triptych.1");
   for (const char* text : {".SS \\&gate\n", ".B \\&\\-\\-measure\n", ".B \\&\\-\\-store VALUE\n",
                            "3 usage or I/O", "TRIPTYCH_DATA"}) {

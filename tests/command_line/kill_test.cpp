@@ -1,6 +1,6 @@
-// Kills the program at random moments, which are the same in every run. Stored records remain, and
-// a file or folder is replaced either completely or not at all. TRIPTYCH_KILLS=1000 kills each
-// command more often.
+// Kills the program at random moments, which are the same in every test run. Stored records must
+// remain, and a file or folder must be replaced either completely or not at all.
+// TRIPTYCH_KILLS=1000 kills each command more often.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -40,23 +40,23 @@ class Kill : public testing::Test {
       "data=generate:gaussian_blob:16 --set transfer_function=haze --set "
       "viewport=16";
 
-  // The script of a device that draws the correct image and whose frames take this long.
+  // Returns the script of a device that draws the correct image and whose frames take this long.
   [[nodiscard]] std::string script(int base_us = 100) const {
     return fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": {}}})", picture.string(),
                        1000 * base_us);
   }
 
-  // Runs the command once to its end. Then kills it repeatedly, each time after `before` has
-  // prepared the folder, and `check` examines what is left.
+  // Runs the command once until it ends. Then starts it repeatedly and kills it each time. Before
+  // each start, `before` prepares the folder; after the kill, `check` examines the resulting files.
   template <typename Before, typename Check>
   void kill_repeatedly(const Words& command, const Before& before, const Check& check) {
     before();
     const Ending whole = run_killed(program.folder(), script(), command, "told");
-    if (!whole.traced) GTEST_SKIP() << "this machine lets no process trace its child";
+    if (!whole.traced) GTEST_SKIP() << "tracing child processes is not permitted on this machine";
     core::Random random(29);
     for (int i = 0; i < kills() && !HasFailure(); ++i) {
       before();
-      // Every second kill is near the end, when files and folders are replaced.
+      // Every second kill is near the end, where files and folders are replaced.
       const double from = i % 2 == 0 ? 0 : 0.9;
       const auto at =
           1 + static_cast<long>(random.uniform(from, 1) * static_cast<double>(whole.calls));
@@ -78,8 +78,8 @@ class Kill : public testing::Test {
   fs::path picture = right_picture(program);
 };
 
-// "3/8 null:scripted …" is printed for a configuration after it was stored.
-TEST_F(Kill, ARunLosesNothingThatItToldOf) {
+// The line "3/8 null:scripted …" is printed after the configuration was stored.
+TEST_F(Kill, ARunLosesNothingThatItReported) {
   const std::string run =
       "run " + volume + " --verbose --set step=0.5,1 --set ert=0,0.002 --store s.sqlite";
   kill_repeatedly(
@@ -129,7 +129,7 @@ TEST_F(Kill, AnAcceptIsAllOrNothing) {
       });
 }
 
-TEST_F(Kill, AGateThatIsKilledChangesNoVerdict) {
+TEST_F(Kill, AKilledGateChangesNoVerdict) {
   measure("s.sqlite", 100);
   const std::string given = " --store s.sqlite --baselines b";
   ASSERT_EQ(program.run("accept volume/quick --reason x" + given, script()).code, 0);
@@ -152,7 +152,7 @@ TEST_F(Kill, AGateThatIsKilledChangesNoVerdict) {
       });
 }
 
-TEST_F(Kill, AReportIsWholeOrNotThere) {
+TEST_F(Kill, AReportIsCompleteOrAbsent) {
   measure("s.sqlite", 100);
   kill_repeatedly(
       words_of("report --store s.sqlite --out r.html --baselines none"),
@@ -163,9 +163,9 @@ TEST_F(Kill, AReportIsWholeOrNotThere) {
       });
 }
 
-// The worker is killed at a system call with a given number, during the frames after the first
-// configuration.
-TEST_F(Kill, AWorkerCostsOneConfigurationAtMost) {
+// The worker is killed at a system call with a given number, while it draws the frames that follow
+// the first configuration.
+TEST_F(Kill, AKilledWorkerLosesAtMostOneConfiguration) {
   program.write("kill_worker.sh", R"(delay=$1; shift
 "$@" >told 2>&1 &
 run=$!

@@ -1,6 +1,6 @@
 #pragma once
-// Runs the program and kills it at a system call with a given number, which is the same place every
-// time.
+// Runs the program and kills it at a system call with a given number, which is the same point in
+// every run.
 
 #include <fcntl.h>
 #include <sys/ptrace.h>
@@ -19,14 +19,14 @@
 namespace triptych::command_line {
 
 struct Ending {
-  bool traced = true;  // false: tracing is not permitted on this machine, and nothing was run
+  bool traced = true;  // false if tracing is not permitted on this machine, so that nothing was run
   bool killed = false;
   long calls = 0;  // how often the first thread entered the kernel or returned from it
 };
 
 namespace killed_detail {
 
-// Never returns. Exit code 126: tracing is not permitted.
+// Turns this process into the program. Exits with code 126 if tracing is not permitted.
 [[noreturn]] inline void become(const std::filesystem::path& folder, const std::string& script,
                                 const std::string& told,
                                 const std::vector<std::string>& arguments) {
@@ -36,7 +36,7 @@ namespace killed_detail {
   const int out = ::open((folder / told).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   ::setenv("TRIPTYCH_NULL_SCRIPT", script.c_str(), 1);
   ::setenv("TRIPTYCH_DATA", "", 1);
-  // The leak check of a sanitizer also uses tracing.
+  // The leak check of a sanitizer also uses tracing, so it is disabled.
   ::setenv("ASAN_OPTIONS", "detect_leaks=0", 1);
   const bool ready = out >= 0 && ::dup2(out, 1) >= 0 && ::dup2(out, 2) >= 0 &&
                      ::chdir(folder.c_str()) == 0 && ::ptrace(PTRACE_TRACEME, 0, 0, 0) == 0;
@@ -44,7 +44,7 @@ namespace killed_detail {
   std::_Exit(126);
 }
 
-// Lets it run until it has entered and left the kernel `at` times, then kills it.
+// Lets the program run until it has entered and left the kernel `at` times, then kills it.
 inline Ending follow(pid_t child, long at) {
   Ending ending;
   long signal = 0;
@@ -65,7 +65,7 @@ inline Ending follow(pid_t child, long at) {
 
 }  // namespace killed_detail
 
-// `told`: the name of the file in the folder to which the program's output is written.
+// `told` is the name of the file in the folder to which the program's output is written.
 inline Ending run_killed(const std::filesystem::path& folder, const std::string& script,
                          const std::vector<std::string>& arguments, const std::string& told,
                          long at = std::numeric_limits<long>::max()) {

@@ -1,4 +1,4 @@
-// Limits on the memory of a worker, and full disks.
+// Tests limits on the memory of workers, and full disks.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr bool sanitized = true;  // a sanitizer's own memory exceeds every limit by far
+constexpr bool sanitized = true;  // a sanitizer's own memory exceeds every such limit
 #else
 constexpr bool sanitized = false;
 #endif
@@ -23,7 +23,7 @@ const std::string any_size =
     "--set camera=orbit_y:1/8 --set step=1 --store s.sqlite ";
 const std::string small = any_size + "--set viewport=16 ";
 
-TEST(Memory, DataThatNeedMoreFailTheirConfigurationAlone) {
+TEST(Memory, DataBeyondTheLimitFailOnlyTheirConfiguration) {
   if (sanitized) GTEST_SKIP() << "built with a sanitizer";
   const Program program;
   const std::string data = "--set data=generate:gaussian_blob:16,generate:gaussian_blob:500 ";
@@ -35,13 +35,13 @@ TEST(Memory, DataThatNeedMoreFailTheirConfigurationAlone) {
   EXPECT_THAT(result.output, HasSubstr("1 measured, 0 skipped, 1 failed"));
 }
 
-// The file has 526 MiB of voxels, which are drawn in parts of 16 MiB.
-TEST(Memory, IsNotWhatVoxelsInAFileTake) {
+// The file contains 526 MiB of voxels, which are drawn in parts of 16 MiB.
+TEST(Memory, IsNotUsedByVoxelsInAFile) {
   if (sanitized) GTEST_SKIP() << "built with a sanitizer";
   const Program program;
   const std::string pocl = "opencl:pocl";
   if (program.run("devices").output.find(pocl) == std::string::npos) {
-    GTEST_SKIP() << pocl << " is not here";
+    GTEST_SKIP() << pocl << " is not available";
   }
   const Result result = program.run(
       "render volume --device " + pocl +
@@ -61,12 +61,12 @@ TEST(Memory, ASizeIsANumberOfBytes) {
   }
 }
 
-// No file may have more than this many blocks of 512 bytes.
+// Returns a command that limits the size of every file to this many blocks of 512 bytes.
 std::string files_up_to(int blocks) {
   return "sh -c 'trap \"\" XFSZ; ulimit -f " + std::to_string(blocks) + "; exec \"$@\"' sh";
 }
 
-TEST(FullDisk, ARunSaysSoAndGoesOnLater) {
+TEST(FullDisk, ARunReportsItAndCanBeResumed) {
   const std::string run = small + "--set data=generate:gaussian_blob:16 ";
   for (const int blocks : {1, 100, 250, 350}) {
     const Program program;
@@ -81,7 +81,7 @@ TEST(FullDisk, ARunSaysSoAndGoesOnLater) {
   }
 }
 
-TEST(FullDisk, AReportThatDoesNotFitLeavesTheOldOne) {
+TEST(FullDisk, AReportThatDoesNotFitKeepsTheOldFile) {
   const Program program;
   ASSERT_EQ(program.run(any_size + "--set viewport=256 --set data=generate:gaussian_blob:16").code,
             0);
@@ -92,9 +92,8 @@ TEST(FullDisk, AReportThatDoesNotFitLeavesTheOldOne) {
   EXPECT_EQ(program.read("r.html"), "old");
 }
 
-// The store contains the reference image already, so the page is the first file for which there is
-// no space.
-TEST(FullDisk, AGateWhoseFilesDoNotFitIsNoPass) {
+// The store already contains the reference image, so the page is the first file that does not fit.
+TEST(FullDisk, AGateWhoseFilesDoNotFitDoesNotPass) {
   const Program program;
   const std::string gate = "gate volume/quick --store s.sqlite --baselines b";
   ASSERT_EQ(program.run(any_size + "--set viewport=256 --set data=generate:gaussian_blob:16").code,
@@ -110,14 +109,14 @@ TEST(FullDisk, AGateWhoseFilesDoNotFitIsNoPass) {
 TEST(FullDisk, AnAcceptThatDoesNotFitChangesNothing) {
   const Program program;
   if (test::run_command("unshare -rm true").code != 0) {
-    GTEST_SKIP() << "this machine lets no user mount a small disk";
+    GTEST_SKIP() << "mounting a small disk is not permitted on this machine";
   }
   const std::string accept = "accept volume/quick --reason x --store s.sqlite --baselines ";
   ASSERT_EQ(program.run(small + "--set data=generate:gaussian_blob:16").code, 0);
   ASSERT_EQ(program.run(accept + "kept").code, 0);
   std::filesystem::create_directory(program.folder() / "small");
   const auto before = tree(program.folder() / "kept/volume/quick");
-  // The existing files fill about 30 KiB of it.
+  // Existing files use about 30 KiB of the disk.
   for (const char* size : {"36k", "48k"}) {
     const Result result =
         program.run(accept + "small/b", "{}",

@@ -1,4 +1,4 @@
-// The output of a gate in a log, on a terminal, and in the job of a CI system.
+// Tests the output of a gate in a log file, on a terminal, and in a CI job.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ using testing::StartsWith;
 constexpr const char* gate =
     "gate volume/quick --measure --store s.sqlite --device 'null:*' --set technique=raycast "
     "--set data=generate:gaussian_blob:16 --set transfer_function=haze --set viewport=16 ";
-// A plan with 48 configurations.
+// A gate whose plan has 48 configurations.
 constexpr const char* many =
     "gate volume/quick --measure --store s.sqlite --baselines b --device 'null:*' --set "
     "technique=raycast --set data=generate:gaussian_blob:8 --set viewport=8 --set "
@@ -46,8 +46,8 @@ TEST(Log, IsShortWithoutATerminal) {
   EXPECT_THAT(program.run(std::string(many) + "--verbose").output, HasSubstr("\n48/48 null:"));
 }
 
-// `script` gives the program a terminal of this size.
-TEST(Log, ATerminalOf80ColumnsNeverWraps) {
+// `script` runs the program on a terminal of this width.
+TEST(Log, LinesFitInto80Columns) {
   const Program program;
   if (test::run_command("command -v script").code != 0) GTEST_SKIP() << "script is not installed";
   program.write("command", std::string("stty cols 80 && TRIPTYCH_NULL_SCRIPT='{}' TRIPTYCH_DATA= "
@@ -56,7 +56,7 @@ TEST(Log, ATerminalOf80ColumnsNeverWraps) {
   const Result shown = test::run_command("cd '" + program.folder().string() +
                                          "' && script -qec 'sh command' /dev/null");
   EXPECT_THAT(shown.output, HasSubstr("[####"));
-  // Every progress line begins with the sequence that removes the one before.
+  // Every progress line begins with the sequence that erases the previous line.
   std::string_view rest = shown.output;
   std::size_t bars = 0;
   for (std::size_t at = 0; (at = rest.find("\r\033[K")) != std::string_view::npos;) {
@@ -70,7 +70,7 @@ TEST(Log, ATerminalOf80ColumnsNeverWraps) {
 
 class CiSystems : public testing::Test {
  protected:
-  // An image is wrong after its baselines were accepted.
+  // An image becomes wrong after its baselines were accepted.
   void SetUp() override {
     ASSERT_EQ(program.run(gate, right()).code, 2);
     ASSERT_EQ(program.run("accept --reason new --baselines baselines --store s.sqlite").code, 0);
@@ -112,7 +112,7 @@ TEST_F(CiSystems, GitLabGetsCodeQualityAndAFoldedLog) {
   EXPECT_FALSE(std::filesystem::exists(program.folder() / "out2/codequality.json"));
 }
 
-TEST_F(CiSystems, AnUnknownOneIsRefusedBeforeMeasuring) {
+TEST_F(CiSystems, AnUnknownSystemIsRejectedBeforeMeasuring) {
   const Result refused = program.run(std::string(gate) + "--ci jenkins");
   EXPECT_EQ(refused.code, 3);
   EXPECT_THAT(refused.output, StartsWith("triptych: --ci jenkins: expected auto, github"));

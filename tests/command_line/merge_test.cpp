@@ -1,4 +1,5 @@
-// Shards that are measured separately and merged are judged like a run by one machine.
+// Tests that shards that are measured separately and then merged are judged like a run on a single
+// machine.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -35,7 +36,7 @@ class MergeCommand : public testing::Test {
   [[nodiscard]] Result run(const std::string& arguments) const {
     return program.run(arguments, R"({"devices": [1, 2]})");
   }
-  // The last screen, without the times and files of the run.
+  // Returns the gate's verdict without the times and file names of the run.
   [[nodiscard]] std::string verdict_on(const std::string& store) const {
     const Result judged = run("gate p.yaml --baselines b --json --store " + store);
     return std::to_string(judged.code) +
@@ -45,7 +46,7 @@ class MergeCommand : public testing::Test {
   const Program program;
 };
 
-TEST_F(MergeCommand, IsJudgedAsOneRun) {
+TEST_F(MergeCommand, ResultIsJudgedAsOneRun) {
   ASSERT_EQ(run("run p.yaml --device 'null:*' --store whole.sqlite").code, 0);
   const Result merged = run("merge 3.sqlite 1.sqlite 2.sqlite --out m.sqlite");
   EXPECT_EQ(merged.code, 0) << merged.output;
@@ -60,15 +61,15 @@ TEST_F(MergeCommand, IsJudgedAsOneRun) {
               HasSubstr("16 of them were already in the store"));
 }
 
-TEST_F(MergeCommand, AShardTooFewIsMissed) {
+TEST_F(MergeCommand, AMissingShardIsReported) {
   const Result merged = run("merge 1.sqlite 2.sqlite --out m.sqlite");
   EXPECT_EQ(merged.code, 0) << merged.output;
   EXPECT_THAT(run("gate p.yaml --baselines b --store m.sqlite").output,
               HasSubstr("have no record"));
 }
 
-// A configuration that no device of a shard has is not a gap in the merged run.
-TEST_F(MergeCommand, NamesWhatItsPartsLack) {
+// A configuration that a shard lacks on every device would not appear as a gap in the merged run.
+TEST_F(MergeCommand, ReportsWhatItsInputsLack) {
   SQLite::Database((program.folder() / "2.sqlite").string(), SQLite::OPEN_READWRITE)
       .exec("DELETE FROM record WHERE configuration = (SELECT min(configuration) FROM record)");
   const Result merged = run("merge 1.sqlite 2.sqlite 3.sqlite --out m.sqlite");
@@ -86,7 +87,7 @@ TEST_F(MergeCommand, NamesWhatItsPartsLack) {
   EXPECT_THAT(run("merge 1.sqlite 3.sqlite --out m.sqlite").output, Not(HasSubstr("lack")));
 }
 
-TEST_F(MergeCommand, SaysThatAnInjectedFaultIsNotKept) {
+TEST_F(MergeCommand, ReportsThatInjectedFaultsAreReplaced) {
   ASSERT_EQ(
       run("run p.yaml --device 'null:*' --store 4.sqlite --shard 1/3 --inject lost_counter").code,
       0);
@@ -99,14 +100,13 @@ TEST_F(MergeCommand, SaysThatAnInjectedFaultIsNotKept) {
   EXPECT_EQ(out.execAndGet("SELECT count(*) FROM record WHERE injected != ''").getInt(), 0);
 }
 
-TEST_F(MergeCommand, CheckNamesWhatIsNotComplete) {
+TEST_F(MergeCommand, CheckReportsIncompleteStores) {
   EXPECT_EQ(run("merge --check 1.sqlite 2.sqlite 3.sqlite --plan p.yaml").code, 0);
   ASSERT_EQ(
       run("run p.yaml --device 'null:*' --resume --set camera=random:1 --store 4.sqlite").code, 0);
   ASSERT_EQ(run("run p.yaml --device null:scripted --set camera=random:1 --store 5.sqlite").code,
             0);
-  // A killed run leaves a store like this one, which contains fewer records than the run was to
-  // measure.
+  // A killed run leaves a store like this one, which contains fewer records than were planned.
   ASSERT_EQ(run("run volume/quick --device 'null:*' --store 5.sqlite --shard 90/90").code, 2);
   const Result checked = run("merge --check 4.sqlite 5.sqlite --plan p.yaml --plan volume/quick");
   EXPECT_EQ(checked.code, 2);
@@ -114,7 +114,7 @@ TEST_F(MergeCommand, CheckNamesWhatIsNotComplete) {
   EXPECT_THAT(run("merge --check none.sqlite").output, HasSubstr("there is no such file"));
 }
 
-TEST_F(MergeCommand, BadUseIsRefused) {
+TEST_F(MergeCommand, WrongUsageIsRejected) {
   EXPECT_THAT(run("merge 1.sqlite").output, HasSubstr("--out is required"));
   EXPECT_THAT(run("merge --check --out x 1.sqlite").output, HasSubstr("excludes"));
   EXPECT_EQ(run("merge 1.sqlite 2.sqlite --out 1.sqlite").code, 3);
@@ -125,10 +125,10 @@ TEST_F(MergeCommand, BadUseIsRefused) {
   EXPECT_FALSE(fs::exists(program.folder() / "m.sqlite"));
 }
 
-TEST_F(MergeCommand, KilledLeavesAllOrNothing) {
+TEST_F(MergeCommand, AKilledMergeLeavesAllOrNothing) {
   const std::vector<std::string> command{"merge", "1.sqlite", "2.sqlite", "--out", "m.sqlite"};
   const Ending whole = run_killed(program.folder(), "{}", command, "told");
-  if (!whole.traced) GTEST_SKIP() << "this machine lets no process trace its child";
+  if (!whole.traced) GTEST_SKIP() << "tracing child processes is not permitted on this machine";
   const auto expected = core::read_file(program.folder() / "m.sqlite");
   for (int i = 1; i < 12; ++i) {
     fs::remove(program.folder() / "m.sqlite");

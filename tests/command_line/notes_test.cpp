@@ -1,4 +1,5 @@
-// Guesses about data are printed once, however many configurations and devices draw them.
+// Tests that guesses about data are printed once, no matter how many configurations and devices use
+// the data.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ int count_of(std::string_view part, std::string_view text) {
   return count;
 }
 
-TEST(Notes, AreToldOnce) {
+TEST(Notes, ArePrintedOnce) {
   const Program program;
   program.write("ligand.gro",
                 "made\n    1\n    1LIG     SI    1   0.100   0.100   0.100\n   1.0 1.0 1.0\n");

@@ -1,4 +1,4 @@
-// Devices that only compile, with RADV if it is installed: a worker, a plan, the gate.
+// Tests devices that only compile, with RADV if it is installed: a worker, a plan and the gate.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace triptych::command_line {
 namespace {
 
-// The oldest release that is supported knows this family.
+// The oldest supported Mesa release already knows this family.
 constexpr const char* absent_device = "vulkan:radv-navi21";
 
 class OnlyCompile : public testing::Test {
@@ -25,10 +25,10 @@ class OnlyCompile : public testing::Test {
     program.write("compiled.yaml",
                   "suite: volume\nchecks: [code]\ntechnique: [raycast, raycast_fragment]\n"
                   "data: [generate:sparse_field:8]\nviewport: [16]\n");
-    if (!has_device()) GTEST_SKIP() << "RADV is not here";
+    if (!has_device()) GTEST_SKIP() << "RADV is not installed";
   }
 
-  // `triptych devices` would calibrate every device.
+  // `triptych devices` would calibrate every device, so this starts a run instead.
   [[nodiscard]] bool has_device() const {
     return program
                .run(std::string("run compiled.yaml --store probe.sqlite --device ") + absent_device)
@@ -42,7 +42,7 @@ class OnlyCompile : public testing::Test {
   Program program;
 };
 
-// The images of such a device would be black, and the times of its clock meaningless.
+// On such a device, images would be black and times meaningless.
 TEST_F(OnlyCompile, DrawsNothing) {
   const Result result = on("run drawn.yaml --verbose");
   EXPECT_EQ(result.code, 2) << result.output;
@@ -69,11 +69,11 @@ TEST_F(OnlyCompile, PrintsStatisticsAndDisassembly) {
   }
 }
 
-TEST_F(OnlyCompile, AnUnknownFamilyIsToldInOneLine) {
+TEST_F(OnlyCompile, AnUnknownFamilyIsReportedInOneLine) {
   const Result result =
       program.run("run compiled.yaml --device vulkan:radv-nosuch --store s.sqlite");
   EXPECT_EQ(result.code, 2) << result.output;
-  // The single line names the requested family and the reason why it is not available.
+  // The single line names the requested family and the reason why it is unavailable.
   EXPECT_EQ(std::ranges::count(result.output, '\n'), 1) << result.output;
   EXPECT_EQ(result.output.find("triptych: no device matches vulkan:radv-nosuch"), 0U)
       << result.output;
@@ -82,9 +82,9 @@ TEST_F(OnlyCompile, AnUnknownFamilyIsToldInOneLine) {
   EXPECT_NE(result.output.find("know this GPU family"), std::string::npos) << result.output;
 }
 
-// The fault `flipped_axis` adds an arithmetic operation to each sample of a ray, and
-// `unresolved_ties` adds two to each sphere of a tile.
-TEST_F(OnlyCompile, AFaultInTheLoopIsFoundOnEveryFamily) {
+// The fault `flipped_axis` adds one arithmetic operation to each sample of a ray, and
+// `unresolved_ties` adds two operations to each sphere of a tile.
+TEST_F(OnlyCompile, AnInjectedFaultIsFoundOnEveryFamily) {
   program.write("rays.yaml",
                 "suite: volume\nchecks: [code]\ntechnique: [raycast]\nsampler: [hardware]\n"
                 "data: [generate:sparse_field:8]\nviewport: [16]\n");
@@ -102,7 +102,7 @@ TEST_F(OnlyCompile, AFaultInTheLoopIsFoundOnEveryFamily) {
       program.run("gate rays.yaml tiles.yaml --baselines b --store s.sqlite --json");
   EXPECT_EQ(judged.code, 1) << judged.output;
 
-  std::map<std::string, std::map<std::string, double>> grown;  // by device, then by statistic
+  std::map<std::string, std::map<std::string, double>> grown;  // by device and statistic
   for (const core::Json& plan : core::Json::parse(judged.output)) {
     for (const core::Json& finding : plan.at("findings")) {
       EXPECT_EQ(finding.at("cause"), "values_changed");
@@ -120,7 +120,7 @@ TEST_F(OnlyCompile, AFaultInTheLoopIsFoundOnEveryFamily) {
   }
 }
 
-// The verdict says why a required family was not measured.
+// The verdict states why a required family was not measured.
 TEST_F(OnlyCompile, ARequiredFamilyThatCannotBeUsedIsNotAPass) {
   ASSERT_EQ(on("run compiled.yaml").code, 0);
   ASSERT_EQ(program.run("accept compiled.yaml --reason new --baselines b --store s.sqlite").code,
@@ -138,8 +138,8 @@ TEST_F(OnlyCompile, ARequiredFamilyThatCannotBeUsedIsNotAPass) {
   EXPECT_FALSE(found.front().at("detail").get<std::string>().empty()) << judged.output;
 }
 
-// Without stored code there is nothing to judge, and nothing is compiled for it.
-TEST_F(OnlyCompile, TheGateJudgesNoDriverWithoutStoredCode) {
+// Without stored code, there is nothing to judge, so nothing is compiled.
+TEST_F(OnlyCompile, NothingIsCompiledWithoutStoredCode) {
   const std::string gate =
       std::string("gate --check code --measure --baselines none --store s.sqlite --device ") +
       absent_device;

@@ -1,4 +1,4 @@
-// A command that the last screen prints reproduces the fault when it is pasted unchanged.
+// Tests that a command printed on the last screen reproduces the fault when it is pasted unchanged.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -16,11 +16,11 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 struct Printed {
-  std::string environment;  // the variables before the program's name
+  std::string environment;  // the variables that precede the program's name
   std::string arguments;
 };
 
-// The first command on the screen, with its lines joined as a shell joins them.
+// Returns the first command on the screen, with its lines joined as a shell joins them.
 Printed printed_command(const std::string& screen) {
   constexpr std::string_view program = "triptych ";
   static const std::regex line_with_command("\n    (\\w+=\\S+ (\\\\\n +)?)*triptych ");
@@ -60,7 +60,7 @@ class Paste : public testing::Test {
   std::filesystem::path picture = right_picture(program);
 };
 
-TEST_F(Paste, TheCommandOfAWrongPictureShowsIt) {
+TEST_F(Paste, TheCommandForAWrongImageReproducesIt) {
   const std::string broken = script(R"(, "failures": [{"kind": "wrong_image", "at": "image"}])");
   const std::string measure = fmt::format("run volume/quick {} --store s.sqlite", tiny);
   ASSERT_EQ(program.run(measure, broken).code, 0);
@@ -80,15 +80,15 @@ TEST_F(Paste, TheCommandOfAWrongPictureShowsIt) {
 
 struct Injected {
   const char* fault;
-  const char* says;        // text in the first lines of the last screen
+  const char* says;        // text that must appear in the first lines of the last screen
   int code;                // exit code of the pasted command
-  const char* shows;       // text that the pasted command prints
-  const char* extra = "";  // part of the command
+  const char* shows;       // text that the pasted command must print
+  const char* extra = "";  // text that the command must contain
 };
 
 class PasteInjected : public Paste, public testing::WithParamInterface<Injected> {};
 
-TEST_P(PasteInjected, TheCommandShowsTheFaultAndNothingWithoutIt) {
+TEST_P(PasteInjected, TheCommandReproducesOnlyTheFault) {
   const Injected& injected = GetParam();
   const std::string measure = fmt::format("run volume/quick {} --limit 2", tiny);
   const std::string right = script("");
@@ -121,13 +121,13 @@ INSTANTIATE_TEST_SUITE_P(Faults, PasteInjected,
                                                   " is missing; ", "gate volume/quick"}),
                          [](const auto& each) { return std::string(each.param.fault); });
 
-// These tests use a real device, because the scripted one computes nothing.
+// These tests use a real device, because scripted devices compute nothing.
 class PasteOnDevice : public Paste {
  protected:
   static constexpr const char* device = "opencl:pocl";
 
-  // The command that the gate's last screen prints for a plan with this fault and these checks. If
-  // the device is missing, nothing is measured and the result is empty.
+  // Returns the command that the gate's last screen prints for a plan with this fault and these
+  // checks. If the device is missing, nothing is measured and the result is empty.
   Printed command_about(const std::string& fault, const std::string& checks,
                         const std::string& says) {
     std::filesystem::create_directory(program.folder() / "my plans");
@@ -152,18 +152,19 @@ class PasteOnDevice : public Paste {
   }
 };
 
-TEST_F(PasteOnDevice, TheCommandOfASlowerKernelCountsAndJudgesItAgain) {
+TEST_F(PasteOnDevice, TheCommandForASlowerKernelReproducesIt) {
   const Printed command = command_about("slowdown:5", "cost", "instructions ");
-  if (command.arguments.empty() && !HasFailure()) GTEST_SKIP() << device << " counts nothing here";
+  if (command.arguments.empty() && !HasFailure())
+    GTEST_SKIP() << device << " cannot count on this machine";
   EXPECT_THAT(command.arguments,
               AllOf(HasSubstr("gate 'my plans/small.yaml' "), HasSubstr("--set step=1 ")));
   expect_code(command, 1);
   expect_code(without(command, "--inject slowdown:5"), 0);
 }
 
-TEST_F(PasteOnDevice, TheCommandOfAShiftedPictureDrawsItAgain) {
+TEST_F(PasteOnDevice, TheCommandForAShiftedImageReproducesIt) {
   const Printed command = command_about("half_voxel_shift", "image", "exceed the error bound");
-  if (command.arguments.empty() && !HasFailure()) GTEST_SKIP() << "there is no " << device;
+  if (command.arguments.empty() && !HasFailure()) GTEST_SKIP() << "no device " << device;
   EXPECT_THAT(command.arguments, HasSubstr("render volume "));
   expect_code(command, 1);
   EXPECT_TRUE(std::filesystem::exists(program.folder() / "repro/difference.png"));

@@ -1,5 +1,5 @@
 #pragma once
-// Runs triptych with a scripted device and returns its output.
+// Runs triptych with a scripted device, and returns its output.
 
 #include <string>
 
@@ -10,7 +10,7 @@ namespace triptych::command_line {
 
 using test::Result;
 
-// Runs in a separate folder; `script` is the script of the null backend.
+// Runs the program in its own folder. `script` is the script of the null backend.
 class Program {
  public:
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
@@ -19,7 +19,8 @@ class Program {
   }
   [[nodiscard]] std::string read(const std::string& name) const { return folder_.read(name); }
 
-  // `arguments` are parsed by a shell in the folder; `wrapper` is put before the program.
+  // A shell in that folder parses `arguments`. `wrapper` is a command that is put before the
+  // program.
   [[nodiscard]] Result run(const std::string& arguments, const std::string& script = "{}",
                            const std::string& wrapper = "") const {
     return test::run_command("cd '" + folder().string() + "' && TRIPTYCH_NULL_SCRIPT='" + script +
@@ -31,12 +32,12 @@ class Program {
   test::TemporaryFolder folder_;
 };
 
-// A plan with one small scene on the scripted device.
+// Options that select one small scene on the scripted device.
 inline constexpr const char* tiny =
     "--device 'null:*' --set technique=raycast --set data=generate:gaussian_blob:16 "
     "--set transfer_function=haze --set viewport=16";
 
-// A plan with such a scene for a file; more factors may be appended.
+// A plan file with the same scene. More factors may be appended.
 inline constexpr const char* tiny_plan =
     "suite: volume\ntechnique: [raycast]\ndata: [generate:gaussian_blob:16]\n"
     "transfer_function: [haze]\nviewport: [16]\n";

@@ -1,4 +1,5 @@
-// A store that cannot be written can still be judged: an artifact of CI, or somebody else's run.
+// Tests that a store that cannot be written can still be judged, such as a CI artifact or another
+// user's run.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -33,7 +34,7 @@ class ReadOnly : public testing::Test {
   }
   void TearDown() override { std::filesystem::permissions(program.folder() / "kept", perms::all); }
 
-  // Runs as a user to whom access rights apply.
+  // Runs the program as a user who is subject to file permissions.
   [[nodiscard]] Result run(const std::string& arguments) const {
     return program.run(
         arguments, "{}",
@@ -43,7 +44,7 @@ class ReadOnly : public testing::Test {
   Program program;
 };
 
-TEST_F(ReadOnly, IsAccepted) {
+TEST_F(ReadOnly, StoreCanBeAccepted) {
   const Result accepted =
       run("accept volume/quick --reason new --store kept/s.sqlite --baselines own/b");
   EXPECT_EQ(accepted.code, 0) << accepted.output;
@@ -52,14 +53,14 @@ TEST_F(ReadOnly, IsAccepted) {
   EXPECT_EQ(judged.code, 0) << judged.output;
 }
 
-TEST_F(ReadOnly, IsReported) {
+TEST_F(ReadOnly, StoreCanBeReported) {
   const Result reported = run("report --store kept/s.sqlite --out own/page.html --baselines own/b");
   EXPECT_EQ(reported.code, 0) << reported.output;
   EXPECT_NE(program.read("own/page.html").find("the reference image"), std::string::npos);
 }
 
-// A writable file in a folder that is not writable: it can be opened, but not changed.
-TEST_F(ReadOnly, InAFolderAloneIsJudgedToo) {
+// A writable file in a read-only folder can be opened, but not changed.
+TEST_F(ReadOnly, AReadOnlyFolderIsEnoughToJudge) {
   std::filesystem::permissions(program.folder() / "kept/s.sqlite",
                                readable | perms::owner_write | perms::others_write);
   const Result judged = run("gate volume/quick --store kept/s.sqlite --baselines own/b");
@@ -68,7 +69,7 @@ TEST_F(ReadOnly, InAFolderAloneIsJudgedToo) {
   EXPECT_EQ(judged.output.find("no reference image"), std::string::npos) << judged.output;
 }
 
-TEST_F(ReadOnly, TakesNoNewRun) {
+TEST_F(ReadOnly, StoreRejectsNewRuns) {
   const Result measured = run(fmt::format("run volume/quick --store kept/s.sqlite {}", tiny));
   EXPECT_EQ(measured.code, 3) << measured.output;
 }

@@ -1,4 +1,4 @@
-// A frame that fails on a scripted device is reduced.
+// Tests `triptych reduce` with frames that fail on a scripted device.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ std::string failing(const std::string& kind, const std::string& only) {
       only);
 }
 
-// The last line without the name of the program.
+// Returns the last line without the name of the program.
 std::string last_command(const std::string& output) {
   constexpr std::string_view program = "\ntriptych ";
   const std::size_t begin = output.rfind(program);
@@ -29,7 +29,7 @@ std::string last_command(const std::string& output) {
   return output.substr(first, output.find('\n', first) - first);
 }
 
-TEST(Reduce, ACrashIsReducedToWhatItNeeds) {
+TEST(Reduce, ACrashIsReducedToWhatItRequires) {
   const Program program;
   const std::string crash = failing("crash", "*step=0.5,*skip=distance*");
   const Result result = program.run(scene + "--set step=0.5 --set viewport=64", crash);
@@ -45,7 +45,7 @@ TEST(Reduce, ACrashIsReducedToWhatItNeeds) {
   EXPECT_THAT(again.output, HasSubstr("SIGABRT"));
 }
 
-TEST(Reduce, TheFolderHoldsWhatAReportNeeds) {
+TEST(Reduce, TheFolderContainsEverythingForABugReport) {
   const Program program;
   const Result result = program.run(scene + "--set viewport=8", failing("crash", "none"));
   // The scripted device draws a pattern, which is not the correct image.
@@ -68,8 +68,9 @@ TEST(Reduce, TheFolderHoldsWhatAReportNeeds) {
   EXPECT_EQ(again.code, 1) << again.output;
 }
 
-// Otherwise, images of another scene in the folder would become part of the bug report.
-TEST(Reduce, WhatIsNotDrawnLeavesNoFilesOfAnEarlierFrame) {
+// Otherwise, images of another scene that are already in the folder would become part of the bug
+// report.
+TEST(Reduce, FilesOfAnEarlierFrameAreRemoved) {
   const Program program;
   const std::string render = "render volume --device null:scripted --truth --out r --set viewport=";
   ASSERT_EQ(program.run(render + "8").code, 1);
@@ -82,7 +83,7 @@ TEST(Reduce, WhatIsNotDrawnLeavesNoFilesOfAnEarlierFrame) {
   EXPECT_TRUE(std::filesystem::exists(program.folder() / "r/truth.png"));
 }
 
-TEST(Reduce, AHangCostsItsLimitAndStaysAHang) {
+TEST(Reduce, AHangIsReducedWithinItsTimeLimit) {
   const Program program;
   const Result result =
       program.run(scene + "--set viewport=2 --limit 1", failing("hang", "*width=2,*"));
@@ -91,7 +92,7 @@ TEST(Reduce, AHangCostsItsLimitAndStaysAHang) {
   EXPECT_THAT(result.output, HasSubstr("viewport 2 → 2x1"));
 }
 
-TEST(Reduce, WhatDoesNotFailPasses) {
+TEST(Reduce, AFrameThatDoesNotFailPasses) {
   const Program program;
   const std::string script = fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": 1e5}})",
                                          right_picture(program).string());
@@ -102,7 +103,7 @@ TEST(Reduce, WhatDoesNotFailPasses) {
             "the frame does not fail on null:scripted, so there is nothing to reduce\n");
 }
 
-TEST(Reduce, TheLimitOfFramesIsTold) {
+TEST(Reduce, ReachingTheFrameLimitIsReported) {
   const Program program;
   const Result result = program.run(scene + "--frames 1", failing("crash", "none"));
   EXPECT_EQ(result.code, 1) << result.output;
@@ -110,7 +111,7 @@ TEST(Reduce, TheLimitOfFramesIsTold) {
   EXPECT_THAT(result.output, HasSubstr("the search stopped when it reached the limit on frames"));
 }
 
-TEST(Reduce, WhatCannotBeDrawnCannotBeReduced) {
+TEST(Reduce, UndrawableConfigurationsAreRejected) {
   const Program program;
   const Result result = program.run(scene, failing("not_supported", "*"));
   EXPECT_EQ(result.code, 2) << result.output;

@@ -1,4 +1,4 @@
-// The pages that people open, made from runs of scripted devices.
+// Tests the HTML pages, created from runs on scripted devices.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ TEST_F(ReportTest, EveryChartIsDrawn) {
   EXPECT_THAT(page, HasSubstr("time of a frame, ms"));
   for (auto at = page.find("<svg class=\"figure\""); at != std::string::npos;
        at = page.find("<svg class=\"figure\"", at + 1)) {
-    // The marks are in a nested SVG element.
+    // The marks are inside a nested SVG element.
     const auto marks = page.find("</svg>", at) + 1;
     const std::string figure = page.substr(at, page.find("</svg>", marks) + 6 - at);
     EXPECT_EQ(test::xml_fault(figure), "");
@@ -51,8 +51,8 @@ TEST_F(ReportTest, EveryChartIsDrawn) {
   }
 }
 
-// A plan without baselines is an exploration, which the page does not present as a failure unless
-// an image is wrong.
+// A plan without baselines is an exploration. The page does not present it as a failure unless an
+// image is wrong.
 TEST_F(ReportTest, WithoutBaselinesBeginsWithResults) {
   const std::string run = std::string("run volume/quick --untimed --store s.sqlite ") + tiny;
   const std::string right = R"({"images": {"*": ")" + right_picture(program_).string() + R"("}})";
@@ -70,7 +70,7 @@ TEST_F(ReportTest, NeedsNoNetwork) {
   EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
 }
 
-TEST_F(ReportTest, BeginsWithTheVerdictThenPicturesThenPlans) {
+TEST_F(ReportTest, BeginsWithVerdictThenImagesThenPlans) {
   measure(std::string("volume/quick") + small_scene);
   measure(std::string("volume/speed") + small_scene);
   const std::string page = report();
@@ -81,7 +81,7 @@ TEST_F(ReportTest, BeginsWithTheVerdictThenPicturesThenPlans) {
   EXPECT_LT(page.find("<h2 id=\"pictures\">"), page.find("<section id=\"plan0\">"));
 }
 
-TEST_F(ReportTest, ReplacesNeitherTheStoreNorItself) {
+TEST_F(ReportTest, OutputsWithTheSameNameAreRejected) {
   measure(std::string("volume/quick --untimed") + small_scene);
   const std::string store = program_.read("s.sqlite");
   const Result over_store = program_.run("report --store s.sqlite --out ./s.sqlite");
@@ -104,8 +104,8 @@ TEST_F(ReportTest, WritesBothFilesOrNeither) {
   EXPECT_EQ(program_.run(command + "--benchmark-json b.json").output, "page.html\nb.json\n");
 }
 
-// A page with only one plan would leave out the other plans in the store.
-TEST_F(ReportTest, BenchmarkJsonHoldsEveryPlan) {
+// The file must not be limited to a single plan of the store.
+TEST_F(ReportTest, BenchmarkJsonContainsEveryPlan) {
   measure(std::string("volume/quick") + small_scene);
   measure(std::string("volume/speed") + small_scene);
   static_cast<void>(report("--benchmark-json benchmark.json"));

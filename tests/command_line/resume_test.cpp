@@ -1,4 +1,4 @@
-// A run can be continued only with the same plan, even if another plan has its name.
+// Tests that a run can be resumed only with the same plan, even if another plan has the same name.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -28,7 +28,7 @@ class Resume : public testing::Test {
   Program program;
 };
 
-TEST_F(Resume, AnotherPlanOfTheSameNameIsRefused) {
+TEST_F(Resume, AnotherPlanWithTheSameNameIsRejected) {
   ASSERT_EQ(run("one/p.yaml").code, 0);
   const Result other = run("other/p.yaml --resume");
   EXPECT_EQ(other.code, 3) << other.output;
@@ -40,17 +40,17 @@ TEST_F(Resume, AnotherPlanOfTheSameNameIsRefused) {
   EXPECT_GT(longer.output.find("1 of them were already in the store"),
             longer.output.find("2 measured"));
   EXPECT_THAT(longer.output, HasSubstr("1 of them were already in the store\n"));
-  EXPECT_EQ(run("one/p.yaml --resume --set step=0.9").code, 3) << "of a plan that has changed";
+  EXPECT_EQ(run("one/p.yaml --resume --set step=0.9").code, 3) << "the plan has changed";
 }
 
-TEST_F(Resume, APartOfThePlanThatTheCommandLineSetsIsItsOwn) {
+TEST_F(Resume, PartsOfAPlanAreResumedSeparately) {
   ASSERT_EQ(run("one/p.yaml --set step=0.9").code, 0);
   EXPECT_EQ(run("one/p.yaml --resume --set step=0.8").code, 0);
   EXPECT_EQ(run("one/p.yaml --resume").code, 0);
 }
 
-// Interrupts a validation as soon as it has reported one configuration. The output of an earlier
-// one does not count: the file is emptied when the program starts.
+// Starts a validation and interrupts it as soon as it has reported one configuration. Starting the
+// program empties the output file, so the output of an earlier validation does not count.
 Result validate_one(const Program& program, const std::string& options) {
   program.write("until_one_is_told.sh", R"(rm -f out; "$@" >out 2>&1 &
 for i in $(seq 600); do grep -qs 'null:scripted .*: ' out && break; sleep 0.1; done
@@ -61,7 +61,7 @@ kill -INT $!; wait $!; code=$?; cat out; exit $code
 }
 
 // A driver under test may crash the machine, so a validation can be resumed.
-TEST_F(Resume, AValidationGoesOn) {
+TEST_F(Resume, AValidationCanBeResumed) {
   const auto first_told = [&](const std::string& options) {
     const Result ended = validate_one(program, options);
     EXPECT_THAT(ended.output,
@@ -74,7 +74,7 @@ TEST_F(Resume, AValidationGoesOn) {
   EXPECT_EQ(first_told(""), first);
 }
 
-// The part that was measured is judged, and the rest does not count as a pass.
+// The part that was measured is judged, and the missing part does not count as a pass.
 TEST_F(Resume, AnInterruptedValidationEndsWithTheLastScreen) {
   const Result ended = validate_one(program, "--junit j.xml --json j.json");
   EXPECT_EQ(ended.code, 1) << ended.output;  // its image is wrong
@@ -91,10 +91,10 @@ TEST_F(Resume, AnInterruptedValidationEndsWithTheLastScreen) {
   EXPECT_EQ(missing[0].at("verdict"), "cannot_judge");
   EXPECT_EQ(missing[0].at("device"), "null:scripted");
   EXPECT_EQ(missing[0].at("names").size(), lacking);
-  // At least one configuration was measured, and the interrupt came soon after it.
+  // At least one configuration was measured, and the interrupt came soon afterwards.
   EXPECT_GE(lacking, wanted - 6);
   EXPECT_LT(lacking, wanted);
-  // The screen and the log have the numbers, too.
+  // The screen and the log must contain the same numbers.
   const std::string numbers = fmt::format("{} of {} planned", lacking, wanted);
   EXPECT_THAT(ended.output, HasSubstr(numbers));
   EXPECT_THAT(program.read("validation/gate.log"), HasSubstr(numbers));
@@ -102,7 +102,7 @@ TEST_F(Resume, AnInterruptedValidationEndsWithTheLastScreen) {
   EXPECT_THAT(findings_of(json, "no_run", "particles/accuracy"), SizeIs(1));
 }
 
-TEST_F(Resume, AnInterruptedValidationDoesNotJudgeTheOneBefore) {
+TEST_F(Resume, AnInterruptedValidationDoesNotJudgeAnEarlierOne) {
   std::filesystem::create_directory(program.folder() / "validation");
   ASSERT_EQ(program
                 .run("run particles/quick --untimed --set technique=point --device 'null:*' "
@@ -114,7 +114,7 @@ TEST_F(Resume, AnInterruptedValidationDoesNotJudgeTheOneBefore) {
   EXPECT_THAT(program.read("j.json"), ::testing::Not(HasSubstr("technique=point")));
 }
 
-TEST_F(Resume, APlanIsGivenOnce) {
+TEST_F(Resume, APlanMustNotBeNamedTwice) {
   for (const std::string plans :
        {"one/p.yaml one/p.yaml", "one/p.yaml other/p.yaml --resume", "volume/quick volume/quick"}) {
     const Result result = run(plans);

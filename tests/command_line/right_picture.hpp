@@ -9,8 +9,8 @@
 
 namespace triptych::command_line {
 
-// Returns a file with the reference image of the tiny plan's scene, which scripted devices then
-// draw. `transfer_function`: a preset, or a file in the program's folder.
+// Writes the reference image of the tiny plan's scene to a file, so that scripted devices can draw
+// it. Returns the file. `transfer_function` is a preset, or a file in the program's folder.
 inline std::filesystem::path right_picture(const Program& program,
                                            const std::string& transfer_function = "haze") {
   const auto suite = volume_suite::make_suite({program.folder()});

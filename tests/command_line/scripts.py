@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# Replaces unshare: the command that ci/root runs within a Debian system is run in the folder itself.
+# Replaces unshare: runs the command that ci/root would run inside a Debian system directly in the folder.
 UNSHARE = """while [ "$1" != root ]; do shift; done
 root=$2 count=$3
 shift 3
@@ -18,7 +18,7 @@ words=("${@//"/triptych"/"$root/triptych"}")
 if [ "$1" = env ]; then words=("$@"); fi
 exec "${words[@]}"
 """
-# Replaces mmdebstrap: makes an empty system.
+# Replaces mmdebstrap: creates an empty system.
 STAND_INS = {"unshare": UNSHARE, "mmdebstrap": 'mkdir "${@: -1}/etc" 2>/dev/null || mkdir "${@: -2:1}/etc"',
              "id": "echo 0", "chroot": "", "arch-test": "", "apt-get": ""}
 

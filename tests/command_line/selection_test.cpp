@@ -1,4 +1,5 @@
-// Configurations are chosen by their short names, with the same options in every command.
+// Tests that configurations are selected by their short names, with the same options in every
+// command.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ std::vector<std::string> names_in(const std::string& listed) {
   return names;
 }
 
-// A short name can select a configuration only if no other configuration has the same one.
+// A short name can select a configuration only if no other configuration has the same short name.
 TEST(ShortNames, AreUniqueInEveryPlanThatComesWithTriptych) {
   const Program program;
   for (const char* plan :
@@ -49,8 +50,8 @@ constexpr const char* four =
 
 class Selected : public testing::TestWithParam<const char*> {};
 
-// The same option selects the same configurations for listing, measuring and judging.
-TEST_P(Selected, InListRunAndGate) {
+// The same option must select the same configurations for listing, measuring and judging.
+TEST_P(Selected, InListRunGateAndCompare) {
   const Program program;
   program.write("cases",
                 "volume.quick.raycast.gaussian_blob_16.surfaces.orbit_y_1_8.v16\n"
@@ -67,7 +68,7 @@ TEST_P(Selected, InListRunAndGate) {
   EXPECT_THAT(judged.output, HasSubstr("only part of the plans"));
   const Result compared =
       program.run("compare volume/quick --no-times --a null:scripted --b null:scripted" + chosen);
-  // The scripted device draws a pattern, so that every image is wrong on both sides.
+  // The scripted device draws a pattern, so every image is wrong on both sides.
   EXPECT_THAT(compared.output, HasSubstr("image: in 2 configurations, first in "));
 }
 
@@ -80,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(Options, Selected,
                                          "--fraction 1/2"),
                          option_name);
 
-TEST(Selection, OfNothingIsAMistake) {
+TEST(Selection, AnEmptySelectionIsAnError) {
   const Program program;
   for (const char* command : {"list volume/quick", "run volume/quick", "gate --measure",
                               "compare --a null:scripted --b null:scripted"}) {

@@ -1,5 +1,5 @@
-// A file whose name contains the characters that separate factors and values passes through every
-// command.
+// Tests that every command accepts a file whose name contains the characters that separate factors
+// and levels.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ class Separators : public testing::Test {
     EXPECT_NE(result.output.find(text), std::string::npos) << result.output;
   }
 
-  // The verdict of the finding about the configuration with this data in the gate's JSON.
+  // Returns the verdict about the configuration with this data, from the gate's JSON.
   static std::string verdict(const Result& gate, const std::string& data) {
     const auto json = nlohmann::json::parse(gate.output, nullptr, false);
     for (const auto& finding : json.value("findings", nlohmann::json::array())) {
@@ -40,7 +40,7 @@ class Separators : public testing::Test {
   Program program;
 };
 
-TEST_F(Separators, OverridesTakeWhatTheListPrints) {
+TEST_F(Separators, OverridesAcceptWhatListPrints) {
   const Result all = program.run("list plan.yaml");
   expect_says(all, "data=a%2Cb%3Dc.nrrd,");
   for (const char* spelling : {"a%2Cb%3Dc.nrrd", "a%2Cb=c.nrrd"}) {
@@ -60,7 +60,7 @@ TEST_F(Separators, RunAcceptGateReport) {
   const Result gate = program.run(
       "gate plan.yaml --check counters --baselines b --store s.sqlite --junit j.xml --json");
   EXPECT_EQ(verdict(gate, "a%2Cb%3Dc.nrrd"), "pass") << gate.output;
-  EXPECT_EQ(gate.code, 2) << "what was left out of the baselines is missed: " << gate.output;
+  EXPECT_EQ(gate.code, 2) << "the baselines lack the other configuration: " << gate.output;
   expect_says({.output = program.read("j.xml")}, "data=a%2Cb%3Dc.nrrd,");
   const Result report = program.run("report --store s.sqlite --out page.html");
   ASSERT_EQ(report.code, 0) << report.output;

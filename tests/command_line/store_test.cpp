@@ -1,5 +1,5 @@
-// The records of a run are in the file that the user names, or the run reports that it cannot store
-// them.
+// Tests that the records of a run are in the file that the user names, or that the run reports that
+// it cannot store them.
 
 #include "record/store.hpp"
 
@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 const std::string one = std::string("run volume/quick ") + tiny + " --set step=1";
 
-TEST(StoreName, OneWithoutCharactersIsRefusedBeforeAnythingIsMeasured) {
+TEST(StoreName, AnEmptyNameIsRejectedBeforeMeasuring) {
   const Program program;
   const Result result = program.run(one + " --store ''");
   EXPECT_EQ(result.code, 3) << result.output;
@@ -23,8 +23,8 @@ TEST(StoreName, OneWithoutCharactersIsRefusedBeforeAnythingIsMeasured) {
   EXPECT_EQ(program.run("gate volume/quick --store ''").code, 3);
 }
 
-// SQLite would interpret each of these names as a database in memory.
-TEST(StoreName, OneThatMeansMemoryToSqliteIsAFile) {
+// SQLite would interpret each of these names as an in-memory database.
+TEST(StoreName, SqliteMemoryNamesAreFiles) {
   for (const std::string name : {":memory:", "file:x?mode=memory"}) {
     const Program program;
     const Result result = program.run(one + " --store '" + name + "'");
@@ -33,7 +33,7 @@ TEST(StoreName, OneThatMeansMemoryToSqliteIsAFile) {
   }
 }
 
-TEST(EmptyStore, IsNothingToMerge) {
+TEST(EmptyStore, CannotBeMergedAlone) {
   const Program program;
   { const record::Store empty(program.folder() / "empty.sqlite", record::Store::Mode::append); }
   const Result none = program.run("merge empty.sqlite --out m.sqlite");

@@ -1,4 +1,4 @@
-// Verdicts do not depend on the locale or the clock of the machine.
+// Tests that verdicts do not depend on the locale or the clock of the machine.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 class Surroundings : public testing::Test {
  protected:
-  // The plan is measured and accepted in the usual surroundings.
+  // Measures and accepts the plan with the usual locale and time.
   void SetUp() override {
     const std::string given = " --device null:scripted --store s.sqlite";
     program.write("p.yaml", std::string(tiny_plan) + "step: [0.5, 1]\nchecks: [counters, memory]\n");
@@ -28,14 +28,14 @@ class Surroundings : public testing::Test {
   Program program;
 };
 
-// German writes 0,5 for 0.5, and Turkish has another capital of i.
-TEST_F(Surroundings, ALocaleChangesNothing) {
+// German writes 0,5 for 0.5, and in Turkish the capital of i is not I.
+TEST_F(Surroundings, TheLocaleHasNoEffect) {
   const std::string usual = program.run("list p.yaml").output;
   for (const std::string locale : {"de_DE", "tr_TR"}) {
     const std::string folder = program.folder().string();
     const std::string made = folder + "/" + locale + ".UTF-8";
     if (test::run_command("localedef -i " + locale + " -f UTF-8 '" + made + "'").code > 1) {
-      GTEST_SKIP() << "no locales can be made here";
+      GTEST_SKIP() << "locales cannot be created on this machine";
     }
     const std::string wrapper = "env LOCPATH='" + folder + "' LC_ALL=" + locale + ".UTF-8";
     EXPECT_EQ(program.run("list p.yaml", "{}", wrapper).output, usual) << locale;
@@ -45,7 +45,7 @@ TEST_F(Surroundings, ALocaleChangesNothing) {
 }
 
 // The latest run is the one that was added last, whatever its date is.
-TEST_F(Surroundings, AClockThatWasSetBackChangesNothing) {
+TEST_F(Surroundings, AClockThatWasSetBackHasNoEffect) {
   if (test::run_command("faketime -f -400d true").code != 0) {
     GTEST_SKIP() << "faketime is not installed";
   }

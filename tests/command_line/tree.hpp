@@ -7,7 +7,7 @@
 
 namespace triptych::command_line {
 
-// Every file below a folder, by its name.
+// Returns the contents of every file below a folder, by file name.
 inline std::map<std::string, std::string> tree(const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;
   if (!std::filesystem::exists(folder)) return files;

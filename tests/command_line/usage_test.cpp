@@ -1,4 +1,4 @@
-// Wrong usage and bad input lead to one clear line and the expected exit code.
+// Tests that wrong usage and bad input lead to one clear line and the expected exit code.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ TEST(Usage, NoCommandAndAnUnknownOne) {
   expect_refused(program.run("fly"), 3, "unknown command 'fly'; expected one of: devices, list, run,");
 }
 
-TEST(Usage, ASuiteIsListedWithAllThatAPlanMayHold) {
+TEST(Usage, ListShowsAllFactorsOfASuite) {
   const Program program;
   const Result listed = program.run("list volume");
   EXPECT_EQ(listed.code, 0) << listed.output;
@@ -45,7 +45,7 @@ TEST(Usage, ASuiteIsListedWithAllThatAPlanMayHold) {
   }
 }
 
-TEST(Usage, APlanThatIsNotThere) {
+TEST(Usage, AMissingPlan) {
   const Program program;
   expect_refused(program.run("list volume/quik"), 3, "did you mean 'quick'?");
   expect_refused(program.run("list nowhere.yaml"), 3, "nowhere.yaml");
@@ -63,7 +63,7 @@ TEST(Usage, MistakesInAPlanNameLineAndColumn) {
   expect_refused(program.run("list twice.yaml"), 3, "twice.yaml:3:");
 }
 
-TEST(Usage, AnOverrideThatIsWrong) {
+TEST(Usage, InvalidOverrides) {
   const Program program;
   expect_refused(program.run("list volume/quick --set stepp=1"), 3, "did you mean 'step'?");
   expect_refused(program.run("list volume/quick --set step"), 3, "expected factor=value");
@@ -76,7 +76,7 @@ TEST(Usage, AnOverrideThatIsWrong) {
   EXPECT_EQ(program.run("list volume/quick --shard 2/2").code, 0);
 }
 
-TEST(Usage, ASuiteHasNothingToOverride) {
+TEST(Usage, ASuiteCannotBeOverridden) {
   const Program program;
   for (const char* choice : {"--set nonsense=1", "--shard 9/2", "--filter x"}) {
     expect_refused(program.run(std::string("list volume ") + choice), 3,
@@ -84,7 +84,7 @@ TEST(Usage, ASuiteHasNothingToOverride) {
   }
 }
 
-TEST(Usage, AGeneratorThatCannotMakeIt) {
+TEST(Usage, InvalidGenerators) {
   const Program program;
   program.write("small.yaml",
                 "suite: volume\ndata: [generate:mandelbulb:16, generate:mandelbulb:-5]\n");
@@ -102,19 +102,19 @@ TEST(Usage, AGeneratorThatCannotMakeIt) {
                  "expected generate:NAME:COUNT");
 }
 
-TEST(Usage, ADeviceThatIsNotThere) {
+TEST(Usage, AMissingDevice) {
   const Program program;
   expect_refused(program.run("run volume/quick --device 'none:*'"), 2, "no device matches none:*");
 }
 
-TEST(Usage, ADeviceOfNoApiSaysHowItsWorkerEnded) {
+TEST(Usage, AnUnknownApiReportsHowItsWorkerEnded) {
   const Program program;
   expect_refused(program.run("compare volume/quick --a bogus:x --b null:scripted"), 2,
                  "the worker exited with code 3; the worker's last output: triptych: unknown API");
 }
 
-// Each command names the option that it has.
-TEST(Usage, AnInterruptOffersAResumeWhereThereIsOne) {
+// Each command names its own option for resuming.
+TEST(Usage, AnInterruptSuggestsResumeIfPossible) {
   const Program program;
   const std::string hang = std::string("--set data=generate:gaussian_blob:16 --set viewport=16 ") +
                            "--device null:scripted";
@@ -128,20 +128,20 @@ TEST(Usage, AnInterruptOffersAResumeWhereThereIsOne) {
       << run.output;
 }
 
-TEST(Usage, ValidatingNothing) {
+TEST(Usage, ValidatingWithoutADeviceOrFolder) {
   const Program program;
   expect_refused(program.run("validate --device 'null:*' --out /proc/none"), 3,
                  "cannot write into");
   expect_refused(program.run("validate --device 'none:*'"), 2, "no device matches none:*");
 }
 
-TEST(Usage, AFolderThatCannotBeWrittenInto) {
+TEST(Usage, AReadOnlyFolder) {
   const Program program;
   expect_refused(program.run("run volume/quick --device 'null:*' --store /proc/none/s.sqlite"), 3,
                  "cannot write into");
 }
 
-TEST(Usage, AStoreThatIsNoStore) {
+TEST(Usage, AnInvalidStore) {
   const Program program;
   program.write("text.sqlite", "this is no database, however long one looks at it");
   expect_refused(program.run("gate volume/quick --store text.sqlite"), 3, "text.sqlite");
@@ -150,7 +150,7 @@ TEST(Usage, AStoreThatIsNoStore) {
                  "unknown check 'colour'");
 }
 
-TEST(Usage, HowToMeasureNamesThePlanAsItWasTyped) {
+TEST(Usage, AdviceNamesThePlanAsItWasTyped) {
   const Program program;
   ASSERT_EQ(program.run(std::string("run volume/quick --untimed --store s.sqlite ") + tiny).code,
             0);
@@ -159,9 +159,9 @@ TEST(Usage, HowToMeasureNamesThePlanAsItWasTyped) {
                  "no run of my: measure first with `triptych run my.yaml --store s.sqlite`");
 }
 
-// The two output streams are separate here. The # at the end comments out the part that would join
-// them.
-TEST(Usage, OutputThatCannotBeWrittenIsNoSuccess) {
+// In this test, the two output streams are not joined. The # at the end comments out the
+// redirection that would join them.
+TEST(Usage, FailingToWriteOutputIsAnError) {
   const Program program;
   for (const char* command :
        {"list volume/quick", "list volume/quick --json", "--help", "--version"}) {
@@ -171,7 +171,7 @@ TEST(Usage, OutputThatCannotBeWrittenIsNoSuccess) {
   }
 }
 
-TEST(Usage, AVolumeThatIsBroken) {
+TEST(Usage, ADamagedVolume) {
   const Program program;
   program.write("short.nrrd",
                 "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n\nabc");

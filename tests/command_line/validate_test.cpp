@@ -23,7 +23,7 @@ constexpr const char* part = "validate --device null:scripted --shard 1/400 ";
 
 class Validate : public testing::Test {
  protected:
-  // The number of findings with each verdict in the output of --json.
+  // Returns the number of findings with each verdict in the output of --json.
   [[nodiscard]] std::map<std::string, int> verdicts(const std::string& file) const {
     std::map<std::string, int> counts;
     for (const auto& plan : nlohmann::json::parse(program.read(file))) {
@@ -34,7 +34,7 @@ class Validate : public testing::Test {
   Program program;
 };
 
-TEST_F(Validate, WhatIsKnownToFailIsWaivedAndNewFailuresAreRed) {
+TEST_F(Validate, KnownFailuresAreWaivedAndNewOnesFail) {
   const Result first = program.run(std::string(part) + "--write-expect known.json --json 1.json");
   ASSERT_EQ(first.code, 1) << first.output;
   EXPECT_THAT(first.output, HasSubstr("failed configurations again"));
@@ -47,14 +47,14 @@ TEST_F(Validate, WhatIsKnownToFailIsWaivedAndNewFailuresAreRed) {
   const Result crashing = program.run(
       std::string(part) + "--expect known.json",
       R"({"failures": [{"kind": "crash", "at": "frame", "only": "technique=raycast,*"}]})");
-  EXPECT_NE(crashing.code, 1) << "known is that it fails, not how";
+  EXPECT_NE(crashing.code, 1) << "the expectation states that it fails, not how";
   program.write("none.json", "[]");
   EXPECT_EQ(program.run(std::string(part) + "--expect none.json").code, 1);
 }
 
-// The only configuration of volume/quick on this device is right, except that one of its frames
-// fails.
-TEST_F(Validate, WhatFailsOnceIsAFlakeAndIsTold) {
+// The only configuration of volume/quick on this device is drawn correctly, except that one of its
+// frames fails.
+TEST_F(Validate, AFailureThatDoesNotRepeatIsReportedAsAFlake) {
   const auto suite = volume_suite::make_suite({});
   const measure::Plan plan = measure::load_plan(
       "volume/quick", {}, [&](std::string_view) -> measure::Suite& { return *suite; },
@@ -74,7 +74,7 @@ TEST_F(Validate, WhatFailsOnceIsAFlakeAndIsTold) {
   EXPECT_THAT(program.read("known.json"), HasSubstr(R"("outcome":"flake")"));
   EXPECT_THAT(program.read("validation/gate.log"),
               HasSubstr("flake (correct when drawn again): crashed: "));
-  // The store still contains the failed record.
+  // The store must still contain the failed record.
   const Result gate = program.run(
       "gate volume/quick --shard 1/400 --store validation/validation.sqlite --check image", script);
   EXPECT_EQ(gate.code, 1) << gate.output;
@@ -97,13 +97,13 @@ TEST_F(Validate, RepeatingListsEachCaseWithItsVerdicts) {
   EXPECT_EQ(program.run(std::string(part) + "--repeat 0").code, 3);
 }
 
-TEST_F(Validate, APartMissesNothingOfTheRest) {
+TEST_F(Validate, AShardDoesNotLackTheRest) {
   const Result result = program.run(std::string(part) + "--json j.json");
   EXPECT_THAT(program.read("j.json"), Not(HasSubstr("missing rows")));
   EXPECT_EQ(program.run("validate --device null:scripted --shard 3/2").code, 3);
 }
 
-TEST_F(Validate, WorkersSideBySideGiveTheSameVerdict) {
+TEST_F(Validate, ParallelWorkersGiveTheSameVerdict) {
   ASSERT_EQ(program.run(std::string(part) + "--json 1.json").code, 1);
   const Result two = program.run(std::string(part) + "--jobs 2 --json 2.json");
   EXPECT_EQ(two.code, 1) << two.output;
@@ -111,7 +111,7 @@ TEST_F(Validate, WorkersSideBySideGiveTheSameVerdict) {
   EXPECT_EQ(program.run(std::string(part) + "--jobs 0").code, 3);
 }
 
-TEST_F(Validate, AFileOfExpectationsHasToBeOne) {
+TEST_F(Validate, InvalidExpectationFilesAreRejected) {
   EXPECT_EQ(program.run(std::string(part) + "--expect gone.json").code, 3);
   program.write("bad.json", R"([{"device": "a"}])");
   const Result bad = program.run(std::string(part) + "--expect bad.json");

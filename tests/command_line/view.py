@@ -32,7 +32,7 @@ def program(arguments, display=True, environment=None, **more):
 
 
 def png(file):
-    """Returns width, height and the rows of an 8-bit RGB image, without using any package."""
+    """Returns the width, the height and the rows of an 8-bit RGB image. Needs no packages."""
     data = pathlib.Path(file).read_bytes()
     position, packed = 8, b""
     while position < len(data):
@@ -67,14 +67,14 @@ class Window(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def view(self, *arguments, environment=None):
-        """Returns the JSON of the window, and the rows of its image."""
+        """Returns the JSON output of the window, and the rows of its image."""
         done = program([*arguments, "--json", "--screenshot", "window.png"], environment=environment, cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stderr, "")
         return json.loads(done.stdout), png(self.folder / "window.png")
 
     def render(self, command):
-        """Runs a pasted command, and returns the image and the description of its frame."""
+        """Runs a pasted command. Returns the image and the description of its frame."""
         self.assertTrue(command.startswith("triptych render "), command)
         done = subprocess.run(command.replace("triptych", f"'{PROGRAM}'", 1), shell=True, cwd=self.folder, capture_output=True, text=True)
         self.assertIn(done.returncode, (0, 1), done.stderr)
@@ -100,7 +100,8 @@ class Window(unittest.TestCase):
                 self.assertEqual(frame["factors"]["camera"], "view:30/20/0.8")
                 self.assertEqual(frame["counters"], column["counters"])
                 self.assertTrue(column["time_ns"]["samples"])
-                # The verdict on the difference is that of `render --truth`, also for an injected fault.
+                # The verdict about the difference must be the same as that of `render --truth`, also for an injected
+                # fault.
                 self.assertEqual(column["difference"]["with"], "reference")
                 self.assertEqual(column["difference"]["right"], code == 0)
                 self.assertEqual(column["difference"]["beyond"] > 0, code == 1)
@@ -117,7 +118,7 @@ class Window(unittest.TestCase):
     def test_the_mouse_turns_the_camera(self):
         if not shutil.which("xdotool"):
             self.skipTest("xdotool is missing")
-        # A busy machine may join the steps of a drag, so a drag that the program did not see is repeated.
+        # A busy machine may merge the steps of a drag, so a drag that the program did not notice is repeated.
         for attempt in range(3):
             camera = self.drag()
             if camera != "orbit_y:1/8":

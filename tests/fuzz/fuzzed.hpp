@@ -1,5 +1,6 @@
 #pragma once
-// Shared by the fuzz targets: an input as a file, and the exceptions that a reader may throw.
+// What all fuzz targets share: storing an input as a file, and the exceptions that a reader may
+// throw.
 
 #include <array>
 #include <cstddef>
@@ -26,8 +27,7 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-// An input. Its first line names the kind of file, such as "pdb.gz", and the bytes of the file
-// follow.
+// An input. Its first line names the kind of file, such as "pdb.gz". The bytes of the file follow.
 struct Input {
   std::string kind;
   std::string_view content;
@@ -44,7 +44,8 @@ std::optional<Input> split(const std::uint8_t* data, std::size_t size, const Kin
   return std::nullopt;
 }
 
-// The endings in a table of formats without their dots, and those of compressed files.
+// Returns the file-name extensions in a table of formats, without their dots, and those of
+// compressed files.
 template <typename Format>
 std::vector<std::string> kinds_of(std::span<const Format> formats) {
   std::vector<std::string> kinds;
@@ -58,7 +59,7 @@ std::vector<std::string> kinds_of(std::span<const Format> formats) {
   return kinds;
 }
 
-// A folder that exists as long as the process.
+// Returns a folder that exists until the process ends.
 inline const std::filesystem::path& folder() {
   static const core::TemporaryFolder made;
   return made.path();
@@ -71,7 +72,7 @@ inline std::filesystem::path write(const std::string& name, std::string_view con
   return file;
 }
 
-// A reader may throw the error types of this project. Any other exception ends the process.
+// A reader may throw Triptych's own error types. Any other exception ends the process.
 template <typename Read>
 void expect_ours(const Read& read) {
   try {

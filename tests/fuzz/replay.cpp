@@ -1,4 +1,4 @@
-// Replaces libFuzzer: gives every file in the given folders to a fuzz target.
+// Replaces libFuzzer: passes every file in the given folders to a fuzz target.
 
 #include <cstdio>
 #include <iterator>

@@ -7,7 +7,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::filesystem::path file = fuzz::write("s.sqlite", fuzz::text_of(data, size));
   fuzz::expect_ours([&] {
     const record::Store store(file, record::Store::Mode::read);
-    // require_whole() is not called, because it would refuse most damaged files before they are
+    // This does not call require_whole(), which would reject most damaged files before they are
     // read.
     for (const record::Run& run : store.runs()) {
       fuzz::expect_ours([&] { static_cast<void>(store.devices(run.id)); });

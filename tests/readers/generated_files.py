@@ -25,7 +25,7 @@ def values_of(dtype, shape=(4, 5, 6)):
     return RANDOM.integers(lo, hi, size=shape, dtype=np.int64, endpoint=True).astype(dtype)
 
 
-# Particles.
+# Particles
 
 SYMBOLS = ["C", "N", "O", "S", "P", "Fe", "Cl", "Na"]
 
@@ -136,7 +136,7 @@ def write_mmpld(folder):
 
 
 def parse_mmpld(data):
-    """Returns positions and radii of the single list that write_mmpld makes; None for any other file."""
+    """Returns the positions and radii of the single list that write_mmpld writes; None for any other file."""
     version, frames = struct.unpack_from("<HI", data, 6)
     if version != 100 or frames != 1:
         return None
@@ -152,7 +152,7 @@ def parse_mmpld(data):
     return np.frombuffer(data, "<f4", count * 4, start + 18).reshape(-1, 4)
 
 
-# Volumes.
+# Volumes
 
 
 def write_nrrd(folder):
@@ -296,7 +296,7 @@ def parse_dat(path, refused):
              if v.lower().startswith("objectfilename")]  # fmt: skip
     raw = path.parent / (names[0] if names else "")
     if not raw.is_file():
-        raise refused("its raw file is not there")
+        raise refused("its raw file is missing")
     order = ">" if fields.get("endianness", fields.get("endianess", "little")) == "big" else "<"
     sizes = [int(n) for n in fields["resolution"].split()]
     values = np.fromfile(raw, order + types[fields["format"]])
@@ -305,9 +305,9 @@ def parse_dat(path, refused):
 
 
 def parse_nrrd(path, refused):
-    """Lets Teem's unu write the values if it is installed, and writes the header itself."""
+    """Uses Teem's unu to decode the values if it is installed. Writes the header itself."""
     if path.suffix == ".gz":
-        raise refused("Teem reads no compressed file")
+        raise refused("Teem does not read compressed files")
     head = {}
     text = path.read_bytes().split(b"\n\n")[0].split(b"\r\n\r\n")[0].decode("latin-1")
     for line in text.splitlines()[1:]:
@@ -355,7 +355,7 @@ def values_by_hand(path, head, refused):
     start = data.find(b"\n\n")
     dtype = TYPES.get(head["type"].lower())
     if start < 0 or "data file" in head or dtype is None:
-        raise refused("read by hand are attached files only")
+        raise refused("the simple reader supports only attached headers")
     data = data[start + 2 :]
     encoding = head["encoding"].lower()
     if encoding in ("gzip", "gz"):

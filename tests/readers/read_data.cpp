@@ -1,7 +1,7 @@
-// read_data FILE [COMPONENT [OUT]]: prints one line of JSON with what Triptych reads from a
-// particle file or a volume, for comparison with other programs. With OUT it also writes the
-// particles (x, y, z, radius as float32) or the values of the voxels (float64) to that file. If the
-// file is refused, it prints a message and exits with code 3.
+// read_data FILE [COMPONENT [OUT]]: prints what Triptych reads from a particle or volume file as
+// one line of JSON, for comparison with other programs. If OUT is given, also writes the particles
+// (x, y, z, radius as float32) or the voxel values (float64) to that file. If Triptych rejects the
+// file, prints a message and exits with code 3.
 
 #include <cstdio>
 #include <fstream>

@@ -33,7 +33,7 @@ import generated_variants
 
 
 class Refused(Exception):
-    """The second reader cannot read the file, or the file contains other data."""
+    """The second reader cannot read the file, or reads other data than Triptych does."""
 
 
 class Particles:
@@ -49,8 +49,8 @@ class Volume:
         self.spacing = np.abs(np.asarray(spacing, float))
 
 
-# There is one function for each format, from a path to Particles or Volume. It raises ImportError if the other program is not
-# installed.
+# There is one function for each format, which reads a path and returns Particles or Volume. It raises ImportError if
+# the other program is not installed.
 
 
 def by_gemmi_pdb(path):
@@ -70,7 +70,7 @@ def by_gemmi_pdb(path):
 
 
 def states_elements(path):
-    """Whether all atoms have an element in columns 77 and 78. Without it, both readers guess."""
+    """Whether all atoms have an element in columns 77 and 78. If not, both readers guess."""
     import gemmi
 
     for line in text_of(path).splitlines():
@@ -137,7 +137,7 @@ def by_ase_dump(path):
     import ase.io
 
     if " xs ys zs" in text_of(path):
-        raise Refused("ASE leaves the origin of the box out of scaled places")
+        raise Refused("ASE ignores the origin of the box for scaled positions")
     with unpacked(path) as plain:
         try:
             atoms = ase.io.read(str(plain), index=0, format="lammps-dump-text")
@@ -152,7 +152,7 @@ def by_ase_data(path):
 
     options = {}
     if "read_image_flags" in inspect.signature(ase.io.lammpsdata.read_lammps_data).parameters:
-        options["read_image_flags"] = False  # Triptych draws atoms inside the box, as the file places them.
+        options["read_image_flags"] = False  # Triptych draws atoms inside the box, at the positions in the file.
     style = "atomic"
     for line in text_of(path).splitlines():
         if line.strip().startswith("Atoms"):
@@ -169,10 +169,10 @@ def by_hand_mmpld(path):
     """Reads the MMPLD files that generated_files writes: one list with float positions and radii."""
     data = path.read_bytes()
     if data[:6] != b"MMPLD\0" or len(data) < 120:
-        raise Refused("not the kind of MMPLD that is read by hand")
+        raise Refused("not a kind of MMPLD that the simple reader supports")
     parsed = generated_files.parse_mmpld(data)
     if parsed is None:
-        raise Refused("not the kind of MMPLD that is read by hand")
+        raise Refused("not a kind of MMPLD that the simple reader supports")
     return Particles(parsed[:, :3], radii=parsed[:, 3])
 
 
@@ -185,7 +185,7 @@ def by_nibabel(path):
 
     header = decompressed(path.read_bytes())[:348]
     if header[344:346] == b"n+" and header[108:112] == bytes(4):
-        raise Refused("nibabel takes the header for voxels where vox_offset is 0")
+        raise Refused("nibabel reads the header as voxels if vox_offset is 0")
     try:
         image = nibabel.load(str(path))
         data = np.asanyarray(image.dataobj)
@@ -219,7 +219,7 @@ def by_vtk(path, name, all_points=True):
             array = image.GetCellData().GetScalars() or image.GetCellData().GetArray(0)
             sizes = [max(n - 1, 1) for n in sizes]
         if array is None:
-            raise Refused("VTK finds no array")
+            raise Refused("VTK does not find an array")
         values = vtk_to_numpy(array)
         values = values[:, 0] if values.ndim > 1 else values
         return Volume(values.reshape(sizes[::-1]), image.GetSpacing())
@@ -230,9 +230,9 @@ def by_vtk_metaimage(path):
     if "compresseddata = true" in head and "compresseddatasize" not in head:
         raise Refused("VTK needs CompressedDataSize")
     if "ndims = 4" in head:
-        raise Refused("VTK reads no fourth dimension")
+        raise Refused("VTK does not read a fourth dimension")
     if "elementsize" in head and "elementspacing" in head:
-        raise Refused("VTK reads one voxel where both sizes are stated")
+        raise Refused("VTK reads a single voxel if both sizes are given")
     return by_vtk(path, "vtkMetaImageReader")
 
 
@@ -240,7 +240,8 @@ def by_hand_dat(path):
     return Volume(*generated_files.parse_dat(path, Refused))
 
 
-# The key is the file name's ending in Triptych's tables. The value is the kind of data, the second reader, and its Debian package.
+# The key is the file-name extension in Triptych's tables. The value consists of the kind of data, the second reader,
+# and its Debian package.
 READERS = {
     ".pdb": ("particles", by_gemmi_pdb, "python3-gemmi"),
     ".cif": ("particles", by_gemmi_cif, "python3-gemmi"),
@@ -283,7 +284,7 @@ def decompressed(data):
 
 
 class unpacked:
-    """Makes an uncompressed copy of a file, for readers that need one."""
+    """Creates an uncompressed copy of a file, for readers that need one."""
 
     def __init__(self, path):
         self.path = path
@@ -324,7 +325,7 @@ def difference_of_particles(facts, out, second):
     elements = second.elements or [""] * len(spheres)
     ours, colours, radii = sorted_rows(spheres[:, :3].astype(float), colours, spheres[:, 3])
     theirs, elements = sorted_rows(second.places, elements)
-    # MDAnalysis keeps single precision, so a unit in the last place is allowed on either side.
+    # MDAnalysis stores single precision, so an error of one unit in the last place is allowed on either side.
     if not np.allclose(ours, theirs, rtol=3e-7, atol=2e-6):
         return f"places differ by up to {np.abs(ours - theirs).max():.3g}"
     if second.radii is not None:
@@ -350,7 +351,7 @@ def difference_of_volumes(facts, out, second):
         return f"spacing {facts['spacing']}, expected {list(second.spacing)}"
     ours = np.fromfile(out, float)
     theirs = second.values.ravel()
-    # A scaled value is rounded to single precision; colours in a text have six digits.
+    # A scaled value is rounded to single precision. Colours in a text file have six digits.
     coarse = any("255·stored" in note for note in facts["notes"])
     if not np.allclose(ours, theirs, rtol=1e-6, atol=1e-3 if coarse else 0, equal_nan=True):
         return f"values differ by up to {np.nanmax(np.abs(ours - theirs)):.3g}"
@@ -416,10 +417,10 @@ def compare(program, path, tally, out):
 
 
 def seeds_as_files(folder):
-    """Returns the inputs of the fuzzers, whose first line is the file's ending."""
+    """Writes the fuzzers' inputs, whose first line is the file-name extension, as files."""
     root = pathlib.Path(__file__).resolve().parents[1] / "fuzz" / "seeds"
     folders = [root / "particles", root / "volumes"]
-    # Inputs that the fuzzers in this checkout have kept.
+    # Inputs that fuzzers in this checkout have saved.
     corpus = root.parents[2] / "build" / "fuzz" / "corpus"
     folders += [corpus / "particles", corpus / "volumes"]
     for source in folders:
