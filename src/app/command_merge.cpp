@@ -38,7 +38,7 @@ void tell_left_out(const record::RecordCounts& counts) {
   }
   if (counts.not_chosen > 0) {
     put("  {} records were dropped, because another store has a different record of the same "
-        "configuration and device; the record with the lower seal was kept\n",
+        "configuration and device; the record with the lower seal (hash) was kept\n",
         counts.not_chosen);
   }
 }

@@ -208,10 +208,11 @@ void add_reduce_command(Commands& commands) {
       "reduce", "Find the smallest frame that still fails, and write a folder for a bug report",
       reduce);
   arguments.frame.add_to(command);
-  command.add_option("--out", arguments.frame.out, "Folder to write into")->capture_default_str();
-  command.add_option(
-      "--against", arguments.against,
-      "A device with correct counters; counters that differ from its counters are also a failure");
+  command.add_option("--out", arguments.frame.out, "Write the files to this folder")
+      ->capture_default_str();
+  command.add_option("--against", arguments.against,
+                     "Compare the counters with this device, whose counters are correct; a "
+                     "difference is a failure");
   command
       .add_option("--limit", arguments.limit_s,
                   "Treat a frame as hung after this many seconds (default: 20, or three times the "

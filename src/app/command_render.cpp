@@ -221,7 +221,7 @@ void add_render_command(Commands& commands) {
       "render", "Draw one configuration, and write image.exr, image.png and frame.json", render,
       {.frame = {.chooses = true, .describes = true}});
   arguments.frame.add_to(command);
-  command.add_option("--out", arguments.frame.out, "Folder to write into");
+  command.add_option("--out", arguments.frame.out, "Write the files to this folder");
   command.add_option(
       "--error", arguments.error,
       "E or E:METRIC (METRIC is rms, the default, covered, p99.9 or max): choose the "

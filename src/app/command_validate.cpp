@@ -36,7 +36,7 @@ struct ValidateArguments {
   std::string baselines = default_baselines().string();
   std::string junit;
   std::string json;
-  PlanChoice choice;  // without --set
+  PlanChoice choice;  // this command has no --set
   int jobs = 0;       // see measure::RunOptions
   int limit_s = standard_limit_s;
   std::string expect;
@@ -335,7 +335,7 @@ void add_validate_command(Commands& commands) {
       ->required();
   command
       .add_option("--out", arguments.out,
-                  "Folder for the store and for the files that the gate writes for a CI system")
+                  "Folder for the store and for the same files as gate --out")
       ->capture_default_str();
   command.add_option("--junit", arguments.junit,
                      "Write a JUnit XML report for all plans to this file");

@@ -48,7 +48,7 @@ struct Compared {
   std::optional<record::Outcome> ended;
   PairVerdict verdict = PairVerdict::undecided;
   TimeReason reason;     // why there is no verdict, or why the confirmation withdrew it
-  Shift shift;           // of ln t, b relative to a; meaningless if a side did not finish
+  Shift shift;           // shift of ln t from a to b; meaningless if a side did not finish
   int blocks = 0;        // number of blocks of the first process run
   int process_runs = 0;  // number of new process runs for the confirmation
   int frames_per_batch = 1;

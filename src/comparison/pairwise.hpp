@@ -83,7 +83,7 @@ struct Suspect {
   std::vector<double> process_runs;  // the estimated shift of each new process run
   bool slower = true;                // result of the first process run; false: faster
 };
-inline constexpr std::size_t least_process_runs = 2;  // fewer runs do not show any scatter
+inline constexpr std::size_t least_process_runs = 2;  // with fewer runs, their scatter is unknown
 
 // The looks of the confirmation. The second look is for suspects that the first look does not
 // decide. Each look gets an equal share of `q`.

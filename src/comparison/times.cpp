@@ -322,8 +322,8 @@ class Timer {
 
   const ComparisonOptions& options_;
   const Tell& tell_;
-  const measure::Stopwatch& since_begin_;  // runs since the start of the whole comparison
-  measure::Stopwatch since_start_;         // runs since the first timing block
+  const measure::Stopwatch& since_begin_;  // started with the whole comparison
+  measure::Stopwatch since_start_;         // started with the first timing block
   measure::Interleaved interleaved_;
   std::vector<Entry> entries_;
   const Entry* held_ = nullptr;  // the configuration that both workers have loaded

@@ -121,8 +121,8 @@ Packing packing_of(std::span<const std::byte> start, const std::string& file) {
   for (const Magic& magic : foreign) {
     if (!text.starts_with(magic.bytes)) continue;
     throw core::InputError({.file = file},
-                           fmt::format("is compressed with {}; unpack it first: {} {}", magic.name,
-                                       magic.command, file));
+                           fmt::format("the file is compressed with {}; unpack it first: {} {}",
+                                       magic.name, magic.command, file));
   }
   return Packing::none;
 }

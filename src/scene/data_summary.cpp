@@ -63,7 +63,7 @@ void add_notes(std::vector<std::string>& lines, const ReadFacts& facts) {
 }
 
 std::string unit_text(const ReadFacts& facts) {
-  if (facts.format.empty()) return {};  // generated
+  if (facts.format.empty()) return {};  // generated data have no unit
   return facts.unit.empty() ? " (the file states no unit)" : " " + facts.unit;
 }
 
@@ -195,7 +195,7 @@ std::vector<std::string> summary_of(const ParticleSet& set) {
       set.dropped == 0
           ? ""
           : fmt::format(
-                ", plus {} dropped ones whose position or radius cannot be drawn",
+                ", plus {} that were dropped because their position or radius cannot be drawn",
                 set.dropped)));
   if (!facts.kinds.empty()) {
     std::string kinds = facts.elements ? "elements:" : "types:";

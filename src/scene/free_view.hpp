@@ -11,8 +11,8 @@ namespace triptych::scene {
 // "view:AZIMUTH/ELEVATION/DISTANCE", such as view:45/20/0.8. `view:45/0/1` is the same camera as
 // `orbit_y:1/8`.
 struct FreeView {
-  double azimuth_deg = 0;    // about the y axis, from +z towards +x
-  double elevation_deg = 0;  // above the plane through the centre, −90 to 90
+  double azimuth_deg = 0;    // angle about the y axis, from +z towards +x
+  double elevation_deg = 0;  // angle above the horizontal plane, −90 to 90
   double distance = 1;       // in units of the orbits' radius (camera.hpp), 0.001 to 1000
 
   static constexpr double steepest_deg = 90;

@@ -254,7 +254,7 @@ Volume read_metaimage(const std::filesystem::path& file, const Component& compon
   const MetaHeader header(file);
   if (const MetaField* object = header.find("objecttype");
       object != nullptr && lower_case(object->value) != "image") {
-    throw core::InputError(object->place, fmt::format("'{}' is not a volume; expected Image",
+    throw core::InputError(object->place, fmt::format("the object type '{}' is not a volume; expected Image",
                                                       quotable(object->value)));
   }
   Volume volume;

@@ -94,8 +94,7 @@ Vector parse_ends(const Field& field, const LeftOut& left_out) {
   const auto words = words_of_axes(field.value, left_out);
   Vector ends{};
   if (words.size() != ends.size()) {
-    throw core::InputError(field.place,
-                           fmt::format("expected 3 ends of axes, got {}", words.size()));
+    throw core::InputError(field.place, fmt::format("expected 3 axis ends, got {}", words.size()));
   }
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const auto number = parse_number<double>(words[i]);

@@ -277,7 +277,7 @@ void note_values(Volume& volume, const RawVoxels& source) {
   facts.value_type = name_of(layout.type);
   facts.components = layout.components;
   if (layout.is_scaled()) {
-    facts.notes.push_back(fmt::format("values are {}·stored + {}", layout.slope,
+    facts.notes.push_back(fmt::format("the stored values are scaled: value = {}·stored + {}", layout.slope,
                                       layout.intercept));
   }
   if (layout.components == 1) return;
@@ -376,8 +376,8 @@ double usable_spacing(double spacing, int size, const core::FilePlace& place) {
   }
   if (spacing < shortest || spacing * size > longest) {
     throw core::InputError(place,
-                           fmt::format("spacing {} of {} voxels; expected a spacing and a length of "
-                                       "the axis from {} to {}, which single precision can hold",
+                           fmt::format("spacing {} along {} voxels; expected a spacing and an axis length "
+                                       "from {} to {}, which single precision can hold",
                                        spacing, size, shortest, longest));
   }
   return spacing;

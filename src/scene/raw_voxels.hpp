@@ -22,7 +22,7 @@ struct RawVoxels {
   std::filesystem::path file;
   // Further files with voxels that follow those in `file`. Each contains as many voxels as `file`.
   std::vector<std::filesystem::path> more_files = {};
-  Packing packing = Packing::none;  // of the whole file; `start` counts decompressed bytes
+  Packing packing = Packing::none;  // of the file; `start` counts decompressed bytes
   std::uint64_t start = 0;          // where the data begin, including bytes to skip
   // The number of bytes to skip before the voxels in the decoded stream. at_end means that the
   // voxels are the last bytes of the stream.

@@ -80,7 +80,7 @@ struct VoxelGrid {
   std::string hash;  // content hash of the voxels and how they are mapped to x
 
   [[nodiscard]] std::size_t voxel_count() const noexcept;
-  [[nodiscard]] double normalised(std::size_t index) const;  // x
+  [[nodiscard]] double normalised(std::size_t index) const;  // x of this voxel
 };
 
 // Returns the smallest format that represents every value of this type exactly. For f64 this is

@@ -62,7 +62,7 @@ std::uint64_t start_of_appended(const std::filesystem::path& file, std::uint64_t
 VtiFile read_tags(const std::filesystem::path& file) {
   VtiFile vti{.file = file.string(), .root = {}, .image = {}, .appended = {}};
   XmlTags tags(content_bytes(file), vti.file);
-  int part = -1;  // 0: points, 1: cells
+  int part = -1;  // 0: point data, 1: cell data, -1: neither
   while (const auto tag = tags.next()) {
     if (tag->name == "VTKFile") {
       vti.root = *tag;

@@ -17,7 +17,7 @@ struct ShownError {
     int x;
     int y;
   };
-  std::vector<Ring> rings = {};  // around pixels beyond the bound
+  std::vector<Ring> rings = {};  // circles around pixels that exceed their bound
   int ring_radius = 0;           // in image pixels
   bool right = false;            // true if no pixel exceeds its bound
   double share = 0;              // largest ratio of a pixel's error to its bound

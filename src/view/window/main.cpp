@@ -126,7 +126,7 @@ class Loop {
   static constexpr int frames_after_input = 3;
 
   void sleep() {
-    constexpr auto blink = 400ms;    // the text cursor blinks at this rate
+    constexpr auto blink = 400ms;    // the blinking period of the text cursor
     constexpr auto signals = 500ms;  // signals are polled, because GLFW cannot wait for them
     if (frames_due_ > 0) return window_.wait(0ms);
     const auto before = Session::Clock::now();

@@ -262,7 +262,7 @@ TEST(MetaImage, ThatIsBrokenNamesTheLine) {
   expect_volume_refused("a.mha", "NDims = 2\nDimSize = 2 1\nElementDataFile = LOCAL\n",
                         ":1: 2 dimensions");
   expect_volume_refused("a.mha", "ObjectType = Mesh\nElementDataFile = LOCAL\n",
-                        ":1: 'Mesh' is not a volume");
+                        ":1: the object type 'Mesh' is not a volume");
   expect_volume_refused("a.mha", meta + "ElementDataFile =\n", "the data file '' does not exist");
   expect_volume_refused("a.mha",
                         meta +
