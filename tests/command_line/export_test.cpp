@@ -98,10 +98,10 @@ TEST_F(Export, ReportsErrors) {
   EXPECT_EQ(program.run("export none.sqlite --out t").code, 2);
   const Result of_no_plan = program.run("export s.sqlite --out t --plan volume/speed");
   EXPECT_EQ(of_no_plan.code, 2);
-  EXPECT_THAT(of_no_plan.output, HasSubstr("plans in the stores: volume/quick"));
+  EXPECT_THAT(of_no_plan.output, HasSubstr("the stores contain these plans: volume/quick"));
   const Result twice = program.run("export s.sqlite s.sqlite --out t");
   EXPECT_EQ(twice.code, 3);
-  EXPECT_THAT(twice.output, HasSubstr("leave out one"));
+  EXPECT_THAT(twice.output, HasSubstr("export only one of these stores"));
   EXPECT_EQ(program.run("export s.sqlite --out s.sqlite").code, 3);
   program.write("no_store", "text");
   EXPECT_EQ(program.run("export no_store --out t").code, 3);

@@ -1,6 +1,5 @@
 #pragma once
-// The results of `compare`, `diff` and `history` in machine-readable form. docs/compare.md
-// describes them for other programs.
+// The JSON output of `compare`, `diff` and `history` (docs/compare.md).
 
 #include <vector>
 
@@ -13,31 +12,30 @@
 
 namespace triptych::report {
 
-// {"kind", "about", "cause", "text"}, and the following members if they are not empty: {"ratio",
+// {"kind", "about", "cause", "text"} and, if they are not empty, {"ratio",
 // "side", "numbers", "facts", "changes", "a" and "b" (observations), "worths", "code", "total",
 // "injected"}.
 [[nodiscard]] core::Json to_json(const comparison::Difference& difference);
-// The members of its difference, and {"configuration", "configurations", "ratio_low",
-// "ratio_high"}.
+// The members of a difference, and {"configuration", "configurations", "ratio_low", "ratio_high"}.
 [[nodiscard]] core::Json to_json(const comparison::DifferenceGroup& group);
-// {"cause", "text"}, and the data of the cause: {"side", "outcome", "reason", "suspected",
+// {"cause", "text"} and, depending on the cause, {"side", "outcome", "reason", "suspected",
 // "numbers"}.
 [[nodiscard]] core::Json to_json(const comparison::TimeReason& reason);
 
-// {"plan", "sides", "a", "b" (devices), "seconds", "exit_code", "headline", "differences" (of the
-// devices), "configurations": [{"configuration", "reason", "differences", "work"; for times
-// "verdict", "ratio", "ratio_low", "ratio_high", "blocks", "process_runs", "frames_per_batch",
-// "clock", "why_wall", "seconds", "settle"}]}. Unknown values are left out.
+// {"plan", "sides", "a", "b" (devices), "seconds", "exit_code", "headline", "differences" (between
+// the devices), "configurations": [{"configuration", "reason", "differences", "work"; if times were
+// compared: "verdict", "ratio", "ratio_low", "ratio_high", "blocks", "process_runs",
+// "frames_per_batch", "clock", "why_wall", "seconds", "settle"}]}. Unknown values are left out.
 [[nodiscard]] core::Json to_json(const comparison::ComparisonResult& result,
                                  const ComparisonCommand& command);
 
 // {"exit_code", "only_one": [{"plan", "device", "side", "text"}], "devices": [{"a", "b" (devices),
-// "differences" (of the device), "configurations": [{"configuration", "differences"}]}]}
+// "differences" (between the devices), "configurations": [{"configuration", "differences"}]}]}
 [[nodiscard]] core::Json to_json(const comparison::StoreDiff& diff);
 
 // [{"device", "first_worse", "points": [{"store", "name", "started_at", "driver_version",
-// "triptych", "injected", "cost", "time", "changes", "differences", "worse"}]}]. `changes` is the
-// text of the differences. Unknown values are absent.
+// "triptych", "injected", "cost", "time", "changes", "differences", "worse"}]}]. "changes" contains
+// the differences as one string for people. Unknown values are left out.
 [[nodiscard]] core::Json to_json(const std::vector<comparison::DeviceHistory>& history);
 
 [[nodiscard]] core::Json to_json(const comparison::SideBySide& table);

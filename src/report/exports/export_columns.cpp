@@ -19,7 +19,7 @@ Cell integer(auto value) {
   return static_cast<std::uint64_t>(value);
 }
 
-// For values that only measured records have; they are never written as zero.
+// Returns an empty cell for 0, which means that the value was not measured.
 Cell positive(auto value) {
   if (!(value > 0)) return {};
   if constexpr (std::is_floating_point_v<decltype(value)>)
@@ -76,12 +76,12 @@ Columns<RecordSource> what_it_was() {
       {{"data_hash", "text", "", "hash of the data"}, of(&Record::data_hash)},
       {{"kernel_hash", "text", "", "hash of the device code"}, of(&Record::kernel_hash)},
       {{"counted_by", "text", "",
-        "the program that counted instructions; such records have no times"},
+        "the program that counted instructions; records with this field have no times"},
        of(&Record::counted_by)},
   };
 }
 
-// Only a record that was timed has these values.
+// Returns the cell, or an empty cell if the record was not timed.
 Cell when_timed(const RecordSource& s, Cell cell) {
   return s.record.time_ns().empty() ? Cell() : std::move(cell);
 }
@@ -113,10 +113,10 @@ Columns<RecordSource> what_it_took() {
        [](const RecordSource& s) { return positive(s.record.loop_wall_ns); }},
       {{"loop_frames", "integer", "frames", "number of frames in the wall-clock loop"},
        [](const RecordSource& s) { return positive(s.record.loop_frames); }},
-      {{"prepare_ns", "number", "ns", "time of preparing data and pipelines and of the upload"},
+      {{"prepare_ns", "number", "ns", "time to prepare data and pipelines, including the upload"},
        [](const RecordSource& s) { return positive(s.record.prepare_ns); }},
       {{"overhead_ns", "number", "ns",
-        "time of the configuration that is neither device work nor warm-up"},
+        "time spent on the configuration, except for device work and warm-up"},
        [](const RecordSource& s) { return positive(s.record.overhead_ns); }},
       {{"peak_memory_bytes", "integer", "bytes", "peak memory of the worker process so far"},
        [](const RecordSource& s) { return positive(s.record.peak_memory_bytes); }},
@@ -185,9 +185,10 @@ Columns<DeviceSource> device_columns() {
       {{"api_version", "text", "", "as reported by the driver"}, of(&Device::api_version)},
       {{"cpu_features", "text", "", "processor features that code is generated for"},
        of(&Device::cpu_features)},
-      {{"device_key", "text", "", "everything that times and the bits of images depend on"},
+      {{"device_key", "text", "",
+        "identifies everything on which times and the bits of images depend"},
        [](const DeviceSource& s) { return text(s.device.key()); }},
-      {{"environment", "text", "", "JSON: variables that change code generation"},
+      {{"environment", "text", "", "JSON: environment variables that change code generation"},
        [](const DeviceSource& s) { return as_json(s.device.environment); }},
       {{"limits", "text", "", "JSON: limits in the API's own names"},
        [](const DeviceSource& s) { return as_json(s.device.limits); }},
@@ -209,10 +210,10 @@ Columns<ClockSource> clock_columns() {
        [](const ClockSource& s) { return text(s.device); }},
       {{"work", "text", "", "compute or draw"},
        [](const ClockSource& s) { return text(s.clock.work); }},
-      {{"offered", "integer", "", "1: the device reports a time"},
+      {{"offered", "integer", "", "1 if the device reports times, otherwise 0"},
        [](const ClockSource& s) { return std::uint64_t{s.clock.offered}; }},
       {{"trusted", "integer", "",
-        "1 if it passed its calibration against the wall clock, otherwise 0"},
+        "1 if the clock passed its calibration against the wall clock, otherwise 0"},
        [](const ClockSource& s) { return std::uint64_t{s.clock.trusted}; }},
       {{"ratio", "number", "", "device time divided by wall time, median"},
        ratio(&ClockTrust::ratio)},

@@ -1,6 +1,6 @@
 #pragma once
-// The columns of exported tables. Each one describes itself and takes its cell from the source of a
-// row.
+// The columns of exported tables. Each column has a description and a function that computes its
+// cell of a row.
 
 #include <functional>
 #include <set>
@@ -13,8 +13,8 @@
 
 namespace triptych::report {
 
-// The description of a column in the dictionary. `type` is "text", "number" or "integer"; a flag is
-// an integer, 0 or 1. `unit` is empty if there is none.
+// The entry of a column in dictionary.json. `type` is "text", "number" or "integer"; flags are the
+// integers 0 and 1. `unit` is empty if the column has no unit.
 struct ColumnText {
   std::string name, type, unit, description;
 };
@@ -41,11 +41,11 @@ struct ClockSource {
   record::ClockTrust clock;
 };
 struct RecordSource {
-  std::uint64_t number;  // the number by which other tables refer to it
+  std::uint64_t number;  // the number by which other tables refer to the record
   const record::Record& record;
 };
 
-// The names of factors, costs and other values that get a column each.
+// The names of the factors, costs, kinds of memory and energy meters. Each gets its own column.
 struct RecordNames {
   std::set<std::string> factors, cost, memory, energy;
 };
@@ -55,7 +55,7 @@ struct RecordNames {
 [[nodiscard]] Columns<ClockSource> clock_columns();
 [[nodiscard]] Columns<RecordSource> record_columns(const RecordNames& names);
 
-// The unit in which a part of a cost is counted, such as "instructions".
+// Returns the unit in which a part of the cost is counted, such as "instructions".
 [[nodiscard]] std::string cost_unit(const std::string& part);
 
 }  // namespace triptych::report

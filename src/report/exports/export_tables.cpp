@@ -67,7 +67,7 @@ struct SampleSource {
 };
 struct ValueSource {
   std::uint64_t record;
-  std::string_view of;  // the part of the run that a cost belongs to: "frame" or "prepare"
+  std::string_view of;  // for a cost: "frame" or "prepare"
   const std::string& name;
   std::uint64_t value;
 };
@@ -123,7 +123,7 @@ Columns<CodeSource> code_columns() {
        [](const CodeSource& s) { return s.executable; }},
       {{"name", "text", "", "the driver's name of the statistic"},
        [](const CodeSource& s) { return s.name; }},
-      {{"value", "number", "", "as the compiler reports it"},
+      {{"value", "number", "", "the value, as the compiler reports it"},
        [](const CodeSource& s) { return s.value; }},
   };
 }
@@ -137,14 +137,15 @@ Columns<ErrorSource> error_columns() {
   return {
       {{"record", "integer", "", numbers}, [](const ErrorSource& s) { return s.record; }},
       {{"against", "text", "",
-        "reference: the image in double precision with the same samples; limit: the image to which "
-        "the scene tends as its sampling is refined"},
+        "reference: the double-precision image with the same sample positions; limit: the image to "
+        "which images converge as the step size approaches 0"},
        [](const ErrorSource& s) { return s.error.against; }},
       {{"metric", "text", "",
-        "rms: over all pixels and channels; covered: over the pixels that show something; p99.9: "
-        "percentile over the pixels; max: largest error"},
+        "rms: root mean square over all pixels and channels; covered: the same over the pixels "
+        "that "
+        "show something; p99.9: percentile over the pixels; max: largest error"},
        [](const ErrorSource& s) { return s.error.metric; }},
-      {{"error", "number", "full scale", "difference of linear color, 1 is white"},
+      {{"error", "number", "full scale", "difference of linear colour values; white is 1"},
        [](const ErrorSource& s) { return s.error.error; }},
   };
 }
@@ -170,7 +171,7 @@ class Tables {
          const ExportRequest& request)
       : runs_(folder, "runs", "one `triptych run` per row", run_columns()),
         devices_(folder, "devices", "one device of a run per row", device_columns()),
-        clocks_(folder, "clocks", "one clock of a device for one kind of work per row",
+        clocks_(folder, "clocks", "one device clock, for one kind of work, per row",
                 clock_columns()),
         records_(folder, "records", "one configuration on one device in one run per row",
                  record_columns(names)),
@@ -184,7 +185,7 @@ class Tables {
         energy_(folder, "energy", "one meter of a record per row", energy_columns()),
         errors_of_(request.errors) {
     if (errors_of_) {
-      errors_.emplace(folder, "errors", "one error of a record's image per row", error_columns());
+      errors_.emplace(folder, "errors", "one error of one record's image per row", error_columns());
     }
   }
 
@@ -268,7 +269,8 @@ std::vector<RunInStore> runs_of(const std::vector<const Store*>& stores, const s
       const auto [at, fresh] = stores_of.emplace(run.id, store->file().string());
       if (!fresh) {
         throw core::InputError(
-            fmt::format("run {} is in {} and in {}: its records would count twice; leave out one",
+            fmt::format("run {} is in {} and in {}, so its records would be counted twice; export "
+                        "only one of these stores",
                         run.id, at->second, store->file().string()));
       }
       runs.push_back({store, std::move(run)});
@@ -276,8 +278,8 @@ std::vector<RunInStore> runs_of(const std::vector<const Store*>& stores, const s
   }
   if (runs.empty()) {
     throw core::NotSupported(
-        fmt::format("there is no run{} to export; plans in the stores: {}",
-                    plan.empty() ? std::string() : " of " + plan,
+        fmt::format("there is no run{} to export; the stores contain these plans: {}",
+                    plan.empty() ? std::string() : " of plan " + plan,
                     plans.empty() ? "none" : fmt::to_string(fmt::join(plans, ", "))));
   }
   return runs;

@@ -13,7 +13,7 @@
 
 namespace triptych::report {
 
-// An error of a record's image, in full scale (1 = white).
+// An error of a record's image. Full scale (white) is 1.
 struct ImageError {
   std::string against;  // "reference" or "limit"
   std::string metric;   // "rms", "covered", "p99.9" or "max"
@@ -24,17 +24,19 @@ struct ExportRequest {
   std::string plan;  // empty: all plans
   std::filesystem::path folder;
   std::string made_by;                                  // the program and its version
-  std::function<void(const record::Run&)> begins = {};  // called with each run that is begun
-  // The errors of a record's image; empty: the table of errors is not written.
+  std::function<void(const record::Run&)> begins = {};  // called before each run is written
+  // Returns the errors of a record's image. With an empty function, the table of errors is not
+  // written.
   std::function<std::vector<ImageError>(const record::Record&)> errors = {};
 };
 
 // The number of rows of each table.
 using ExportedRows = std::map<std::string, std::uint64_t>;
 
-// Writes one file for each table, and dictionary.json last: an export without it was interrupted.
-// Only one record at a time is in memory. Throws NotSupported if no run has the plan, InputError if
-// two stores contain the same run (its records would be counted twice), and IoError.
+// Writes one file for each table, and then dictionary.json, so that a folder without it reveals an
+// interrupted export. Holds only one record at a time in memory. Throws NotSupported if there is no
+// run of the plan, InputError if two stores contain the same run, whose records would be counted
+// twice, and IoError.
 [[nodiscard]] ExportedRows export_tables(const std::vector<const record::Store*>& stores,
                                          const ExportRequest& request);
 

@@ -11,29 +11,29 @@
 
 namespace triptych::report {
 
-// The content of frame.json, with which another program can draw the same frame. `scene` is the
-// description by its suite.
+// Returns the content of frame.json, from which another program can draw the same frame. `scene` is
+// the suite's description of the scene.
 [[nodiscard]] nlohmann::json frame_json(nlohmann::json scene, const record::Record& record,
                                         const record::Device& device);
 
-// Removes frame.json and the files that the functions below write. Otherwise, if a frame cannot be
-// drawn, a reader could take the images of an earlier frame for its images.
+// Removes frame.json and the files that the functions below write. Otherwise, if drawing a frame
+// fails, a reader could mistake the images of an earlier frame for its images.
 void remove_frame(const std::filesystem::path& folder);
 
-// Writes image.exr and image.png, or truth.exr and truth.png. Throws IoError.
+// Writes `image` to NAME.exr and NAME.png. Throws IoError.
 void write_picture(const std::filesystem::path& folder, const std::string& name,
                    const core::Image& image);
 
-// An image compared with its reference image.
+// The result of comparing an image with its reference image.
 struct HeldAgainstTruth {
   judge::Observation what;
-  // False: there is no difference.png, because the sizes differ.
-  bool has_difference = false;
+  bool has_difference = false;  // whether difference.png was written; it is not if the sizes differ
   [[nodiscard]] bool right() const { return what.cause == judge::Cause::within_bound; }
 };
 
-// Writes truth.exr, truth.png and difference.png, which shows each error as a share of its pixel's
-// bound (figures/share_of_bound.hpp). Throws IoError.
+// Compares an image with its reference image. Writes truth.exr, truth.png, and difference.png,
+// which shows the error of each pixel as a share of its bound (figures/share_of_bound.hpp). Throws
+// IoError.
 [[nodiscard]] HeldAgainstTruth write_difference(const std::filesystem::path& folder,
                                                 const core::Image& image,
                                                 const judge::TruthPair& pair);

@@ -1,5 +1,5 @@
 #pragma once
-// A verdict in machine-readable form.
+// The JSON output of `gate` and `validate` (docs/report.md).
 
 #include <vector>
 
@@ -8,19 +8,19 @@
 
 namespace triptych::report {
 
-// {"plan", "run", "exit_code", "headline", "findings": [see to_json of a finding], "correlations":
-// [see to_json of a pair], "accuracies": [for each scene]}
+// {"plan", "run", "exit_code", "headline", "findings": [one object for each finding],
+// "correlations": [one object for each pair of devices], "accuracies": [one object for each scene]}
 [[nodiscard]] core::Json to_json(const judge::GateResult& result);
-// {"check", "verdict", "cause", "test", "device", "configuration", "message", "numbers"}, and the
-// following members if they are not empty: {"against", "advice": {"kind", "command"}, "changes":
+// {"check", "verdict", "cause", "test", "device", "configuration", "message", "numbers"} and, if
+// they are not empty, {"against", "advice": {"kind", "command"}, "changes":
 // [{"name", "unit", "before", "now", "accepted", "allowed"}], "names", "facts", "detail",
 // "outcome", "reason", "because", "subject", "injected", "excuse", "drawn_again", "again",
 // "measured_before"}.
 [[nodiscard]] core::Json to_json(const judge::Finding& finding);
 // [{"name", "unit", "before", "now", "accepted", "allowed"}]
 [[nodiscard]] core::Json changes_json(const std::vector<judge::Change>& changes);
-// The members of a finding that describe what was observed. Empty ones are left out, except "cause"
-// and "numbers".
+// The members of a finding that come from judge::Observation. Empty members are left out, except
+// "cause" and "numbers".
 [[nodiscard]] core::Json observation_json(const judge::Observation& what);
 // {"device_a", "device_b", "signal", "new_device", "line": {"configurations", "intercept", "slope",
 // "scale", "rho", "pearson", "admitted", "refusal"}, "points": [{"configuration", "x", "y",

@@ -1,5 +1,5 @@
 #pragma once
-// Maps the values of a figure's axis to positions.
+// Maps values to positions on an axis of a figure.
 
 #include <string>
 #include <vector>
@@ -8,19 +8,20 @@
 
 namespace triptych::report {
 
-// One axis with its ends. The axis must outlive it.
+// An axis and the range of values that it shows. The axis must outlive this object.
 class AxisScale {
  public:
-  // `low` and `high` are the extremes of the data, or infinite if there are none.
+  // `low` and `high` are the smallest and largest value of the data, or infinite if there is no
+  // data.
   AxisScale(const Axis& axis, double low, double high);
 
-  // The position of a value: 0 at the low end and 1 at the high end.
+  // Returns the position of a value: 0 at the low end of the axis, 1 at the high end.
   [[nodiscard]] double share(double value) const;
 
   struct Tick {
     double at;
     std::string text;
-    std::string whole = {};  // the unshortened text, if it was shortened
+    std::string whole = {};  // the full text, if `text` is a shortened version of it
   };
   [[nodiscard]] std::vector<Tick> ticks(int wanted) const;
 
@@ -30,7 +31,7 @@ class AxisScale {
   double high_;
 };
 
-// The width of the longest text of the ticks.
+// Returns the width of the longest tick label.
 [[nodiscard]] double widest_text(const std::vector<AxisScale::Tick>& ticks);
 
 }  // namespace triptych::report

@@ -1,6 +1,6 @@
 #pragma once
-// Figures as SVG: marks on two axes. They are drawn when the page is written. The colours come from
-// the style sheet (classes c0…c7, ink, soft), so that a figure follows the page into dark mode.
+// Figures as SVG: marks on two axes. The SVG is generated when the page is written. Its colours
+// come from the style sheet (classes c0…c7, ink, soft), so that figures adapt to dark mode.
 
 #include <optional>
 #include <span>
@@ -15,27 +15,29 @@ namespace triptych::report {
 struct Axis {
   std::string title = {};
   bool logarithmic = false;
-  bool percent = false;  // numbers are shares: 0.1 is "+10 %"
-  // Bands instead of numbers: name i is at i, the first one at the top or at the left.
+  bool percent = false;  // values are relative changes, labelled in percent: 0.1 is "+10 %"
+  // If not empty, the axis has named categories instead of numbers. Category i is at position i;
+  // the first one is at the top or on the left.
   std::vector<std::string> names = {};
-  // The ends of the axis. By default, the axis fits the data.
+  // The ends of the axis. By default, the axis covers the data.
   std::optional<double> low = {};
   std::optional<double> high = {};
-  // Values that the axis contains even if nothing is drawn at them. Figures with the same values
-  // share their axis, so that a reader can compare them.
+  // Values that the axis covers in addition to the data. Figures with the same values here have the
+  // same axis, so that readers can compare them.
   std::vector<double> contains = {};
 };
 
-// Multiples of 1, 2 or 5 times a power of ten within [low, high], about `wanted` of them. On a
-// logarithmic axis these are powers of ten, or also their multiples if there would be too few.
+// Returns about `wanted` ticks within [low, high]. Their distance is 1, 2 or 5 times a power of
+// ten. On a logarithmic axis, ticks are powers of ten and, if there are too few, multiples of
+// these.
 [[nodiscard]] std::vector<double> ticks(double low, double high, bool logarithmic, int wanted);
-// "0.05", "1e-6", "25k", "3M"
+// Formats a number briefly: "0.05", "1e-6", "25k", "3M".
 [[nodiscard]] std::string short_number(double value);
 
 enum class Mark { circle, triangle, cross, diamond, square };
 
 struct Style {
-  // A colour of the style sheet: "c0"…"c7", "ink", "soft".
+  // The colour, as a class of the style sheet: "c0"…"c7", "ink" or "soft".
   std::string_view colour = "c0";
   Mark mark = Mark::circle;
   bool dashed = false;
@@ -43,7 +45,7 @@ struct Style {
   double opacity = 1;
   double width = 1.2;  // width of lines
 };
-// The colour for the n-th of several; the ninth looks like the first.
+// Returns the colour of the n-th series. There are eight colours, which then repeat.
 constexpr std::size_t colour_count = 8;
 [[nodiscard]] std::string_view colour_of(std::size_t index);
 
@@ -52,33 +54,34 @@ class Figure {
   struct Place {
     double x, y;
   };
-  // `description` is the text for people who cannot see the figure. Width and height are those of
-  // the frame inside the axes; the whole figure is larger by the space for its labels.
+  // `description` is the alternative text for people who cannot see the figure. `width` and
+  // `height` are the size of the area inside the axes; the labels need additional space.
   Figure(std::string description, Axis across, Axis up, double width, double height);
 
-  // A value that cannot be shown on an axis (NaN, or on a logarithmic axis one that is not above 0)
-  // is left out.
+  // The following functions add marks. Values that an axis cannot show are left out: NaN and, on a
+  // logarithmic axis, values that are not above 0.
   void point(Place at, const Style& style, std::string_view tooltip = {});
   void line(std::span<const Place> places, const Style& style, std::string_view tooltip = {});
-  // A rectangle between two corners: bars, boxes, cells.
+  // Adds a rectangle between two corners, such as a bar or a box.
   void box(Place from, Place to, const Style& style, std::string_view tooltip = {});
-  // Vertical strokes in one row, which extend by `half` of a band up and down: every sample of a
-  // distribution.
+  // Adds vertical strokes at height `row`, one for each sample of a distribution. Each stroke
+  // extends by `half` up and down, in units of the vertical axis.
   void strokes(std::span<const double> across, double row, double half, const Style& style);
-  // A dashed vertical line across the whole frame, with its label beside it. The axis is not
-  // extended to include it.
+  // Adds a dashed vertical line from the bottom to the top, with a label next to it. The axis is
+  // not extended to include it.
   void upright(double across, std::string_view label = {});
-  // A label next to a point, inside the frame. It is left out if another label is already at this
-  // place.
+  // Adds a label next to a point. It is left out if it would overlap another label.
   void label(Place at, std::string_view text);
   void legend(std::string_view text, const Style& style, bool line = false);
-  // The points and strokes that follow are data of this series, and are in the table that a reader
-  // can save. Empty: they are not, because they repeat other data.
+  // Starts a series. The points and strokes that are added after this call belong to it and are
+  // exported as CSV. After a call with "", they are not exported, because they repeat other data.
   void series(std::string_view name) { series_ = name; }
 
-  // The element has the data as CSV in its attribute `data-csv`, if there are any.
+  // Returns the figure as an SVG element. Its attribute `data-csv` contains the result of csv(), if
+  // there are any series.
   [[nodiscard]] Html svg() const;
-  // One row for each value of a series: series, position across and upwards, tooltip.
+  // Returns the data as CSV, with one row for each value of a series: series, horizontal position,
+  // vertical position, tooltip.
   [[nodiscard]] std::string csv() const;
   // Whether there is nothing to show.
   [[nodiscard]] bool empty() const { return shapes_.empty(); }
@@ -112,7 +115,7 @@ class Figure {
   std::vector<Entry> entries_;
 };
 
-// Figures next to each other, each with a heading; they wrap on a narrow screen.
+// Arranges figures next to each other, each with a heading. On a narrow screen, they wrap.
 struct Titled {
   std::string title;
   Html svg;

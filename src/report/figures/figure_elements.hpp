@@ -1,5 +1,5 @@
 #pragma once
-// Texts, marks and strokes of figures as SVG elements. Positions are in pixels.
+// SVG elements for the text, marks and lines of figures. Positions are in pixels.
 
 #include <string>
 #include <string_view>
@@ -9,21 +9,21 @@
 
 namespace triptych::report {
 
-// The width of a text in the size of the style sheet, from the mean width of its letters.
+// Estimates the width of text in the font size of the style sheet from the mean width of a letter.
 [[nodiscard]] double width_of(std::string_view text);
 
-// The largest number of characters of a name next to an axis, and of a name in a legend. A long
-// name in a legend gets a separate line.
+// The largest number of characters of a name next to an axis (longest_name) and in a legend
+// (longest_entry). In a legend, a long name gets its own line, so it may be longer.
 inline constexpr std::size_t longest_name = 34;
 inline constexpr std::size_t longest_entry = 64;
 
-// A name with more characters is shortened in the middle, which is its least important part.
+// Shortens text with more characters in the middle, which is the least important part of a name.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t longest = longest_name);
 
-// The text that is shown when the pointer is over the element; nothing if it is empty.
+// Returns a tooltip for the enclosing element, or nothing if `text` is empty.
 [[nodiscard]] Html title_element(std::string_view text);
 
-// `more`: further attributes, each with a space before it.
+// Returns a text element. `more` contains further attributes, each preceded by a space.
 [[nodiscard]] Html text_element(double x, double y, std::string_view anchor, std::string_view text,
                                 const Html& more = {});
 

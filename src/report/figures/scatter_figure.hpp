@@ -7,27 +7,29 @@
 
 namespace triptych::report {
 
-// The values of two devices for the same configurations.
+// The costs or times of two devices for the same configurations.
 struct ScatterFigure {
   struct Point {
     std::string name;       // the name of the configuration
     std::string technique;  // determines the colour
     double across, up;
-    double deviation = 0;   // deviation from the line, as a share: 0.1 is 10 % more
-    std::string flag = {};  // "more" or "less": drawn as a cross with its name; empty: as expected
+    double deviation = 0;   // relative deviation from the line: 0.1 is 10 % more
+    std::string flag = {};  // "more" or "less": drawn as a labelled cross; empty: not flagged
   };
   struct Line {
-    double intercept, slope;  // of natural logarithms: ln up = intercept + slope · ln across
+    double intercept, slope;  // ln up = intercept + slope · ln across
   };
   std::string across;  // titles of the axes, including the unit
   std::string up;
   std::vector<Point> points;
   std::optional<Line> line = {};
-  std::optional<double> shows_from = {};  // dashed lines: a single outlier is found from here on
+  // The smallest deviation at which a single configuration is reported; drawn as dashed lines.
+  std::optional<double> shows_from = {};
 };
 
-// HTML: both values on logarithmic axes with the line, and next to it the deviations from the line,
-// with labels for flagged points. Without a line, only the first part.
+// Returns two figures: one shows both values on logarithmic axes, with the line; the other shows
+// the deviations from the line. Flagged points have labels. Without a line, returns only the first
+// figure.
 [[nodiscard]] Html scatter_chart(const ScatterFigure& scatter);
 
 }  // namespace triptych::report

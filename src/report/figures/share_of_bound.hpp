@@ -1,5 +1,5 @@
 #pragma once
-// Shows the error of an image as an image.
+// Computes the difference image, which shows the error of an image.
 
 #include <vector>
 
@@ -7,16 +7,17 @@
 
 namespace triptych::report {
 
-// The error of each pixel as a share of its bound: 0 is black, followed by blue and yellow, and the
-// bound itself is white. A pixel is cyan if its error exceeds the bound, if a value is not finite,
-// or if it shows another particle than the reference. Cyan differs from every colour of the ramp in
-// lightness, or by blue against yellow, which readers without red or green cones can distinguish.
+// An image of the error of each pixel as a share of its bound. Black is no error, followed by blue
+// and yellow, and white is the bound. A pixel is cyan if its error exceeds the bound, if a value is
+// not finite, or if the pixel shows a different particle than the reference image. Cyan differs
+// from every colour of the ramp either in lightness or on the blue-yellow axis, so that
+// colour-blind readers without red or green cones can distinguish it.
 struct ShareOfBound {
   core::Image image;
   int x = -1;  // the first pixel with the largest share; -1 if no pixel has an error
   int y = -1;
-  // Pixels beyond the bound that get a ring, the worst first, because a single pixel is easily
-  // missed. They are so far from each other that their rings do not overlap.
+  // Pixels beyond the bound that are marked with a ring, the worst first, because a single pixel is
+  // easily missed. Only pixels that are far enough apart get a ring, so that rings do not overlap.
   struct Mark {
     int x;
     int y;

@@ -29,8 +29,8 @@ std::string ratio_of(const comparison::Shift& shift) {
                      std::exp(shift.interval.low), std::exp(shift.interval.high));
 }
 
-// "1.23 ms (1.20 to 1.26) → 1.31 ms (1.28 to 1.35)": the medians of both sides and the middle half of
-// their frames.
+// Formats the times of both sides as "1.23 ms (1.20 to 1.26) → 1.31 ms (1.28 to 1.35)": the median,
+// and the quartiles in parentheses.
 std::string milliseconds_of(const Compared& compared) {
   if (!compared.times) return {};
   const auto side = [](const comparison::SideTime& time) {
@@ -40,8 +40,8 @@ std::string milliseconds_of(const Compared& compared) {
   return fmt::format("{} → {}  ", side((*compared.times)[0]), side((*compared.times)[1]));
 }
 
-// "+1.20 % samples, +0.31 % time for each", with the second part if there is a time; empty if the
-// work is the same.
+// Formats a change in the amount of work as "+1.20 % samples, +0.31 % time per unit". The second
+// part is missing if there is no time. Returns "" if the work is the same.
 std::string work_of(const Compared& compared) {
   const auto& work = compared.work;
   if (!work || work->log_ratio == 0) return {};
@@ -97,8 +97,8 @@ std::string clocks_of(const ComparisonResult& result) {
   return text;
 }
 
-// The text for a device without differences: either there are none, or neither side measured
-// anything.
+// Returns the line for a device without differences. It states whether both sides agree or nothing
+// was measured.
 std::string no_difference(const DeviceChange& change) {
   if (comparison::was_measured(change)) return "no differences\n";
   return words::nothing_compared(change.configurations.empty()
@@ -121,7 +121,7 @@ std::string number(const std::optional<double>& value) {
   return value ? fmt::format("{:.4f}", *value) : "–";
 }
 
-// The mark of a point with injected faults, so that nobody blames the driver for them.
+// Returns the injected faults of a point, so that nobody blames the driver for them.
 std::string injected_text(const HistoryPoint& point) {
   if (point.injected.empty()) return {};
   return fmt::format(" [injected: {}]", fmt::join(point.injected, ", "));

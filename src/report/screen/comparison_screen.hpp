@@ -1,5 +1,5 @@
 #pragma once
-// The results of `compare`, `diff` and `history` as they are printed on a terminal.
+// The terminal output of `compare`, `diff` and `history`.
 
 #include <string>
 #include <vector>
@@ -11,13 +11,14 @@
 
 namespace triptych::report {
 
-// The differences except times with the worst kind first, then one line for each configuration that
-// was timed, then the verdict.
+// Returns the differences other than times, the worst kind first, followed by one line for each
+// timed configuration, and by the verdict.
 [[nodiscard]] std::string screen_of(const comparison::ComparisonResult& result,
                                     const ComparisonCommand& command);
-// Each device with both versions, then its differences with the worst kind first.
+// Returns, for each device, both driver versions and the differences, the worst kind first.
 [[nodiscard]] std::string screen_of(const comparison::StoreDiff& diff);
-// Each device with one line per store, then the first store that was worse.
+// Returns, for each device, one line per store, and the first store that is worse than the store
+// before it.
 [[nodiscard]] std::string screen_of(const std::vector<comparison::DeviceHistory>& history);
 
 }  // namespace triptych::report

@@ -11,8 +11,8 @@
 namespace triptych::report {
 namespace {
 
-// The factors that select device code, an API feature or a format. Data, cameras and step lengths
-// have too many levels to be listed.
+// The factors that select device code, an API feature or a format. Other factors, such as data,
+// cameras and step sizes, have too many levels to be listed.
 constexpr std::array<std::string_view, 14> listed_factors{
     "technique", "voxel",   "sampler", "quadrature",         "precision", "shading",   "skip",
     "colour",    "culling", "ray",     "conservative_depth", "transfer",  "structure", "corners"};
@@ -71,7 +71,7 @@ std::string bounds_text(std::vector<WideBound> bounds) {
   if (bounds.empty()) return "no image has a bound above 1/255\n";
   std::ranges::sort(bounds, std::greater{}, &WideBound::bound);
   std::string text =
-      "images with a bound above 1/255: the bound, and the mean number of samples per ray\n";
+      "images with a bound above 1/255 (bound, mean number of samples per ray, image):\n";
   for (const WideBound& each : bounds) {
     text += fmt::format("  {:<12.4g}{:>10.0f}  {} {}\n", each.bound, each.samples_per_ray,
                         each.device, each.configuration);
@@ -82,12 +82,12 @@ std::string bounds_text(std::vector<WideBound> bounds) {
 std::string coverage_text(const std::map<std::string, Coverage>& coverage) {
   std::string text;
   for (const auto& [device, covered] : coverage) {
-    text += fmt::format("{}: {} configurations were drawn, with these levels\n", device,
+    text += fmt::format("{}: {} configurations were drawn, with these levels:\n", device,
                         covered.configurations);
     for (const auto& [factor, levels] : covered.levels) {
       text += fmt::format("  {:<30}{}\n", factor, fmt::join(levels, ", "));
     }
-    text += "  largest values in one frame\n";
+    text += "  largest values in one frame:\n";
     for (const auto& [name, largest] : covered.largest) {
       if (largest.value == 0) continue;
       text += fmt::format("  {:<40}{:>16}  {}\n", name, grouped_digits(largest.value),

@@ -1,6 +1,6 @@
 #pragma once
-// The coverage of a validation: the levels and sizes that its records have drawn, so that a pass
-// states what it covers.
+// The coverage of a validation: the factor levels that it drew and the largest counts that
+// occurred. It shows what a pass covers.
 
 #include <cstdint>
 #include <map>
@@ -22,27 +22,28 @@ struct Largest {
 
 struct Coverage {
   std::size_t configurations = 0;  // number of measured configurations
-  // Levels by factor, for factors with few levels.
+  // The levels that were drawn, by factor, for factors with few levels.
   std::map<std::string, std::set<std::string>> levels;
-  // Largest value of one frame, by counter, statistic or kind of memory.
+  // The largest value in any frame, by counter, statistic or kind of memory.
   std::map<std::string, Largest> largest;
 };
 
-// Coverage by device. Records that were not measured do not count.
+// Returns the coverage by device. Ignores records that were not measured.
 [[nodiscard]] std::map<std::string, Coverage> coverage_of(std::span<const record::Record> records);
 
-// A scene in which a correct image may differ from the reference by more than a step of 8 bits.
+// A scene in which a correct image may differ from the reference image by more than one 8-bit step.
 struct WideBound {
   std::string device;
   std::string configuration;
-  double bound = 0;  // the largest bound of a channel, over pixels whose particle is certain
-  // Explains a large bound, because each sample may be rounded; 0 without rays.
+  double bound = 0;  // see largest_bound()
+  // Mean number of samples per ray, which explains a large bound: each sample adds rounding errors.
+  // 0 if there are no rays.
   double samples_per_ray = 0;
 };
 inline constexpr double one_step = 1.0 / 255;
 
-// The largest bound of a reference image; pixels whose particle is not certain are left out,
-// because their bound covers other particles.
+// Returns the largest bound in an image. Ignores pixels in which rounding may make another particle
+// visible, because their bounds also allow the colours of that particle.
 [[nodiscard]] double largest_bound(const core::Image& bound);
 [[nodiscard]] std::string bounds_text(std::vector<WideBound> bounds);
 

@@ -15,7 +15,7 @@ namespace {
 
 using comparison::SideBySide;
 
-// "1.32", or "1.32 (samples ×1.10)" if the work differs by one per cent or more.
+// Returns "1.32", or "1.32 (samples ×1.10)" if the amount of work differs by 1 % or more.
 std::string text_of(const SideBySide::Cell& cell) {
   std::string text = fmt::format("{:.2f}", cell.ratio);
   for (const auto& [name, work] : cell.work) {
@@ -24,15 +24,15 @@ std::string text_of(const SideBySide::Cell& cell) {
   return text;
 }
 
-// speed_of_light is a bound and not a technique that a user can choose.
+// Whether a user can choose this technique to draw images. speed_of_light, for example, draws none.
 bool is_a_choice(const std::string& technique) {
   return std::ranges::none_of(technique::catalogue(), [&](const technique::Technique& each) {
     return each.id == technique && !each.picture;
   });
 }
 
-// "tiles 2.5 ms": the device's cheapest technique among the rows with the largest number of
-// configurations; empty if it has none of these rows.
+// Returns the cheapest technique on the device: "tiles 2.5 ms". Considers only the techniques with
+// the largest number of configurations. Returns "" if the device measured none of them.
 std::string least_text(const SideBySide& table, const std::string& device) {
   std::size_t most = 0;
   for (const SideBySide::Row& row : table.rows) most = std::max(most, row.configurations);
@@ -48,7 +48,7 @@ std::string least_text(const SideBySide& table, const std::string& device) {
                      table.unit == "ns" ? "ms" : "M");
 }
 
-// Left-aligned columns.
+// Formats a table with left-aligned columns.
 std::string aligned(const std::vector<std::vector<std::string>>& lines) {
   std::vector<std::size_t> widths(lines.front().size());
   for (const auto& line : lines) {

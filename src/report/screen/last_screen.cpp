@@ -102,7 +102,7 @@ class Screen {
     add("");
   }
 
-  // "✗ image on gl:x: crashed: …": the cause and the place in one line.
+  // Describes a cause in one line: "✗ image on gl:x: crashed: …".
   [[nodiscard]] std::string worst_of(const Cause& cause) const {
     const judge::Finding& first = *cause.group.first;
     const judge::Finding& worst = cause.group.worst == nullptr ? first : *cause.group.worst;
@@ -119,7 +119,7 @@ class Screen {
     return coloured(finding.verdict == Verdict::regression ? "✗" : "?", finding.verdict);
   }
 
-  // Adds the circumstances, which a pass can have, too.
+  // Adds the circumstances (report/circumstances.hpp). They are shown even for a pass.
   void circumstances(const Overview& all) {
     const std::size_t shown = std::min(most_circumstances, all.circumstances.size());
     for (std::size_t i = 0; i < shown; ++i) {
@@ -130,12 +130,12 @@ class Screen {
       for (const std::string& line : lines) add(line);
     }
     if (shown < all.circumstances.size()) {
-      add(fmt::format("  ! {} more of these are on the page", all.circumstances.size() - shown));
+      add(fmt::format("  ! {} more notes are on the page", all.circumstances.size() - shown));
     }
     if (shown > 0) add("");
   }
 
-  // One line for each waiver, because a reader of a pass has to know what is excused.
+  // Adds a line for each waived cause, because a reader of a pass has to know what is excused.
   void waived(const Overview& all) {
     std::size_t shown = 0;
     for (const Cause& cause : all.aside) {
@@ -143,13 +143,13 @@ class Screen {
       add(core::printable(fmt::format("  – {}: {}", words::place(cause), words::found(cause)),
                           width_));
     }
-    if (shown > most_waived) add(fmt::format("  – {} more are waived", shown - most_waived));
+    if (shown > most_waived) add(fmt::format("  – {} more causes are waived", shown - most_waived));
     if (shown > 0) add("");
   }
 
-  // Adds as many findings as fit above the last lines.
+  // Adds as many causes as fit on the screen.
   void causes(const Overview& all, std::span<const std::string> files) {
-    // Lines below the findings, more if next steps follow.
+    // The number of lines that follow the causes.
     const std::size_t below = files.empty() ? 5 : 7;
     std::size_t shown = 0;
     for (const Cause& cause : all.open) {
@@ -175,7 +175,7 @@ class Screen {
                         width_ - 4))};
     append_wrapped(lines, message_of(cause), "");
     const std::string command = command_of(first, *cause.result);
-    // A command is never cut, because it would then be another command.
+    // A command is never shortened, because that would turn it into a different command.
     if (width_of(command) > longest_command) {
       lines.emplace_back("    (its command is on the page, because it is too long for a terminal)");
     } else if (!command.empty()) {
@@ -190,7 +190,8 @@ class Screen {
     return lines;
   }
 
-  // Shortens a long description of the finding, but never the component at fault or the advice.
+  // Shortens a long description of the finding, but never the words that follow it: the advice, and
+  // whether the driver is at fault.
   [[nodiscard]] std::string message_of(const Cause& cause) const {
     std::string rest;
     for (const std::string& each : {words::advice(*cause.group.first), words::blame(cause.group)}) {
@@ -201,8 +202,9 @@ class Screen {
     return core::printable(words::found(cause), left) + rest;
   }
 
-  // Breaks lines at spaces outside quotation marks, and never between an option of a command and
-  // its value. `end` is added to every line except the last.
+  // Breaks the text into lines at spaces. In a command (`end` is not empty), does not break within
+  // quotation marks or between an option and its value. Appends `end` to every line except the
+  // last.
   void append_wrapped(std::vector<std::string>& lines, std::string_view text,
                       std::string_view end) const {
     std::string line;

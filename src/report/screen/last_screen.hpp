@@ -8,14 +8,15 @@
 namespace triptych::report {
 
 struct ScreenOptions {
-  std::string store_option = {};  // " --store FILE" for printed commands, if it is not the default
+  std::string store_option = {};  // " --store FILE" for printed commands; empty for the default
   bool colours = false;
   std::size_t width = 100;  // width of the terminal, in characters
 };
 
-// The last output of a command that judges, in at most 40 lines: the verdict, a row for each kind
-// of check over all plans, the findings by cause, each with the command that reproduces it, the
-// files, and the meaning of the exit code. `seconds` is the time that the command took.
+// Returns the last output of a command that judges. It has at most 40 lines: the verdict, one row
+// for each check over all plans, the findings grouped by cause, each with a command that reproduces
+// it, the names of written files, and the meaning of the exit code. `seconds` is the run time of
+// the command.
 [[nodiscard]] std::string last_screen(std::span<const judge::GateResult> results, double seconds,
                                       std::span<const std::string> files,
                                       const ScreenOptions& options = {});

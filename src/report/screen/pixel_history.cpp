@@ -24,8 +24,7 @@ std::string interval(const Allowed& allowed) {
   return fmt::format("{:.7g} to {:.7g}", allowed.lo, allowed.hi);
 }
 
-// The device's number and the interval that the reference allows, for numbers that have an
-// interval.
+// States that a number of the device lies outside the interval that the reference allows.
 std::string outside(std::string_view what, double number, const Allowed& allowed) {
   return fmt::format("{} is {:.7g}, but the reference allows {}", what, number, interval(allowed));
 }
@@ -47,10 +46,10 @@ std::string about_take(const SampleRow& row) {
                        row.expected->opacity.value);
   }
   return row.expected ? "the device took this sample out of order"
-                      : "the device took a sample that the ray does not have";
+                      : "the device took a sample that does not exist on this ray";
 }
 
-// The sentence after a row that differs.
+// Returns the sentence below a row that differs.
 std::string difference(const SampleRow& row) {
   const Operation what = row.differs.value();
   if (what == Operation::take) return about_take(row);
@@ -76,7 +75,8 @@ std::string difference(const SampleRow& row) {
     case Operation::take:
       break;
   }
-  return "compositing: the light after this sample does not follow from the light before it";
+  return "compositing: the light after this sample is not the result of compositing it with the "
+         "light before it";
 }
 
 std::string numbers(std::string_view name, const std::array<double, 3>& place, double value,
@@ -106,8 +106,8 @@ std::string reference_line(const SampleRow& row) {
               expected.length.value, expected.opacity.value));
 }
 
-// Whether the row needs no line of its own: its sample has no opacity, or was skipped because it
-// has none.
+// Whether the row is merged with its neighbours into one line, because its sample is transparent or
+// was skipped because it is transparent.
 bool is_quiet(const SampleRow& row) {
   return !row.differs && (!row.taken || row.taken->opacity == 0);
 }
@@ -118,11 +118,11 @@ std::string quiet_line(std::int64_t first, std::int64_t last, std::size_t taken,
       first == last ? std::to_string(first) : fmt::format("{}–{}", first, last);
   return fmt::format("{:>7} {}", which,
                      taken == count ? "without opacity"
-                     : taken == 0   ? "not taken, and none of them affects the image"
+                     : taken == 0   ? "not taken, but without effect on the image"
                                     : fmt::format("without opacity, {} of {} taken", taken, count));
 }
 
-// The end of the quiet rows that begin at `begin`.
+// Returns the end of the sequence of quiet rows that begins at `begin`.
 std::size_t end_of_quiet(const std::vector<SampleRow>& rows, std::size_t begin) {
   std::size_t end = begin;
   while (end < rows.size() && is_quiet(rows[end])) ++end;
@@ -154,7 +154,8 @@ void add_rows(const accuracy::RayHistory& history, PixelText& text) {
   }
 }
 
-// The colours of the pixel.
+// Returns lines with the colours of the pixel in the image, in the recording build and in the
+// reference image.
 std::vector<std::string> colours_of(const PixelInImage& pixel) {
   double error = 0;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -173,7 +174,8 @@ std::vector<std::string> colours_of(const PixelInImage& pixel) {
     lines.push_back(colour_line("recorded", *pixel.recorded,
                                 *pixel.recorded == pixel.image
                                     ? "the build that records the samples draws the same colour"
-                                    : "the build that records the samples draws another colour"));
+                                    : "the build that records the samples draws a different "
+                                      "colour"));
   }
   lines.push_back(colour_line("reference", pixel.reference, ""));
   return lines;
@@ -189,17 +191,17 @@ std::vector<std::string> summary_of(const PixelInImage& pixel,
       history.rows, [](const SampleRow& row) { return row.differs.has_value(); });
   if (!history.first) {
     lines.emplace_back(history.rows.empty() ? "the ray misses the volume"
-                                            : "no operation differs from the reference by more "
-                                              "than its bound");
+                                            : "every number is within the interval that the "
+                                              "reference allows");
     return lines;
   }
   const SampleRow& first = history.rows[*history.first];
-  lines.push_back(fmt::format("{} of {} samples differ; the first one is sample {}: {}", differing,
+  lines.push_back(fmt::format("{} of {} samples differ; the first is sample {}: {}", differing,
                               history.rows.size(), first.index, difference(first)));
   return lines;
 }
 
-// A particle of a pixel, or none.
+// Returns the id of a particle, or "none".
 std::string particle_name(std::uint32_t id) {
   return id == core::Image::no_particle ? "none" : std::to_string(id);
 }
@@ -222,7 +224,7 @@ void add_sprite(const accuracy::SpriteHistory& history, std::size_t at, PixelTex
       surface("reference", expected.id, expected.depth, expected.colour,
               expected.certain ? fmt::format("depth within {:.3g}, colour within {:.3g}",
                                              expected.depth_bound, expected.colour_bound)
-                               : "at the sphere's edge: a device may show it or not")));
+                               : "at the sphere's edge, so the device may or may not show it")));
   if (first) text.marked = text.table.size();
   text.table.push_back(
       fmt::format("{:>8} {}", first ? "======>" : "",
@@ -232,7 +234,7 @@ void add_sprite(const accuracy::SpriteHistory& history, std::size_t at, PixelTex
                                   : "")));
 }
 
-// The sentence about the smallest set of particles with which the pixel is wrong.
+// Describes the smallest set of particles with which the pixel is wrong.
 std::string about_fewest(const accuracy::SpriteHistory& history) {
   constexpr std::size_t most_named = 16;
   const std::size_t count = history.fewest.size();
@@ -242,10 +244,11 @@ std::string about_fewest(const accuracy::SpriteHistory& history) {
   }
   if (count > most_named) ids += ", …";
   return fmt::format(
-      "each sphere alone is right; the pixel is wrong ({}) with {} particles together{}: {}",
+      "each sphere alone is correct, but the pixel is wrong ({}) with these {} particles "
+      "together{}: "
+      "{}",
       accuracy::name_of(history.fewest_differs), count,
-      history.stopped_early ? ", and perhaps with fewer"
-                            : ", and right if any part of them is left out",
+      history.stopped_early ? ", perhaps with fewer" : ", and correct if any of them is left out",
       ids);
 }
 
@@ -273,7 +276,7 @@ PixelText pixel_text(const PixelInImage& pixel, const accuracy::SpriteHistory& h
   } else if (!history.fewest.empty()) {
     text.summary.push_back(about_fewest(history));
   } else {
-    text.summary.emplace_back(history.rows.empty() ? "the ray meets no sphere"
+    text.summary.emplace_back(history.rows.empty() ? "the ray hits no sphere"
                                                    : "no sphere differs from the reference");
   }
   if (history.left_out > 0) {

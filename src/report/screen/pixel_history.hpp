@@ -1,5 +1,5 @@
 #pragma once
-// The history of one pixel as text, for `render --pixel`.
+// The output of `render --pixel`: the history of one pixel.
 
 #include <array>
 #include <cstddef>
@@ -21,23 +21,23 @@ struct PixelInImage {
   PixelColour image{};                    // the colour in the image of the timed build
   std::optional<PixelColour> recorded{};  // the colour from the build that records the samples
   PixelColour reference{};
-  double bound = 0;        // the bound for any channel
-  std::uint64_t lost = 0;  // records that did not fit into the buffer
+  double bound = 0;        // the error bound, which is the same for all channels
+  std::uint64_t lost = 0;  // number of samples that did not fit into the recording buffer
 };
 
 // The colours of the pixel, the first difference, and the table of its samples.
 struct PixelText {
   std::vector<std::string> summary;
-  std::vector<std::string> table;  // the heading is the first line
-  std::size_t marked = 0;          // the line of the table that is marked; 0: none
+  std::vector<std::string> table;  // the first line is the heading
+  std::size_t marked = 0;          // the index of the marked line of the table; 0: none is marked
 };
 [[nodiscard]] PixelText pixel_text(const PixelInImage& pixel, const accuracy::RayHistory& history);
-// The same for the spheres that the pixel's ray may meet.
+// Like the function above, but the table contains the spheres that the pixel's ray may hit.
 [[nodiscard]] PixelText pixel_text(const PixelInImage& pixel,
                                    const accuracy::SpriteHistory& history);
 
-// The heading and at most `most` lines of the table around the marked one, with a line about the
-// lines that were left out.
+// Returns the heading of the table and at most `most` lines around the marked line. States how many
+// lines are left out.
 [[nodiscard]] std::vector<std::string> part_of_table(const PixelText& text, std::size_t most);
 
 }  // namespace triptych::report

@@ -26,7 +26,7 @@ std::string outcome_of(const record::Record& record) {
     return words::text_of(record.outcome, record.reason);
   }
   if (record.same_as.empty()) return time_of(record);
-  return fmt::format("the same as {} ({})", record::short_name(record.same_as),
+  return fmt::format("reuses the frames of {} ({})", record::short_name(record.same_as),
                      words::text_of(record.reason));
 }
 
@@ -94,8 +94,8 @@ std::string ProgressLog::bar(const Step& step) const {
   return fitted(text);
 }
 
-// A line that fills the last column would wrap on some terminals. A wrapped line could not be
-// removed.
+// Shortens the bar so that the last column stays empty. Some terminals would wrap a line that fills
+// it, and a wrapped line could not be removed.
 std::string ProgressLog::fitted(std::string_view text) const {
   return core::printable(core::printable(text), options_.width > 1 ? options_.width - 1 : 1);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The progress of measuring, as text for a terminal or for a log.
+// Formats the progress of a measurement for a terminal or a log.
 
 #include <chrono>
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace triptych::report {
 
-// Determines whether a log that has been silent needs a sign of life. The intervals grow, so that a
-// run of an hour has about 20 of them.
+// Decides when a log to which nothing was written for a while gets a sign of life. The intervals
+// grow, so that a run of an hour has about 20 of them.
 class SignsOfLife {
  public:
   using Clock = std::chrono::steady_clock;
@@ -29,15 +29,15 @@ class SignsOfLife {
   Clock::time_point last_;
 };
 
-// A terminal shows a bar in its last line, which is rewritten. A log gets a line for each device of
-// a plan, a line for each of the first configurations that failed, and a sign of life from time to
-// time, so that its length does not grow with the number of configurations.
+// A terminal shows a progress bar in its last line, which is rewritten. A log gets a line for each
+// device of a plan, a line for each of the first failures, and a sign of life from time to time, so
+// that its length does not grow with the number of configurations.
 class ProgressLog {
  public:
   using Clock = std::chrono::steady_clock;
   struct Options {
     std::size_t width = 0;                                // width of the terminal; 0 for a log
-    bool verbose = false;                                 // a line for each configuration
+    bool verbose = false;                                 // write a line for each configuration
     std::function<Clock::time_point()> now = Clock::now;  // replaced by tests
   };
   struct Step {
@@ -46,17 +46,16 @@ class ProgressLog {
     int done = 0;  // progress of the plan, over all devices
     int total = 0;
     std::chrono::seconds left{0};
-    const record::Record* record = nullptr;  // the configuration that was just done
+    const record::Record* record = nullptr;  // the configuration that was just measured, if any
   };
 
   explicit ProgressLog(Options options);
 
-  // Both return the text to be written. It may be empty, and each of its lines is safe on a
-  // terminal.
+  // Returns the output after a step. It may be empty. Control characters in it are escaped.
   [[nodiscard]] std::string next(const Step& step);
-  // A large data set is being loaded; `share` of it is done.
+  // Returns the output while a large data set is being loaded, of which `share` is already loaded.
   [[nodiscard]] std::string loading(std::string_view data, double share);
-  // Returns the lines that are still missing after the last configuration, and removes the bar.
+  // Returns the output after the last configuration: the remaining summaries. Removes the bar.
   [[nodiscard]] std::string end();
 
  private:
@@ -76,12 +75,12 @@ class ProgressLog {
 
   Options options_;
   SignsOfLife signs_;
-  Clock::time_point last_;  // when the last configuration was done
+  Clock::time_point last_;  // when the last configuration ended
   std::string plan_;
   std::map<std::pair<std::string, std::string>, Tally> tallies_;  // counts by plan and device
 };
 
-// The remaining time, rounded up: "34 s", "12 min", "3 h".
+// Formats a duration, rounded up: "34 s", "12 min", "3 h".
 [[nodiscard]] std::string rough_time(std::chrono::seconds time);
 
 }  // namespace triptych::report

@@ -29,7 +29,8 @@ std::string repeats_text(std::span<const judge::RepeatedCase> cases, std::size_t
   }
   return text +
          fmt::format(
-             "{} cases in {} repetitions: {} fail in only some of them, {} have different images\n",
+             "{} cases in {} repetitions: {} fail in only some repetitions, and the images of {} "
+             "differ between repetitions\n",
              cases.size(), repetitions, flaking, changing);
 }
 

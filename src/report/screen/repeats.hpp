@@ -1,5 +1,5 @@
 #pragma once
-// The results of `validate --repeat` for its cases.
+// The output of `validate --repeat`.
 
 #include <cstddef>
 #include <span>
@@ -9,12 +9,12 @@
 
 namespace triptych::report {
 
-// One line of text for each case that fails in only some repetitions, or whose image changes, and a
-// last line with the totals.
+// Returns one line for each case that fails in only some repetitions and for each case whose image
+// changes between repetitions, and a last line with the totals.
 [[nodiscard]] std::string repeats_text(std::span<const judge::RepeatedCase> cases,
                                        std::size_t repetitions);
 
-// One JSON object in one line for each case.
+// Returns JSON lines, with one object for each case.
 [[nodiscard]] std::string repeats_json_lines(std::span<const judge::RepeatedCase> cases);
 
 }  // namespace triptych::report
