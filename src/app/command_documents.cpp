@@ -118,7 +118,8 @@ std::string completion(const CLI::App& program) {
         fmt::format("    {}) words=\"{}\" ;;\n", command->get_name(), words_after(*command, plans));
   }
   return fmt::format(
-      "# Completion of triptych for bash. Other words are completed as files.\n_triptych() {{\n"
+      "# Bash completion for triptych. All other words are completed as file names.\n_triptych() "
+      "{{\n"
       "  local words=\"{} --help --version\"\n"
       "  [ \"$COMP_CWORD\" -eq 1 ] || case ${{COMP_WORDS[1]}} in\n{}    *) words= ;;\n  esac\n"
       "  COMPREPLY=($(compgen -W \"$words\" -- \"$2\"))\n}}\n"
@@ -139,7 +140,7 @@ void add(Commands& commands, const std::string& name, const std::string& summary
 
 void add_document_commands(Commands& commands) {
   add(commands, "manual", "Print the manual page", manual);
-  add(commands, "completion", "Print the completion for bash", completion);
+  add(commands, "completion", "Print the bash completion script", completion);
 }
 
 }  // namespace triptych::app

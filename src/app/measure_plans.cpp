@@ -192,9 +192,9 @@ void tell_the_fastest(const Bench& bench, const measure::Plan& plan, const std::
   }
 }
 
-// Returns the devices that fit the plan. A plan that only compiles uses devices that only compile.
-// It also leaves out devices that run on the processor, because the plans that check cost already
-// count their instructions. Other plans leave out devices that only compile.
+// Returns the devices on which plans are measured. Devices that only compile are used only for
+// plans that check code. These plans leave out devices that run on the processor, because the plans
+// that check cost already count the instructions of such devices.
 std::vector<std::string> devices_of(const measure::Listing& listing,
                                     const std::vector<std::string>& globs, bool compiled) {
   std::vector<std::string> chosen = measure::choose_devices(listing, globs);

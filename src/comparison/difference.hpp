@@ -1,6 +1,7 @@
 #pragma once
-// A difference between two records or two devices, as data. report/words/comparison.hpp turns it
-// into sentences, and docs/compare.md lists the causes for programs that read the JSON output.
+// Data types for a difference between two records or two devices. report/words/comparison.hpp turns
+// a difference into a sentence. docs/compare.md lists the causes for programs that read the JSON
+// output.
 
 #include <array>
 #include <cstdint>
@@ -54,11 +55,11 @@ enum class DifferenceCause : std::uint8_t {
   other_bits,              // both images are right, but not identical ["pixels" of "total", …]
   other_bits_of_one_code,  // as above, although device, settings and device code are equal
   two_counters,            // the sides used different instruction counters [<a> <b>]
-  values_changed,          // values differ [changes]
+  values_changed,          // values such as instructions or bytes differ [changes]
   code_changed,            // the compiler's report differs [code]
   code_total,              // the total over all configurations differs [total]
   reported_by_one_side,    // only one side reports the value [side, changes: its value]
-  same_driver,             // the value must not change on one driver [changes]
+  same_driver,             // the value must not differ on the same driver [changes]
   api_specific,            // each API counts this value in its own way [changes]
   beyond_rounding,         // the values differ by more than rounding explains [changes]
   within_rounding,         // rounding explains the difference [changes]

@@ -185,9 +185,10 @@ class Finder {
         .numbers = image_change(a_.image, b_.image);
   }
 
-  // If both sides are the same device, each part of the frame is compared within its small
-  // tolerance, even if the programs differ. For two versions of a device, the cost of the whole
-  // frame may grow by frame_across_setups.
+  // Compares the instructions of a frame. If both sides are the same device, each part of the frame
+  // must stay within its own small tolerance, even if the programs differ. If the sides are two
+  // versions of a device, only the cost of the whole frame is limited: it may grow by
+  // frame_across_setups.
   void cost() {
     const record::Counts& before = a_.record.cost;
     const record::Counts& now = b_.record.cost;

@@ -1,6 +1,7 @@
 #pragma once
-// The reasons why there is no verdict on the time of a configuration, and why the wall clock was
-// used to measure it, as data. report/words/comparison.hpp turns them into sentences.
+// Data types for two kinds of reasons: why there is no verdict on the time of a configuration, and
+// why its time was measured with the wall clock. report/words/comparison.hpp turns these reasons
+// into sentences.
 
 #include <cstdint>
 #include <map>

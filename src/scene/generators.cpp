@@ -69,7 +69,7 @@ Volume sample(std::array<int, 3> size, Field&& field) {
   });
 }
 
-// A function that is 1 at t = 0 and falls smoothly to exactly 0 at |t| = 1 and beyond.
+// Returns a smooth bump: 1 at t = 0, and exactly 0 at |t| = 1 and beyond.
 double bump(double t) {
   const double s = 1 - t * t;
   return s > 0 ? s * s : 0;
