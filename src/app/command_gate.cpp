@@ -114,8 +114,8 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
                                const Registry& registry, measure::Truths& truths) {
   judge::GateRequest request = request_of(truths, judged.plan, registry.suite(judged.plan.suite));
   request.devices = judged.devices.empty() ? arguments.devices : judged.devices;
-  // A device that only compiles is required only in plans with the check code, and any other device
-  // only in the remaining plans.
+  // A required device that only compiles must appear only in plans with the check `code`. Any other
+  // required device must appear only in the remaining plans.
   for (const std::string& glob : arguments.required) {
     const bool compiles = measure::compile_only(glob).has_value();
     if (compiles == judged.plan.compiled()) request.required_devices.push_back(glob);

@@ -221,8 +221,8 @@ class Finder {
     found.ratio = now / before;
   }
 
-  // For the same device id, worse code is a regression, even across driver versions. The code of
-  // two different devices may differ.
+  // Compares what the compilers report. For the same device id, worse code is a regression, even
+  // across driver versions. The code of two different devices may differ.
   void code() {
     if (a_.record.code.empty() || b_.record.code.empty()) return;
     judge::CodeComparison comparison = judge::compare_code(a_.record.code, b_.record.code);

@@ -51,8 +51,8 @@ class Timer {
   }
 
  private:
-  // Calls `act` for a configuration and adds the elapsed time to it. If the worker of a side dies,
-  // only this configuration ends.
+  // Calls `act` for a configuration, and adds the elapsed time to the configuration's total. If a
+  // side's worker dies, only this configuration ends.
   template <typename Act>
   void about(Entry& entry, const Act& act) {
     const measure::Stopwatch stopwatch;

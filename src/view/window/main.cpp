@@ -114,7 +114,8 @@ class Loop {
       window_.begin_frame();
       screen_.draw();
       --frames_due_;
-      // Everything has its final position in the last of the frames that are due.
+      // Only the last of the due frames is captured, because everything then has its final
+      // position.
       const auto picture = window_.end_frame(capture && frames_due_ == 0);
       if (!picture) continue;
       return core::write_file(core::encode_png(*picture), session_.request().screenshot);
