@@ -22,7 +22,7 @@ constexpr double largest_arithmetic_share = 0.1;
 constexpr std::size_t least_points = 3;
 constexpr double tail = 0.025;  // the share of the distribution on either side of a 95 % interval
 
-// The factors that have different levels among the cases, except `step`.
+// Returns the factors that have different levels among the cases, except for `step`.
 std::set<std::string> telling_factors(std::span<const AccuracyCase> cases) {
   std::set<std::string> names;
   for (const AccuracyCase& each : cases) {
@@ -64,7 +64,8 @@ bool beats(const AccuracyCase& a, const AccuracyCase& b, const CostOf& cost_of) 
   return cost_a <= cost_b && a.rmse <= b.rmse && (cost_a < cost_b || a.rmse < b.rmse);
 }
 
-// The only factor in which the two differ; nullopt if there are several.
+// Returns the only factor in which `a` and `b` differ, or nullopt if they differ in none or in
+// several.
 std::optional<std::string> only_difference(const Factors& a, const Factors& b) {
   if (a.size() != b.size()) return std::nullopt;
   std::optional<std::string> only;
@@ -89,8 +90,8 @@ std::vector<std::size_t> by_accuracy(std::span<const AccuracyCase> cases) {
   return order;
 }
 
-// The cost at which the line through two points, on logarithmic axes, reaches the error. Both
-// logarithms must exist.
+// Returns the cost at which the line through two points, on logarithmic axes, reaches the error, or
+// nullopt if the error is not between the two points. Both logarithms must exist.
 std::optional<double> cost_between(const AccuracyCase& a, const AccuracyCase& b,
                                    const CostOf& cost_of, double error) {
   const auto of_a = cost_of(a);

@@ -1,7 +1,7 @@
 #pragma once
-// Run time against error. A configuration's error is measured against the limit of its scene. This
-// file computes orders of convergence and the configurations on the Pareto front from numbers only;
-// accuracy/cases.hpp collects the numbers.
+// Run time against error. The error of a configuration is measured against the limit of its scene.
+// The functions here compute orders of convergence and Pareto fronts from numbers only;
+// accuracy/cases.hpp collects these numbers.
 
 #include <cstddef>
 #include <cstdint>
@@ -37,10 +37,10 @@ struct AccuracyCase {
   double arithmetic = 0;
 };
 
-// The step in voxels; nullopt if there is none.
+// Returns the step in voxels, or nullopt if the configuration has no step.
 [[nodiscard]] std::optional<double> step_of(const AccuracyCase& each);
 
-// A point of a fit of error ∝ stepᵖ.
+// A data point for fitting error ∝ stepᵖ.
 struct StepError {
   double step = 0;
   double error = 0;
@@ -63,15 +63,16 @@ struct Order {
 // too few steps were measured.
 [[nodiscard]] std::optional<Order> fit_order(std::span<const StepError> points);
 
-// The indices of the cases that no other case beats in both cost and error, sorted by cost; of
-// equal cases, only the first is included. Cases without a cost are left out. Without `cost_of`,
+// Returns the indices of the cases that no other case beats in both cost and error, sorted by cost.
+// Of equal cases, only the first is included. Cases without a cost are left out. Without `cost_of`,
 // the cost is the time.
 using CostOf = std::function<std::optional<double>(const AccuracyCase&)>;
 [[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases,
                                                     const CostOf& cost_of);
 [[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases);
 
-// For a configuration that is not on the front, the fastest one on the front that beats it in both.
+// A configuration that is not on the front, and the cheapest configuration on the front that beats
+// it in both cost and error.
 struct Dominated {
   std::size_t index = 0;
   std::size_t by = 0;
@@ -88,13 +89,13 @@ struct AccuracyFamily {
   std::vector<std::size_t> members;
   std::optional<Order> order;
 };
-// Groups the cases into families. Without a factor `step`, every configuration is a family of its
-// own.
+// Groups the cases into families. Without a factor `step`, every configuration forms its own
+// family.
 [[nodiscard]] std::vector<AccuracyFamily> accuracy_families(std::span<const AccuracyCase> cases);
 
-// The smallest cost of reaching an error. It is the cost of a configuration whose error is not
-// larger, or that of a point between two neighbours of a family, on a straight line in logarithmic
-// axes. nullopt if no configuration reaches the error.
+// Returns the smallest cost of reaching an error, or nullopt if no configuration reaches it. It is
+// either the cost of a configuration whose error is not larger, or the cost of a point between two
+// neighbours in a family, on a straight line in logarithmic axes.
 [[nodiscard]] std::optional<double> cost_to_error(std::span<const AccuracyCase> cases,
                                                   std::span<const AccuracyFamily> families,
                                                   const CostOf& cost_of, double error);
@@ -102,8 +103,8 @@ struct AccuracyFamily {
                                                   std::span<const AccuracyFamily> families,
                                                   double error);
 
-// The most accurate case. Of equally accurate ones, this is the fastest, or the first if none has a
-// time.
+// Returns the index of the most accurate case. If several cases are equally accurate, it is the
+// fastest of them, or the first if none of them has a time.
 [[nodiscard]] std::size_t most_accurate(std::span<const AccuracyCase> cases);
 
 // A pair of cases that differ in one factor only.
@@ -112,18 +113,18 @@ struct Switched {
   std::size_t from = 0;
   std::size_t to = 0;
 };
-// For each factor, finds the most accurate case for which another case differs only in this factor,
-// and all such other cases. The most accurate case may be a different one for every factor, because
-// plans do not contain all combinations.
+// For each factor, finds the most accurate case that has a counterpart, and all its counterparts. A
+// counterpart is a case that differs only in this factor. The most accurate case may be a different
+// one for every factor, because plans do not contain all combinations.
 [[nodiscard]] std::vector<Switched> switched_alone(std::span<const AccuracyCase> cases);
-// The same for `factor` between two images, each of which is compared with its own limit: the most
-// accurate of `cases` that has a corresponding case among `others`, and that case. nullopt if there
-// is none.
+// Does the same for one factor that changes the image, so that `cases` and `others` are compared
+// with different limits. Returns the most accurate of `cases` that has a counterpart in `others`,
+// and this counterpart, or nullopt if there is none.
 [[nodiscard]] std::optional<Switched> switched_picture(std::span<const AccuracyCase> cases,
                                                        std::span<const AccuracyCase> others,
                                                        std::string_view factor);
 
-// The errors for which the cost is reported: one step and a quarter step of 8 bits, and 1e-4.
+// The errors for which the cost is reported: one 8-bit step, a quarter of an 8-bit step, and 1e-4.
 inline constexpr double accuracy_goals[]{1.0 / 255, 1.0 / 1024, 1e-4};
 
 }  // namespace triptych::accuracy

@@ -12,8 +12,8 @@
 namespace triptych::accuracy {
 namespace {
 
-// The scene's text "camera=…,data=…,step=…" without its step and without the levels that `other`
-// does not have.
+// Returns the scene's string "camera=…,data=…,step=…" without its step, and without the levels that
+// `other` does not contain.
 std::string in_common(std::string_view scene, std::string_view other) {
   const auto known = record::parse_factor_list(other);
   auto kept = record::parse_factor_list(scene);
@@ -31,15 +31,15 @@ double root_mean_square(const std::vector<float>& values) {
   return values.empty() ? 0 : std::sqrt(squares / static_cast<double>(values.size()));
 }
 
-// The bytes of buffers and images. The same table also contains the bytes that a frame uploads
-// (measure/contract/memory_ledger.hpp), which are not included.
+// Returns the bytes of buffers and images. `memory` also contains the bytes that a frame uploads,
+// under the key "moved" (measure/contract/memory_ledger.hpp); they are not included.
 std::uint64_t bytes_held(const record::Counts& memory) {
   std::uint64_t bytes = 0;
   for (const auto& [kind, of_kind] : memory) bytes += kind == "moved" ? 0 : of_kind;
   return bytes;
 }
 
-// The sum over all meters. No meter contains a part of another one
+// Returns the energy over all meters. No meter measures a part of what another meter measures
 // (measure/system/energy_meters.hpp).
 double joules_of(const record::Counts& microjoules) {
   double sum = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// The cases of a run for which accuracy is reported. Each image is compared with its limit and its
-// reference image.
+// The cases of a run whose accuracy is reported. Each image is compared with its limit image and
+// with its reference image.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -15,7 +15,7 @@
 
 namespace triptych::accuracy {
 
-// The limit of the images of a scene for step → 0.
+// The limit image of a scene: the image for step → 0.
 struct LimitPicture {
   std::string key;  // the same key for all records that share the limit
   core::Image image;
@@ -31,8 +31,8 @@ struct PictureError {
   double arithmetic = 0;
 };
 // Compares an image with its limit. `truth` is the reference image at the sample positions of the
-// device's image. nullopt if the three images differ in size, or if the device's image has values
-// that are not finite.
+// device's image. Returns nullopt if the three images differ in size, or if the device's image
+// contains a value that is not finite.
 [[nodiscard]] std::optional<PictureError> picture_error(const core::Image& picture,
                                                         const core::Image& truth,
                                                         const core::Image& limit);
@@ -44,34 +44,34 @@ struct AccuracyScene {
   std::string scene;  // "camera=…,data=…": the levels that all its records have in common
   std::string data;
   double uncertainty = 0;  // root mean square of the limit's uncertainty
-  // Root mean square difference between the limit and the closed form, which grid and table cannot
-  // represent exactly.
+  // Root mean square difference between the limit and the closed-form solution, which grid and
+  // table cannot represent exactly.
   std::optional<double> representation;
-  // Root mean square error that storing the limit with 8 bits per channel causes.
+  // Root mean square error caused by storing the limit with 8 bits per channel.
   double eight_bits = 0;
-  double nothing = 0;  // root mean square error of an image in which nothing was drawn
+  double nothing = 0;  // root mean square error of an empty image
   std::vector<AccuracyCase> cases;
   std::vector<AccuracyFamily> families;
   std::vector<std::size_t> front;
   std::vector<Dominated> dominated;
-  std::optional<FrontArea> area;  // if anything was timed
+  std::optional<FrontArea> area;  // only if anything was timed
 };
 
 // Combines a record with its errors and with its time on this clock.
 [[nodiscard]] AccuracyCase accuracy_case(const record::Record& record, const PictureError& error,
                                          std::string_view clock);
 
-// Returns a scene without cases. The functions below reduce its levels to those that it has in
-// common with another record, and compute the results after all cases have been added.
+// accuracy_scene() returns a scene without cases. narrow() reduces its levels to those that it has
+// in common with another record. evaluate() computes the results after all cases have been added.
 [[nodiscard]] AccuracyScene accuracy_scene(const record::Record& record, const LimitPicture& limit);
 void narrow(AccuracyScene& scene, const record::Record& record);
 void evaluate(AccuracyScene& scene);
 
-// The JSON form {"device", "scene", "data", "uncertainty", "representation", "eight_bits",
-// "nothing", "hypervolume", "configurations": [{"configuration", "time_ns", "samples",
-// "instructions", "fetched_bytes", "memory_bytes", "joules", "rmse", "largest", "error_99",
-// "lattice", "arithmetic", "front"}], "families": [{"name", "order", "half_width",
-// "configurations"}]}. A value that was not timed, counted or found is null.
+// Returns {"device", "scene", "data", "uncertainty", "representation", "eight_bits", "nothing",
+// "hypervolume", "configurations": [{"configuration", "time_ns", "samples", "instructions",
+// "fetched_bytes", "memory_bytes", "joules", "rmse", "largest", "error_99", "lattice",
+// "arithmetic", "front"}], "families": [{"name", "order", "half_width", "configurations"}]}. A
+// value that was not timed, counted or found is null.
 [[nodiscard]] nlohmann::json to_json(const AccuracyScene& scene);
 
 }  // namespace triptych::accuracy

@@ -11,10 +11,10 @@
 
 namespace triptych::accuracy {
 
-// How a requested error E is divided: 0.7 for the step and 0.25 for early termination (at
-// transmittance ε it removes at most ε of any channel, so ε = E/4). Merged samples may use 1/32,
-// because the worthwhile merges have almost no error. In the worst case all errors add up; the rest
-// is reserved for rounding and storage.
+// How a requested error E is divided: 0.7 E for the step size, and E/4 for early termination (which
+// changes any channel by at most ε if rays end at transmittance ε, so ε = E/4). Merged samples may
+// use E/32, because merging them saves time mainly where it causes almost no error. In the worst
+// case, all errors add up. The remainder is reserved for rounding and storage.
 inline constexpr double step_share = 0.7;
 inline constexpr double termination_share = 0.25;
 inline constexpr double merging_share = 1.0 / 32;
@@ -26,24 +26,24 @@ struct StepLimits {
 
 using ErrorOfStep = std::function<double(double step)>;
 
-// Finds the longest step, in quarters of an octave, whose error is at most `error`. The error must
-// also be that small at half the step, because the error of a long step may be small by chance.
-// With an error of second order, the error of the result is at least 0.7 of `error`. If no step is
+// Finds the longest step, to a quarter of an octave, whose error is at most `error`. The error must
+// also be that small at half the step, because the error of a long step may be small by chance. If
+// the error is of second order, the error of the result is at least 0.7 of `error`. If no step is
 // short enough, the result is the shortest step that was tried, with its error. `error_of` is
 // called about ten times.
 [[nodiscard]] StepError longest_step(double error, const StepLimits& limits,
                                      const ErrorOfStep& error_of);
 
 // Transfers a step that was found on one image to another image: finds the longest step of at most
-// `step` whose error is at most `error`. The step is repeatedly shortened as for an error of second
-// order, because edges have a lower order. If no step is short enough, the result is the shortest
-// step with its error.
+// `step` whose error is at most `error`. The step is shortened repeatedly, each time as if the
+// error were of second order, because edges have a lower order. If no step is short enough, the
+// result is the shortest step with its error.
 [[nodiscard]] StepError shortened_step(double step, double error, const StepLimits& limits,
                                        const ErrorOfStep& error_of);
 
 // The size of the image on which the search runs, for an image of the given size. It has the same
 // aspect ratio and at most about 48² pixels, but each side has at least eight pixels or its
-// original size. This means that a long image becomes a shorter one and not a line.
+// original size. A long, narrow image is therefore shortened, but not reduced to a line.
 struct PictureSize {
   int width = 0;
   int height = 0;
@@ -55,7 +55,7 @@ struct TimedError {
   std::optional<double> time_ns;
   double error = 0;
 };
-// The fastest case with at most this error; nullopt if there is none.
+// Returns the index of the fastest case with at most this error, or nullopt if there is none.
 [[nodiscard]] std::optional<std::size_t> cheapest(std::span<const TimedError> cases, double error);
 
 }  // namespace triptych::accuracy

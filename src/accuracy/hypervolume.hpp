@@ -1,6 +1,6 @@
 #pragma once
-// Expresses a front of run time against error as one number, which is used to compare devices in
-// one scene.
+// Summarises a front of run time against error in one number, for comparing devices that draw the
+// same scene.
 
 #include <cstddef>
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace triptych::accuracy {
 
-// The reference point of the area. Its coordinates do not depend on the measurements, because
-// otherwise the area of a front would change with the other fronts:
+// The reference point of the area. Its coordinates do not depend on the measurements; otherwise,
+// the area of one front would change whenever another front changes:
 //   - time: one second, which is too long for any interactive frame. An error that is not reached
 //     counts as one that takes one second.
 //   - error: the error of an image in which nothing was drawn (0 in every channel), which takes no
@@ -21,15 +21,15 @@ inline constexpr double reference_time_ns = 1e9;
 // would make the area infinite.
 inline constexpr double least_told_error = 0x1.0p-24;
 
-// The area between the front and the reference point, in ln time and ln error:
+// Returns the area between the front and the reference point, in ln time and ln error:
 //   ∫ max(0, ln(reference time / t(e))) d ln e
 // from the smallest distinguishable error to the reference error, where t(e) is the smallest time
-// that reaches the error e. `front` is the result of pareto_front. Points beyond the reference
-// point add nothing, and an empty front has the area 0.
+// in which the error e is reached. `front` is the result of pareto_front. Points beyond the
+// reference point add nothing, and an empty front has the area 0.
 [[nodiscard]] double hypervolume(std::span<const AccuracyCase> cases,
                                  std::span<const std::size_t> front, double reference_error);
 
-// The area of a front, and the largest width that any front with its errors can have.
+// The area of a front, and the width of the range of errors that it covers.
 struct FrontArea {
   double area = 0;
   double width = 0;  // ln(reference error / smallest error of the front)
@@ -40,9 +40,9 @@ struct FrontArea {
                                                   std::span<const std::size_t> front,
                                                   double reference_error);
 
-// The factor by which every time of `best` must grow to reduce its area to that of `other`.
+// Returns the factor by which every time of `best` must grow to reduce its area to that of `other`.
 // Multiplying all times by c reduces an area by ln c · width. This is exact as long as no time
-// passes the reference time.
+// exceeds the reference time.
 [[nodiscard]] double equal_slowdown(const FrontArea& best, const FrontArea& other);
 
 }  // namespace triptych::accuracy

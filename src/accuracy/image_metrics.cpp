@@ -37,7 +37,7 @@ double ratio_of(double error, double bound) {
   return bound > 0 ? error / bound : std::numeric_limits<double>::infinity();
 }
 
-// `bound_at(pixel, channel)` returns the bound. Every error exceeds a bound that is NaN.
+// `bound_at(pixel, channel)` returns the bound. If the bound is NaN, every error exceeds it.
 template <typename BoundAt>
 ImageComparison compare_with(const core::Image& image, const core::Image& truth,
                              const BoundAt& bound_at) {
@@ -78,7 +78,7 @@ ImageComparison compare_with(const core::Image& image, const core::Image& truth,
   return result;
 }
 
-// Whether the id of this pixel is certain, so that a device must reproduce it.
+// Returns whether the id of this pixel is certain, so that a device must reproduce it.
 bool id_is_certain(const core::Image& bound, std::size_t pixel) {
   return bound.ids[pixel] == 0;
 }

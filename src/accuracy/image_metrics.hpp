@@ -1,5 +1,5 @@
 #pragma once
-// Compares two images and returns numbers. Callers write files and messages.
+// Compares two images and returns numbers. Writing files and messages is left to the callers.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace triptych::accuracy {
 
-// The error of a pixel is the largest absolute difference of its four channels, where 1 is full
-// scale. Its bound is that of the same pixel and channel. Pixels with a value that is not finite,
-// in either image, are counted separately and excluded from everything else.
+// The error of a pixel is the largest absolute difference in any of its four channels, where 1 is
+// full scale. Its bound is the bound of that pixel and channel. Pixels that contain a value that is
+// not finite, in either image, are counted separately and excluded from everything else.
 struct ImageComparison {
   struct Place {
     int x = -1;  // -1 if no pixel could be compared
@@ -51,20 +51,20 @@ struct ImageComparison {
 };
 
 // Compares an image with its reference image. `slack` is added to every colour bound. All three
-// images must have the same size, and either all or none of them must be images of particles;
-// otherwise size_mismatch is set. If the reference image has ids, every pixel whose id in `bound`
-// is 0 must have the same id, and a depth within the depth bound. Two pixels without a surface have
-// equal depths.
+// images must have the same size, and either all or none of them must be particle images; otherwise
+// size_mismatch is set. If the reference image has ids, every pixel whose id in `bound` is 0 must
+// have the same id, and a depth within the depth bound. Two pixels without a surface have equal
+// depths.
 [[nodiscard]] ImageComparison compare(const core::Image& image, const core::Image& truth,
                                       const core::Image& bound, double slack = 0);
 
-// The same comparison with one bound for all pixels.
+// Does the same with one bound for all pixels.
 [[nodiscard]] ImageComparison compare(const core::Image& image, const core::Image& truth,
                                       double bound);
 
-// The root mean square difference over all channels. NaN if the sizes differ or if values are not
-// finite. If `bound` has ids, only pixels with a certain id are compared, because at the edge of a
-// sphere two correct images may differ by a whole colour.
+// Returns the root mean square difference over all channels, or NaN if the sizes differ or a value
+// is not finite. If `bound` has ids, only pixels with a certain id are compared, because two
+// correct images may have completely different colours at the edge of a sphere.
 [[nodiscard]] double root_mean_square(const core::Image& a, const core::Image& b,
                                       const core::Image& bound = {});
 

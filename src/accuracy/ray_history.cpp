@@ -6,8 +6,9 @@
 namespace triptych::accuracy {
 namespace {
 
-// Recorded numbers are floats, so they are exact in single precision. In double precision they were
-// rounded, with a relative error of half of this constant.
+// Recorded numbers are floats. Numbers that the device computed in single precision are therefore
+// exact. Numbers in double precision have been rounded, with a relative error of half of this
+// constant.
 constexpr double recorded = 0x1.0p-23;
 
 // Samples behind this transmittance are not compared, because the reference ends its rays there.
@@ -24,9 +25,9 @@ struct Light {
   std::array<double, 3> gathered{};
 };
 
-// Whether the light after a sample follows from the recorded light before it. The tolerance for
-// each channel is that of one multiplication and one addition: four roundings of the largest
-// operand.
+// Returns whether the light after a sample follows from the recorded light before it. In each
+// channel, the tolerance allows for one multiplication and one addition: four roundings of the
+// largest operand.
 bool is_composited(const Light& before, const TakenSample& taken) {
   const double weight = before.transmittance * taken.opacity;
   const double slack = 4 * recorded * before.transmittance;
@@ -58,8 +59,8 @@ std::optional<Operation> first_difference(const ExpectedSample& expected, const 
   return std::nullopt;
 }
 
-// The index of the sample, computed from its position along the ray. Midpoints of whole steps are
-// at i + ½; the middle of a partial step is before that.
+// Returns the index of the sample, computed from its position along the ray. The midpoint of a
+// whole step is at i + ½; the middle of a partial step is before that.
 std::int64_t index_of(const ExpectedRay& ray, const TakenSample& taken) {
   double along = 0;
   double square = 0;
@@ -73,14 +74,14 @@ std::int64_t index_of(const ExpectedRay& ray, const TakenSample& taken) {
   return static_cast<std::int64_t>(std::floor(steps + 1e-4));
 }
 
-// Whether a sample covers more than its own step.
+// Returns whether a sample covers more than its own step.
 bool is_merged(const ExpectedRay& ray, const TakenSample& taken, std::int64_t index) {
   if (!ray.merges) return false;
   const auto at = static_cast<std::size_t>(std::max<std::int64_t>(index, 0));
   return at >= ray.samples.size() || !is_within(taken.length, ray.samples[at].length);
 }
 
-// Goes through the samples of a device together with the expected samples.
+// Compares the samples that a device took, one after the other, with the expected samples.
 class Comparison {
  public:
   explicit Comparison(const ExpectedRay& ray) : ray_(ray) {}
@@ -106,7 +107,7 @@ class Comparison {
 
   RayHistory finish() {
     // The ray may have ended because of early termination, or with a merged sample that covers the
-    // rest.
+    // rest of the ray.
     const bool ended = light_.transmittance < std::max(ray_.ends_below, invisible);
     pass_by(end(), ended || after_merged_);
     return std::move(history_);
@@ -115,8 +116,8 @@ class Comparison {
  private:
   [[nodiscard]] std::int64_t end() const { return static_cast<std::int64_t>(ray_.samples.size()); }
 
-  // Adds rows for the samples before `index` that the device did not take. It may leave out samples
-  // without opacity, and samples that it merged into another one.
+  // Adds rows for the samples before `index` that the device did not take. A device may leave out
+  // samples without opacity, and samples that it merged into another sample.
   void pass_by(std::int64_t index, bool excused) {
     for (; next_ < index; ++next_) {
       const ExpectedSample& expected = ray_.samples[static_cast<std::size_t>(next_)];

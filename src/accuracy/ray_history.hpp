@@ -1,7 +1,7 @@
 #pragma once
-// Compares a device's results along one ray of a volume with the expected results of the reference
-// renderer, sample by sample, and within a sample in the order of the computation. The first
-// difference is therefore in the first operation whose result is outside of its bound.
+// Compares a device's results along one ray of a volume with the results of the reference renderer,
+// sample by sample, and within a sample in the order of the computation. The first difference
+// therefore shows the first operation whose result is outside its bound.
 
 #include <array>
 #include <cstddef>
@@ -12,7 +12,8 @@
 
 namespace triptych::accuracy {
 
-// A number of the reference renderer, and the interval that must contain the number of a device.
+// A number that the reference renderer computed, and the interval that must contain the device's
+// number.
 struct Allowed {
   double value = 0;
   double lo = 0;
@@ -24,7 +25,7 @@ struct ExpectedSample {
   std::int64_t index = 0;
   std::array<Allowed, 3> place{};   // in voxels
   std::optional<Allowed> front;     // normalised value at the beginning of a step
-  Allowed value;                    // at the sample, or at the end of the step
+  Allowed value;                    // at the sample; for a step, at its end
   std::array<Allowed, 3> colour{};  // not premultiplied, after shading
   std::optional<Allowed> alpha;     // opacity per voxel length; not for a step
   Allowed length;                   // in voxel lengths
@@ -35,7 +36,7 @@ struct ExpectedRay {
   std::array<double, 3> entry{};        // where the ray enters the volume, in voxels
   std::array<double, 3> stride{};       // length of one step, in voxels
   std::vector<ExpectedSample> samples;  // samples of every index from 0 on; empty if the ray misses
-  double ends_below = 0;                // a device may end the ray below this transmittance
+  double ends_below = 0;                // transmittance below which a device may end the ray
   // Whether samples may be merged. A merged sample has no counterpart and is not compared.
   bool merges = false;
 };
@@ -80,8 +81,8 @@ struct RayHistory {
   std::optional<std::size_t> first;  // the first row that differs
 };
 
-// Compares a ray. If the device took parts of one step separately, they must have been joined
-// before.
+// Compares the samples of a ray. If the device took parts of one step separately, the caller must
+// have joined them.
 [[nodiscard]] RayHistory compare(const ExpectedRay& expected,
                                  const std::vector<TakenSample>& taken);
 

@@ -21,8 +21,8 @@ constexpr std::array<std::string_view, all_metrics.size()> names{"rms", "covered
 Metric metric_called(std::string_view name, std::string_view text) {
   const auto found = std::ranges::find(names, name);
   if (found == names.end()) {
-    throw core::InputError(fmt::format("--error {}: unknown metric '{}'; there are: {}", text, name,
-                                       fmt::join(names, ", ")));
+    throw core::InputError(fmt::format("--error {}: unknown metric '{}'; expected one of {}", text,
+                                       name, fmt::join(names, ", ")));
   }
   return all_metrics[static_cast<std::size_t>(found - names.begin())];
 }
@@ -40,9 +40,9 @@ RequestedError parse_requested_error(std::string_view text) {
   const auto [stopped, failure] = std::from_chars(number.data(), end, request.error);
   if (failure != std::errc() || stopped != end || !(request.error > 0) ||
       !std::isfinite(request.error)) {
-    throw core::InputError(
-        fmt::format("--error {}: expected a positive number, or one with a metric such as 1e-3:{}",
-                    text, names.back()));
+    throw core::InputError(fmt::format(
+        "--error {}: expected a positive number, optionally with a metric, as in 1e-3:{}", text,
+        names.back()));
   }
   if (number.size() < text.size()) {
     request.metric = metric_called(text.substr(number.size() + 1), text);

@@ -1,5 +1,5 @@
 #pragma once
-// A requested error, and the metric that it refers to.
+// A requested error, and the metric with which it is measured.
 
 #include <array>
 #include <cstddef>
@@ -27,7 +27,7 @@ struct RequestedError {
 };
 // Parses "E" or "E:METRIC". Throws InputError if E is not a positive number or METRIC is unknown.
 [[nodiscard]] RequestedError parse_requested_error(std::string_view text);
-// The text of the request, which always includes the metric.
+// Returns the request as "E:METRIC". The metric is always included.
 [[nodiscard]] std::string text_of(const RequestedError& request);
 
 // The errors of an image, measured against its limit.
@@ -39,11 +39,11 @@ struct PictureErrors {
     return by_metric[static_cast<std::size_t>(metric)];
   }
 };
-// Computes the errors. The images must have a background of 0. The error over covered pixels
-// includes everything that an image shows outside of them, too. All errors are NaN if the sizes
-// differ or if values are not finite.
+// Computes the errors. The images must have a background of 0. Metric::covered divides by the
+// number of covered pixels, but it also includes the errors of all other pixels. All errors are NaN
+// if the sizes differ or if a value is not finite.
 [[nodiscard]] PictureErrors errors_against(const core::Image& limit, const core::Image& picture);
-// The errors of an image in which nothing is drawn.
+// Returns the errors of an image in which nothing is drawn.
 [[nodiscard]] PictureErrors errors_of_nothing(const core::Image& limit);
 
 }  // namespace triptych::accuracy

@@ -1,7 +1,6 @@
 #pragma once
-// Compares one pixel of a device's particle image with the expected result of the reference
-// renderer: for each sphere alone, and for the smallest set of spheres with which the pixel is
-// wrong.
+// Compares one pixel of a device's particle image with the result of the reference renderer: for
+// each sphere alone, and for the smallest set of spheres for which the pixel is wrong.
 
 #include <array>
 #include <cstddef>
@@ -13,15 +12,16 @@
 
 namespace triptych::accuracy {
 
-// The result of a device in a pixel. The id is core::Image::no_particle if no particle is visible.
+// What a device shows in a pixel. The id is core::Image::no_particle if no particle is visible.
 struct ShownSurface {
   std::uint32_t id = 0;
   double depth = 0;  // distance along the view axis
   std::array<double, 4> colour{};
 };
 
-// The result of the reference renderer, and the allowed difference of a device. If the pixel is not
-// certain, a device may show another id and depth, and the bound of the colour covers these.
+// What the reference renderer shows in a pixel, and how much a device may differ from it. If the
+// pixel is not certain, a device may show a different id and depth, and the bound of the colour
+// includes these cases.
 struct ExpectedSurface {
   std::uint32_t id = 0;
   double depth = 0;
@@ -35,9 +35,9 @@ enum class SurfaceDifference : std::uint8_t {
   none,
   missing,     // the device shows no particle
   unexpected,  // the device shows a particle where there is none
-  particle,    // the device shows another particle
-  depth,       // the device shows the correct particle at another depth
-  colour       // the device shows the correct particle and depth in another colour
+  particle,    // the device shows a different particle
+  depth,       // the device shows the correct particle at a wrong depth
+  colour       // the device shows the correct particle and depth in a wrong colour
 };
 [[nodiscard]] std::string_view name_of(SurfaceDifference difference);
 [[nodiscard]] SurfaceDifference compare(const ExpectedSurface& expected, const ShownSurface& shown);
@@ -54,8 +54,9 @@ struct SpriteHistory {
   std::vector<SpriteRow> rows;       // from front to back
   std::size_t left_out = 0;          // number of spheres behind these, which were not drawn
   std::optional<std::size_t> first;  // the first row that differs
-  // If the pixel is wrong but no row is wrong, these are the ids of the smallest set that was found
-  // with which the pixel is wrong. No part of the set can be left out, unless `stopped_early`.
+  // If the pixel is wrong but no row is wrong, these are the ids of the smallest set of spheres
+  // that was found for which the pixel is wrong. Unless `stopped_early`, the pixel is correct if
+  // any part of the set is left out.
   std::vector<std::uint32_t> fewest;
   SurfaceDifference fewest_differs = SurfaceDifference::none;
   bool stopped_early = false;
@@ -67,8 +68,8 @@ struct Fewest {
   Particles particles;
   bool stopped_early = false;
 };
-// Reduces `particles`, for which `wrong` returns true, by leaving out parts as long as it still
-// returns true. Calls `wrong` at most `most_calls` times. The algorithm is ddmin (Zeller and
+// Reduces `particles`, for which `wrong` returns true, by leaving out parts as long as `wrong`
+// still returns true. Calls `wrong` at most `most_calls` times. The algorithm is ddmin (Zeller and
 // Hildebrandt 2002).
 [[nodiscard]] Fewest fewest_of(Particles particles,
                                const std::function<bool(const Particles&)>& wrong, int most_calls);

@@ -20,21 +20,21 @@ constexpr std::size_t parameters = 2;
 constexpr double half = 0.5;  // breakdown point, and the mean of ρ that defines the scale
 constexpr int most_steps = 200;
 constexpr double step_tolerance = 1e-10;
-// The number of lines through two points that the S-estimate tries: all of them for up to 45
-// points, otherwise random ones. If half of the points are outliers, the probability that none of
-// 990 pairs is free of them is 0.75⁹⁹⁰.
+// The number of lines through two points that the S-estimate tries: for up to 45 points the lines
+// through all pairs, otherwise through random pairs. If half of the points are outliers, the
+// probability that every one of 990 pairs contains an outlier is 0.75⁹⁹⁰.
 constexpr std::size_t most_pairs = 990;
 
 void require_points(Points x, Points y) {
   const auto finite = [](double value) { return std::isfinite(value); };
   if (x.size() != y.size() || x.size() < 4) {
-    throw core::InputError("a line needs equally many x and y, and at least four points");
+    throw core::InputError("a line fit needs as many x as y values, and at least four points");
   }
   if (!std::ranges::all_of(x, finite) || !std::ranges::all_of(y, finite)) {
-    throw core::InputError("a line needs finite points");
+    throw core::InputError("a line fit needs finite values");
   }
   if (std::ranges::all_of(x, [&](double value) { return value == x.front(); })) {
-    throw core::InputError("a line needs points with different x");
+    throw core::InputError("a line fit needs points with different x");
   }
 }
 
@@ -81,22 +81,23 @@ double rho(double u) {
   return 1 - rest * rest * rest;
 }
 
-// The mean of ρ, which defines the scale: it is 1/2 if `scale` is the scale of the residuals.
+// Returns the mean of ρ, which defines the scale: it is 1/2 if `scale` is the scale of the
+// residuals.
 double mean_rho(Points residuals, double scale) {
   double sum = 0;
   for (const double residual : residuals) sum += rho(residual / (Bisquare::c_breakdown * scale));
   return sum / static_cast<double>(residuals.size() - parameters);
 }
 
-// Below this scale, the points are regarded as lying on the line except for rounding.
+// Returns the scale below which all differences between points and line are attributed to rounding.
 double least_scale(Points y) {
   double largest = 0;
   for (const double value : y) largest = std::max(largest, std::abs(value));
   return 1e-13 * std::max(largest, std::numeric_limits<double>::min());
 }
 
-// The fixed point of s² ← s²·mean ρ/½. The iteration approaches it from one side (Maronna et al.
-// 2019, section 9.4).
+// Returns the scale of the residuals, which is the fixed point of s² ← s²·mean ρ/½. The iteration
+// approaches it from one side (Maronna et al. 2019, section 9.4).
 double m_scale(Points residuals, double least) {
   std::vector<double> sizes(residuals.size());
   std::ranges::transform(residuals, sizes.begin(), [](double r) { return std::abs(r); });
@@ -130,7 +131,8 @@ struct Candidate {
   double scale = std::numeric_limits<double>::infinity();
 };
 
-// Iteratively reweighted least squares, which never increases the scale, until it converges.
+// Refines a line by iteratively reweighted least squares, which never increases the scale, until it
+// converges.
 Candidate refined(Points x, Points y, Line line, double least) {
   Candidate best{line, m_scale(residuals_of(x, y, line), least)};
   for (int step = 0; step < most_steps && best.scale > 0; ++step) {
@@ -145,8 +147,8 @@ Candidate refined(Points x, Points y, Line line, double least) {
   return best;
 }
 
-// Keeps the best line, and replaces it by a line through two points if that has a smaller scale. A
-// single sum decides this without computing the scale.
+// Stores the best line so far, and replaces it by a line through two points if that line has a
+// smaller scale. A single sum is enough to decide this; the scale need not be computed.
 class SmallestScale {
  public:
   SmallestScale(Points x, Points y) : x_(x), y_(y), least_(least_scale(y)) {}

@@ -1,6 +1,6 @@
 #pragma once
-// Straight lines through pairs of numbers: least squares, and the robust fit that the correlation
-// of two devices uses.
+// Straight lines through pairs of numbers: least squares, and the robust fit that is used to
+// correlate two devices.
 
 #include <cstddef>
 #include <span>
@@ -8,7 +8,8 @@
 
 namespace triptych::estimation {
 
-// Pearson's correlation coefficient; NaN for fewer than two pairs, or if x or y is constant.
+// Returns Pearson's correlation coefficient, or NaN if there are fewer than two pairs or if x or y
+// is constant.
 [[nodiscard]] double pearson_r(std::span<const double> x, std::span<const double> y);
 
 struct Line {
@@ -21,15 +22,16 @@ struct LeastSquares {
   Line line;
   double slope_error = 0;  // standard error
 };
-// Regression of y on x. All numbers are NaN if x is constant; the error is also NaN for fewer than
-// three pairs.
+// Regression of y on x. All numbers are NaN if x is constant. The error is also NaN if there are
+// fewer than three pairs.
 [[nodiscard]] LeastSquares least_squares(std::span<const double> x, std::span<const double> y);
 
-// The robust lines below throw InputError for fewer than four points, for values that are not
-// finite, and if all x are equal.
+// theil_sen() and robust_line() throw InputError if there are fewer than four points, if a value is
+// not finite, or if all x are equal.
 
-// The median of the slopes of all pairs of points with different x (Theil 1950, Sen 1968), and the
-// median of y − slope·x. It tolerates 29 % outliers.
+// Returns the line whose slope is the median of the slopes of all pairs of points with different x
+// (Theil 1950, Sen 1968), and whose intercept is the median of y − slope·x. It tolerates 29 %
+// outliers.
 [[nodiscard]] Line theil_sen(std::span<const double> x, std::span<const double> y);
 
 // Tukey's bisquare function: ρ(u) = 1 − (1 − u²)³ for |u| ≤ 1, otherwise 1, with
@@ -42,9 +44,9 @@ struct Bisquare {
   static constexpr double c_efficient = 4.685061;
 };
 
-// Yohai's MM-estimate (1987). An S-estimate finds the line with the smallest robust scale, whatever
-// half of the points are. An M-estimate with that scale starts from this line and regains the
-// efficiency.
+// Yohai's MM-estimate (1987). First, an S-estimate finds the line with the smallest robust scale,
+// even if almost half of the points are outliers. Then an M-estimate with this scale starts from
+// this line, and regains the efficiency of least squares.
 struct RobustLine {
   Line line;
   // ŝ, an estimate of the standard deviation of normal residuals. The sum of ρ is divided by n − 2,
@@ -55,8 +57,8 @@ struct RobustLine {
   double slope_intercept_covariance = 0;
   std::vector<double> residuals;
   std::vector<double> weights;  // weights of the last iteration, in [0, 1]; 0 for an outlier
-  // The leverage h of each point: the variance that the error of the fit adds to its residual, in
-  // units of ŝ². With the weights of the points it is 1/Σw + (x − x̄)²/Σw(x − x̄)².
+  // The leverage h of each point: the variance that the error of the fit adds to the point's
+  // residual, in units of ŝ². With the weights of the points it is 1/Σw + (x − x̄)²/Σw(x − x̄)².
   std::vector<double> leverages;
 };
 
@@ -64,13 +66,14 @@ struct RobustLine {
 // errors are 0.
 [[nodiscard]] RobustLine robust_line(std::span<const double> x, std::span<const double> y);
 
-// The weight of a residual in an M-estimate at c_efficient: (1 − u²)² for |u| ≤ 1, otherwise 0.
+// Returns the weight of a residual in an M-estimate at c_efficient: (1 − u²)² for |u| ≤ 1,
+// otherwise 0.
 [[nodiscard]] double bisquare_weight(double residual, double scale);
 
-// κ = [Σψ²/(n − p)] / [Σψ′/n]² in units of scale². The asymptotic variance of an M-estimate is
-// κ·scale²·(XᵀWX/mean w)⁻¹ (Koller & Stahel 2011). The design matrix contains the weights, so that
-// a distant outlier does not make the estimate look more certain. κ is 1/0.95 for normal residuals
-// and many points.
+// Returns κ = [Σψ²/(n − p)] / [Σψ′/n]² in units of scale². The asymptotic variance of an M-estimate
+// is κ·scale²·(XᵀWX/mean w)⁻¹ (Koller & Stahel 2011). The design matrix contains the weights, so
+// that a distant outlier does not make the estimate look more certain. κ is 1/0.95 for normal
+// residuals and many points.
 [[nodiscard]] double robust_variance(std::span<const double> residuals, double scale,
                                      std::size_t parameters);
 

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
-// Above this number of degrees, Student's t equals the normal distribution in double precision, and
-// Boost's series loses digits.
+// Above this number of degrees of freedom, Student's t distribution equals the normal distribution
+// in double precision, and Boost's series loses digits.
 constexpr double normal_degrees = 1e8;
 
 }  // namespace
@@ -87,7 +87,8 @@ std::vector<double> benjamini_hochberg_adjusted(std::span<const double> p_values
 }
 
 // Newton's method on 1/ψ', which is convex and nearly linear, so that it converges from one side
-// (Smyth 2004, appendix). Outside the range the asymptotes are exact in double precision.
+// (Smyth 2004, appendix). For very large and very small y, the asymptotes are exact in double
+// precision.
 double inverse_trigamma(double y) {
   if (y > 1e7) return 1 / std::sqrt(y);
   if (y < 1e-6) return 1 / y;

@@ -7,29 +7,30 @@
 
 namespace triptych::estimation {
 
-// These functions return NaN without a finite value (sample_variance: with fewer than two).
+// These functions return NaN for an empty span (sample_variance: for fewer than two values).
 [[nodiscard]] double mean(std::span<const double> values);
 [[nodiscard]] double median(std::span<const double> values);
-// The median of the absolute deviations from the median. Multiplied by 1.4826 it estimates a normal
-// standard deviation.
 [[nodiscard]] double sample_variance(std::span<const double> values);  // divides by n − 1
 
+// The median absolute deviation from the median, multiplied by this factor, estimates the standard
+// deviation of a normal distribution.
 inline constexpr double normal_mad = 1.482602218505602;  // 1/Φ⁻¹(3/4)
-// P(T > t) for Student's t distribution; `degrees` > 0, infinite for the normal distribution.
+// Returns P(T > t) for Student's t distribution with `degrees` > 0 degrees of freedom. Infinite
+// degrees of freedom give the normal distribution.
 [[nodiscard]] double student_t_upper_tail(double t, double degrees);
-// The t with P(T > t) = share, for share in (0, 1).
+// Returns the t with P(T > t) = share, for share in (0, 1).
 [[nodiscard]] double student_t_upper_quantile(double share, double degrees);
 
 // The procedure of Benjamini & Hochberg 1995: returns which hypotheses are rejected if the expected
 // share of false rejections among them must be at most q.
 [[nodiscard]] std::vector<bool> benjamini_hochberg(std::span<const double> p_values, double q);
 
-// For each p-value, the smallest q at which the same procedure rejects it.
+// Returns, for each p-value, the smallest q at which the same procedure rejects its hypothesis.
 [[nodiscard]] std::vector<double> benjamini_hochberg_adjusted(std::span<const double> p_values);
 
-// Estimates of the variances of many groups are improved by combining them. The prior is a scaled
-// inverse chi-square distribution with d₀ degrees of freedom around s₀². It is fitted to the
-// groups' variances by the moments of ln s² (Smyth 2004, "Linear models and empirical Bayes
+// Estimates of the variances of many groups become more accurate if they are combined. The prior is
+// a scaled inverse chi-square distribution with d₀ degrees of freedom around s₀². It is fitted to
+// the groups' variances by the moments of ln s² (Smyth 2004, "Linear models and empirical Bayes
 // methods", section 6.2).
 struct VariancePrior {
   double degrees = 0;   // d₀; infinite if the variances differ no more than by chance
@@ -39,10 +40,10 @@ struct VariancePrior {
 // there is nothing to combine.
 [[nodiscard]] VariancePrior fit_variance_prior(std::span<const double> variances,
                                                std::span<const double> degrees);
-// The moderated variance s̃² = (d₀s₀² + d·s²)/(d₀ + d).
+// Returns the moderated variance s̃² = (d₀s₀² + d·s²)/(d₀ + d).
 [[nodiscard]] double moderated_variance(const VariancePrior& prior, double variance,
                                         double degrees);
-// The x > 0 with ψ'(x) = y, for y > 0.
+// Returns the x > 0 with ψ'(x) = y, for y > 0.
 [[nodiscard]] double inverse_trigamma(double y);
 
 }  // namespace triptych::estimation

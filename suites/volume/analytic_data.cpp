@@ -35,8 +35,8 @@ std::optional<AnalyticData> analytic_data(std::string_view data) {
   const std::size_t colon = std::min(rest.find(':'), rest.size());
   const auto problem = reference::analytic_problem(rest.substr(0, colon));
   if (!problem) {
-    throw core::InputError(
-        fmt::format("'{}': expected analytic:PROBLEM:SIZE with one of{}", data, known_problems()));
+    throw core::InputError(fmt::format(
+        "'{}': expected analytic:PROBLEM:SIZE, where PROBLEM is one of{}", data, known_problems()));
   }
   const std::string_view text = rest.substr(std::min(colon + 1, rest.size()));
   int size = 0;
@@ -45,13 +45,14 @@ std::optional<AnalyticData> analytic_data(std::string_view data) {
   if (error != std::errc{} || end != text.data() + text.size() || size < 2 || size > 512 ||
       odd_layers) {
     throw core::InputError(fmt::format("'{}': expected a size from 2 to 512{}", data,
-                                       odd_layers ? ", even for layers" : ""));
+                                       odd_layers ? ", and an even size for v6_layers" : ""));
   }
   return AnalyticData{*problem, size};
 }
 
 scene::Volume analytic_volume(const AnalyticData& data) {
-  // The grid contains normalised values as floats, and so does a volume of floats from 0 to 1.
+  // The grid contains normalised values as floats, so it can be used as a volume of floats from 0
+  // to 1.
   const reference::AnalyticScene analytic = scene_of(data);
   scene::Volume volume;
   volume.name = fmt::format("{}{}:{}", prefix, reference::name_of(data.problem), data.size);

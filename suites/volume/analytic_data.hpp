@@ -1,6 +1,6 @@
 #pragma once
-// Data whose image is known by a formula: "analytic:PROBLEM:SIZE", a cube of SIZE³ voxels with its
-// own transfer function (reference/analytic_scenes.hpp).
+// Data whose exact image is known as a closed-form solution: "analytic:PROBLEM:SIZE", a cube of
+// SIZE³ voxels with its own transfer function (reference/analytic_scenes.hpp).
 
 #include <optional>
 #include <string_view>
@@ -21,14 +21,15 @@ struct AnalyticData {
 // cases have one; for all other data it means `surfaces`, whose rays end early.
 inline constexpr std::string_view own_transfer_function = "own";
 
-// nullopt for other data. Throws InputError for an unknown problem, for a size outside 2…512, and
-// for an odd size of the layers.
+// Returns nullopt if `data` does not name an analytic problem. Throws InputError if the problem is
+// unknown, if the size is outside 2…512, or if the size of v6_layers is odd.
 [[nodiscard]] std::optional<AnalyticData> analytic_data(std::string_view data);
 
 [[nodiscard]] scene::Volume analytic_volume(const AnalyticData& data);
 [[nodiscard]] scene::TransferFunction analytic_transfer_function(const AnalyticData& data);
 
-// The exact image of the problem from the scene's camera, in its viewport, over its background.
+// Returns the exact image of the problem, seen from the scene's camera, in its viewport and over
+// its background.
 [[nodiscard]] core::Image analytic_picture(const AnalyticData& data,
                                            const scene::VolumeScene& scene);
 

@@ -19,7 +19,8 @@ using measure::Factor;
 using measure::number;
 using measure::text;
 
-// A factor that was added after the first scenes were stored. Its default does not appear in names.
+// Marks a factor that was added after the first scenes had been stored. Its default level does not
+// appear in names.
 Factor silent(Factor factor) {
   factor.silent_default = true;
   return factor;
@@ -34,7 +35,7 @@ const std::vector<Factor>& volume_factors() {
            "a volume file (" + scene::volume_endings() +
                ", plain or compressed; FILE:NXxNYxNZ:TYPE for voxels without a header), "
                "generate:NAME:SIZE, generate:NAME:NXxNYxNZ, "
-           "analytic:PROBLEM:SIZE (a scene with a closed form), or stress:CASE:VARIANT"),
+               "analytic:PROBLEM:SIZE (a scene with an exact solution), or stress:CASE:VARIANT"),
       choice("voxel", {"auto", "u8", "u16", "f32", "f16"}, "auto", Decides::how_it_is_made,
              "how voxels are stored on the device; f16: half floats; auto: the device's fastest "
              "exact path"),
@@ -49,9 +50,9 @@ const std::vector<Factor>& volume_factors() {
                     "how values are mapped to the window; log: by their logarithm, with values "
                     "below the smallest positive one mapped to 0")),
       silent(text("component", "0",
-                  "which value is drawn if the data have several for each voxel, such as colours, "
-                  "vectors or time steps: a number counted from 0, or magnitude, the Euclidean length "
-                  "of all of them")),
+                  "which value is drawn if the data have several values per voxel, such as "
+                  "colours, vectors or time steps: a number counted from 0, or magnitude, the "
+                  "Euclidean length of all of them")),
       text("transfer_function", "haze",
            "haze, surfaces, a file with 256 RGBA entries, or own: that of the analytic problem or "
            "stress case (surfaces for all other data)"),
@@ -75,8 +76,8 @@ const std::vector<Factor>& volume_factors() {
              "default is half an 8-bit step",
              {std::string(own_level)}),
       number("adapt", 0, 0.5, "0", Decides::how_it_is_made,
-             "error that is allowed for merging the samples of a nearly homogeneous brick into "
-             "one; needs skip=bricks"),
+             "allowed error due to merging the samples of a nearly homogeneous brick into one "
+             "sample; needs skip=bricks"),
       choice("precision", {"fp32", "fp64"}, "fp32", Decides::how_it_is_made,
              "precision of rays, interpolation and compositing; fp64 needs sampler=manual or "
              "packed, and auto then selects one of them"),
@@ -84,8 +85,9 @@ const std::vector<Factor>& volume_factors() {
              "MiB of device memory for voxels: a larger volume is drawn in parts, front to back, "
              "which are uploaded in every frame; none: as much as the device's limits allow",
              {std::string(no_budget)}),
-      text("camera", "orbit_y:1/8", "PATH:i/n (orbit_y:1/8, path_z:3/36, …), random:SEED, view:AZIMUTH/ELEVATION/DISTANCE "
-           "(degrees, and radii of the orbits: view:45/20/0.8), or own"),
+      text("camera", "orbit_y:1/8",
+           "PATH:i/n (orbit_y:1/8, path_z:3/36, …), random:SEED, view:AZIMUTH/ELEVATION/DISTANCE "
+           "(degrees, and orbit radii: view:45/20/0.8), or own"),
       text("viewport", "256", "N for NxN, or WxH, in pixels, or own"),
   };
   return factors;

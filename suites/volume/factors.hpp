@@ -6,11 +6,12 @@
 
 namespace triptych::volume_suite {
 
-// The factors of the suite with their levels and defaults.
+// The suite's factors, with their levels and defaults.
 [[nodiscard]] const std::vector<measure::Factor>& volume_factors();
 
-// Checks the values of factors whose kind does not define what is valid: camera, data, transfer
-// function, viewport. Throws InputError with what was expected.
+// Checks a level of a factor whose kind does not define which levels are valid, such as camera,
+// data, transfer function or viewport. Throws InputError, with the expected syntax, if the level is
+// invalid.
 void check_value(const measure::Factor& factor, std::string_view value,
                  const std::vector<std::filesystem::path>& folders);
 

@@ -12,7 +12,7 @@ using measure::Configuration;
 
 namespace {
 
-// The level of `component`. Configurations that are older than this factor have its default.
+// Returns the level of `component`, or its default if the configuration is older than this factor.
 std::string component_of(const Configuration& configuration) {
   const auto found = configuration.find("component");
   return found == configuration.end() ? "0" : found->second;

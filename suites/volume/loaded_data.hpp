@@ -32,17 +32,18 @@ using ChooseFormat =
     std::function<scene::VoxelFormat(scene::VoxelFormat native, const std::array<int, 3>& size)>;
 using OnNote = std::function<void(const std::string&)>;
 
-// Keeps the last data set, because neighbouring configurations of a plan share it.
+// Loads data, and caches the most recent data set, because successive configurations of a plan
+// usually share it.
 class DataLoader {
  public:
   // `folders` must outlive this object.
   explicit DataLoader(const std::vector<std::filesystem::path>& folders) : folders_(folders) {}
 
-  // Loads the volume. For a stress case also its scene, from which the volume is taken.
+  // Loads the volume. For a stress case, `stress` receives the rest of its scene.
   [[nodiscard]] scene::Volume read(const measure::Configuration& configuration,
                                    std::optional<StressScene>& stress) const;
-  // `on_note` is called for everything that a reader guessed or left out. The result is valid until
-  // the next call.
+  // Loads and encodes the volume. Calls `on_note` for everything that a reader guessed or left out.
+  // The result is valid until the next call.
   const LoadedData& load(const measure::Configuration& configuration, const ChooseFormat& choose,
                          const OnNote& on_note);
 

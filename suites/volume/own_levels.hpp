@@ -1,7 +1,7 @@
 #pragma once
-// Resolves the level `own` of a configuration's factors. For a stress case it means the case's own
-// value, for the transfer function of an analytic problem the problem's own one, and for all other
-// data the factor's default.
+// Resolves the level `own` of a configuration's factors. For a stress case, it selects the value
+// that the case defines. For the transfer function of an analytic problem, it selects the function
+// that the problem defines. For all other data, it selects the factor's default.
 
 #include <array>
 #include <filesystem>
@@ -32,11 +32,11 @@ class OwnLevels {
   [[nodiscard]] std::array<float, 4> background() const;
 
  private:
-  // Whether the stress case decides the value of the factor.
+  // Whether the stress case defines the value of the factor.
   [[nodiscard]] bool is_stress(const std::string& factor) const {
     return stress_ != nullptr && configuration_.at(factor) == own_level;
   }
-  // The factor's value; its default if the value is `own`.
+  // Returns the factor's level, or its default if the level is `own`.
   [[nodiscard]] const std::string& value(const std::string& factor) const;
 
   const measure::Configuration& configuration_;

@@ -5,8 +5,8 @@
 
 namespace triptych::volume_suite {
 
-// The samples that a device should take for pixel (x, y). Throws core::NotSupported for quadrature
-// cells.
+// Returns the samples that a device should take for pixel (x, y). Throws core::NotSupported for
+// quadrature cells.
 [[nodiscard]] accuracy::ExpectedRay pixel_history(const scene::VolumeScene& scene,
                                                   const reference::ErrorModel& model, int x, int y);
 

@@ -20,10 +20,10 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
   if (technique.picture) {
     plain.ends_below = work.options.ert;
   } else if (work.options.ert > 0) {
-    plain.why["ert"] = technique.id + " ends no ray early";
+    plain.why["ert"] = technique.id + " never ends rays early";
   }
   const bool cells = work.scene.quadrature == scene::Quadrature::cells;
-  // With quadrature cells, a ray still visits and counts such a brick.
+  // With quadrature cells, a ray visits and counts bricks even if none of them is empty.
   if (!cells && work.options.skip == technique::Skip::distance &&
       no_brick_is_empty(work.scene, work.options.skip)) {
     plain.levels["skip"] = technique::name_of(technique::Skip::none);
@@ -31,7 +31,7 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
   }
   if (cells && work.scene.step_voxels > 1) {
     plain.levels["step"] = "1";
-    plain.why["step"] = "a step longer than a cell cuts none of it";
+    plain.why["step"] = "a step that is longer than a cell does not cut any cell";
   }
   return plain;
 }

@@ -4,8 +4,9 @@
 
 namespace triptych::volume_suite {
 
-// Integers stored as floats are rounded when they are normalised to 0…1. That error is smaller than
-// the error of single precision in general. error_model derives the error of half floats.
+// If integers are stored as floats, they are rounded when they are normalised to 0…1. This error is
+// smaller than the error of single precision in general. error_model derives the error of half
+// floats.
 StorageError storage_error(const std::string& voxel, scene::VoxelFormat native, bool fits_halves,
                            technique::Precision precision) {
   if (voxel == "auto") return {};

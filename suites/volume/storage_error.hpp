@@ -13,8 +13,8 @@ struct StorageError {
   double rounding = 0;  // see PathPrecision::voxel_rounding
 };
 
-// `voxel` is the factor's level. `native` is the format that stores the data's values exactly.
-// `fits_halves` is true if half floats do (scene::fits_halves).
+// `voxel` is the level of the factor. `native` is the format that stores the data's values exactly.
+// `fits_halves` is true if half floats also store them exactly (scene::fits_halves).
 [[nodiscard]] StorageError storage_error(const std::string& voxel, scene::VoxelFormat native,
                                          bool fits_halves, technique::Precision precision);
 

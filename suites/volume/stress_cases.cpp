@@ -13,50 +13,50 @@ std::vector<StressCase> cases_of_geometry() {
       {1,
        "inside",
        "the eye is inside the volume, once exactly at the centre of a voxel",
-       "rays begin at the eye, because their entry into the box lies behind it and is replaced by "
-       "0",
+       "rays begin at the eye, because the point where they would enter the box is behind the eye, "
+       "and its distance is replaced by 0",
        {"middle", "voxel"},
        stress_inside},
       {2,
        "boundary",
        "the eye is on a face, on an edge, on a corner, or on a face looking away",
-       "rays that go inward enter at 0; looking away, no ray has a length, and the image is "
-       "background",
+       "rays that go inward enter at distance 0; if the camera looks away, all rays have length 0 "
+       "inside the box, and the image is the background",
        {"face", "edge", "corner", "away"},
        stress_boundary},
       {3,
        "parallel",
        "ray directions have a component of ±0, and the rays begin on a plane of the box",
-       "no 0·∞ occurs: such a ray is inside the box for its whole length or not at all; rounding "
-       "decides which, and the bound covers both",
+       "the product 0·∞ never occurs, because such a ray is inside the box for its whole length or "
+       "not at all; rounding decides which, and the bound covers both",
        {"lower", "upper", "negative_zero"},
        stress_parallel},
       {4,
        "within_face",
        "rays lie in a face, and one ray lies in an edge",
-       "the image is finite, and such a ray may have any length between none and all of it",
+       "the image is finite, and such a ray may be inside the box for any part of its length",
        {"face", "edge"},
        stress_within_face},
       {5,
        "chord",
        "rays cut off an edge or a corner, so that their chords tend to 0",
-       "opacity falls to 0 with the chord: 1 − (1 − α)^s is computed without cancellation, and a "
-       "ray without length takes no sample",
+       "opacity tends to 0 with the chord, because 1 − (1 − α)^s is computed without cancellation; "
+       "a ray of length 0 takes no sample",
        {"edge", "corner"},
        stress_chord},
       {6,
        "octant",
        "volume and camera are mirrored into all eight octants",
-       "the images are mirror images of the first one within both bounds; the bits may differ, "
-       "because N − x and x are rounded differently",
+       "each image is a mirror image of the first one within the sum of both bounds, but not "
+       "bit-identical, because N − x and x are rounded differently",
        {"ppp", "mpp", "pmp", "mmp", "ppm", "mpm", "pmm", "mmm"},
        stress_octant},
       {7,
        "far",
        "the eye is 10³ … 10⁷ voxels away, with a focal length to match; because volumes begin at 0 "
        "by definition, a world offset would also only move the eye",
-       "the image is the one seen from nearby: rays begin on a plane in front of the box, whose "
-       "position is computed in double precision, so that the long way there causes no rounding",
+       "the image is the same as from nearby, because rays begin on a plane in front of the box "
+       "whose position is computed in double precision, so that the distance causes no round-off",
        {"1e3", "1e4", "1e5", "1e6", "1e7"},
        stress_far},
   };
@@ -67,15 +67,15 @@ std::vector<StressCase> cases_of_size() {
       {8,
        "scale",
        "world units are scaled by 2^±20, and extinction by the inverse",
-       "the image has the same bits as with scale 1, because multiplying by a power of two rounds "
-       "nothing and no threshold is in world units",
+       "the image is bit-identical to the image with scale 1, because multiplying by a power of "
+       "two causes no rounding, and no threshold is in world units",
        {"one", "up", "down"},
        stress_scale},
       {9,
        "spacing",
        "voxels have side ratios of 1:1:8 and 1:1:1000",
-       "the image is within a bound that measures lengths in the smallest spacing, because the "
-       "rounding of a direction moves a sample in that unit",
+       "the image is within a bound that measures lengths in units of the smallest spacing, "
+       "because the rounding error of a direction moves a sample by a length in this unit",
        {"8", "1000"},
        stress_spacing},
       {10,
@@ -93,14 +93,15 @@ std::vector<StressCase> cases_of_size() {
        stress_tiny},
       {12,
        "prime",
-       "13×31×17 voxels: no size is a multiple of a brick, a work-group or an alignment",
-       "rows are read at their true positions, and the last bricks contain the remainder",
+       "13×31×17 voxels: no size is a multiple of a brick size, a work-group size or an alignment",
+       "rows are read from the correct addresses, and the last bricks contain the remaining voxels",
        {},
        stress_prime},
       {13,
        "oversize",
        "20000 voxels along x, more than any texture may have",
-       "samplers that read voxels from a buffer draw it; all others refuse it with both numbers",
+       "samplers that read voxels from a buffer draw the volume; all other samplers reject it and "
+       "report both sizes",
        {},
        stress_oversize},
       {14,
@@ -117,36 +118,38 @@ std::vector<StressCase> cases_of_voxels() {
       {15,
        "format",
        "the same field is stored in 8, 16 and 32 bits",
-       "the images agree within both bounds, because 255 and 65535 are mapped to 1 exactly",
+       "the images agree within the sum of both bounds, because 255 and 65535 are both mapped to "
+       "exactly 1",
        {"f32", "u8", "u16"},
        stress_format},
       {16,
        "nan",
        "some voxels are NaN: one, a block, every second one, or one in a shaded scene",
-       "the image has the same bits as with 0 in their place, where the transfer function is "
-       "transparent: NaN is replaced when voxels are prepared and never reaches a device",
+       "the image is bit-identical to the image with 0 instead of NaN (where the transfer function "
+       "is transparent), because NaN is replaced when voxels are prepared and never reaches a "
+       "device",
        {"zero_one", "nan_one", "zero_block", "nan_block", "zero_mesh", "nan_mesh", "zero_shaded",
         "nan_shaded"},
        stress_nan},
       {17,
        "infinite",
        "some voxels are ±∞",
-       "the image has the same bits as with the ends of the range in their place",
+       "the image is bit-identical to the image with the ends of the range instead of ±∞",
        {"upper", "plus", "lower", "minus"},
        stress_infinite},
       {18,
        "denormal",
        "voxels, opacities, colours or transmittances are denormal",
-       "denormal data become 0 before they reach a device; those that a ray computes may be kept "
-       "or become 0, which changes nothing by more than 2⁻¹²⁶; the frame takes at most 1.2 times "
-       "as long (tests/contract/stress_test.cpp)",
+       "denormal data become 0 before they reach a device; denormals that a ray computes may be "
+       "kept or become 0, which changes no channel by more than 2⁻¹²⁶; the frame takes at most 1.2 "
+       "times as long (tests/contract/stress_test.cpp)",
        {"voxels", "opacity", "colour", "transmittance"},
        stress_denormal},
       {19,
        "flat",
        "the range of floats or of bytes is empty; the field is constant, also with shading",
-       "an empty range maps everything to 0; where the gradient is 0 its cosine is 0, too, because "
-       "the divisor has a lower limit",
+       "an empty range maps everything to 0; where the gradient is 0, the cosine is 0 as well, "
+       "because the divisor has a lower limit",
        {"range_f32", "range_u8", "plain", "shaded"},
        stress_flat},
   };
@@ -188,15 +191,15 @@ std::vector<StressCase> cases_of_transfer() {
       {25,
        "spike",
        "only one entry of 256 is visible, and a step can miss it",
-       "device and reference hit and miss it with the same samples; where rounding decides, the "
+       "device and reference hit or miss it with the same samples; where rounding decides, the "
        "bound covers both results; with pre-integration no step misses it",
        {"low", "middle", "preintegrated"},
        stress_spike},
       {26,
        "end_spike",
        "only the first or the last entry is visible",
-       "values up to half an entry beyond its centre have its colour, and skipping must not regard "
-       "the end of the range as empty",
+       "values up to half an entry beyond the centre of this entry have its colour, and skipping "
+       "must not treat the end of the range as empty",
        {"first", "last"},
        stress_end_spike},
       {27,
@@ -208,8 +211,7 @@ std::vector<StressCase> cases_of_transfer() {
       {28,
        "edit",
        "transfer functions are random, with runs of visible entries "
-       "(tests/contract/stress_test.cpp "
-       "tests 100 of them)",
+       "(tests/contract/stress_test.cpp tests 100 of them)",
        "skipping changes no bit, whatever the transfer function is",
        {"1", "2", "3", "4", "5", "6", "7", "8"},
        stress_edit},
@@ -217,8 +219,7 @@ std::vector<StressCase> cases_of_transfer() {
        "transparent",
        "the transfer function has no opacity at all",
        "the image is exactly the background; skipping by leaps takes no sample, and walking "
-       "through "
-       "bricks takes at most one per ray",
+       "through bricks takes at most one sample per ray",
        {},
        stress_transparent},
       {30,
@@ -248,14 +249,14 @@ std::vector<StressCase> cases_of_frame() {
       {51,
        "shape",
        "the image has 1×1, 1×13, 17×1 or 17×13 pixels",
-       "the smaller images are parts of the largest one within both bounds: incomplete work-groups "
-       "draw their pixels and no others",
+       "the smaller images equal parts of the largest one within the sum of both bounds, because "
+       "incomplete work groups draw only their own pixels",
        {"17x13", "1x1", "1x13", "17x1"},
        stress_shape},
       {52,
        "widest",
        "the image is 16384 pixels wide, or one pixel wider",
-       "both are drawn; a device may refuse the wider one with both numbers",
+       "both images are drawn, but a device may reject the wider one if it reports both sizes",
        {"16384", "16385"},
        stress_widest},
       {53,
@@ -274,10 +275,10 @@ std::vector<StressCase> cases_of_frame() {
        stress_asymmetric},
       {56,
        "halves",
-       "integers reach 65504, the largest half float, or 65535, beyond it; or floats would become "
+       "integers reach 65504 (the largest half float) or 65535 (beyond it), or floats would become "
        "subnormal half floats",
-       "as f16, integers up to 65504 are exact and all other values are scaled to their range; no "
-       "half float is subnormal or infinite",
+       "in format f16, integers up to 65504 are exact, and all other values are scaled to the "
+       "range of half floats, so that none becomes subnormal or infinite",
        {"largest", "beyond", "subnormal"},
        stress_halves},
   };

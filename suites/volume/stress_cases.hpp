@@ -1,11 +1,12 @@
 #pragma once
-// Volumes that break renderers, each with the expected result: data "stress:CASE" or
-// "stress:CASE:VARIANT". They bring their own transfer function, camera, viewport, step,
-// quadrature, shading and early termination, which the factors use with the level `own`.
+// Volumes on which renderers often fail, each with the expected result. A plan selects them with
+// data "stress:CASE" or "stress:CASE:VARIANT". Each case has its own transfer function, camera,
+// viewport, step, quadrature, shading and early termination, which the factors with the level `own`
+// use.
 //
 // Every image must be within its bound of the reference image (tolerance.hpp), and skipping empty
-// space must not change a bit of it. Each case states why single precision can achieve that, and
-// what else is expected.
+// space must not change any bit of it. Each case states why single precision is sufficient for
+// this, and what else is expected.
 
 #include <array>
 #include <optional>
@@ -22,7 +23,7 @@
 
 namespace triptych::volume_suite {
 
-// The level that selects the value that belongs to the data.
+// With this level, a factor uses the value that the stress case defines.
 using measure::own_level;
 
 // A case's volume, and the values of the level `own`.
@@ -38,9 +39,8 @@ struct StressScene {
   scene::Quadrature quadrature = scene::Quadrature::midpoint;
   std::array<float, 4> background{0.25F, 0.125F, 0.0625F, 1};
   std::vector<record::Expectation> expectations = {};
-  std::vector<record::Expectation> when_skipping = {};  // applies only if empty space is skipped
-  std::vector<record::Expectation> when_leaping =
-      {};  // applies only if it is skipped by leaps (skip: distance)
+  std::vector<record::Expectation> when_skipping = {};  // only if empty space is skipped
+  std::vector<record::Expectation> when_leaping = {};   // only if it is skipped by skip=distance
 };
 
 struct StressCase {
@@ -58,10 +58,11 @@ using StressData = measure::StressChoice<StressCase>;
 // The name of the data in a plan.
 [[nodiscard]] std::string name_of(const StressData& data);
 
-// nullopt for other data. Throws InputError for an unknown case or variant.
+// Returns nullopt if `data` does not name a stress case. Throws InputError if the case or variant
+// is unknown.
 [[nodiscard]] std::optional<StressData> stress_data(std::string_view data);
 
-// The scene of the data; its volume has the name of the data.
+// Returns the scene of the stress case. Its volume has the same name as the data.
 [[nodiscard]] StressScene stress_scene(const StressData& data);
 
 }  // namespace triptych::volume_suite

@@ -1,4 +1,4 @@
-// Cases 51 to 54 and 56: properties of the frame.
+// Cases 51 to 54: properties of the frame.
 
 #include <cmath>
 #include <numbers>
@@ -10,8 +10,8 @@
 namespace triptych::volume_suite {
 namespace {
 
-// The field of view for an image with `height` rows whose pixels are as large as those of an image
-// with `rows` rows at 50°.
+// Returns the field of view for an image with `height` rows whose pixels are as large as those of
+// an image with `rows` rows at 50°.
 double fov_of_rows(int height, int rows) {
   const double half = std::tan(50 * std::numbers::pi / 360);
   return std::atan(half * height / rows) * 360 / std::numbers::pi;
@@ -19,7 +19,7 @@ double fov_of_rows(int height, int rows) {
 
 }  // namespace
 
-// Images with fewer pixels around the same centre are parts of the largest one.
+// Images with fewer pixels around the same centre are parts of the largest image.
 StressScene stress_shape(std::string_view variant) {
   constexpr int columns = 17;
   constexpr int rows = 13;
@@ -29,7 +29,7 @@ StressScene stress_shape(std::string_view variant) {
   scene.camera.fov_y_deg = fov_of_rows(scene.height, rows);
   if (variant != "17x13") {
     scene.expectations = {
-        {"the matching part of the image with 17x13 pixels, within both bounds",
+        {"the matching part of the image with 17x13 pixels, within the sum of both bounds",
          record::SamePicture{.changed = {{"data", "stress:shape:17x13"}},
                              .at = {(columns - scene.width) / 2, (rows - scene.height) / 2},
                              .to_the_bit = false}}};
@@ -37,7 +37,7 @@ StressScene stress_shape(std::string_view variant) {
   return scene;
 }
 
-// The first variant is as wide as the widest row that today's devices can draw, and the second is
+// The first variant is as wide as the widest image that today's devices can draw, and the second is
 // one pixel wider.
 StressScene stress_widest(std::string_view variant) {
   StressScene scene = lopsided_scene();
@@ -46,7 +46,7 @@ StressScene stress_widest(std::string_view variant) {
   scene.camera.fov_y_deg = fov_of_rows(1, scene.width);
   if (variant != "16384") {
     scene.expectations = {
-        {"an image, or a refusal with the limit that is exceeded", record::MayBeRefused{}}};
+        {"an image, or an error that names the exceeded limit", record::MayBeRefused{}}};
   }
   return scene;
 }
@@ -54,8 +54,8 @@ StressScene stress_widest(std::string_view variant) {
 StressScene stress_field_of_view(std::string_view variant) {
   StressScene scene = lopsided_scene();
   if (variant == "widest") {
-    // The camera is just in front of a face, so that all rays except the middle ones run nearly
-    // along it.
+    // The camera is just in front of a face, so that all rays except for the middle ones run almost
+    // parallel to this face.
     scene.camera = looking({12, 11, 24.5}, {11.5, 11, 0}, 179);
     scene.function.entries[0][3] = 0.1F;
     return scene;

@@ -1,4 +1,4 @@
-// Cases 1 to 7 and 14: position of the eye, directions of rays.
+// Cases 1 to 7 and 14: positions of the eye and directions of rays.
 
 #include <charconv>
 #include <cmath>
@@ -20,13 +20,14 @@ StressScene seen_from(const scene::Camera& camera) {
   return scene;
 }
 
-// The numbers of columns and rows are odd, so that the middle ones look exactly forward.
+// The numbers of columns and rows are odd, so that the ray in the middle looks exactly forward.
 StressScene with_middle_ray(StressScene scene) {
   scene.width = scene.height = 25;
   return scene;
 }
 
-// 2·atan(half/distance) in degrees: the image shows `half` to either side at that distance.
+// Returns 2·atan(half/distance) in degrees, so that the image shows `half` to either side at that
+// distance.
 double fov_of(double half, double distance) {
   return 2 * std::atan2(half, distance) * 180 / std::numbers::pi;
 }
@@ -43,10 +44,10 @@ StressScene stress_boundary(std::string_view variant) {
   if (variant == "face") return seen_from(looking({0, 9.25, 13.5}, {12, 12, 12}, 90));
   if (variant == "edge") return seen_from(looking({edge, edge, 10.25}, {12, 12, 12}, 90));
   if (variant == "corner") return seen_from(looking({0, edge, edge}, {12, 12, 12}, 90));
-  // The eye is on a face and looks outward, at an angle at which no ray enters the volume.
+  // The eye is on a face and looks outward, in such a direction that no ray enters the volume.
   StressScene scene = seen_from(looking({edge, 9.25, 13.5}, {40, 12, 12}, 60));
-  scene.expectations = {
-      {"exactly the background, as no ray enters the box", record::OneColour{scene.background}}};
+  scene.expectations = {{"exactly the background, because no ray enters the box",
+                         record::OneColour{scene.background}}};
   return scene;
 }
 
@@ -77,14 +78,14 @@ StressScene stress_chord(std::string_view variant) {
   scene.step_voxels = 0.25;
   const bool at_edge = variant == "edge";
   const glm::dvec3 target = at_edge ? glm::dvec3(0, 0, 11.25) : glm::dvec3(0, 0, 0);
-  // The camera looks across the outside of the edge, where rays graze the box.
+  // The camera looks past the edge or corner from outside, where rays graze the box.
   const glm::dvec3 from = at_edge ? glm::dvec3(40, -40, 3) : glm::dvec3(30, -33, 4);
   scene.camera = looking(target + from, target, fov_of(0.02, glm::length(from)));
   return scene;
 }
 
 // Field and camera are mirrored along the axes marked `m`. An odd number of mirrors exchanges left
-// and right of the camera, because its axes are right-handed; an even number does not.
+// and right in the image, because the camera's axes are right-handed; an even number does not.
 StressScene stress_octant(std::string_view variant) {
   const glm::dvec3 sign(variant[0] == 'm' ? -1 : 1, variant[1] == 'm' ? -1 : 1,
                         variant[2] == 'm' ? -1 : 1);
@@ -97,7 +98,7 @@ StressScene stress_octant(std::string_view variant) {
   scene.camera = along(glm::dvec3(edge / 2.0) + sign * plain.eye, sign * plain.forward,
                        sign * plain.up, plain.fov_y_deg);
   if (variant != "ppp") {
-    scene.expectations = {{"the mirror image of the first octant, within both bounds",
+    scene.expectations = {{"the mirror image of the first octant, within the sum of both bounds",
                            record::SamePicture{.changed = {{"data", "stress:octant:ppp"}},
                                                .mirrored_x = sign.x * sign.y * sign.z < 0,
                                                .to_the_bit = false}}};
@@ -105,7 +106,7 @@ StressScene stress_octant(std::string_view variant) {
   return scene;
 }
 
-// The image is the one seen from nearby, because the focal length grows with the distance.
+// The image looks the same from every distance, because the focal length grows with the distance.
 StressScene stress_far(std::string_view variant) {
   double distance = 0;
   std::from_chars(variant.data(), variant.data() + variant.size(), distance);

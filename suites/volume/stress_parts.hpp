@@ -1,5 +1,5 @@
 #pragma once
-// Building blocks of the stress scenes. They use only arithmetic on doubles that is exactly
+// Building blocks of the stress scenes. They use only operations on doubles that are correctly
 // rounded, so that a case is the same on every machine.
 
 #include <array>
@@ -14,33 +14,35 @@ namespace triptych::volume_suite {
 using Size = std::array<int, 3>;
 using Voxel = std::function<double(int i, int j, int k)>;
 
-// A volume of 32-bit floats with the range 0…1.
+// Returns a volume of 32-bit floats with the range 0…1.
 [[nodiscard]] scene::Volume volume_of(const Size& size, const Voxel& voxel);
 
-// Two blobs of different size and height, without any symmetry. Values are 0…0.95, and about half
-// of the volume is exactly 0.
+// A field with two blobs of different size and height, without any symmetry. Its values are 0…0.95,
+// and about half of the volume is exactly 0.
 [[nodiscard]] double lopsided(const Size& size, int i, int j, int k);
 [[nodiscard]] scene::Volume lopsided_volume(const Size& size);
 
-// A transfer function whose entries all have this colour and opacity.
+// Returns a transfer function whose entries all have this colour and opacity.
 [[nodiscard]] scene::TransferFunction uniform(const std::array<float, 4>& rgba);
-// A transfer function that is transparent from 0 to the entry `first`; then opacity grows to `most`
-// at the last entry. The colour changes from blue to orange.
+// Returns a transfer function that is transparent from entry 0 to `first`; after that, the opacity
+// grows to `most` at the last entry. The colour changes from blue to orange.
 [[nodiscard]] scene::TransferFunction ramp(int first, double most);
 
 using scene::looking;
-// A camera along an axis. It is exact, because forward and up have only the components 0 and ±1.
+// Returns a camera that looks along an axis. It is exact, because all components of forward and up
+// are 0 or ±1.
 [[nodiscard]] scene::Camera along(const glm::dvec3& eye, const glm::dvec3& forward,
                                   const glm::dvec3& up, double fov_y_deg);
-// A camera outside, oblique to all axes, with the whole box in view.
+// Returns a camera outside the volume, oblique to all axes, which sees the whole box.
 [[nodiscard]] scene::Camera from_outside(const scene::Volume& volume);
 
-// The volume with ramp(20, 0.4), seen from outside.
+// Returns a scene with this volume and ramp(20, 0.4), seen from outside.
 [[nodiscard]] StressScene seen_from_outside(scene::Volume volume);
-// The lopsided volume of 24³ voxels, seen in the same way.
+// Returns such a scene with the lopsided volume of 24³ voxels.
 [[nodiscard]] StressScene lopsided_scene();
 
-// Expects the same image as that of another variant. `data` is its name in a plan.
+// The image of another variant is expected, whose name in a plan is `data`: either a bit-identical
+// image, or an image that is equal within the sum of both bounds.
 [[nodiscard]] record::Expectation same_bits_as(const std::string& data, std::string what);
 [[nodiscard]] record::Expectation same_within_bounds_as(const std::string& data, std::string what);
 

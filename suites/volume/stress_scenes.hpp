@@ -1,6 +1,6 @@
 #pragma once
-// Functions that make the scenes of stress_cases.hpp. Each makes every variant of its case;
-// `variant` must be one that the catalogue lists. Only the catalogue uses them.
+// Functions that create the scenes of stress_cases.hpp. Each function creates all variants of its
+// case; `variant` must be listed in the catalogue. Only the catalogue calls these functions.
 
 #include <string_view>
 
@@ -8,7 +8,7 @@
 
 namespace triptych::volume_suite {
 
-// Position of the eye, directions of rays.
+// Positions of the eye and directions of rays.
 [[nodiscard]] StressScene stress_inside(std::string_view variant);
 [[nodiscard]] StressScene stress_boundary(std::string_view variant);
 [[nodiscard]] StressScene stress_parallel(std::string_view variant);

@@ -9,7 +9,8 @@
 
 namespace triptych::volume_suite {
 
-// Opacity is defined per voxel length, so extinction is automatically the inverse of the scale.
+// Opacity is defined per voxel length, so the extinction per world unit is automatically scaled by
+// the inverse.
 StressScene stress_scale(std::string_view variant) {
   StressScene scene = lopsided_scene();
   if (variant == "one") return scene;
@@ -17,7 +18,8 @@ StressScene stress_scale(std::string_view variant) {
   scene.volume.spacing = {scale, scale, scale};
   scene.camera.eye *= scale;
   scene.expectations = {same_bits_as(
-      "stress:scale:one", "the same bits as with scale 1, because a power of two rounds nothing")};
+      "stress:scale:one",
+      "the same bits as with scale 1, because multiplying by a power of two causes no rounding")};
   return scene;
 }
 
@@ -58,7 +60,7 @@ StressScene stress_oversize(std::string_view /*variant*/) {
   StressScene scene = seen_from_outside(lopsided_volume({20000, 1, 1}));
   scene.camera = looking({12000, 7, 11}, {11990, 0.5, 0.5}, 60);
   scene.expectations = {
-      {"an image, or a refusal with the limit that is exceeded", record::MayBeRefused{}}};
+      {"an image, or an error that names the exceeded limit", record::MayBeRefused{}}};
   return scene;
 }
 

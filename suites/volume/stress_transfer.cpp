@@ -27,17 +27,18 @@ StressScene from_within(const scene::TransferFunction& function) {
   return scene;
 }
 
-// The bound on an image grows with the number of samples, because each may be rounded. With 10⁵ or
-// 10⁶ samples it would allow an image in which a third of them are missing. The expected number is
-// known, because every ray is at least as long as the way straight through. One sample at either
-// end may differ by rounding.
+// The bound on an image grows with the number of samples, because each sample may be rounded. With
+// 10⁵ or 10⁶ samples, the bound would accept an image in which a third of the samples are missing.
+// The number of samples is therefore checked as well. It has a lower limit, because every ray is at
+// least as long as the straight way through the volume. At either end of a ray, one sample may
+// differ because of rounding.
 record::Expectation every_sample(double least_length, double step_voxels) {
   const double least = std::floor(least_length / step_voxels) - 2;
   return {fmt::format("at least {} samples for every ray that meets the volume", least),
           record::CountAtMost{.counter = "rays_hit", .factor = 1 / least, .of = "samples"}};
 }
 
-// A cube of 4³ voxels, seen from one of its ends towards the other, with few rays and many samples.
+// A cube of 4³ voxels, seen along its length from one end, with few rays and many samples.
 StressScene marched(double step_voxels, int pixels) {
   StressScene scene = lopsided_scene();
   scene.volume = volume_of(
@@ -51,16 +52,16 @@ StressScene marched(double step_voxels, int pixels) {
 
 }  // namespace
 
-// The eye is inside the volume. The first sample of every ray hides everything behind it, whatever
-// its length.
+// The eye is inside the volume. The first sample of every ray hides everything behind it, however
+// short it is.
 StressScene stress_solid(std::string_view /*variant*/) {
   StressScene scene = from_within(uniform(orange));
-  scene.expectations = {
-      {"exactly the function's colour, as 1 − (1 − 1)^s is exactly 1", record::OneColour{orange}}};
+  scene.expectations = {{"exactly the function's colour, because 1 − (1 − 1)^s is exactly 1",
+                         record::OneColour{orange}}};
   return scene;
 }
 
-// 2⁻²⁴ of the light is left after each voxel length. The three variants correct the opacity by
+// Each voxel length leaves 2⁻²⁴ of the light. The three variants correct the opacity by square
 // roots, by squares, and by logarithm and exponential.
 StressScene stress_nearly_solid(std::string_view variant) {
   StressScene scene = lopsided_scene();
@@ -83,9 +84,9 @@ StressScene stress_march(std::string_view variant) {
   return scene;
 }
 
-// A step that is longer than the volume's diagonal, so that a ray has at most one sample, which
-// covers the whole chord. The sample lies in the middle of the step, outside the box, where the
-// field is constant.
+// The step is longer than the volume's diagonal, so that a ray has at most one sample, which covers
+// the whole chord. The sample is in the middle of the step, outside the box, where the field is
+// constant.
 StressScene stress_stride(std::string_view variant) {
   StressScene scene = lopsided_scene();
   scene.function = ramp(0, 0.1);
@@ -96,7 +97,8 @@ StressScene stress_stride(std::string_view variant) {
   return scene;
 }
 
-// Only one entry of 256 is visible. It is 0.4 steps wide where the field is steep.
+// Only one entry of 256 is visible. Where the field is steep, a ray passes this entry within 0.4
+// steps.
 StressScene stress_spike(std::string_view variant) {
   StressScene scene = lopsided_scene();
   scene.function = uniform(orange_of(0));
@@ -106,8 +108,8 @@ StressScene stress_spike(std::string_view variant) {
   return scene;
 }
 
-// Values beyond the centres of the outermost entries, by up to half an entry, have the colour of
-// those entries.
+// Values up to half an entry beyond the centres of the outermost entries have the colour of those
+// entries.
 StressScene stress_end_spike(std::string_view variant) {
   const bool first = variant == "first";
   StressScene scene = seen_from_outside(volume_of({16, 16, 16}, [first](int i, int j, int k) {
@@ -119,8 +121,8 @@ StressScene stress_end_spike(std::string_view variant) {
   return scene;
 }
 
-// Opacity is linear along the ray with a slope that tends to 0. The closed form of such a segment
-// (V3), which pre-integration uses for each step, divides by the root of the slope.
+// Opacity is linear along the ray, with a slope that tends to 0. The closed-form solution of such a
+// segment (V3) divides by the square root of the slope.
 StressScene stress_slope(std::string_view variant) {
   double slope = 0;
   std::from_chars(variant.data(), variant.data() + variant.size(), slope);
@@ -131,7 +133,7 @@ StressScene stress_slope(std::string_view variant) {
   return scene;
 }
 
-// Some entries of a random function are visible, in runs as short as one entry.
+// Only some entries of a random transfer function are visible, in runs as short as one entry.
 StressScene stress_edit(std::string_view variant) {
   std::uint64_t seed = 0;
   std::from_chars(variant.data(), variant.data() + variant.size(), seed);
@@ -154,13 +156,13 @@ StressScene stress_edit(std::string_view variant) {
 StressScene stress_transparent(std::string_view /*variant*/) {
   StressScene scene = lopsided_scene();
   scene.function = uniform({1, 1, 1, 0});
-  scene.expectations = {
-      {"exactly the background, as nothing is added to 0", record::OneColour{scene.background}}};
+  scene.expectations = {{"exactly the background, because nothing is added to 0",
+                         record::OneColour{scene.background}}};
   scene.when_skipping = {
-      {"at most one sample per ray: the last one may lie beyond the last brick, so no brick proves "
-       "that it is transparent",
+      {"at most one sample per ray, because the last sample may be beyond the last brick, and then "
+       "no brick shows that it is transparent",
        record::CountAtMost{.counter = "samples", .factor = 1, .of = "rays_hit"}}};
-  scene.when_leaping = {{"no sample, as no brick is visible",
+  scene.when_leaping = {{"no sample, because no brick is visible",
                          record::CountAtMost{.counter = "samples", .factor = 0}}};
   return scene;
 }
@@ -169,7 +171,7 @@ StressScene stress_opaque(std::string_view /*variant*/) {
   StressScene scene = lopsided_scene();
   scene.function = uniform(orange);
   scene.ert = 1.0 / 512;
-  scene.expectations = {{"at most two samples per ray, as the first one leaves no light",
+  scene.expectations = {{"at most two samples per ray, because the first one leaves no light",
                          record::CountAtMost{.counter = "samples", .factor = 2, .of = "rays_hit"}}};
   return scene;
 }

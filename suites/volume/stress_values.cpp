@@ -1,4 +1,4 @@
-// Cases 15 to 19, 31 and 32: contents of voxels.
+// Cases 15 to 19, 31, 32 and 56: contents of voxels.
 
 #include <cmath>
 #include <cstdint>
@@ -23,7 +23,7 @@ void store(scene::Volume& volume, scene::ScalarType type, double scale) {
   }
 }
 
-// A block of voxels in the bright blob of the lopsided field has the value `value`.
+// In the bright blob of the lopsided field, a block of voxels has the value `value`.
 StressScene with_block(double value, int extent) {
   const Size size{24, 24, 24};
   return seen_from_outside(volume_of(size, [&](int i, int j, int k) {
@@ -57,14 +57,15 @@ StressScene stress_format(std::string_view variant) {
     scene.volume.range_hi = 65535;
   }
   if (variant != "f32") {
-    scene.expectations = {
-        same_within_bounds_as("stress:format:f32", "the image of the same values as floats")};
+    scene.expectations = {same_within_bounds_as("stress:format:f32",
+                                                "the image of the same values stored as floats")};
   }
   return scene;
 }
 
-// NaN becomes the lower end of the range, where the function is transparent. The field is
-// interpolated towards that value within one voxel, and for the gradients of shading within two.
+// NaN becomes the lower end of the range, where the transfer function is transparent. Within one
+// voxel of it, the field is interpolated towards that value, and for the gradients of shading
+// within two voxels.
 StressScene stress_nan(std::string_view variant) {
   const bool missing = variant.starts_with("nan");
   const double value = missing ? std::numeric_limits<double>::quiet_NaN() : 0;
@@ -75,7 +76,7 @@ StressScene stress_nan(std::string_view variant) {
   scene.shaded = kind == "shaded";
   if (missing) {
     scene.expectations = {same_bits_as("stress:nan:zero_" + std::string(kind),
-                                       "the same bits as with 0 in place of NaN")};
+                                       "the same bits as with 0 instead of NaN")};
   }
   return scene;
 }
@@ -87,12 +88,13 @@ StressScene stress_infinite(std::string_view variant) {
   const bool plus = variant == "plus";
   StressScene scene = with_block(plus ? infinite : -infinite, 3);
   scene.expectations = {same_bits_as(plus ? "stress:infinite:upper" : "stress:infinite:lower",
-                                     "the same bits as with that end of the range in place of ∞")};
+                                     "the same bits as with that end of the range instead of ∞")};
   return scene;
 }
 
-// Denormals in data and transfer function are replaced by 0 before they reach a device. Those that
-// a ray computes itself may be kept or replaced by 0, which changes no image by more than 2⁻¹²⁶.
+// Denormals in data and transfer function are replaced by 0 before they reach a device. Denormals
+// that a ray computes may be kept or replaced by 0, which changes no channel of the image by more
+// than 2⁻¹²⁶.
 StressScene stress_denormal(std::string_view variant) {
   constexpr double tiny = 1e-40;
   if (variant == "voxels") {
@@ -110,15 +112,15 @@ StressScene stress_denormal(std::string_view variant) {
   } else if (variant == "colour") {
     scene.function = uniform({1e-40F, 0.5F, 1e-42F, 0.05F});
   } else {
-    // The transmittance passes through the denormals: each voxel leaves 1e-4 of it, and nothing
-    // ends the ray.
+    // The transmittance passes through the range of denormals, because each voxel leaves 1e-4 of
+    // it, and nothing ends the ray.
     scene.function = uniform({0.75F, 0.5F, 0.25F, 0.9999F});
   }
   return scene;
 }
 
-// Values at the limits of half floats. For float data the smallest value that is kept is 2⁻²⁹ of
-// the range.
+// Values at the limits of half floats. For float data, the smallest value that does not become 0 is
+// 2⁻²⁹ of the range.
 StressScene stress_halves(std::string_view variant) {
   const Size size{24, 24, 24};
   if (variant == "subnormal") {
@@ -156,7 +158,7 @@ StressScene stress_flat(std::string_view variant) {
   return scene;
 }
 
-// One lit voxel among bricks of 8 voxels. The samples that see it may lie in neighbouring bricks.
+// One lit voxel among bricks of 8³ voxels. The samples that see it may be in neighbouring bricks.
 StressScene stress_lit(std::string_view variant) {
   const Size size{24, 24, 24};
   Size lit{8, 12, 12};  // on a face
@@ -173,8 +175,8 @@ StressScene stress_lit(std::string_view variant) {
   return scene;
 }
 
-// Nothing can be skipped, so walking through the bricks must take hardly any additional samples or
-// time.
+// Nothing can be skipped, so walking through the bricks should take hardly any additional samples
+// or time.
 StressScene stress_lit_everywhere(std::string_view /*variant*/) {
   const Size size{32, 32, 32};
   StressScene scene = seen_from_outside(volume_of(size, [](int i, int j, int k) {
@@ -182,7 +184,7 @@ StressScene stress_lit_everywhere(std::string_view /*variant*/) {
   }));
   scene.function = ramp(1, 0.9);
   scene.when_skipping = {
-      {"at most 1.1 times the samples without skipping",
+      {"at most 1.1 times as many samples as without skipping",
        record::CountAtMost{
            .counter = "samples", .factor = 1.1, .of = "samples", .changed = {{"skip", "none"}}}}};
   return scene;

@@ -75,8 +75,8 @@ class VolumeSuite final : public measure::SuiteWithTruth, public measure::Expect
                                      int y) override;
 
  private:
-  // The input of the reference renderer: the scene, and the errors that a device's path may have in
-  // it.
+  // The input of the reference renderer: the scene, and the errors that a device may make when it
+  // draws the scene.
   struct Judged {
     scene::VolumeScene scene;
     reference::ErrorModel model;
@@ -112,11 +112,11 @@ std::string VolumeSuite::missing_data(const Configuration& configuration) const 
   const std::string& data = configuration.at("data");
   if (analytic_data(data) || stress_data(data) || scene::is_present(data, folders_)) return {};
   return fmt::format(
-      "data file '{}' was not found{}; set TRIPTYCH_DATA to the folder that holds volumes/", data,
-      folders_.empty() ? "" : fmt::format(", nor in {}", folders_.front().string()));
+      "data file '{}' was not found{}; set TRIPTYCH_DATA to the folder that contains volumes/",
+      data, folders_.empty() ? "" : fmt::format(" here or in {}", folders_.front().string()));
 }
 
-// The levels `own` of a configuration whose data is loaded.
+// Resolves the levels `own` of a configuration whose data have been loaded.
 OwnLevels levels_of(const Configuration& configuration, const std::optional<StressScene>& stress) {
   return {configuration, stress ? &*stress : nullptr};
 }
@@ -138,16 +138,16 @@ scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
   };
 }
 
-// The budget in bytes; 0 if there is none.
+// Returns the budget in bytes, or 0 if there is none.
 std::uint64_t budget_of(const measure::Configuration& configuration) {
   if (configuration.at("budget") == no_budget) return 0;
   return static_cast<std::uint64_t>(measure::as_number(configuration, "budget") * (1U << 20U));
 }
 
-// The device's default path, with exceptions. Precision fp64 does not use the device's sampler,
-// which never interpolates in double precision, and does not store integers as floats, which would
-// round them. Quadrature cells does not use a sampler. A volume in parts does not either, because a
-// sampler would round differently than for the whole volume.
+// Returns the device's default path, but without the device's sampler in three cases. With
+// precision fp64, a sampler would not interpolate in double precision; integers are also not stored
+// as floats then, because that would round them. Quadrature cells needs no sampler. In a volume in
+// parts, a sampler would round differently than in the whole volume.
 measure::VolumePath default_path(const measure::Device& device, measure::VolumeKind volume,
                                  const measure::Configuration& configuration,
                                  scene::Quadrature quadrature) {
@@ -194,7 +194,8 @@ measure::Work VolumeSuite::work(Configuration& configuration, const measure::Dev
 
 measure::Work VolumeSuite::calibration(technique::Work kind) {
   // A field without empty space, sampled finely. It takes milliseconds on a software device, and
-  // less than minutes on a very slow one. The calibration repeats the frame if it is too short.
+  // does not take minutes even on a very slow device. The calibration repeats the frame if it is
+  // too short.
   scene::Volume volume = scene::generate_volume("uniform_box", {32, 32, 32});
   scene::VolumeScene scene{
       .grid = std::make_shared<const scene::VoxelGrid>(
@@ -256,8 +257,8 @@ accuracy::ExpectedRay VolumeSuite::expected_ray(const Configuration& configurati
   return pixel_history(pictured, model, x, y);
 }
 
-// The hash of a transfer function's file. Keys of images contain it, because the factor contains
-// only the file's name.
+// Returns the hash of the file of a transfer function. The keys of images contain it, because the
+// factor contains only the name of the file.
 std::string table_text(const Configuration& configuration,
                        const scene::TransferFunction& function) {
   if (configuration.at("transfer_function") == own_level) return {};
@@ -282,7 +283,7 @@ std::string VolumeSuite::truth_key(const Configuration& configuration,
                                      .hash();
   std::string key = fmt::format("reference {} data {} model {}", reference::volume_version,
                                 pictured.grid->hash, model_hash);
-  // The properties of a stress case that are not factors.
+  // A stress case also has properties that are not factors.
   if (stress_data(configuration.at("data"))) {
     key += " frame " + core::json_hash(describe_frame(pictured, model.ert, model.adapt));
   }
@@ -320,7 +321,8 @@ std::vector<record::Expectation> VolumeSuite::expectations(const Configuration& 
   if (configuration.at("skip") == "distance") {
     result.insert(result.end(), stress->when_leaping.begin(), stress->when_leaping.end());
   }
-  if (levels_of(configuration, stress).adapt() > 0) return result;  // close, but not the same bits
+  // With merged samples, the images are close but not bit-identical.
+  if (levels_of(configuration, stress).adapt() > 0) return result;
   result.push_back(
       {"the same bits as without skipping", record::SamePicture{.changed = {{"skip", "none"}}}});
   return result;
@@ -342,7 +344,7 @@ std::string VolumeSuite::limit_key(const Configuration& configuration) {
 }
 
 measure::Limit VolumeSuite::limit(const Configuration& configuration) {
-  // Smaller than the rounding of a float image over its whole range.
+  // No larger than the rounding of a float image with values up to 1.
   constexpr double tolerance = 0x1.0p-24;
   const reference::Truth truth = reference::render_volume_converged(
       scene(configuration, load_as_it_is(configuration)), tolerance);

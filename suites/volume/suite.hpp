@@ -7,7 +7,8 @@
 
 namespace triptych::volume_suite {
 
-// The suite for volume raycasting. Files named by factors are looked for in `data_folders`.
+// Creates the suite for volume raycasting. Files named by factors are searched for in
+// `data_folders`.
 [[nodiscard]] std::unique_ptr<measure::SuiteWithTruth> make_suite(
     std::vector<std::filesystem::path> data_folders);
 

@@ -17,8 +17,8 @@ double unit_roundoff(technique::Precision precision) {
   return precision == technique::Precision::fp64 ? 0x1.0p-52 : float_roundoff;
 }
 
-// The largest distance from `origin` at which a ray from the eye can enter the box: that of the
-// farthest corner of the faces that the eye sees; 0 if the eye is inside.
+// Returns the largest distance from `origin` at which a ray from the eye can enter the box: the
+// distance of the farthest corner of the faces that the eye sees, or 0 if the eye is inside.
 double farthest_entry(const scene::Box& box, const glm::dvec3& eye, const glm::dvec3& origin) {
   double farthest = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -31,7 +31,9 @@ double farthest_entry(const scene::Box& box, const glm::dvec3& eye, const glm::d
   return farthest;
 }
 
-// Converts a length to the largest number of voxels that it can be along an axis.
+// Returns the largest position error in voxels per axis (derived in tolerance.hpp). Lengths are
+// divided by the smallest spacing, because a length is at most this number of voxels along any
+// axis.
 double position_error(const scene::VolumeScene& scene, double u) {
   const scene::VoxelGrid& grid = *scene.grid;
   const glm::dvec3 spacing{grid.spacing[0], grid.spacing[1], grid.spacing[2]};
@@ -52,7 +54,7 @@ double position_error(const scene::VolumeScene& scene, double u) {
   return u * error;
 }
 
-// The smallest power of two that is not below a positive number.
+// Returns the smallest power of two that is not less than a positive number.
 double next_power_of_two(double x) {
   const double below = std::ldexp(1.0, std::ilogb(x));
   return below < x ? 2 * below : below;

@@ -1,6 +1,7 @@
 #pragma once
-// The largest difference from the reference image that a correct image may have. It is derived from
-// the arithmetic of a device. No number here was chosen by looking at an image.
+// Derives how much the image of a correct device may differ from the reference image. All numbers
+// follow from counting the rounding errors of the device's arithmetic. None was tuned by looking at
+// images.
 
 #include "reference/volume.hpp"
 #include "scene/volume_scene.hpp"
@@ -8,97 +9,104 @@
 
 namespace triptych::volume_suite {
 
-// The properties of a path through the device that decide its precision.
+// The properties of a rendering path on a device that determine its precision.
 struct PathPrecision {
-  double ert = 0;                  // ε: a ray may end when less light than this is left
-  double adapt = 0;                // allowed error of merged samples (technique::brick_kinds)
-  // Error of the device's sampler, found by a probe (measure::Device).
+  double ert = 0;    // ε: a ray may end when less light than this is left
+  double adapt = 0;  // allowed error of merged samples (technique::brick_kinds)
+  // The error of the device's sampler, measured by a probe (measure::Device).
   double filter_weight_error = 0;
-  double storage_step = 0;         // normalised value per step of a voxel format that loses values
-  double voxel_rounding = 0;       // relative error of each voxel, for a format that rounds
+  double storage_step = 0;    // normalised value per step of a voxel format that loses values
+  double voxel_rounding = 0;  // relative error of each voxel, for a format that rounds
   technique::Precision precision = technique::Precision::fp32;
 };
 
 // The error model counts roundings. u = 2⁻²⁴ is the unit roundoff of float. Every basic operation
-// has a relative error of at most u; a division has 2.5 ulp = 5u where the API allows it.
+// has a relative error of at most u. APIs allow division and square root to be less precise: 2.5
+// ulp = 5u.
 //
-// Position, in voxels per axis.
-//   e    the eye, in the box's coordinates divided by the smallest spacing
+// 1. Position of a sample, in voxels per axis.
+//   e    position of the eye, in voxels (eye/spacing)
 //   D    distance from the eye to the farthest corner of the box
-//   T    distance from the eye to the farthest corner of the faces that it sees, through which
+//   T    distance from the eye to the farthest corner of the faces that the eye sees, through which
 //        rays enter; 0 if the eye is inside
-//   L    the diagonal of the box
-// All lengths are in the smallest spacing, because the error of a direction is relative to its
-// whole length, whatever the spacing along the axis that it moves a sample on.
-//   - Rounding eye/spacing once: u·|e|.
-//   - Direction: a sum of three products has at most 6u of its length, including the 4 operations
-//     of the normalised device coordinates. Normalising it adds 3u for the dot product, 5u/2 for
-//     the square root and 5u for the division; scaling by 1/spacing adds 2u. Together below 20u of
-//     its length. So a device's ray is a straight line within u·(|e| + 20·D) of the exact one, as
-//     far as it is inside the box. Such a ray also enters the box earlier or later, which moves all
-//     its samples along the ray. The reference accounts for that (reference/ray.hpp), so it is not
-//     counted here a second time.
-//   - Along the ray: the entry t₀ = (face − e)/v is a subtraction and a division, 6u·t₀. In
-//     e + t₀·v the product adds u·t₀|v| and the sum u·L. A sample adds (i+½)·g with g = v·h, 3u of
-//     the way inside, and u·L for the sum: 7u·T + 5u·L for a sample.
-//   - Length of the chord: (t₁ − t₀)/h has an error of 6u·(t₁ + t₀)|v| + 7u·L. The reference moves
-//     both ends by the position error, so half of it is needed here. With t₁|v| ≤ D ≤ T + L this is
-//     6u·T + 6½u·L.
-//   - The larger of the two covers both:
+//   L    diagonal of the box
+// D, T and L are in units of the smallest spacing. The error of a direction is relative to its
+// whole length, whatever the spacing along the axis on which the error moves a sample.
+//   - Eye: eye/spacing is rounded once, u·|e|.
+//   - Direction: a sum of three products has an error of at most 6u of its length, including the 4
+//     operations for the normalised device coordinates. Normalising it adds 3u for the dot product,
+//     5u/2 for the square root and 5u for the division; scaling it by 1/spacing adds 2u. The total
+//     is below 20u of its length. A device's ray is therefore a straight line that is within
+//     u·(|e| + 20·D) of the exact line inside the box. Such a ray also enters the box earlier or
+//     later, which moves all its samples along the ray. The reference renderer accounts for this
+//     (reference/ray.hpp), so it is not counted here a second time.
+//   - Distance along the ray: the entry t₀ = (face − e)/v is a subtraction and a division, 6u·t₀.
+//     In e + t₀·v, the product adds u·t₀|v| and the sum u·L. A sample adds (i+½)·g with g = v·h,
+//     which has an error of 3u of the distance inside the box, and another u·L for the sum. The
+//     total is 7u·T + 5u·L.
+//   - Length of the chord: (t₁ − t₀)/h has an error of 6u·(t₁ + t₀)|v| + 7u·L. The reference
+//     renderer moves both ends of the chord by the position error, so half of this error is
+//     sufficient here. With t₁|v| ≤ D ≤ T + L, it is 6u·T + 6½u·L.
+//   - The larger coefficients of T and L cover both of the last two errors. The sum of all errors is
 //         u·(|e| + 20·D + 7·T + 7·L)
-//   - If the eye is far away, rays begin on a plane at the distance s (technique::ray_plane). Then
-//     e, D and T belong to the plane's point on the view axis, which is computed in double
-//     precision. The point of a single ray adds its normalised device coordinates, which are
-//     rounded by 3u, times the half diagonal E of the image on the plane, and six more operations
-//     on a length ≤ D:
+//   - If the eye is far away, rays begin on a plane in front of the box (technique::ray_plane).
+//     Then e, D and T are measured from the point of this plane on the view axis, which is computed
+//     in double precision. The beginning of a single ray adds its normalised device coordinates
+//     (3u) times half the diagonal E of the image on this plane, and six more operations on a
+//     length of at most D:
 //         u·(4·E + 6·D)
 //
-// Value, normalised.
-//   - Three nested interpolations a + f·(b − a) have 3u each of the largest stored value.
-//   - stored·scale + offset adds 2u: 11u·M, with M = |scale|·stored_max + |offset|.
-//   - The table position 256·x − ½ adds u twice: 13u·M.
-//   - Half a storage step is added if the voxel format loses values.
-//   - Quadrature cells makes a cubic of the eight voxels. Its terms are products of at most four
-//     factors that are added up, 6u each, and together at most 14 times the range R of the format:
-//     84u·R more.
+// 2. Value, normalised.
+//   - Trilinear interpolation nests three interpolations a + f·(b − a). Each has an error of 3u of
+//     the largest stored value.
+//   - stored·scale + offset adds 2u. The sum is 11u·M, with M = |scale|·stored_max + |offset|.
+//   - The position in the table, 256·x − ½, adds u twice. The sum is 13u·M.
+//   - If the voxel format loses values, half a storage step is added.
+//   - Quadrature cells computes a cubic from the eight voxels. Its terms are sums of products of at
+//     most four factors. Each has an error of 6u, and together they are at most 14 times the range
+//     R of the format, which adds 84u·R.
 //
-// Voxels as half floats (scene::VoxelGrid). Integers for which fits_halves is true are exact.
-// Otherwise 2¹⁵·x is rounded to 11 bits, by 2⁻¹¹/(1 + 2⁻¹¹) of x. The reference's float may differ
-// from x by u·x, which is less than the remainder of 2⁻¹¹·x. A value below 2⁻²⁹ would be subnormal
-// and becomes 0: half a storage step of 2⁻²⁸. Nothing overflows, because 2¹⁵ < 65504.
+// 3. Voxels as half floats (scene::VoxelGrid). If fits_halves is true, integers are exact.
+// Otherwise 2¹⁵·x is rounded to 11 bits, which changes x by at most 2⁻¹¹/(1 + 2⁻¹¹)·x. The model
+// uses 2⁻¹¹·x. The remainder covers the reference renderer's float, which may differ from x by u·x.
+// A value below 2⁻²⁹ would be subnormal and becomes 0, which is half of a storage step of 2⁻²⁸.
+// Nothing overflows, because 2¹⁵ < 65504.
 //
-// Filter. The probed error of the weights, rounded up to a power of two, and at least u. A sampler
-// that rounds its result to the steps of the format has that error even between equal voxels. The
-// probe's neighbours differ by the whole range, so it sees both errors together, and its result is
-// also an absolute error of the value.
+// 4. Filter. The error of the weights that the probe measured is rounded up to a power of two, and
+// is at least u. A sampler that rounds its result to the steps of the format has this error even
+// between equal voxels. The voxels of the probe differ by the whole range, so the probe measures
+// both errors together. Its result is therefore also used as an absolute error of the value.
 //
-// Table. Interpolation between two entries: 3u. Preintegrated: 4u, because the opacity in the
-// middle of a cell's part is rounded once more.
+// 5. Table. Interpolation between two entries has an error of 3u. With quadrature preintegrated it
+// is 4u, because the opacity in the middle of a part of a cell is rounded once more.
 //
-// Opacity, relative.
-//   - tri_opacity is accurate to 8u, the two factors of its exponent have 2u each, and the share of
-//     the step has 2u: 14u.
-//   - Preintegrated: the mean of the logarithm has 8u and its series 3u. The length of a piece has
-//     2u for the share, 4u for the division by the difference of two positions and 2u for the
-//     product. The exponential has 8u. Combining three pieces adds u each for a product and a sum:
-//     32u.
-//   - Cells: two logarithms 9u, their sum and three products of lengths 5u, the exponential 3u, and
-//     the same again for the lengths, whose differences cancel from piece to piece: below 32u.
+// 6. Opacity, relative.
+//   - Midpoint: tri_opacity is accurate to 8u, the two factors of its exponent contribute 2u each,
+//     and the share of the step contributes 2u. The sum is 14u.
+//   - Preintegrated: the mean of the logarithm contributes 8u, and its series 3u. The length of a
+//     piece contributes 2u for the share, 4u for the division by the difference of two positions
+//     and 2u for the product. The exponential contributes 8u. Combining three pieces adds u each
+//     for a product and a sum. The total is at most 32u.
+//   - Cells: two logarithms contribute 9u, their sum and three products of lengths 5u, and the
+//     exponential 3u. The lengths contribute the same once more, because their differences cancel
+//     from piece to piece. The total is below 32u.
 //
-// Adapt. technique/volume/brick_kinds.hpp derives the error between two images of one device, with
-// and without merged bricks. All other terms are about the image without. The arithmetic of a
-// merged sample is covered by them, because the exponent of its opacity has the same two factors,
-// and because it replaces many samples.
+// 7. Adapt. technique/volume/brick_kinds.hpp derives the difference between two images from one
+// device, with and without merged bricks. All other terms apply to the image without merged bricks.
+// They also cover the arithmetic of a merged sample, because the exponent of its opacity has the
+// same two factors, and because it replaces many samples.
 //
-// Compositing, relative per sample. Weight u, product u, sum u, transmittance u: 4u.
+// 8. Compositing, relative per sample. The weight, a product, a sum and the transmittance
+// contribute u each: 4u.
 //
-// Precision fp64. The counts are the same with u = 2⁻⁵², because the kernels have the same text.
-// That is twice the unit roundoff of double, because the reference is also computed in doubles and
-// may have the same error as the device. There are three differences:
-//   - The parameters are doubles and the eye is not rounded, which the count above includes.
-//   - tri_opacity is accurate to 12u: 12u + 4u + 2u = 18u.
-//   - Output: a channel is rounded to float when it is stored, and so is the reference image, which
-//     adds 2·2⁻²⁴ of the channel. In fp32 compositing has already rounded it.
+// 9. Precision fp64. The counts are the same with u = 2⁻⁵², because the kernels have the same
+// source code. This is twice the unit roundoff of double, because the reference image is also
+// computed in doubles and may have the same error as the device. There are three differences:
+//   - The parameters are doubles and the eye is not rounded. The counts above cover this.
+//   - tri_opacity is accurate to 12u, so the opacity has 12u + 4u + 2u = 18u.
+//   - Output: each channel is rounded to float when it is stored, both in the image and in the
+//     reference image, which adds 2·2⁻²⁴ of the channel. In fp32, compositing has already rounded
+//     it.
 [[nodiscard]] reference::ErrorModel error_model(const scene::VolumeScene& scene,
                                                 const PathPrecision& path);
 

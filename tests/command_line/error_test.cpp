@@ -142,8 +142,9 @@ TEST(Error, MustBePositiveAndNeedsASuiteWithAStep) {
   const Result unknown =
       program.run("run volume/quick " + std::string(tiny) + " --error 0.1:median");
   EXPECT_EQ(unknown.code, 3) << unknown.output;
-  EXPECT_NE(unknown.output.find("unknown metric 'median'; there are: rms, covered, p99.9, max"),
-            std::string::npos)
+  EXPECT_NE(
+      unknown.output.find("unknown metric 'median'; expected one of rms, covered, p99.9, max"),
+      std::string::npos)
       << unknown.output;
   const Result particles = program.run("run particles/quick --device 'null:*' --error 0.01");
   EXPECT_EQ(particles.code, 3) << particles.output;
