@@ -121,7 +121,7 @@ ParticleSet load_particles(std::string_view data, ColourKind colour,
     std::string where;
     for (const auto& folder : folders) where += ", " + folder.string();
     throw core::IoError(
-        fmt::format("{}: file not found (searched in the current folder{})", data, where));
+        fmt::format("{}: not found (searched in the current folder{})", data, where));
   }
   ParticleSet set = read(*source, colour, progress);
   if (set.count() == 0 && set.dropped > 0) {

@@ -90,7 +90,7 @@ Volume load_volume(std::string_view data, const std::vector<std::filesystem::pat
     std::string where;
     for (const auto& folder : folders) where += ", " + folder.string();
     throw core::IoError(
-        fmt::format("{}: file not found (searched in the current folder{})", data, where));
+        fmt::format("{}: not found (searched in the current folder{})", data, where));
   }
   Volume volume;
   if (source.raw) {

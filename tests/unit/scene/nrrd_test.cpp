@@ -231,7 +231,7 @@ std::string with_line(const std::string& line) {
 
 TEST(Nrrd, BrokenHeadersNameTheirLine) {
   expect_rejected({
-      {"", ": is empty"},
+      {"", ": the file is empty"},
       {"P5\n1 1\n", ":1: not an NRRD file"},
       {"NRRD0009\n", ":1: not an NRRD file"},
       {std::string("\0\1\2\3", 4), ":1: not an NRRD file"},
