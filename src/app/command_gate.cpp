@@ -270,7 +270,7 @@ void accept_one(const AcceptArguments& arguments, const std::string& typed, reco
   const std::vector<std::string> changes = judge::accept(
       store, latest_run_of(store, typed, arguments.store), baselines.folder(), request);
   for (const std::string& change : changes) put_lines(change + "\n");
-  put("{}: {} changes in {}; review them before you commit\n", plan, changes.size(),
+  put("{}: {} changes under {}; review them before you commit\n", plan, changes.size(),
       baselines.name().string());
 }
 
