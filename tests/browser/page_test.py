@@ -66,7 +66,7 @@ class Everywhere(PageTest):
                 page.value("document.querySelector('[data-scene] button').click()")
                 told += page.names()  # the browser does not report what is behind a dialog
                 self.assertEqual([text for role, text in told if role == "combobox"][3:], ["Left", "Right"])
-                self.assertIn(("slider", "Border between left and right"), told)
+                self.assertIn(("slider", "Border between the left and the right image"), told)
             named = {"button", "link", "image", "img", "search", "dialog", "DisclosureTriangle"}
             self.assertEqual([role for role, text in told if role in named and not text], [], name)
 

@@ -125,7 +125,8 @@ void report_device_faults(const RunView& view, std::vector<Finding>& findings) {
   }
 }
 
-// The first device matching `glob` that the run could not use; null if there is none.
+// Returns the first device that matches `glob` but was unusable in this run, or nullptr if there is
+// none.
 const record::Unusable* unusable_device(const RunView& view, const std::string& glob) {
   for (const record::Beginning& begun : view.run.begun) {
     for (const record::Unusable& each : begun.unusable) {

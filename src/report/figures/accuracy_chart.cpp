@@ -28,7 +28,7 @@ CostAxis axis_of(Cost cost) {
     case Cost::instructions:
       return {"instructions, millions", "million"};
     case Cost::fetched:
-      return {"fetched past the cache, MiB", "MiB"};
+      return {"cache misses, MiB", "MiB"};
     case Cost::memory:
       return {"memory on the device, MiB", "MiB"};
     case Cost::energy:
@@ -58,8 +58,8 @@ std::optional<double> cost_of(const accuracy::AccuracyCase& each, Cost cost) {
   return std::nullopt;
 }
 
-// The meaning of the colours. For configurations without a family it is the technique, because
-// otherwise there would be as many colours as points.
+// Returns the name by which a case gets its colour: the family or, for a family with only one
+// member, the technique, because otherwise there would be as many colours as points.
 std::string colour_name(const accuracy::AccuracyFamily& family,
                         const accuracy::AccuracyCase& each) {
   const auto technique = each.factors.find("technique");
@@ -67,14 +67,15 @@ std::string colour_name(const accuracy::AccuracyFamily& family,
   return alone ? technique->second : family.name;
 }
 
-// A case without error or without cost cannot be shown on logarithmic axes.
+// Returns nullopt for a case whose error or cost is 0 or unknown, because logarithmic axes cannot
+// show it.
 std::optional<Figure::Place> place_of(const accuracy::AccuracyCase& each, Cost cost) {
   const auto paid = cost_of(each, cost);
   if (!paid || !(*paid > 0) || !(each.rmse > 0)) return std::nullopt;
   return Figure::Place{each.rmse, *paid};
 }
 
-// "1/255", or "0.0001" if the denominator has many digits.
+// Formats a goal as "1/255", or as "0.0001" if the denominator would have many digits.
 std::string goal_name(double goal) {
   constexpr double largest_denominator = 9999;
   const double denominator = std::round(1 / goal);
@@ -89,11 +90,11 @@ std::vector<std::string> factors_of(const accuracy::AccuracyScene& scene) {
   return factors;
 }
 
-// One scene on one device: a line for each family, the front in the colour of ink, and the goals as
-// dashed lines.
+// The figure of one scene on one device: a line for each family, the Pareto front in the colour of
+// the text, and the goals as dashed lines.
 class Diagram {
  public:
-  // `all`: the places of all diagrams that share their axes with this one.
+  // `all` contains the points of all diagrams that have the same axes as this one.
   Diagram(const accuracy::AccuracyScene& scene, const std::string& title, Cost cost,
           std::span<const Figure::Place> all)
       : scene_(scene),
@@ -124,8 +125,8 @@ class Diagram {
     for (const Figure::Place& place : places) values.push_back(place.*coordinate);
     return values;
   }
-  // Finds the front again for the displayed cost, because the fastest configuration need not be the
-  // one with the least memory.
+  // Finds the front for the displayed kind of cost, because the fastest configuration need not be
+  // the one that needs the least memory.
   void find_front() {
     front_ = accuracy::pareto_front(scene_.cases, [this](const accuracy::AccuracyCase& each) {
       const auto place = place_of(each, cost_);
@@ -204,7 +205,7 @@ std::string accuracy_title(std::span<const accuracy::AccuracyScene> scenes,
 
 Html accuracy_chart(std::span<const accuracy::AccuracyScene> scenes, Cost cost) {
   std::vector<std::string> titles;
-  std::map<std::string, std::vector<Figure::Place>> places;  // of all devices, by title
+  std::map<std::string, std::vector<Figure::Place>> places;  // points on all devices, by title
   for (const accuracy::AccuracyScene& scene : scenes) {
     titles.push_back(accuracy_title(scenes, scene));
     for (const accuracy::AccuracyCase& each : scene.cases) {

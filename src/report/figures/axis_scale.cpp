@@ -27,7 +27,7 @@ AxisScale::AxisScale(const Axis& axis, double low, double high)
     low_ -= half;
     high_ += half;
   } else {
-    // Bars begin at 0, so the axis gets no margin below 0 if no value is negative.
+    // An axis that begins at 0 gets no margin at that end, because bars begin there.
     if (low_ != 0) low_ -= margin;
     high_ += margin;
   }

@@ -19,7 +19,7 @@ constexpr double letter_height = 12;
 
 }  // namespace
 
-// The layout and scales that svg() needs while it draws.
+// Computes the layout of a figure and generates its SVG.
 class Figure::Drawing {
  public:
   explicit Drawing(const Figure& figure)
@@ -48,7 +48,7 @@ class Figure::Drawing {
   }
 
  private:
-  // Computes the range of the axis that contains everything that is drawn.
+  // Computes the range of an axis so that it covers all data and Axis::contains.
   [[nodiscard]] AxisScale measure(const Axis& axis, double Place::*coordinate) const {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
@@ -116,7 +116,7 @@ class Figure::Drawing {
   [[nodiscard]] double x_of(double value) const {
     return left_ + figure_.width_ * across_.share(value);
   }
-  // Named bands are listed from top to bottom; numbers increase from bottom to top.
+  // Categories are listed from top to bottom, but numbers increase from bottom to top.
   [[nodiscard]] double y_of(double value) const {
     const double share = up_.share(value);
     return top_ + figure_.height_ * (figure_.up_.names.empty() ? 1 - share : share);
@@ -194,7 +194,7 @@ class Figure::Drawing {
         return strokes_element(shape);
       case Kind::upright:
         if (const double at = across_.share(first.x); at < 0 || at > 1)
-          return {};  // outside of the frame
+          return {};  // outside the frame
         label_upright(shape);
         return markup("<path {} d=\"M{:.1f} {:.1f}v{:.0f}\"/>", line_attributes(shape.style),
                       x_of(first.x), top_, figure_.height_);
@@ -230,7 +230,7 @@ class Figure::Drawing {
     std::string path;
     double last = -1;
     for (const Place& place : shape.places) {
-      // Two strokes that are rounded to the same position are drawn as one.
+      // Strokes that are rounded to the same position are drawn only once.
       const double x = std::round(2 * x_of(place.x)) / 2;
       if (x == last) continue;
       last = x;
@@ -249,7 +249,8 @@ class Figure::Drawing {
     labels_ += text_element(x, y, "start", shape.text, markup(" class=\"on\""));
   }
 
-  // The label is turned and ends at the top, to the left of its line if there is space.
+  // Rotates the label. Its end is at the top of the frame, to the left of the line if there is
+  // space.
   void label_upright(const Shape& shape) {
     if (shape.text.empty()) return;
     const double line = x_of(shape.places[0].x);
@@ -263,7 +264,7 @@ class Figure::Drawing {
   struct Area {
     double x, y, width, height;
   };
-  // Reserves the area for a label. False: another label is there.
+  // Reserves an area for a label. Returns false if it overlaps another label.
   bool take(const Area& area) {
     const bool taken = std::ranges::any_of(labelled_, [&](const Area& other) {
       return area.x < other.x + other.width && other.x < area.x + area.width &&

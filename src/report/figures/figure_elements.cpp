@@ -12,7 +12,7 @@ namespace {
 constexpr double letter = 6.3;  // mean advance of 11 px text
 constexpr double mark_radius = 3.2;
 
-// The number of characters, not of bytes.
+// Returns the number of characters, not of bytes.
 std::size_t length_of(std::string_view text) {
   return static_cast<std::size_t>(std::ranges::count_if(
       text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80; }));

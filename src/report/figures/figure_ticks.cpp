@@ -8,9 +8,9 @@
 namespace triptych::report {
 namespace {
 
-constexpr double slack = 1e-9;  // a tick on the edge belongs to the axis
+constexpr double slack = 1e-9;  // tolerance for a tick at the end of the axis
 
-// The smallest of 1, 2, 5 and 10 times a power of ten that is at least `step`.
+// Returns the smallest number of the form 1, 2 or 5 times a power of ten that is at least `step`.
 double nice_step(double step) {
   const double power = std::pow(10, std::floor(std::log10(step)));
   for (const double factor : {1.0, 2.0, 5.0}) {
@@ -19,7 +19,7 @@ double nice_step(double step) {
   return 10 * power;
 }
 
-// A single tick does not show the scale of an axis.
+// The smallest number of ticks: a single tick does not show the scale of an axis.
 constexpr std::size_t least_ticks = 2;
 
 std::vector<double> linear_ticks(double low, double high, int wanted) {
@@ -55,7 +55,7 @@ std::vector<double> ticks(double low, double high, bool logarithmic, int wanted)
   static constexpr std::array<double, 1> ones{1};
   static constexpr std::array<double, 3> some{1, 2, 5};
   if (decades > wanted) {
-    // If too few multiples of `every` lie on the axis, smaller steps are tried.
+    // Shows every `every`-th power of ten, or more of them if too few lie on the axis.
     for (int every = static_cast<int>(std::ceil(decades / wanted)); every > 0; --every) {
       std::vector<double> all = powers(low, high, ones, every);
       if (all.size() >= least_ticks) return all;

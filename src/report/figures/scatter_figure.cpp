@@ -54,7 +54,7 @@ class Scatter {
     add_rule(figure, 0, {.colour = "soft"});
     if (scatter_.shows_from) {
       add_rule(figure, *scatter_.shows_from, {.colour = "soft", .dashed = true});
-      figure.label({ends().first, *scatter_.shows_from}, "an outlier from here");
+      figure.label({ends().first, *scatter_.shows_from}, "reported from here on");
     }
     for (const auto& point : scatter_.points) {
       figure.series(point.technique.empty() ? "configurations" : point.technique);
@@ -87,7 +87,7 @@ class Scatter {
     const auto [first, last] = ends();
     figure.line(std::array{Figure::Place{first, deviation}, Figure::Place{last, deviation}}, style);
   }
-  // The line is straight because both axes are logarithmic.
+  // Two points are enough, because the line is straight on logarithmic axes.
   void add_line(Figure& figure) const {
     if (!scatter_.line) return;
     const auto at = [&](double x) {
@@ -102,7 +102,7 @@ class Scatter {
       figure.legend(techniques_[i], {.colour = colour_of(i)});
     }
     if (std::ranges::any_of(scatter_.points, [](const auto& each) { return !each.flag.empty(); })) {
-      figure.legend("not on the line", {.colour = "ink", .mark = Mark::cross});
+      figure.legend("off the line", {.colour = "ink", .mark = Mark::cross});
     }
   }
 

@@ -11,7 +11,8 @@ namespace {
 
 using core::Image;
 
-// The share of the bound for the pixel whose first value is at index `i`.
+// Returns the largest error of a pixel as a share of its bound. `i` is the index of its first
+// channel.
 double share_at(const Image& image, const Image& truth, const Image& bound, std::size_t i) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const bool certain = !truth.ids.empty() && bound.ids[i / 4] == 0;

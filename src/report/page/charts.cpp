@@ -21,8 +21,8 @@ struct ChartScene {
   std::vector<Row> rows;
 };
 
-// Scenes in the order of their first configuration. Configurations that differ only in factors that
-// no title contains share a row.
+// Returns the scenes in the order of their first configuration. Configurations that have the same
+// title, device and technique share a row.
 std::vector<ChartScene> scenes_of(const PlanData& plan) {
   std::vector<ChartScene> scenes;
   for (const record::Record& record : plan.records) {
@@ -44,7 +44,7 @@ std::vector<ChartScene> scenes_of(const PlanData& plan) {
 Html figure_of(const ChartScene& scene, const std::vector<std::string>& techniques) {
   Axis up;
   for (const Row& row : scene.rows) up.names.push_back(row.device + " " + row.technique);
-  Figure figure("Times of frames: " + scene.title,
+  Figure figure("Frame times: " + scene.title,
                 {.title = "time of a frame, ms", .logarithmic = true}, up, 180,
                 18 * static_cast<double>(scene.rows.size()));
   for (std::size_t i = 0; i < scene.rows.size(); ++i) {

@@ -6,9 +6,9 @@
 
 namespace triptych::report {
 
-// The distributions of times as HTML: a figure for each scene, with a row for each device and
-// technique. Every timed frame is a stroke and the quartiles are a box, on a logarithmic axis in
-// milliseconds.
+// Returns the distributions of times: a figure for each scene, with a row for each device and
+// technique. Each timed frame is a stroke, and a box spans the quartiles. The axis is logarithmic,
+// in milliseconds.
 [[nodiscard]] Html time_chart(const PlanData& plan);
 
 }  // namespace triptych::report

@@ -20,7 +20,7 @@ std::string name_of_store(const Json& point) {
   return point.at("name").get<std::string>();
 }
 
-// The driver version, followed by injected faults, because the driver did not cause those.
+// Returns the driver version, followed by the injected faults, which the driver did not cause.
 std::string driver_of(const Json& point) {
   std::string text = point.at("driver_version").get<std::string>();
   if (const auto found = point.find("injected"); found != point.end()) {
@@ -29,11 +29,12 @@ std::string driver_of(const Json& point) {
   return text;
 }
 
-// The axis covers at least this relative change in both directions, so that smaller changes do not
-// look like a slope.
+// The axis covers at least this relative change in both directions, so that tiny changes do not
+// look like a trend.
 constexpr double least_span = 0.01;
 
-// An axis around the values of all devices, which extends at least `least_span` in both directions.
+// Returns an axis that covers the values of all devices, and at least `least_span` in both
+// directions.
 Axis axis_of(const Json& history) {
   Axis axis{.title = "relative to the first store"};
   std::vector<double> values;
@@ -58,7 +59,7 @@ std::string number_text(const Json& point, const char* key) {
   return point.contains(key) ? fmt::format("{:.4f}", point.at(key).get<double>()) : "–";
 }
 
-// Each store has a band of the figure. A missing point leaves a gap.
+// Creates a figure with one category per store. A store without a value has no point.
 Html figure_of(const Json& device, const Axis& up) {
   const Json& points = device.at("points");
   std::vector<std::string> names;
@@ -87,7 +88,7 @@ Html figure_of(const Json& device, const Axis& up) {
 }
 
 Html table_of(const Json& device) {
-  Rows rows{{"store", "begun", "driver", "cost", "time", "changes"}};
+  Rows rows{{"store", "started", "driver", "cost", "time", "changes"}};
   for (const Json& point : device.at("points")) {
     const std::string changes = point.at("changes").get<std::string>();
     const Html summary = point.at("worse").get<bool>() ? markup("<b class=\"regression\">worse</b>")
@@ -104,9 +105,10 @@ Html table_of(const Json& device) {
 std::string history_page(const Json& history) {
   Html page = page_begin("History");
   page += markup(
-      "<main><h1>History</h1>\n<p>Cost is the number of instructions of a frame, in generated code "
+      "<main><h1>History</h1>\n<p>Cost is the number of instructions per frame, in generated code "
       "and in the driver. Cost and time are geometric means over the configurations that "
-      "neighbouring stores share. Times are shown, not judged.</p>\n");
+      "consecutive stores have in common. Times are shown, but they do not affect any "
+      "verdict.</p>\n");
   const Axis up = axis_of(history);
   for (const Json& device : history) {
     page += markup("<h2>{}</h2>\n", device.at("device").get<std::string>());

@@ -1,12 +1,12 @@
 #pragma once
-// Shows the development of cost and time over several stores on one self-contained page.
+// A self-contained page that shows how cost and time develop over several stores.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace triptych::report {
 
-// `history` is the JSON form of a history from exports/comparison_json.hpp.
+// `history` is the JSON array that to_json() in exports/comparison_json.hpp returns.
 [[nodiscard]] std::string history_page(const nlohmann::json& history);
 
 }  // namespace triptych::report

@@ -18,8 +18,8 @@ Lines lines_of(std::string_view text) {
   return lines;
 }
 
-// For each pair of lines, the length of the longest common subsequence of the texts that follow
-// them.
+// For each i and j, the length of the longest common subsequence of the lines of `a` from i on and
+// the lines of `b` from j on.
 class Lengths {
  public:
   Lengths(const Lines& a, const Lines& b)
@@ -40,7 +40,7 @@ class Lengths {
   std::vector<std::uint32_t> lengths_;
 };
 
-// Puts each removed line next to the line that replaced it.
+// Pairs removed lines with added lines, in order, and clears both lists.
 void pair_up(std::vector<LinePair>& pairs, Lines& removed, Lines& added) {
   for (std::size_t i = 0; i < std::max(removed.size(), added.size()); ++i) {
     pairs.push_back({i < removed.size() ? std::string(removed[i]) : std::string(),

@@ -1,5 +1,5 @@
 #pragma once
-// Compares two texts line by line, as a side-by-side view shows them.
+// Compares two texts line by line, for a side-by-side view.
 
 #include <string>
 #include <string_view>
@@ -13,8 +13,9 @@ struct LinePair {
   bool changed = false;
 };
 
-// The lines that changed, with `context` unchanged lines around them, in order. Lines that are left
-// out in between become one pair of "…". Uses the longest common subsequence of lines.
+// Returns the changed lines in order, each with `context` unchanged lines around it. A pair of "…"
+// stands for unchanged lines that are left out in between. Uses the longest common subsequence of
+// lines.
 [[nodiscard]] std::vector<LinePair> line_diff(std::string_view before, std::string_view now,
                                               std::size_t context = 3);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Reports how close the errors of images come to their bounds. If no image comes close to a bound,
-// that bound is a weak test.
+// Reports how close the errors of images come to their bounds. A bound to which no image comes
+// close is a weak test.
 
 #include <cstddef>
 #include <span>
@@ -11,22 +11,22 @@
 
 namespace triptych::report {
 
-// One device in one plan.
+// The result for one device in one plan.
 struct NearestBound {
   std::string plan;
   std::string device;
   std::size_t pictures = 0;
-  double share = 0;  // the largest ratio of an error to its bound over all pixels; above 1 the
-                     // image is wrong
-  std::string configuration;  // the configuration of that pixel
+  double share = 0;  // largest ratio of an error to its bound, over all pixels of correct images
+  std::string configuration;  // the configuration in which it occurs
 };
 
-// Sorted by plan, then by device. The texts are of unknown origin and must be escaped.
+// Returns the results in the order of the plans, and for each plan by device. Callers must escape
+// the names.
 [[nodiscard]] std::vector<NearestBound> nearest_bounds(
     std::span<const judge::GateResult* const> results);
 
-// "at most 0.61 of the bound, only 0.0031 on gl:x in volume/quick": the largest share of all, and then
-// the device and plan with the smallest share if it is below a hundredth. Empty if there are no
+// Returns "at most 0.61 of the bound, only 0.0031 on gl:x in volume/quick": the largest share and,
+// if it is below 0.01, the smallest share with its device and plan. Returns "" if there are no
 // images.
 [[nodiscard]] std::string nearest_text(std::span<const NearestBound> bounds);
 

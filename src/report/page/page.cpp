@@ -31,7 +31,8 @@ std::string devices_of(const PlanData& plan) {
   return text;
 }
 
-// The data about one plan that the sections of the page need.
+// Collects the data about one plan that the sections of the page need. Leaves out devices that were
+// not judged.
 PlanData data_of(const record::Store& store, const PlanReport& report, std::size_t number) {
   PlanData plan{.prefix = fmt::format("plan{}", number),
                 .name = report.verdict.plan,
@@ -58,7 +59,8 @@ Html plan_part(const record::Store& store, const PlanReport& report, const PlanD
          needed_section(plan) + counts_section(plan) + markup("</section>\n");
 }
 
-// If an image is wrong, the findings are shown next to the images.
+// Shows the findings and the images: next to each other if an image is wrong, otherwise one below
+// the other.
 Html first_part(const Overview& all, const PictureSources& sources,
                 std::span<const PlanData> plans) {
   const Pictures pictures = pictures_section(sources, plans);

@@ -1,7 +1,6 @@
 #pragma once
-// One self-contained HTML page with the verdict, the devices, the images of each scene next to the
-// reference image, the distributions of times, and the counters. Sections without data are left
-// out.
+// The report: a self-contained HTML page with the verdict, the findings, the images of each scene
+// next to the reference image, and sections about each plan. Sections without data are left out.
 
 #include <functional>
 #include <string>

@@ -1,6 +1,6 @@
 // Fills in repeated images and makes the page interactive: filters, the comparison of two images,
-// links into folded parts, buttons that copy commands or save figures, and sortable tables. Controls are hidden
-// until this script shows them.
+// links into folded parts, buttons that copy commands or save figures, and sortable tables. Controls
+// are hidden until this script shows them.
 'use strict';
 const all = (selector, within = document) => [...within.querySelectorAll(selector)];
 const find = (selector, within = document) => within.querySelector(selector);
@@ -11,7 +11,7 @@ function showRepeated(images) {
   }
 }
 
-// Opens the folded part that the target of a link is in.
+// Opens the folded parts that contain the target of a link, and scrolls to it.
 function openTarget() {
   const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
   if (!target) return;
@@ -44,7 +44,7 @@ function startFilters(form) {
   apply();
 }
 
-// The images of a scene by name, each once.
+// Returns the images of a scene by name, without duplicates.
 function picturesOf(scene) {
   const named = new Map();
   for (const section of all(`[data-scene="${scene}"]`)) {
@@ -73,7 +73,7 @@ function startComparison(dialog) {
   const magnify = on => {
     zoom.setAttribute('aria-pressed', on);
     view.classList.toggle('zoomed', on);
-    place.textContent = worst ? `The worst pixel: ${worst.x}, ${worst.y}, from the top left` : '';
+    place.textContent = worst ? `The worst pixel: ${worst.x}, ${worst.y}, counted from the top left` : '';
   };
   zoom.addEventListener('click', () => magnify(!view.classList.contains('zoomed')));
   slider.addEventListener('input', cut);
@@ -110,8 +110,8 @@ function startComparison(dialog) {
   }
 }
 
-// Magnifies 16 x 16 pixels around the worst pixel, which is in the middle unless it lies near the
-// border.
+// Magnifies 16 x 16 pixels around the worst pixel. It is in the middle unless it lies near the border
+// of the image.
 function magnifyAt(view, { x, y }, width, height) {
   const scale = Math.max(1, width / 16);
   const shift = share => Math.min(0, Math.max(1 - scale, 0.5 - share * scale));
@@ -127,7 +127,7 @@ function magnifyAt(view, { x, y }, width, height) {
   set('--mark-height', `${100 * scale / height}%`);
 }
 
-// Adds buttons that copy a command on one line, as it is run.
+// Adds buttons that copy a command as one line.
 function startCopying() {
   for (const block of all('article pre, header pre')) {
     const button = document.createElement('button');
@@ -149,15 +149,16 @@ function startCopying() {
   }
 }
 
-// The number in a cell, with its unit and with spaces between digits; null for text.
+// Returns the number in a cell, converted from its unit and without the spaces between digits, or null
+// if the cell contains no number.
 function numberIn(cell) {
   const scale = { ns: 1e-9, 'µs': 1e-6, ms: 1e-3, s: 1 };
   const [, digits, unit] = cell.textContent.replace(/\u2009/g, '').match(/^([+-]?[\d.]+(?:e[+-]?\d+)?)\s*(\S*)/) ?? [];
   return digits === undefined ? null : +digits * (scale[unit] ?? 1);
 }
 
-// Sorts a table by a column when its heading is clicked, and in the other direction when it is
-// clicked again.
+// Sorts a table by a column when the heading of the column is clicked. Another click reverses the
+// order.
 function startSorting() {
   for (const table of all('.scroll > table')) {
     const [head, ...rows] = all('tr', table);
@@ -182,7 +183,7 @@ function startSorting() {
   }
 }
 
-// Opens all folded parts before printing, because paper cannot unfold them.
+// Opens all folded parts before printing, because readers cannot unfold them on paper.
 function startPrinting() {
   let folded = [];
   addEventListener('beforeprint', () => {
@@ -194,7 +195,7 @@ function startPrinting() {
   });
 }
 
-// Saves a text as a file.
+// Saves `text` as a file.
 function save(name, type, text) {
   const link = document.createElement('a');
   link.download = name;
@@ -203,7 +204,7 @@ function save(name, type, text) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-// A figure as a file of its own: with the colours and fonts that it has on the page.
+// Returns a figure as a standalone SVG file, with the colours and fonts that it has on the page.
 function standalone(figure) {
   const copy = figure.cloneNode(true);
   delete copy.dataset.csv;

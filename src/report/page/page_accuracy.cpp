@@ -1,5 +1,5 @@
-// Shows run time against error: diagrams, orders of convergence, the cost of reaching an accuracy,
-// and the parts of an error.
+// Shows run time against error: figures, orders of convergence, the cost of reaching a given error,
+// and the contributions to an error.
 
 #include <fmt/format.h>
 
@@ -36,7 +36,7 @@ const accuracy::AccuracyFamily& family_of(const AccuracyScene& scene, std::size_
   });
 }
 
-// The front with the largest area among all devices, for the same image.
+// Returns the largest front of any device for the image that `scene` shows.
 const accuracy::FrontArea& widest(const std::vector<AccuracyScene>& scenes,
                                   const AccuracyScene& scene) {
   const accuracy::FrontArea* best = &*scene.area;
@@ -62,7 +62,8 @@ std::optional<double> instructions_of(const accuracy::AccuracyCase& each) {
   return each.instructions;
 }
 
-// The cost of reaching the error `goal`: time if it was measured, otherwise instructions.
+// Returns the cost of reaching the error `goal`: the time if times were measured, otherwise the
+// number of instructions.
 std::string to_error(const AccuracyScene& scene, double goal) {
   if (!scene.front.empty()) {
     const auto time = accuracy::time_to_error(scene.cases, scene.families, goal);
@@ -75,9 +76,8 @@ std::string to_error(const AccuracyScene& scene, double goal) {
   return cost ? fmt::format("{:.1f} M instructions", *cost / 1e6) : "not reached";
 }
 
-// Appends the number of configurations on the front and the number of dominated ones. Both are
-// judged by time, or by instructions if no time was measured, and are empty if neither was
-// measured.
+// Appends the numbers of configurations that are on the front and that are dominated. Cost means
+// time or, if no time was measured, instructions. The cells are empty if neither was measured.
 void append_standing(TableRow& row, const AccuracyScene& scene) {
   const auto add = [&](std::size_t front, std::size_t beaten) {
     row.push_back(fmt::to_string(front));
@@ -92,7 +92,7 @@ void append_standing(TableRow& row, const AccuracyScene& scene) {
 }
 
 Html summary_table(const std::vector<AccuracyScene>& scenes) {
-  Rows rows{{"scene", "device", "order in the step", "smallest error", "cost of RMSE 1/255",
+  Rows rows{{"scene", "device", "order of convergence", "smallest error", "cost of RMSE 1/255",
              "cost of RMSE 1/1024", "cost of RMSE 1e-4", "hypervolume",
              "slowdown relative to the best", "on the front", "dominated"}};
   for (const AccuracyScene& scene : scenes) {
@@ -126,7 +126,7 @@ std::string level(const accuracy::AccuracyCase& each, const std::string& factor)
   return each.factors.at(factor);
 }
 
-// The rows about the parts of an error, for one scene on one device.
+// Writes the rows about the contributions to the error, for one scene on one device.
 class Parts {
  public:
   Parts(const std::vector<AccuracyScene>& scenes, const AccuracyScene& scene, Rows& rows)
@@ -136,19 +136,19 @@ class Parts {
     const accuracy::AccuracyCase& least = scene_.cases[accuracy::most_accurate(scene_.cases)];
     add("the most accurate: " + least.configuration, "", least.rmse, error_text(least.largest),
         time_text(least));
-    if (least.factors.contains("step")) add("error caused by its step", "", least.lattice);
-    add("error caused by its rounding, storage and early termination", "", least.arithmetic);
+    if (least.factors.contains("step")) add("its error from the step size", "", least.lattice);
+    add("its error from rounding, storage and early ray termination", "", least.arithmetic);
     for (const accuracy::Switched& each : accuracy::switched_alone(scene_.cases)) {
       add(each, scene_.cases[each.to], "");
     }
     for (const AccuracyScene& other : scenes_) {
       if (other.device != scene_.device || other.limit == scene_.limit) continue;
       const auto each = accuracy::switched_picture(scene_.cases, other.cases, "viewport");
-      if (each) add(*each, other.cases[each->to], ", another image");
+      if (each) add(*each, other.cases[each->to], " (a different image)");
     }
     add("output with 8 bits per channel", "", scene_.eight_bits);
     if (scene_.representation)
-      add("error caused by the voxel size and the transfer function's table", "",
+      add("error from the voxel size and the table of the transfer function", "",
           *scene_.representation);
     add("uncertainty of the limit image itself, at most", "", scene_.uncertainty);
   }
@@ -191,7 +191,8 @@ Html dominated_table(const std::vector<AccuracyScene>& scenes) {
   return table(rows);
 }
 
-// A cost other than time. It is plotted if it was recorded, and folded if it has a title.
+// A kind of cost other than time. It is plotted if it was measured; the plot is folded if there is
+// a title.
 struct Beside {
   Cost cost;
   std::string_view title;
@@ -202,10 +203,11 @@ constexpr Beside beside_time[]{
     {Cost::instructions, "",
      "Error against the instructions of a frame, in device code and in the driver."},
     {Cost::fetched, "Bytes fetched against error",
-     "Error against the bytes that the device code fetched past a simulated cache of 32 KiB."},
+     "Error against the bytes that device code loads into a simulated cache of 32 KiB (its cache "
+     "misses)."},
     {Cost::memory, "Memory against error",
-     "Error against the bytes that a configuration occupies on the device: data, tables, bricks "
-     "and images. Packed cells need four or eight times the memory of the voxels."},
+     "Error against the bytes that a configuration allocates on the device: data, tables, bricks "
+     "and images. Packed cells need four or eight times as much memory as the voxels."},
     {Cost::energy, "Energy against error",
      "Error against the energy of a frame according to the machine’s meters, which includes idle "
      "power and other programs."}};
@@ -228,21 +230,21 @@ Html accuracy_section(const PlanData& plan) {
   if (scenes.empty()) return {};
   Html text =
       markup(
-          "<h3>Run time against error</h3><p>The error is the root mean square over all channels, "
-          "in linear float, against the limit image, which is the image that the scene tends to as "
-          "its sampling is refined. A line joins configurations that differ only in their step. "
-          "The thick line is the front, which consists of the configurations that no other one "
-          "beats in both error and time. The dashed lines are the errors 1/255, 1/1024 and 1e-4; "
-          "the cost of reaching such an error is interpolated between two neighbours on a line. "
-          "The hypervolume is the area, in natural logarithms, between the front and the point "
-          "with a time of one second and the error of an empty image. The slowdown next to it is "
-          "the factor by which the device with the largest area could become slower before its "
-          "area is no longer larger. It is based on the times of one run and does not affect the "
-          "verdict.</p>") +
+          "<h3>Run time against error</h3><p>The error is the root mean square difference from the "
+          "limit image over all channels, in linear floats. Images converge to the limit image as "
+          "the step size approaches 0. A line joins configurations that differ only in their step "
+          "size. The thick line is the front: the configurations that no other configuration beats "
+          "in both error and time. The dashed lines mark the errors 1/255, 1/1024 and 1e-4; the "
+          "cost of reaching such an error is interpolated between two neighbours on a line. The "
+          "hypervolume is the area, in natural logarithms, between the front and the point with a "
+          "time of one second and the error of an empty image. The slowdown is the factor by which "
+          "the device with the largest hypervolume could become slower before this device matches "
+          "it. It is based on the times of one run and does not affect the verdict.</p>") +
       summary_table(scenes);
   text += accuracy_chart(scenes, Cost::time) + charts_beside(scenes);
-  text += folded("Orders of convergence of all families", order_table(scenes)) +
-          folded("Parts of the error, where each factor is changed alone", parts_table(scenes));
+  text +=
+      folded("Orders of convergence of all families", order_table(scenes)) +
+      folded("Contributions to the error: one factor is changed at a time", parts_table(scenes));
   const bool timed =
       std::ranges::any_of(scenes, [](const AccuracyScene& scene) { return !scene.front.empty(); });
   if (timed) text += folded("Dominated configurations", dominated_table(scenes));

@@ -1,4 +1,4 @@
-// Shows values, costs and times that differ from the stored ones.
+// Shows values, costs and times that differ from the stored values.
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ using judge::Finding;
 struct Change {
   const Finding* finding;
   const record::Record* record;
-  double share;  // 0.01: one per cent more than the stored value
+  double share;  // relative change: 0.01 is 1 % more than the stored value
 };
 
 std::vector<Change> changes_in(const PlanData& plan, Check check) {
@@ -49,14 +49,14 @@ std::string percent(double share) {
   return fmt::format("{:+.2f} %", 100 * share);
 }
 
-// The length of the bar is the change relative to the largest change. Increases and decreases have
-// different colours.
+// Returns a bar whose length is the change relative to the largest change. Increases and decreases
+// have different colours.
 Html bar(double share, double largest) {
   return markup("<span class=\"bar {}\" style=\"width:{:.1f}%\"></span>",
                 share > 0 ? "more" : "less", largest > 0 ? 100 * std::abs(share) / largest : 0);
 }
 
-// "1 000 → 1 010"; empty if this part was not counted.
+// Returns "1 000 → 1 010", or "" if this part was not counted.
 std::string counts_of(const Finding& finding, const std::string& part) {
   const auto now = finding.numbers.find(part);
   const auto stored = finding.numbers.find("stored_" + part);
@@ -65,7 +65,8 @@ std::string counts_of(const Finding& finding, const std::string& part) {
                      grouped(static_cast<std::uint64_t>(now->second)));
 }
 
-// Configurations whose cost differs from the stored one, the largest change first.
+// Returns a table of the configurations whose cost differs from the stored cost, the largest change
+// first.
 Html cost_bars(const PlanData& plan) {
   const std::vector<Change> all = changes_in(plan, Check::cost);
   if (all.empty()) return {};
@@ -74,14 +75,14 @@ Html cost_bars(const PlanData& plan) {
     return each.finding->verdict != judge::Verdict::pass;
   });
   if (changed.empty()) {
-    return markup("<p>All {} frames take the stored number of instructions.</p>\n", all.size());
+    return markup("<p>All {} frames execute the stored number of instructions.</p>\n", all.size());
   }
   std::ranges::stable_sort(changed, std::greater{},
                            [](const Change& each) { return std::abs(each.share); });
   constexpr std::size_t shown = 12;
   const Html told = markup(
-      "<p>{} of {} frames take another number of instructions than stored{}.</p>\n", changed.size(),
-      all.size(),
+      "<p>{} of {} frames do not execute the stored number of instructions{}.</p>\n",
+      changed.size(), all.size(),
       changed.size() > shown ? fmt::format("; the table shows the {} largest changes", shown) : "");
   changed.resize(std::min(shown, changed.size()));
   Rows rows{{"device", "technique", "scene", "device code", "driver", "total", ""}};
@@ -107,7 +108,7 @@ std::string change_text(const judge::Change& change) {
   return percent(*change.now / *change.before - 1);
 }
 
-// A changed value with the finding that contains it.
+// A changed value, and the finding that contains it.
 struct ChangedValue {
   const Finding* finding;
   const judge::Change* change;
@@ -129,8 +130,8 @@ Html values_table(std::span<const ChangedValue> values) {
   return table(rows, "values");
 }
 
-// The values that differ from the stored ones, by check, the largest change first. Cost and times
-// are left out, because they are shown as bars.
+// Returns tables of the values that differ from the stored values, one for each check, the largest
+// change first. Cost and times are left out, because they are shown as bars.
 Html changed_values(const PlanData& plan) {
   std::map<Check, std::vector<ChangedValue>> by_check;
   for (const Finding& finding : plan.verdict->findings) {
@@ -161,8 +162,8 @@ Html changed_values(const PlanData& plan) {
   return text;
 }
 
-// For each technique on a device, the median change of its configurations and the range of the
-// middle half.
+// Returns a table with the median and the quartiles of the changes in time, for each technique on
+// each device.
 Html time_bars(const PlanData& plan) {
   std::map<std::pair<std::string, std::string>, std::vector<double>> by_row;
   for (const Change& each : changes_in(plan, Check::timing)) {
@@ -181,7 +182,7 @@ Html time_bars(const PlanData& plan) {
   }
   if (by_row.empty()) return {};
   return markup(
-             "<p>Times compared with the stored ones: median and middle half of the "
+             "<p>Times relative to the stored times: median and quartiles over the "
              "configurations.</p>\n") +
          table(rows, "bars");
 }

@@ -1,5 +1,5 @@
-// Shows the compilers' reports in a table of techniques and devices, and the two disassemblies of
-// each finding.
+// Shows the statistics that GPU compilers report, by configuration and device, and the old and new
+// disassembly of code that got worse.
 
 #include <fmt/format.h>
 
@@ -19,9 +19,8 @@ namespace {
 
 using record::Check;
 
-// The sum of a statistic over the executables of a configuration that report it. For occupancy, the
-// smallest value is used instead, because the executable with the fewest waves hides the least
-// latency.
+// Returns the sum of a statistic over the executables of a configuration. For occupancy, returns
+// the smallest value instead, because the executable with the fewest waves hides the least latency.
 std::optional<double> in_all(const record::Code& code, std::string_view name) {
   std::optional<double> all;
   for (const auto& [executable, what] : code) {
@@ -46,7 +45,7 @@ Html cell_of(const record::Code& code) {
   add("inverse throughput", "cycles per wave");
   add("registers", "registers");
   add("spilled VGPRs", "spilled VGPRs");
-  return cell.empty() ? markup("none of these statistics is reported") : cell;
+  return cell.empty() ? markup("the compiler reports none of these statistics") : cell;
 }
 
 Html statistics_table(const PlanData& plan) {
@@ -88,7 +87,8 @@ class EarlierRuns {
     }
   }
 
-  // The latest different disassembly of this executable; nullopt if the store contains none.
+  // Returns the latest disassembly of this executable that differs from `now`, or nullopt if the
+  // store contains none.
   std::optional<std::string> assembly(const judge::Finding& finding, const std::string& executable,
                                       const std::string& now) {
     for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {
@@ -138,9 +138,9 @@ Html disassembly_of(const record::Store& store, const judge::Finding& finding,
   }
   if (!html.empty()) return html;
   return markup(
-      "<p>The store contains no earlier disassembly of it. To see both, compare with a build of "
-      "the base: <code>triptych gate --base PROGRAM</code>, or first run the plan with that build "
-      "into this store.</p>");
+      "<p>The store contains no earlier disassembly of this configuration. To see both, compare "
+      "with the previous build: <code>triptych gate --base PROGRAM</code>. Or run the plan with "
+      "that build first, with the same store.</p>");
 }
 
 Html changed_code(const record::Store& store, const PlanData& plan) {

@@ -1,5 +1,5 @@
-// The controls for the reader: filters, and a view with a slider between two images. The script of
-// the page makes them visible.
+// The interactive controls: filters, and a dialog that compares two images with a slider. They are
+// hidden until the script of the page shows them.
 
 #include <fmt/format.h>
 
@@ -44,7 +44,7 @@ Html comparison_dialog() {
       "<label>Right <select></select></label></div>"
       "<div class=\"view\"><div class=\"layer\"><img alt=\"\"><span class=\"mark\"></span></div>"
       "<div class=\"layer over\"><img alt=\"\"><span class=\"mark\"></span></div></div>"
-      "<label class=\"border\">Border between left and right "
+      "<label class=\"border\">Border between the left and the right image "
       "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\"></label>"
       "<div class=\"choices\"><button type=\"button\" class=\"zoom\" "
       "aria-pressed=\"false\">Zoom "

@@ -1,5 +1,5 @@
-// Shows how closely the costs of two devices are related: a scatter plot with a line for each pair
-// of devices, and the configurations that are not on the line.
+// Shows how closely the costs of two devices are related: for each pair of devices, a scatter plot
+// with the fitted line, and the configurations that are off the line.
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using judge::CorrelationPair;
 
-// The technique in the key of a configuration: "…,technique=raycast,…" → "raycast".
+// Returns the technique in a configuration key: "…,technique=raycast,…" → "raycast".
 std::string technique_in(const std::string& configuration) {
   constexpr std::string_view name = "technique=";
   const std::size_t at = configuration.find(name);
@@ -37,7 +37,8 @@ Html fit_text(const CorrelationPair& pair) {
                       : markup("<b class=\"cannot_judge\">Refused</b>: {}", words::refusal(line)));
 }
 
-// Converts the stored form of a pair, which no other function knows.
+// Converts a pair to a figure, with its logarithms converted to millions of instructions or to
+// milliseconds.
 ScatterFigure scatter_of(const CorrelationPair& pair) {
   const bool cost = pair.signal == "cost";
   const double unit = std::log(1e-6);  // instructions in millions, nanoseconds in milliseconds
@@ -80,9 +81,10 @@ Html correlation_section(const PlanData& plan) {
   }
   if (judged.empty() && shown.empty()) return {};
   Html text = markup(
-                  "<h3>Costs of devices compared</h3><p>Each point is a configuration. The "
-                  "horizontal axis is its cost on one device, and the vertical axis is its cost on "
-                  "the other. The second figure shows how far each point is from the line.</p>") +
+                  "<h3>Comparison of the costs on different devices</h3><p>Each point is a "
+                  "configuration. The horizontal axis is its cost on one device, and the vertical "
+                  "axis is its cost on another device. The second figure shows the deviation of "
+                  "each point from the line.</p>") +
               judged;
   return text + folded("Other pairs of devices", shown);
 }

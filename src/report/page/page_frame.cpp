@@ -6,8 +6,8 @@ namespace triptych::report {
 
 namespace {
 
-// Allows nothing but the contents of the page itself. Inline styles are allowed because the widths
-// of bars are style attributes, for which no hash can be given.
+// Allows only content of the page itself. Inline styles are allowed, because the widths of bars are
+// style attributes, which a policy cannot identify by a hash.
 Html policy() {
   return markup(
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "

@@ -1,5 +1,5 @@
 #pragma once
-// The beginning and the end of every page, and parts that can be folded.
+// The beginning and the end of every HTML page, and sections that can be folded.
 
 #include <string_view>
 
@@ -7,14 +7,14 @@
 
 namespace triptych::report {
 
-// Everything from the doctype to the body. The style sheet is inside and figures are SVG, so that
-// the page needs no network. Without its script, it shows everything except images that are
-// repeated. Its Content-Security-Policy allows only that script, by its hash, and nothing from
-// anywhere else.
+// Returns everything from the doctype to the beginning of the body. The page contains its style
+// sheet, and figures are SVG, so it works without a network. If scripts are disabled, it shows
+// everything except repeated images. Its Content-Security-Policy allows only the script in the
+// page, which is identified by its hash, and no external content.
 [[nodiscard]] Html page_begin(std::string_view title);
 [[nodiscard]] Html page_end();
 
-// Empty if the body is empty.
+// Returns a section that is folded at first, or nothing if `body` is empty.
 [[nodiscard]] Html folded(const Content& summary, const Html& body);
 
 }  // namespace triptych::report

@@ -1,5 +1,5 @@
-// Shows the samples that remain after skipping. A perfect method would take only the samples that
-// contribute to the image.
+// Shows how much work remains after empty-space skipping and culling. Perfect skipping would leave
+// only the samples that contribute to the image.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,8 +24,9 @@ struct Work {
   auto operator<=>(const Work&) const = default;
 };
 
-// For volumes, all samples and those that are not transparent. For particles, the spheres that are
-// drawn and those that at least one pixel shows.
+// Returns the work of a frame. For volumes: all samples, and the samples that are not transparent.
+// For particles: the spheres that are drawn, and the spheres that are visible in at least one
+// pixel.
 std::optional<Work> work_of(const record::Counts& counters) {
   for (const auto& [taken, needed] :
        {std::pair{"samples", "samples_nonzero"}, std::pair{"particles_submitted", "visible_ids"}}) {
@@ -61,12 +62,14 @@ Html needed_section(const PlanData& plan) {
                     fmt::format("{:.3f}", share), fmt::format("{}", fmt::join(names, ", "))});
   }
   return folded(
-      "Skipping: work that was done, and work that the image needed",
-      markup("<p>{}.</p>",
-             volume
-                 ? "“Taken” counts all samples, and “needed” counts those that are not transparent"
-                 : "“Taken” counts the spheres that were drawn, and “needed” counts those that a "
-                   "pixel shows") +
+      "Skipping: the work that was done, and the work that contributes to the image",
+      markup(
+          "<p>{}.</p>",
+          volume
+              ? "“Taken” is the number of all samples, and “needed” is the number of samples "
+                "that are not transparent"
+              : "“Taken” is the number of spheres that were drawn, and “needed” is the number of "
+                "spheres that are visible in at least one pixel") +
           table(rows));
 }
 

@@ -27,9 +27,9 @@ std::vector<std::string> techniques_of(const SameBits& group) {
   return names;
 }
 
-// Describes how an image was made: each factor that has fewer levels in the group than in the
-// scene, because only such factors distinguish it from the scene's other images. The technique has
-// a separate line.
+// Describes how an image was drawn. Lists each factor that has fewer levels in the group than in
+// the scene, because only these distinguish the image from the other images of the scene. The
+// technique is left out, because titled() states it.
 std::vector<std::string> made_by(const SameBits& group, const PictureScene& scene) {
   std::map<std::string, std::set<std::string>> seen;
   std::map<std::string, std::set<std::string>> here;
@@ -47,7 +47,7 @@ std::vector<std::string> made_by(const SameBits& group, const PictureScene& scen
   return differences;
 }
 
-// The factors that distinguish it from the other images of the scene.
+// Returns a name that distinguishes the image from the other images of the scene.
 std::string name_of(const PictureScene& scene, const SameBits& group) {
   std::string name =
       fmt::format("{}, {}", group.front()->device, fmt::join(techniques_of(group), ", "));
@@ -55,8 +55,8 @@ std::string name_of(const PictureScene& scene, const SameBits& group) {
   return name;
 }
 
-// The reference image, or the reason why there is none: for example, the data file is missing and
-// the store does not contain the image.
+// Returns the reference image, or the reason why there is none: for example, the data file is
+// missing and the store does not contain the image.
 std::variant<judge::TruthPair, std::string> truth_or_reason(const PictureSources& sources,
                                                             const record::Record& record) {
   try {
@@ -71,7 +71,7 @@ Html picture(const Image& image, std::string_view alt) {
                 data_uri(core::encode_png(image)), image.width, image.height, alt);
 }
 
-// The image with a ring around the worst pixels of each region beyond the bound.
+// Returns the image with rings around the marked pixels, which are beyond the bound.
 Html ringed(const Html& image, const ShareOfBound& shares) {
   if (shares.marks.empty()) return image;
   Html rings;
@@ -90,7 +90,8 @@ Html figure(const Html& content, std::string_view caption) {
   return markup("<figure>{}<figcaption>{}</figcaption></figure>", content, caption);
 }
 
-// The data that filters and the comparison need, and the targets of links.
+// Returns the beginning of a panel, with the attributes that the filters and the comparison of
+// images use, and with the targets of links.
 Html opening(const PictureScene& scene, const SameBits& group, const ShareOfBound* shares) {
   Html ids;
   std::set<std::string_view> checks;
@@ -117,12 +118,13 @@ Html finding_link(const PictureScene& scene, const SameBits& group) {
     const auto found =
         scene.sources.judged.find(picture_id(scene.plan, record->device, record->configuration));
     if (found == scene.sources.judged.end() || found->second.cause.empty()) continue;
-    return markup(" <a href=\"#{}\">its finding</a>", found->second.cause);
+    return markup(" <a href=\"#{}\">finding</a>", found->second.cause);
   }
   return {};
 }
 
-// `about` describes the image and precedes the text about how it was made.
+// Returns a whole panel. `about` contains the verdict on the image; a description of how the image
+// was drawn follows it.
 Html titled(const PictureScene& scene, const SameBits& group, const Html& figures,
             const Html& about, const ShareOfBound* shares = nullptr) {
   const std::vector<std::string> techniques = techniques_of(group);
@@ -138,19 +140,19 @@ Html titled(const PictureScene& scene, const SameBits& group, const Html& figure
 
 Html verdict_text(const accuracy::ImageComparison& result, const ShareOfBound& shares) {
   const bool right = result.within_bound();
-  std::string text = fmt::format("within the bound; the largest error is {:.0f} % of it",
+  std::string text = fmt::format("within the bound; the largest error is {:.0f} % of the bound",
                                  100 * result.worst.ratio);
   if (!right)
     text = fmt::format("{} pixels beyond the bound", result.over_bound + result.non_finite);
   if (const std::size_t other = result.wrong_ids + result.wrong_depths; other > 0) {
-    text += fmt::format(", {} of them with another particle or another depth", other);
+    text += fmt::format(", {} with a different particle or depth", other);
   }
   const std::string worst = right ? "" : fmt::format(", worst pixel ({}, {})", shares.x, shares.y);
   return markup("<b class=\"{}\">{}</b>{}<br>largest error {:.2e}, RMSE {:.2e}",
                 right ? "pass" : "regression", text, worst, result.largest.error, result.rmse);
 }
 
-// Shown instead of an image: the way in which the program ended.
+// Returns a tile that is shown instead of an image and states how the program ended.
 Html tile(const record::Record& record) {
   const std::string_view what = record::name_of(record.outcome);
   return figure(markup("<div class=\"tile\" role=\"img\" aria-label=\"{}: {}, no image\">{}</div>",
@@ -185,7 +187,7 @@ Panel panel_of(const PictureScene& scene, const SameBits& group) {
             .wrong = true};
   }
   ShareOfBound shares = share_of_bound(image, pair->truth, pair->bound);
-  if (result.over_bound > 0) {  // the pixel that the finding names
+  if (result.over_bound > 0) {  // mark the pixel that the finding names
     shares.x = result.worst.x;
     shares.y = result.worst.y;
   }

@@ -1,5 +1,6 @@
 #pragma once
-// A device's image of a scene next to the reference image, or a text if there is no image.
+// A panel with a device's image of a scene next to the reference image. If there is no image, the
+// panel states how the program ended.
 
 #include <cstddef>
 #include <string>
@@ -9,17 +10,16 @@
 
 namespace triptych::report {
 
-// The records of one device whose images have the same bits.
+// The records of one device whose images are bit-identical.
 using SameBits = std::vector<const record::Record*>;
 
-// The common data of the panels of one scene. Contains pointers into the data from which it was
-// made.
+// The data that all panels of a scene have in common. Refers to data that the caller owns.
 struct PictureScene {
   const PictureSources& sources;
   const PlanData& plan;
   const std::vector<const record::Record*>& records;
   std::string title;
-  std::size_t number;  // number of the panel on the page
+  std::size_t number;  // number of the scene on the page
 };
 
 struct Panel {

@@ -1,5 +1,5 @@
-// Shows the reference image, a device's image and their difference next to each other, with wrong
-// images first.
+// Shows the reference image, a device's image and their difference next to each other. Wrong images
+// come first.
 
 #include <fmt/format.h>
 
@@ -40,8 +40,8 @@ struct Scene {
   std::string title;
   std::vector<Panel> panels;  // sorted by the error relative to the bound, the largest first
   [[nodiscard]] bool wrong() const { return panels.front().wrong; }
-  // Sorts wrong images before configurations that drew nothing, and both by how far they are beyond
-  // the bound.
+  // The sort key: scenes with wrong images come first, then scenes in which nothing was drawn.
+  // Within these, the scene with the largest error relative to the bound comes first.
   [[nodiscard]] std::tuple<bool, bool, double> rank() const {
     return {wrong(), panels.front().drawn, wrong() ? panels.front().ratio : 0};
   }
@@ -79,7 +79,7 @@ Html part(const Scene& scene, std::size_t from, std::size_t to) {
 }
 
 constexpr std::size_t open_scenes = 6;
-// Panels that are not folded, for a scene with a wrong image.
+// The largest number of panels that are not folded in a scene with a wrong image.
 constexpr std::size_t open_panels = 4;
 
 Html scene_part(const Scene& scene, std::size_t from, std::size_t to) {
@@ -89,7 +89,7 @@ Html scene_part(const Scene& scene, std::size_t from, std::size_t to) {
                 part(scene, from, to));
 }
 
-// If nothing is wrong, one image of each scene: the one closest to its bound.
+// Shows the image of each scene that comes closest to its bound. Used if no image is wrong.
 Html one_of_each(std::span<const Scene> scenes) {
   Html text = markup("<div class=\"panels\">");
   for (const Scene& scene : scenes) {
@@ -112,9 +112,11 @@ Pictures pictures_section(const PictureSources& sources, std::span<const PlanDat
   if (scenes.empty()) return {};
   std::ranges::stable_sort(scenes, std::greater{}, &Scene::rank);
   Html text = markup(
-      "<h2 id=\"pictures\">Images</h2><p class=\"system\">The reference image is drawn in double "
-      "precision with the same samples. The difference shows the error of each pixel as a share of "
-      "the bound that is derived for it: 0 <span class=\"ramp\"></span> the bound, <span "
+      "<h2 id=\"pictures\">Images</h2><p class=\"system\">The reference image is rendered in "
+      "double "
+      "precision with the same sample positions. The difference image shows the error of each "
+      "pixel "
+      "as a share of the pixel’s bound: 0 <span class=\"ramp\"></span> the bound, <span "
       "class=\"beyond\"></span> beyond the bound. Rings mark the worst pixels beyond the "
       "bound.</p>");
   const std::size_t shown = std::min(open_scenes, scenes.size());

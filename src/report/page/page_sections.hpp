@@ -1,5 +1,5 @@
 #pragma once
-// The sections of the page. Each is HTML, and empty if there is nothing to show.
+// The sections of the page. A section is empty if there is nothing to show.
 
 #include <functional>
 #include <map>
@@ -25,10 +25,10 @@ struct PlanData {
   const record::Run* run = nullptr;
 };
 
-// The judgement of an image.
+// The findings about an image.
 struct Judged {
-  std::set<std::string_view> checks;
-  std::string cause;  // element id of the first open cause; empty if there is none
+  std::set<std::string_view> checks;  // the checks that judged it
+  std::string cause;                  // element id of the first open cause; empty if there is none
 };
 using JudgedPictures = std::map<std::string, Judged>;  // the key is picture_id()
 [[nodiscard]] JudgedPictures judged_pictures(const Overview& all, std::span<const PlanData> plans);
@@ -39,59 +39,62 @@ struct PictureSources {
   const JudgedPictures& judged;
 };
 
-// The verdict with links to its causes.
+// The verdict, with links to its causes.
 [[nodiscard]] Html verdict_card(const Overview& all, std::span<const PlanData> plans);
 // Filters for the content of the page. They are hidden until the script shows them.
 [[nodiscard]] Html filters(std::span<const PlanData> plans);
-// The row of each kind of check, and the findings by cause.
+// The row of each check, and the findings by cause.
 [[nodiscard]] Html findings_section(const Overview& all, std::span<const PlanData> plans);
-// Images of all plans: first the wrong ones, or an image of each scene if all are right. The others
-// are folded.
+// The images of all plans. Wrong images are visible or, if no image is wrong, one image of each
+// scene. All other images are folded.
 struct Pictures {
   Html html;
   bool wrong = false;
 };
 [[nodiscard]] Pictures pictures_section(const PictureSources& sources,
                                         std::span<const PlanData> plans);
-// Whether the page has a panel for the record: with its image, or with the way in which the program
+// Whether the page has a panel for the record. The panel shows its image, or states how the program
 // ended.
 [[nodiscard]] bool has_tile(const record::Record& record);
-// Two images of a scene under a slider; closed until the script opens it.
+// A dialog that compares two images of a scene with a slider. The script opens it.
 [[nodiscard]] Html comparison_dialog();
-// The meaning of the words on the page, and the documentation of each check.
+// The definitions of the terms on the page, and the documentation of each check.
 [[nodiscard]] Html words_section(const Overview& all);
 // The devices of one plan.
 [[nodiscard]] Html devices_section(const PlanData& plan);
-// Every value that differs from the stored one, by check, and cost and times as bars.
+// The values that differ from the stored values, by check, and the changes in cost and time as
+// bars.
 [[nodiscard]] Html changes_section(const PlanData& plan);
 [[nodiscard]] Html times_section(const PlanData& plan);
 [[nodiscard]] Html speed_of_light_section(const PlanData& plan);
-// The compilers' reports. The disassembly of code that got worse is shown next to an earlier one
-// from the store.
+// The statistics that GPU compilers report. For code that got worse, also the disassembly next to
+// an earlier disassembly from the store.
 [[nodiscard]] Html code_section(const record::Store& store, const PlanData& plan);
-// The samples and spheres that remain after skipping and culling, and how many of them are visible.
+// The numbers of samples or spheres that remain after skipping or culling, and that contribute to
+// the image.
 [[nodiscard]] Html needed_section(const PlanData& plan);
-// For each pair of devices, the configurations that are on the line and those that are not.
+// A scatter plot with a line for each pair of devices.
 [[nodiscard]] Html correlation_section(const PlanData& plan);
-// The scenes whose accuracy is part of the verdict.
+// Run time against error, for plans with the check `accuracy`.
 [[nodiscard]] Html accuracy_section(const PlanData& plan);
 [[nodiscard]] Html counts_section(const PlanData& plan);
 
-// Empty if nothing was recorded.
+// Returns the suite of the plan, or "" if the plan has no records.
 [[nodiscard]] std::string suite_of(const PlanData& plan);
 
-// The element id of the panel for a configuration on a device.
+// Returns the element id of the panel for a configuration on a device.
 [[nodiscard]] std::string picture_id(const PlanData& plan, const std::string& device,
                                      const std::string& configuration);
 
-// The factors that distinguish a record's scene from the other scenes of the plan, "data=…,
-// camera=…". If the plan has only one scene, all factors that the configuration names. The
-// technique is never among them.
+// Returns the factors that distinguish a record's scene from the other scenes of the plan: "data=…,
+// camera=…". If the plan has only one scene, returns all factors that the configuration names. The
+// technique is never included.
 [[nodiscard]] std::string scene_title(const PlanData& plan, const record::Record& record);
-// The same without factors that only determine how the image is drawn.
+// Like scene_title(), but without factors that determine only how the image is drawn, not what it
+// shows.
 [[nodiscard]] std::string picture_title(const PlanData& plan, const record::Record& record);
 
-// The factors that all scenes of the plan have in common; empty if there are none.
+// Returns the factors that all scenes of the plan have in common, or "" if there are none.
 [[nodiscard]] std::string common_factors(const PlanData& plan);
 
 }  // namespace triptych::report

@@ -1,4 +1,4 @@
-// The sections that consist of tables.
+// The sections about devices, times, speed of light and counts, which consist mainly of tables.
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@
 namespace triptych::report {
 namespace {
 
-// Only the number of exact statistics is shown; the others are listed.
+// Shows how many statistics the driver counts exactly, and lists the other statistics.
 Html calibration_text(const record::Device& device) {
   Html text;
   int exact = 0;
@@ -39,7 +39,7 @@ Html clock_text(const std::vector<record::ClockTrust>& clocks) {
   return text;
 }
 
-// Records that have their own frames.
+// Returns the records that were timed and did not reuse the frames of another configuration.
 std::vector<const record::Record*> measured(const PlanData& plan) {
   std::vector<const record::Record*> records;
   for (const record::Record& record : plan.records) {
@@ -51,14 +51,14 @@ std::vector<const record::Record*> measured(const PlanData& plan) {
   return records;
 }
 
-// Times by different clocks are never compared.
+// Returns a clock that timed both records, because times from different clocks are never compared.
 std::string_view clock_of_both(const record::Record& a, const record::Record& b) {
   return a.clock() == b.clock() ? a.clock() : "wall";
 }
 
-// Records that copied the frames of another configuration, and the reasons.
+// Returns a table of the records that reused the frames of another configuration, with the reasons.
 Html taken_over(const PlanData& plan) {
-  Rows rows{{"configuration", "device", "measured as", "why"}};
+  Rows rows{{"configuration", "device", "measured as", "reason"}};
   for (const record::Record& record : plan.records) {
     if (record.same_as.empty()) continue;
     rows.push_back(
@@ -70,8 +70,8 @@ Html taken_over(const PlanData& plan) {
                 table(rows));
 }
 
-// Whether the technique only fetches, so that its time is a lower bound for the times of the
-// others.
+// Whether the technique only fetches memory, like speed_of_light, so that its time is a lower bound
+// for the times of other techniques.
 bool is_bound(const record::Record& record) {
   return !record::has_picture(record) && record.code.empty();
 }
@@ -112,7 +112,8 @@ Html times_section(const PlanData& plan) {
   }
   return folded(plan.verdict->times_decided ? "Times: judged" : "Times: shown, not judged",
                 markup("<p>Each stroke is a timed frame, and the box spans the quartiles. “Back to "
-                       "back” is the wall-clock time of a frame in a loop without waiting.</p>") +
+                       "back” is the wall-clock time per frame in a loop that does not wait for "
+                       "each frame.</p>") +
                     time_chart(plan) + folded("Table of times", table(rows, "times")) +
                     taken_over(plan));
 }
@@ -139,10 +140,12 @@ Html speed_of_light_section(const PlanData& plan) {
   }
   if (rows.size() == 1) return {};
   return folded(
-      "Speed of light: times relative to memory fetches alone",
-      markup("<p>The speed of light is the time of the same fetches and transfer-function look-ups "
-             "without any other work, with the same skipping but without early ray termination. A "
-             "technique can be faster than that if rays end early, but hardly otherwise.</p>") +
+      "Speed of light: times relative to the memory fetches alone",
+      markup(
+          "<p>The speed of light is the time for the same fetches and transfer-function look-ups "
+          "without any other work. It uses the same empty-space skipping, but no early ray "
+          "termination. A technique is hardly ever faster than this, unless its rays end "
+          "early.</p>") +
           table(rows));
 }
 
@@ -168,14 +171,14 @@ Html counts_section(const PlanData& plan) {
     text += folded(title, table(rows, "counts"));
   };
   section(
-      "Cost: instructions of one frame by the code that they belong to; misses are lines of 64 "
-      "bytes that device code loads into a simulated cache of 32 KiB",
+      "Cost: instructions of one frame by the code that executes them; misses are 64-byte lines "
+      "that device code loads into a simulated cache of 32 KiB",
       [](const record::Record& r) -> const record::Counts& { return r.cost; });
   section("Memory allocated on the device, bytes",
           [](const record::Record& r) -> const record::Counts& { return r.memory; });
-  section("Energy of a frame in microjoules by meter, including the other work of the machine",
+  section("Energy of a frame in microjoules, by meter; it includes all other work of the machine",
           [](const record::Record& r) -> const record::Counts& { return r.energy; });
-  section("Triptych’s own counters, from a build that is never timed",
+  section("Triptych’s counters, from a build of the device code that is never timed",
           [](const record::Record& r) -> const record::Counts& { return r.counters; });
   section(
       "Pipeline statistics as the drivers report them; an empty cell means that the driver does "

@@ -1,4 +1,4 @@
-// The beginning of the page: the verdict.
+// The verdict, the findings, and the definitions of terms.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -44,8 +44,7 @@ Html circumstances_of(const Overview& all) {
   return text;
 }
 
-// Whether nothing is wrong but nothing could be compared with baselines either, because the user
-// has none.
+// Whether the only problem is that there are no baselines.
 bool has_no_baselines(const Overview& all) {
   return !all.open.empty() && std::ranges::all_of(all.open, [](const Cause& cause) {
     return cause.group.first->cause == judge::Cause::no_baselines;
@@ -59,12 +58,12 @@ std::string heading(const Overview& all) {
 
 std::string lead(const Overview& all) {
   if (has_no_baselines(all)) {
-    return "Images were compared with the reference image. There are no stored values to compare "
-           "the rest with:";
+    return "Images were compared with the reference image. Everything else could not be judged, "
+           "because there are no stored values:";
   }
   if (all.open.size() == 1) return "One cause:";
   if (!all.open.empty()) return fmt::format("{} causes, the worst first:", all.open.size());
-  return all.code == core::ExitCode::pass ? "Everything that was requested is right."
+  return all.code == core::ExitCode::pass ? "Every requested check passed."
                                           : "No check reached a verdict.";
 }
 
@@ -72,7 +71,7 @@ std::string cause_id(std::size_t number) {
   return fmt::format("cause{}", number);
 }
 
-// A link to each visible cause, and one to the place where the others are folded.
+// Returns a link to each visible cause, and a link to the folded causes.
 Html contents(const Overview& all) {
   if (all.open.empty()) return {};
   Html text = markup("<ol class=\"causes\">");
@@ -89,7 +88,7 @@ Html contents(const Overview& all) {
   return text + markup("</ol>");
 }
 
-// An option and its value stay on one line if there is space.
+// Formats a command so that lines preferably break before an option.
 Html command_block(std::string_view command) {
   if (command.empty()) return {};
   Html text = markup("<pre><span>");
@@ -109,7 +108,7 @@ std::string fact(const PlanData& plan, const std::string& name) {
   return found == plan.run->system.end() ? std::string() : found->second;
 }
 
-// The command that measures and judges the same plans and devices again.
+// Returns a command that measures and judges the same plans and devices again.
 std::string command_for(std::span<const PlanData> plans) {
   std::vector<std::string> words{"triptych", "gate"};
   std::set<std::string> devices;
@@ -125,7 +124,7 @@ std::string command_for(std::span<const PlanData> plans) {
   return core::shell_command(words);
 }
 
-// The program, the machine and the drivers that were tested.
+// Returns a section about the program, the machine and the drivers that were tested.
 Html tested(std::span<const PlanData> plans) {
   std::map<std::string, std::set<std::string>> facts;
   for (const PlanData& plan : plans) {
@@ -169,7 +168,7 @@ Html card(const Overview& all, std::span<const PlanData> plans) {
       all.part ? " · only part of the plans" : "", names, tested(plans));
 }
 
-// Each row has a link to the first cause of its kind.
+// Returns the verdict of a row, with a link to its first cause.
 Html word_of(const KindRow& row, const Overview& all) {
   const bool work = row.check == judge::Check::counters || row.check == judge::Check::statistics;
   const auto first = std::ranges::find_if(all.open, [&](const Cause& cause) {
@@ -223,8 +222,8 @@ Html links(const Cause& cause, const PlanData& plan) {
   return picture_link(plan, first) + markup(" <a href=\"#verdict\">verdict</a>");
 }
 
-// The checks by which the filters find the cause. A wrong image also belongs to counters or
-// statistics that changed with it.
+// Returns the checks for which the filters show the cause. A cause about wrong images is also shown
+// for counters and statistics that changed together with the images.
 std::string checks_of(const Cause& cause) {
   std::set<std::string_view> checks{judge::name_of(cause.group.first->check)};
   if (cause.group.changed_with_it > 0) {
@@ -261,7 +260,7 @@ Html article(const Cause& cause, const PlanData& plan, const Html& id) {
       command_block(command), checks_of(cause));
 }
 
-// Open causes have element ids, which contain their numbers.
+// Returns the causes. If `first_number` is set, they get element ids that contain their numbers.
 Html listed(std::span<const Cause> causes, std::span<const PlanData> plans,
             std::optional<std::size_t> first_number) {
   Html text;
@@ -282,10 +281,11 @@ Html findings(const Overview& all, std::span<const PlanData> plans) {
   text += folded(fmt::format("{} more causes", open.size() - shown),
                  listed(open.subspan(shown), plans, shown));
   return text +
-         folded(fmt::format(
-                    "{} findings that do not affect the verdict: advice, skips, known deviations",
-                    all.aside.size()),
-                listed(all.aside, plans, std::nullopt));
+         folded(
+             fmt::format(
+                 "{} findings that do not affect the verdict: advisories, skips, known deviations",
+                 all.aside.size()),
+             listed(all.aside, plans, std::nullopt));
 }
 
 }  // namespace
@@ -305,19 +305,21 @@ Html words_section(const Overview& all) {
     std::string_view page;
   };
   constexpr std::array meanings{
-      Meaning{"reference image", "the image in double precision, on the same samples as the device",
+      Meaning{"reference image",
+              "the image that the double-precision renderer computes on the same sample positions "
+              "as the device",
               "docs/accuracy.md"},
-      Meaning{"bound", "the largest error that rounding explains, derived for each pixel",
+      Meaning{"bound", "the largest error that a correct device can have in a pixel",
               "docs/accuracy.md"},
-      Meaning{"limit", "the image that the scene tends to as its sampling is refined",
+      Meaning{"limit", "the image to which images converge as the step size approaches 0",
               "docs/accuracy.md"},
-      Meaning{"front", "the settings that no other setting beats in both error and time",
+      Meaning{"front", "the configurations that no other one beats in both error and time",
               "docs/accuracy.md"},
-      Meaning{"stored", "what was accepted with `triptych accept`", "docs/baselines.md"},
-      Meaning{"device key", "everything that the times and the bits of images depend on",
+      Meaning{"stored", "accepted with `triptych accept`", "docs/baselines.md"},
+      Meaning{"device key", "identifies everything on which times and the bits of images depend",
               "docs/glossary.md"},
   };
-  Rows rows{{"word", "meaning", "documentation"}};
+  Rows rows{{"term", "meaning", "documentation"}};
   for (const auto& [word, meaning, page] : meanings) rows.push_back({word, meaning, page});
   for (const KindRow& row : all.rows) {
     const std::string name(judge::name_of(row.check));

@@ -9,15 +9,15 @@ namespace {
 
 using Factors = std::map<std::string, std::string>;
 
-// The factors in the key of a configuration or scene, "camera=…,data=…", without the technique.
+// Returns the factors in a configuration or scene key, "camera=…,data=…", without the technique.
 Factors named_factors(const std::string& key) {
   Factors factors = record::parse_factor_list(key);
   factors.erase("technique");
   return factors;
 }
 
-// The factors that have one value in all configurations of the plan. A factor that some
-// configurations leave at its default is not among them.
+// Returns the factors that have the same level in all configurations of the plan. Leaves out
+// factors that some configurations do not name.
 Factors shared(const PlanData& plan) {
   std::map<std::string, std::set<std::string>> values;
   std::map<std::string, std::size_t> named;
@@ -42,8 +42,8 @@ std::string joined(const Factors& factors) {
   return text;
 }
 
-// The factors that distinguish the scene from the other scenes of the plan, or all factors if there
-// is only one scene.
+// Returns the factors that distinguish the scene from the other scenes of the plan, or all factors
+// if there are none.
 std::string without_shared(const PlanData& plan, const Factors& factors) {
   Factors own = factors;
   for (const auto& [name, value] : shared(plan)) own.erase(name);

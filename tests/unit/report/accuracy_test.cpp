@@ -90,7 +90,7 @@ TEST(AccuracySection, TellsOrdersTimesAndParts) {
   EXPECT_THAT(text, HasSubstr("memory on the device, MiB"));
   EXPECT_THAT(text, HasSubstr("energy of a frame, J"));
   EXPECT_THAT(text, HasSubstr("instructions, millions"));
-  EXPECT_THAT(text, HasSubstr("fetched past the cache, MiB"));
+  EXPECT_THAT(text, HasSubstr("cache misses, MiB"));
 }
 
 // The plan counts instructions and measures no time.
@@ -137,7 +137,7 @@ TEST(AccuracySection, TellsPicturesOfOneDataApart) {
   const PlanData plan{.prefix = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
   const std::string text = accuracy_section(plan).text();
   EXPECT_THAT(text, HasSubstr("ball &lt;1&gt;, viewport=128"));
-  EXPECT_THAT(text, HasSubstr("viewport 64 → 128, another image"));
+  EXPECT_THAT(text, HasSubstr("viewport 64 → 128 (a different image)"));
   EXPECT_EQ(accuracy_title(verdict.accuracies, scene), "ball <1>, viewport=64");
   EXPECT_EQ(accuracy_title(std::vector{scene}, scene), "ball <1>");
 }

@@ -66,10 +66,10 @@ TEST(Page, EveryLinkLeadsSomewhere) {
 
 TEST(Page, ShowsCostAndTimesBesideWhatIsStored) {
   EXPECT_THAT(page_of(false),
-              HasSubstr("<p>All 16 frames take the stored number of instructions.</p>"));
+              HasSubstr("<p>All 16 frames execute the stored number of instructions.</p>"));
   const std::string page = page_of(true);
   EXPECT_THAT(page,
-              HasSubstr("<p>4 of 15 frames take another number of instructions than stored.</p>"));
+              HasSubstr("<p>4 of 15 frames do not execute the stored number of instructions.</p>"));
   EXPECT_THAT(page, HasSubstr("<td class=\"number\">968\u2009288 → 987\u2009654</td>"));
   EXPECT_THAT(page, HasSubstr("<span class=\"bar more\" style=\"width:100.0%\">"));
   EXPECT_THAT(page, HasSubstr("<td class=\"number\">-10.00 %</td><td><span class=\"bar less\""));
