@@ -56,8 +56,8 @@ std::optional<Order> order_of(std::span<const AccuracyCase> cases,
   return fit_order(points);
 }
 
-// Whether `a` is at least as good as `b` in cost and error, and better in one of them. Both must
-// have a cost.
+// Returns whether `a` is at least as good as `b` in both cost and error, and better in one of them.
+// Both must have a cost.
 bool beats(const AccuracyCase& a, const AccuracyCase& b, const CostOf& cost_of) {
   const double cost_a = *cost_of(a);
   const double cost_b = *cost_of(b);

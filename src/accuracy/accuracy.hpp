@@ -23,10 +23,10 @@ struct AccuracyCase {
   std::optional<double> time_ns;              // median of the timed frames, if any were timed
   std::optional<std::uint64_t> samples;       // number of samples, if they were counted
   std::optional<std::uint64_t> instructions;  // per frame, if they were counted
-  std::optional<std::uint64_t> fetched;       // bytes that missed a simulated cache
+  std::optional<std::uint64_t> fetched;       // bytes per frame that missed a simulated cache
   std::optional<std::uint64_t> memory;        // bytes on the device, if they were reported
-  std::optional<double> joules;               // per frame, over all meters, if any reported it
-  double rmse = 0;                            // against the limit
+  std::optional<double> joules;               // energy per frame, if any meter reported it
+  double rmse = 0;                            // root mean square error against the limit
   double largest = 0;
   double error_99 = 0;  // 99th percentile of the pixels' largest error
   // rmse is split into two parts by the reference image at the device's sample positions. `lattice`
@@ -85,7 +85,7 @@ struct Dominated {
 
 // Configurations that differ only in `step`, sorted by decreasing step.
 struct AccuracyFamily {
-  std::string name;  // such as "ert=0, voxel=f32": the factors that differ in its scene
+  std::string name;  // such as "ert=0, voxel=f32": the factors that differ between families
   std::vector<std::size_t> members;
   std::optional<Order> order;
 };

@@ -57,7 +57,7 @@ struct AccuracyScene {
   std::optional<FrontArea> area;  // only if anything was timed
 };
 
-// Combines a record with its errors and with its time on this clock.
+// Combines a record with its errors and with its time according to `clock`.
 [[nodiscard]] AccuracyCase accuracy_case(const record::Record& record, const PictureError& error,
                                          std::string_view clock);
 

@@ -11,7 +11,8 @@ namespace {
 // constant.
 constexpr double recorded = 0x1.0p-23;
 
-// Samples behind this transmittance are not compared, because the reference ends its rays there.
+// Samples are not compared once the transmittance is below this, because the reference ends its
+// rays there.
 constexpr double invisible = 0x1.0p-60;
 
 bool is_within(double number, const Allowed& allowed) {
@@ -70,7 +71,8 @@ std::int64_t index_of(const ExpectedRay& ray, const TakenSample& taken) {
   }
   const double steps = square > 0 ? along / square : 0.0;
   if (!std::isfinite(steps) || std::abs(steps) > 1e15) return -1;
-  // The middle of a very short last step is close to a whole number.
+  // The middle of a very short last step is just above a whole number, so rounding might otherwise
+  // yield the previous index.
   return static_cast<std::int64_t>(std::floor(steps + 1e-4));
 }
 

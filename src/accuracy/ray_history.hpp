@@ -70,7 +70,7 @@ enum class Operation : std::uint8_t {
 
 struct SampleRow {
   std::optional<ExpectedSample> expected;  // nullopt beyond the end of the ray
-  std::optional<TakenSample> taken;        // nullopt if the device skipped it, or ended the ray
+  std::optional<TakenSample> taken;        // nullopt if it was skipped, or the ray had ended
   std::int64_t index = 0;
   bool compared = true;              // false for merged samples
   std::optional<Operation> differs;  // the first operation whose result is outside of its bound

@@ -42,7 +42,7 @@ enum class SurfaceDifference : std::uint8_t {
 [[nodiscard]] std::string_view name_of(SurfaceDifference difference);
 [[nodiscard]] SurfaceDifference compare(const ExpectedSurface& expected, const ShownSurface& shown);
 
-// The result for one sphere that the pixel's ray may meet, drawn alone.
+// The result of drawing a single sphere that the pixel's ray may meet, without any other sphere.
 struct SpriteRow {
   std::uint32_t id = 0;
   ExpectedSurface expected;

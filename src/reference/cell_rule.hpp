@@ -118,8 +118,8 @@ class CellRule {
     Looked looked;
     StepOpacity opacity;
     bool visible = false;
-    Range extinction;             // of the points
-    std::array<Range, 3> colour;  // of the points, by channel
+    Range extinction;             // range of the extinction over the points
+    std::array<Range, 3> colour;  // range of the colour over the points, by channel
   };
 
   [[nodiscard]] bool is_kink(double knot) const { return kinks_[static_cast<std::size_t>(knot)]; }
@@ -142,11 +142,11 @@ class CellRule {
   struct Part {
     double begin = 0;
     double end = 0;
-    Cubic cubic;           // values as positions among the table's entries, along the part
+    Cubic cubic;           // values along the part, as positions among the table's entries
     double error = 0;      // error of these positions
     bool certain = false;  // whether it is visible on every device
     bool touches_a_kink = false;
-    std::array<double, 2> of_cell{};  // the ends of its cell
+    std::array<double, 2> of_cell{};  // where the ray enters and leaves the cell
   };
 
   // Returns the part if it may be visible on a device, and nullopt otherwise.

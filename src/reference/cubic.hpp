@@ -65,7 +65,7 @@ struct Cubic {
   // extrema, 0 or 1 is repeated.
   [[nodiscard]] std::array<double, 4> monotone_ends() const {
     std::array<double, 4> ends{0.0, 0.0, 1.0, 1.0};
-    const double half = c2;  // c1 + 2·half·s + 3·c3·s² = 0
+    const double half = c2;  // the extrema solve c1 + 2·half·s + 3·c3·s² = 0
     const double discriminant = half * half - 3.0 * c3 * c1;
     if (discriminant > 0.0) {
       // Compute both roots from the sum in which nothing cancels.

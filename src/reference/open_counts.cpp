@@ -57,7 +57,7 @@ class Crossings {
     return false;
   }
 
-  // The number of planes between two points.
+  // The number of planes that separate two points.
   [[nodiscard]] double between(const glm::dvec3& a, const glm::dvec3& b) const {
     if (planes_.edge == 0) return 0;
     double sum = 0;
@@ -176,7 +176,7 @@ class Counter {
     Stops stops(model_);
     for (double i = 0; i < most; i += 1) {
       const glm::dvec3 p = ray.entry + (i + 0.5) * stride;
-      const bool ended = stops.may_end();  // on some device
+      const bool ended = stops.may_end();  // whether some device may have ended the ray
       const bool open = ended || i >= fewest;
       const Sight sight = look(ray, i, stride);
       const bool near = crossings.is_near(p);

@@ -23,7 +23,7 @@ template <std::size_t N>
   bool negative = true;
   for (std::size_t j = 0; j < N; ++j) {
     double sum = 0.0;
-    double share = 1.0;  // (j over k)/(N − 1 over k)
+    double share = 1.0;  // a ratio of binomial coefficients, C(j, k)/C(N − 1, k)
     for (std::size_t k = 0; k <= j; ++k) {
       sum += share * c[k];
       share *=

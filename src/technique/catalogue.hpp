@@ -21,7 +21,7 @@ enum class Method : std::uint8_t { sprites, tiles, rays };
 enum class Vertices : std::uint8_t { none, one, corners };
 
 struct Technique {
-  std::string id;     // also the file stem in every backend's folder
+  std::string id;     // also the stem of its file names in every backend's folder
   std::string suite;  // "volume" or "particles"
   Work work = Work::compute;
   Method method = Method::rays;

@@ -44,8 +44,8 @@ class Image {
   struct Bounds {
     int x_begin, x_end, y_begin, y_end;
   };
-  // The range of pixels that the grown square can cover; all pixels if a corner is not in front of
-  // the eye.
+  // Returns the range of pixels that the grown square can cover: all pixels if a corner is not in
+  // front of the eye.
   [[nodiscard]] Bounds bounds(const Square& square) const;
   [[nodiscard]] double column(double x) const { return (x / half_x_ + 1) * scene_.width / 2; }
   [[nodiscard]] double row(double y) const { return (1 - y / half_y_) * scene_.height / 2; }

@@ -111,8 +111,8 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
   if (!technique.asks_corners)
     plainer("corners", "8", "only polygon_tess uses the number of corners");
   if (technique.method == technique::Method::rays) {
-    plainer("conservative_depth", "off", "rays always skip cells that are hidden");
-    plainer("culling", "frustum", "rays always skip cells that they cannot hit");
+    plainer("conservative_depth", "off", "rays always skip spheres that are hidden");
+    plainer("culling", "frustum", "rays always skip spheres that they cannot hit");
     return plain;
   }
   if (work.options.conservative_depth) {

@@ -23,7 +23,7 @@ template <typename Number>
   return number;
 }
 
-// A unit vector that is oblique to all axes.
+// Returns a unit vector that is oblique to all axes.
 [[nodiscard]] glm::dvec3 oblique();
 
 class StressMaker {
@@ -40,7 +40,7 @@ class StressMaker {
 
   // Returns the world-space point at a position in the image (in pixels) and a depth.
   [[nodiscard]] glm::dvec3 place(double x, double y, double depth) const;
-  // The edge length of a pixel at distance 1 along the view axis.
+  // Returns the edge length of a pixel at distance 1 along the view axis.
   [[nodiscard]] double pixel() const;
 
   [[nodiscard]] StressScene take();

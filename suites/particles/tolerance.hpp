@@ -11,28 +11,29 @@ namespace triptych::particles_suite {
 
 // The error model counts roundings. u = 2⁻²⁴ is the unit roundoff of float. Every basic operation
 // has a relative error of at most u. APIs allow division and square root to be less precise: 2.5
-// ulp = 5u. W is the longer side of the image in pixels.
+// ulp = 5u. W is the longer side of the image in pixels. The notation is that of
+// technique/portable/sphere_math.h: the ray has the direction d = (sx, sy, 1) with q = |d|², the
+// sphere has the centre c (in camera space) and the radius r, and m = c × d.
 //
 // 1. Lateral error of the ray, in pixels.
 //   - sx = (x + ½)·pixel − half. Rounding `pixel`, the size of a pixel, moves a point by up to u·W;
 //     the product adds another u·W, and `half` (half the extent of the image) and the difference
 //     add u·W/2 each. The sum is 3u·W.
-//   - The coordinates of the centre are accurate to u (tri_along_axis). Each component of m = c × d
-//     adds the roundings of a product and of a difference. Their terms are at most half the extent
-//     of the image at that depth, so the three errors sum up to 3u·W/2.
+//   - The coordinates of c are accurate to u (tri_along_axis). Each component of m = c × d adds the
+//     roundings of a product and of a difference. Their terms are at most half the extent of the
+//     image at that depth, so the three errors sum up to 3u·W/2.
 //   - The error in two axes is √2 times as large. The total is below 8u·W.
 //   - Rays that are computed at vertices and interpolated have an additional error, because
 //     vertices are snapped to the rasterizer's grid of g = 2⁻ᵇ pixel. The interpolated ray is the
-//     ray of a point that is up to g/2 away along each axis. The model adds g, which leaves the
-//     same amount again for the interpolation itself. Rays that are computed per pixel do not
-//     depend on the grid, because sprites are large enough to allow for snapping
-//     (technique/particles/margins.hpp).
+//     ray of a point that is up to g/2 away along each axis. The model adds g, of which the other
+//     half is for the interpolation itself. Rays that are computed per pixel do not depend on the
+//     grid, because sprites are large enough to allow for snapping (margins.hpp).
 //
 // 2. Lateral error, relative to the radius. A ray hits if |m|² ≤ r²·q. The right side has an error
 // of 5u (3u from q and 2u from two products), and so has the left side (three squares and two
 // sums). The square root halves their sum: 5u·r.
 //
-// 3. Error of the depth, relative to |C| + r.
+// 3. Error of the depth, relative to |c| + r.
 //   - b = c·d consists of 3 products and 2 sums, 3u·|c||d|. The error of c adds u: 4u.
 //   - The root √D: the error of the discriminant D is the lateral error above. The square root
 //     itself adds 5u.

@@ -26,7 +26,7 @@ std::vector<StressCase> cases_of_geometry() {
        stress_boundary},
       {3,
        "parallel",
-       "ray directions have a component of ±0, and the rays begin on a plane of the box",
+       "ray directions have a component of ±0, and the rays begin in the plane of a face",
        "the product 0·∞ never occurs, because such a ray is inside the box for its whole length or "
        "not at all; rounding decides which, and the bound covers both",
        {"lower", "upper", "negative_zero"},

@@ -18,7 +18,7 @@ namespace triptych::volume_suite {
 [[nodiscard]] StressScene stress_far(std::string_view variant);
 [[nodiscard]] StressScene stress_unseen(std::string_view variant);
 
-// Sizes.
+// Sizes of volumes.
 [[nodiscard]] StressScene stress_scale(std::string_view variant);
 [[nodiscard]] StressScene stress_spacing(std::string_view variant);
 [[nodiscard]] StressScene stress_slice(std::string_view variant);

@@ -47,7 +47,7 @@ struct PathPrecision {
 //   - Length of the chord: (t₁ − t₀)/h has an error of 6u·(t₁ + t₀)|v| + 7u·L. The reference
 //     renderer moves both ends of the chord by the position error, so half of this error is
 //     sufficient here. With t₁|v| ≤ D ≤ T + L, it is 6u·T + 6½u·L.
-//   - The larger coefficients of T and L cover both of the last two errors. The sum of all errors is
+//   - The larger coefficients of T and L cover both of the last two errors. The sum of all is
 //         u·(|e| + 20·D + 7·T + 7·L)
 //   - If the eye is far away, rays begin on a plane in front of the box (technique::ray_plane).
 //     Then e, D and T are measured from the point of this plane on the view axis, which is computed

@@ -41,14 +41,14 @@ class Grid {
 // number.
 class Division {
  public:
-  // Needs four bytes per particle while it divides.
+  // Divides space for this scene. While it runs, it needs four bytes per particle.
   Division(const scene::ParticleScene& scene, std::size_t per_cell);
 
-  // The part that contains the particle with this index in the set. Part 0 contains the particles
-  // that are wider than a cell of the grid. Coincident centres are in the same part, except for
-  // those in part 0.
+  // Returns the part that contains the particle with this index in the set. Part 0 contains the
+  // particles that are wider than a cell of the grid. Coincident centres are in the same part,
+  // except for those in part 0.
   [[nodiscard]] std::uint32_t part_of(std::uint32_t place) const;
-  // The number of parts, some of which are empty.
+  // Returns the number of parts, some of which are empty.
   [[nodiscard]] std::size_t parts() const { return nodes_.size(); }
 
  private:

@@ -1,4 +1,4 @@
-// The payload of a task group: 32 cells, each with the index after its last mesh group.
+// The payload of a task group: 32 cells. end[k] is the index after the last mesh group of cell k.
 #define TRI_MESH_SPRITES 32u  // sprites in a mesh group, with four vertices and two triangles each
 struct CellList {
   uint begin[32];

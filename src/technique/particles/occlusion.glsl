@@ -3,7 +3,7 @@
 // value.
 layout(std430) TRI_BINDING(8) readonly buffer VisibleBefore { uint visible_before[]; };  // in the previous frame
 layout(std430) TRI_BINDING(9) writeonly buffer VisibleNow { uint visible_now[]; };
-layout(std430) TRI_BINDING(10) readonly buffer Farthest { uint farthest[]; };  // bits of depths, by block
+layout(std430) TRI_BINDING(10) readonly buffer Farthest { uint farthest[]; };  // bit patterns of depths, by block
 
 // The sphere around the box determines which blocks the cell may reach, and the box itself determines its smallest
 // distance. A hidden cell is strictly behind everything that these blocks show, so it could not win a tie in depth
@@ -12,7 +12,7 @@ bool hidden(Cell cell) {
   vec3 middle = 0.5 * (cell.lo + cell.hi);
   vec3 half_size = 0.5 * (cell.hi - cell.lo) + 2.4e-7 * max(abs(cell.lo), abs(cell.hi));
   vec4 around = camera_space(vec4(middle, 1.00001 * length(half_size)));
-  // A device's depth has an error of a few 2⁻²⁴ of the distance of the farthest part, which 2⁻¹⁶ more than covers.
+  // A device's depth has an error of a few 2⁻²⁴ of the distance to the farthest part, so 2⁻¹⁶ is more than enough.
   float rounding = 1.5259e-5 * (abs(around.x) + abs(around.y) + abs(around.z) + around.w);
   float front = around.z - dot(abs(u.forward.xyz), half_size) - rounding;
   vec2 low;

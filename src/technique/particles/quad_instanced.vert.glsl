@@ -1,5 +1,5 @@
-// The vertex stage without a vertex buffer. TRI_PARTICLE: the particle of the instance, including the base
-// instance. TRI_CORNER: the corner of a triangle strip, from 0 to 3.
+// The vertex stage of quad_instanced, which uses no vertex buffer. TRI_PARTICLE: the particle of the instance,
+// including the base instance. TRI_CORNER: the corner of a triangle strip, from 0 to 3.
 TRI_LINK(0) flat out vec4 sprite_sphere;
 TRI_LINK(1) flat out vec4 sprite_colour;
 TRI_LINK(2) flat out uint sprite_id;

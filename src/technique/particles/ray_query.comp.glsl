@@ -1,4 +1,4 @@
-// One invocation for each pixel. With the injected fault of reversed depth, no hit shortens the ray.
+// One invocation traces one ray for each pixel. With the injected fault of reversed depth, no hit shortens the ray.
 layout(local_size_x = 8, local_size_y = 8) in;
 TRI_BINDING(20) uniform accelerationStructureEXT structure;
 

@@ -109,7 +109,7 @@ Corner polygon_corner(Frame frame, int k, int n) {
                                            tri_sine_turns(turns) * frame.up));
 }
 
-// The centre of the polygon.
+// Returns the centre of the polygon.
 Corner polygon_centre(Frame frame) {
   if (frame.everywhere == 1) {
     return corner_on_image(-u.plane.xy, u.plane.xy, vec2(0.0), u.eye.w);

@@ -10,8 +10,7 @@
 TRI_BINDING(13) uniform samplerBuffer camera_texels;  // spheres in camera space, by particle
 TRI_BINDING(14) uniform usamplerBuffer tile_texels;   // a header, then one Tile after the other, with two texels each
 TRI_BINDING(15) uniform usamplerBuffer entry_texels;
-// small spheres: a plane of depth keys, then one of particle keys
-TRI_BINDING(16) uniform usamplerBuffer pixel_texels;
+TRI_BINDING(16) uniform usamplerBuffer pixel_texels;  // small spheres: a plane of depth keys, then of particle keys
 TRI_BINDING(18) uniform usamplerBuffer colour_texels;  // 1 or 4 words per particle
 #define TRI_COLOUR_WORD(n) texelFetch(colour_texels, int(n)).x
 

@@ -31,7 +31,7 @@ struct TileRounds {
 
   // Whether passes before the last one draw large spheres.
   [[nodiscard]] bool resolved() const noexcept { return entries > 0 && !at_once; }
-  // TRI_SPHERES of tile_grid.glsl.
+  // Returns the value of TRI_SPHERES (tile_grid.glsl).
   [[nodiscard]] int spheres() const noexcept {
     return (small ? 1 : 0) | (entries > 0 ? 2 : 0) | (resolved() ? 4 : 0);
   }

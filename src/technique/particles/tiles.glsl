@@ -33,7 +33,7 @@ struct Tile {
 };
 
 layout(std430) TRI_BINDING(7) writeonly buffer CameraSpheres { vec4 camera_spheres[]; };  // by particle
-// Indices of particles: small ones of all rounds from the front, large ones of this round from the back.
+// Indices of particles: small spheres of all rounds from the front, large spheres of this round from the back.
 layout(std430) TRI_BINDING(8) buffer Kept { uint kept[]; };
 layout(std430) TRI_BINDING(9) buffer Tiles {
   uint small_kept;
@@ -86,7 +86,7 @@ ivec4 tiles_around(ivec4 rectangle) {
   return ivec4(tile_index(a), tile_index(b), tile_index(ivec2(a.x, b.y)), tile_index(ivec2(b.x, a.y)));
 }
 
-// The farthest depth key of these tiles.
+// Returns the farthest depth key of these tiles.
 uint farthest_around(ivec4 rectangle) {
   ivec4 around = tiles_around(rectangle);
   return min(min(farthest_in(around.x), farthest_in(around.y)),

@@ -12,7 +12,7 @@ bool draw_small(vec4 sphere, ivec4 rectangle, int count) {
   int right = rectangle.x + rectangle.z;
   for (int i = 0; i < count; ++i) {
     uint key = sphere_key(sphere, pixel_ray(pixel));
-    if (key > 0u && key >= depth_seen(pixel)) {  // a slightly older depth may be read
+    if (key > 0u && key >= depth_seen(pixel)) {  // depth_seen() may return an older depth
       atomicMax(pixels[pixel_index(pixel)], key);
       seen = true;
     }

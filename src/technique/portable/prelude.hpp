@@ -33,7 +33,7 @@ using real2 = glm::vec2;
 #undef TRI_PRECISION
 }  // namespace triptych::technique::portable
 
-// volume_math.h again, in double precision.
+// Includes volume_math.h again, in double precision.
 namespace triptych::technique::portable::fp64 {
 using real = double;
 using real2 = glm::dvec2;

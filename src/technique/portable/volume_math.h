@@ -99,7 +99,7 @@ TRI_FN real tri_1m_exp2(real z) {
 TRI_FN float tri_log2_1m(float alpha) {
   float y = 1.0f - alpha;
   int bits = TRI_AS_INT(y);
-  int e = ((bits - 0x3f3504f3) >> 23);  // 0x3f3504f3 is √½
+  int e = ((bits - 0x3f3504f3) >> 23);  // 0x3f3504f3 are the bits of √½
   float m = TRI_AS_FLOAT(bits - e * 8388608);
   float d = e == 0 ? 0.0f - alpha : m - 1.0f;
   float t = d / (m + 1.0f);

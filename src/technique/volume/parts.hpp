@@ -105,7 +105,7 @@ struct PartPass {
 // Returns the number of bytes of voxels that must be uploaded in all passes together.
 [[nodiscard]] std::uint64_t moved_bytes(std::span<const PartPass> passes, const Layers& layers);
 
-// The largest number of bytes of state that a kernel keeps for a ray between two passes.
+// The largest number of bytes of state that a kernel stores for a ray between two passes.
 inline constexpr std::size_t pause_bytes = 256;
 
 }  // namespace triptych::technique
