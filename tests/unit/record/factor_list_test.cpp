@@ -34,8 +34,8 @@ TEST(FactorList, WhatNamesNoFactorIsLeftOut) {
   EXPECT_EQ(parse_factor_list("a=1,none,,b="), (Factors{{"a", "1"}, {"b", ""}}));
 }
 
-// Tests all texts of up to six of the relevant characters. Every value must be readable, and no two
-// values may have the same spelling.
+// Tests all strings of up to six of the relevant characters. Every string must survive escaping,
+// and no two strings may have the same escaped form.
 TEST(FactorList, UnescapingInvertsEscaping) {
   std::vector<std::string> values{""};
   std::set<std::string> texts;

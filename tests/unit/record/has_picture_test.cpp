@@ -1,5 +1,5 @@
-// A record knows its technique only by name, because this room cannot use the catalogue. This test
-// compares which techniques draw images according to each of them.
+// Records know their technique only by name, because this room must not depend on the catalogue of
+// techniques. Therefore, this test checks that both agree on which techniques draw images.
 
 #include "record/has_picture.hpp"
 

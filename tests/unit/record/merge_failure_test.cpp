@@ -1,4 +1,4 @@
-// Merges for which the disk has no space must not leave an incomplete store that looks complete.
+// If the disk runs out of space during a merge, no incomplete store may remain that looks complete.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -24,7 +24,8 @@ using ::testing::StartsWith;
 
 class MergeFailure : public StoreTest {
  protected:
-  // The row of its device takes separate pages, which are written last.
+  // Creates a shard. The row of its device is so large that it needs pages of its own, which are
+  // written last.
   fs::path shard(int number, std::size_t record_bytes = 100) {
     fs::path file = folder_ / fmt::format("shard-{}", number);
     Store store(file, Store::Mode::append);
@@ -39,7 +40,7 @@ class MergeFailure : public StoreTest {
     return file;
   }
 
-  // The reason why the merge failed; empty if it did not.
+  // Returns the reason why the merge failed, or an empty string if it succeeded.
   static std::string merge(const std::vector<fs::path>& files, const fs::path& out) {
     try {
       static_cast<void>(merge_stores(files, out));
@@ -58,7 +59,8 @@ class MergeFailure : public StoreTest {
   }
 };
 
-// Each page in turn is the first one for which the disk has no space.
+// Repeats the merge with every possible amount of free space, so that each page is once the first
+// that does not fit.
 TEST_F(MergeFailure, WithoutRoomLeavesNothing) {
   constexpr std::size_t page = 4096;
   const std::vector<fs::path> files{shard(1), shard(2)};

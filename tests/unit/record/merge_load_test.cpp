@@ -1,6 +1,5 @@
-// Measures how much memory and time a merge of many records takes. With
-// TRIPTYCH_MERGE_RECORDS=10000000 it has the size of the results of a cluster: 15 minutes and 26 GB
-// of disk space.
+// Measures the memory and time needed to merge many records. With TRIPTYCH_MERGE_RECORDS=10000000,
+// the test is as large as the results of a cluster, and takes 15 minutes and 26 GB of disk space.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
@@ -28,9 +27,9 @@ int number_from(const char* variable, int standard) {
   return text == nullptr ? standard : std::stoi(text);
 }
 
-// The records are like those of a volume study: 14 factors, a frame by two clocks, six counts. They
-// are in the order of a plan, in which cameras vary fastest, and not in alphabetical order. The
-// merge copies seals, so here they depend only on the number.
+// The records resemble those of a volume study: 14 factors, a frame timed by two clocks, six
+// counters. They are in plan order, in which cameras vary fastest, rather than in alphabetical
+// order. A merge copies seals without checking them, so the seals need not be valid here.
 constexpr const char* fill_sql = R"sql(
 CREATE TEMP TABLE n AS WITH RECURSIVE n (seq, i) AS (
   SELECT 1, :first UNION ALL SELECT seq + 1, i + :step FROM n WHERE seq < :count)
@@ -66,7 +65,7 @@ void replace_all(std::string& text, std::string_view from, const std::string& to
 
 class MergeLoad : public StoreTest {
  protected:
-  // Shard `index` of `count`.
+  // Creates shard `index` of `count`.
   [[nodiscard]] fs::path shard(int index, int count, int records) const {
     fs::path file = folder_ / fmt::format("shard-{}.sqlite", index);
     const std::string run = fmt::format("run-{:03}", index);
@@ -94,7 +93,7 @@ TEST_F(MergeLoad, TakesBoundedMemory) {
   std::vector<fs::path> files;
   for (int i = 0; i < count; ++i) files.push_back(shard(i, count, records));
   const auto begin = std::chrono::steady_clock::now();
-  // The merge runs in a separate process, for which the system reports the peak of memory.
+  // The merge runs in a child process, for which the system reports the peak memory.
   const pid_t child = fork();
   if (child == 0) {
     std::uint64_t merged = 0;

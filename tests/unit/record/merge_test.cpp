@@ -1,5 +1,5 @@
-// Merges stores: any order gives the same bytes, the result contains everything that was measured,
-// and some stores are refused.
+// Tests merging of stores: the order of the stores does not affect the result, the result contains
+// everything that was measured, and incompatible stores are rejected.
 
 #include "record/merge/merge.hpp"
 
@@ -53,7 +53,7 @@ Record failed(int number, Outcome outcome = Outcome::crashed) {
 
 class Merge : public StoreTest {
  protected:
-  // A shard whose run began at a given second.
+  // Creates a shard whose run began at the given second.
   fs::path shard(int second, const std::vector<Record>& records,
                  const Device& device = sample_device()) {
     fs::path file = folder_ / fmt::format("shard-{}.sqlite", second);
@@ -78,7 +78,7 @@ class Merge : public StoreTest {
     return merge_stores(files, folder_ / out);
   }
 
-  // The hash of a new merge with this name.
+  // Merges the files into a new store named `out`, and returns the hash of its content.
   [[nodiscard]] std::string hash_of_merged(const Files& files, const std::string& out) const {
     for (const char* part : {"", "-wal", "-shm"}) fs::remove(folder_ / (out + part));
     static_cast<void>(merge(files, out));
@@ -98,7 +98,7 @@ class Merge : public StoreTest {
   }
 };
 
-// The text of all fields except the run. It is equal for two records that differ only in the run.
+// Returns all fields except the run. Two records that differ only in the run produce equal strings.
 std::string text_of(Record record) {
   record.run = "";
   return core::Json(record).dump();
@@ -139,7 +139,8 @@ TEST_F(Merge, HoldsEverythingThatItsPartsHold) {
       << "what was under way still is";
 }
 
-// Overlapping shards of two devices; some records were measured twice, some failed once.
+// The shards overlap and belong to two devices. Some records were measured twice, and some failed
+// once.
 TEST_F(Merge, AnyOrderAndGroupingMakesTheSameBytes) {
   Device second = sample_device("null:scripted#2");
   Files files;
@@ -187,8 +188,8 @@ TEST_F(Merge, OfTwoRecordsOneThatWasMeasuredIsKept) {
   EXPECT_EQ(merged_records().at(0).outcome, Outcome::measured);
 }
 
-// A record with an injected fault does not show how the device behaves, whether it was measured or
-// not.
+// A record with an injected fault does not show how the device behaves, so a record without a fault
+// is preferred, even if it failed.
 TEST_F(Merge, OneWithoutAnInjectedFaultIsKept) {
   const auto clean = [](Record record) {
     record.injected = "";
@@ -279,7 +280,7 @@ TEST_F(Merge, TheLatestRunOfEachPlanCounts) {
   const fs::path file = shard(1, {record_of(1)});
   {
     Store store(file, Mode::append);
-    record::Run newer = sample_run("run-000");  // the order is by time, whatever the names are
+    record::Run newer = sample_run("run-000");  // runs are ordered by time, regardless of their ids
     newer.plan_hash = "text";
     newer.configurations = 2;
     store.add_run(newer);
@@ -308,7 +309,7 @@ TEST_F(Merge, NamesWhatAShardLacks) {
   EXPECT_EQ(gaps[0].configurations, 2U);
 }
 
-// The merged run must contain the planned configurations of each part.
+// The merged run must also list the planned configurations of each shard.
 TEST_F(Merge, NamesWhatWasNeverBegun) {
   const fs::path file = shard(1, {record_of(1)});
   {
@@ -331,7 +332,7 @@ TEST_F(Merge, NamesWhatWasNeverBegun) {
   EXPECT_EQ(gaps[1].missing, std::vector{configuration(2)});
 }
 
-// A shard of a plan that has fewer configurations than shards.
+// If a plan has fewer configurations than shards, some shards are empty.
 TEST_F(Merge, AnEmptyShardIsAGap) {
   const fs::path file = folder_ / "empty.sqlite";
   Store store(file, Mode::append);
@@ -344,7 +345,7 @@ TEST_F(Merge, AnEmptyShardIsAGap) {
   EXPECT_EQ(gaps[0].configurations, 0U);
 }
 
-// A value that was changed in a part is found in the merged store.
+// If a value was changed in a shard, the error must be detected in the merged store.
 TEST_F(Merge, SealsHoldAfterwards) {
   const fs::path file = shard(1, {record_of(1)});
   static_cast<void>(merge({file}));
@@ -356,7 +357,7 @@ TEST_F(Merge, SealsHoldAfterwards) {
               ThrowsMessage<core::InputError>(HasSubstr("was changed after it was written")));
 }
 
-// More stores than are open at the same time.
+// Merges more stores than may be open at the same time.
 TEST_F(Merge, HundredsOfStoresAreMergedInGroups) {
   Files files;
   std::vector<Record> all;

@@ -21,8 +21,7 @@ using ::testing::MatchesRegex;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-// --- statistics of samples
-// -------------------------------------------------------------------------------
+// --- Statistics of samples
 
 TEST(Percentile, InterpolatesBetweenOrderStatistics) {
   EXPECT_EQ(percentile({4, 1, 3, 2}, 0), 1);
@@ -51,8 +50,7 @@ TEST(Summarise, QuartilesOrNothing) {
   EXPECT_FALSE(summarise({nan, nan}));
 }
 
-// --- clocks and names
-// ------------------------------------------------------------------------------------
+// --- Clocks and names
 
 TEST(RecordTest, DeviceClockCountsOnlyWhereTrustedAndThere) {
   Record record = sample_record();
@@ -118,7 +116,7 @@ TEST(DeviceTest, KeyChangesWithEverythingTimingsDependOn) {
   add([](Device& d) { d.environment["LP_NUM_THREADS"] = "1"; });
   add([](Device& d) { d.environment["GALLIVM_PERF"] = ""; });
   add([](Device& d) { d.environment.clear(); });
-  add([](Device& d) {  // the text must not look like the part that it contains
+  add([](Device& d) {  // a field must not imitate another part of the key
     d.api_version += "; CPU " + d.cpu_features;
     d.cpu_features.clear();
   });
@@ -132,7 +130,7 @@ TEST(DeviceTest, KeyChangesWithEverythingTimingsDependOn) {
   EXPECT_EQ(other.key(), device.key());
 }
 
-// One driver serves many graphics cards.
+// One driver can serve many graphics cards.
 TEST(DeviceTest, HardwareIsKnownByItsName) {
   Device device = sample_device("vulkan:nvidia");
   device.cpu_features.clear();
@@ -159,13 +157,12 @@ TEST(DeviceTest, StatisticsKeyIsOfIdAndDriverAlone) {
   other.cpu_features = "none";
   other.statistics_calibration.clear();
   EXPECT_EQ(other.statistics_key(), device.statistics_key());
-  // Earlier versions replaced these letters, so both had the same file name.
+  // Earlier versions replaced these characters, so both driver versions had the same file name.
   other.driver_version = "1.2 LLVM-15";
   EXPECT_NE(other.statistics_key(), device.statistics_key());
 }
 
 // --- JSON
-// -----------------------------------------------------------------------------------------------
 
 template <typename T>
 Json round_trip(const T& value) {

@@ -1,5 +1,5 @@
 #pragma once
-// Records for tests, with a value in every field.
+// Sample records for tests, with a value in every field.
 
 #include <limits>
 #include <string>

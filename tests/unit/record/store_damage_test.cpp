@@ -1,4 +1,5 @@
-// Pages that SQLite considers intact, but in which a value was changed: nothing is judged by them.
+// Tests stores in which a value was changed so that SQLite itself finds no error. Such values must
+// not affect a verdict.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -39,7 +40,7 @@ class StoreDamage : public StoreTest {
     ASSERT_GT(database.exec(sql), 0) << sql << " changes nothing";
   }
 
-  // The data that gate, accept and report read from it.
+  // Reads everything that `gate`, `accept` and `report` read from a store.
   void read_all() const {
     const Store store(file_, Mode::read);
     store.require_whole();

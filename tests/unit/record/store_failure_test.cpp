@@ -1,4 +1,5 @@
-// Failures of a store: other files, access rights, other processes, kills, and full disks.
+// Tests failures of a store: invalid files, access rights, interference by other processes, kills,
+// and full disks.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fcntl.h>
@@ -40,8 +41,7 @@ std::string refusal(const std::filesystem::path& file, Mode mode) {
   }
 }
 
-// --- files that are no store
-// -----------------------------------------------------------------------------
+// --- Files that are not stores
 
 TEST_F(StoreTest, NotASqliteFile) {
   std::ofstream(file_) << std::string(5000, 'x');
@@ -66,9 +66,9 @@ TEST_F(StoreTest, AnotherPrograms) {
   }
 }
 
-// The fuzzer's seed must have the current schema. With a store of another version, the fuzzer would
-// reach nothing but the comparison of versions. The schema seldom changes: to renew the seed, run
-// `triptych run`, and VACUUM the store with a page size of 512 bytes.
+// The fuzzer's seed must have the current schema. With any other schema, the fuzzer would get no
+// further than the version check. The schema seldom changes. To regenerate the seed, run `triptych
+// run`, and VACUUM the store with a page size of 512 bytes.
 TEST(StoreSeed, OfTheFuzzerHasThisSchemaAndARecord) {
   const Store store(
       std::filesystem::path(TRIPTYCH_SOURCE_FOLDER) / "tests/fuzz/seeds/stores/one_record",
@@ -94,8 +94,8 @@ TEST_F(StoreTest, OtherSchemaVersion) {
   }
 }
 
-// A trigger hides what a driver did wrong, a view shows other records, and an index or another form
-// of a table can do both.
+// A trigger could hide what a driver did wrong, a view could show other records, and an index or a
+// changed table could do either.
 TEST_F(StoreTest, ObjectsThatOthersMadeAreRefused) {
   const std::vector<std::pair<std::string, std::string>> attacks{
       {"CREATE TRIGGER hide AFTER INSERT ON device_fault BEGIN DELETE FROM device_fault; END",
@@ -156,8 +156,8 @@ TEST_F(StoreTest, DamagedFile) {
   }
 }
 
-// An index uses the pages of another one, so every query through it finds nothing, without an
-// error.
+// The index uses the pages of another index, so all queries through it return nothing, without
+// reporting an error.
 TEST_F(StoreTest, DamagedIndex) {
   make_store(file_);
   EXPECT_NO_THROW(Store(file_, Mode::read).require_whole());
@@ -185,8 +185,8 @@ TEST_F(StoreTest, DamagedColumn) {
       ThrowsMessage<core::InputError>(AllOf(StartsWith(file_.string()), HasSubstr("is damaged"))));
 }
 
-// SQLite stores no value of more than 10⁹ bytes. Computing the seal of such a text would take
-// several times that much memory, and minutes.
+// SQLite limits values to 10⁹ bytes. Computing the seal of such a string would still take minutes
+// and several times as much memory.
 TEST_F(StoreTest, ATextOfManyMegabytesIsRefused) {
   make_store(file_);
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE)
@@ -204,8 +204,7 @@ TEST_F(StoreTest, APictureThatIsNoneIsNamed) {
                   StartsWith(file_.string()), HasSubstr("image '0123': not a usable EXR image"))));
 }
 
-// --- rights
-// --------------------------------------------------------------------------------------------
+// --- Access rights
 
 TEST_F(StoreTest, ReadOnlyFile) {
   make_store(file_);
@@ -239,7 +238,7 @@ TEST_F(StoreTest, ReadOnlyFolder) {
             "a reason");
 }
 
-// Leaves a store with records that are only in its log.
+// Leaves a store whose records exist only in its write-ahead log.
 void leave_log(const std::filesystem::path& file) {
   const pid_t child = fork();
   if (child == 0) {
@@ -256,8 +255,8 @@ TEST_F(StoreTest, ReadOnlyFolderWithALogLeftBehind) {
   ASSERT_GT(std::filesystem::file_size(file_.string() + "-wal"), 0U);
   std::filesystem::remove(file_.string() + "-shm");
   std::filesystem::permissions(folder_, read_only_folder);
-  // The newest records are in the log. Refusing to read is better than reading old records without
-  // a warning.
+  // The newest records are in the log. Failing is better than silently returning only older
+  // records.
   EXPECT_THAT(as_nobody([&] { return refusal<core::IoError>(file_, Mode::read); }),
               HasSubstr("log cannot be replayed"));
 }
@@ -283,8 +282,7 @@ TEST_F(StoreTest, AFileNeedsAName) {
   }
 }
 
-// --- kills and full disks
-// ------------------------------------------------------------------------------------
+// --- Kills and full disks
 
 TEST_F(StoreTest, KilledWriterLosesAtMostTheRecordInFlight) {
   std::array<int, 2> ends{};
@@ -295,7 +293,7 @@ TEST_F(StoreTest, KilledWriterLosesAtMostTheRecordInFlight) {
     store.add_run(sample_run());
     for (int i = 0;; ++i) {
       store.add_record(sample_record(std::to_string(i)));
-      // Reports that number i is stored.
+      // Reports to the parent that record i is stored.
       if (write(ends[1], &i, sizeof i) != sizeof i) std::_Exit(1);
     }
   }
@@ -322,7 +320,7 @@ TEST_F(StoreTest, KilledWriterLosesAtMostTheRecordInFlight) {
   EXPECT_NO_THROW(store.add_record(sample_record("after")));
 }
 
-// Adds records until one is refused, then says whether those before it are intact.
+// Adds records until one is rejected, then reports whether all records before it are intact.
 std::string fill(const std::filesystem::path& file) {
   int added = 0;
   try {
@@ -342,8 +340,8 @@ std::string fill(const std::filesystem::path& file) {
   }
 }
 
-// The writer is killed, and the store is copied without its log. An earlier run in the copy may
-// have passed, but must not count as the latest one.
+// The writer is killed, and the store is copied without its log. In the copy, an earlier run that
+// passed must not be mistaken for the latest run.
 TEST_F(StoreTest, ACopyWithoutItsLogKnowsWhatTheLatestRunSetOutToDo) {
   make_store(file_);
   Store store(file_, Mode::append);

@@ -1,5 +1,5 @@
 #pragma once
-// A folder for stores, and processes that misuse them.
+// A folder for stores, and helpers that misuse a store from other processes.
 
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -26,7 +26,7 @@
 
 namespace triptych::record {
 
-// A store with one run and one record.
+// Creates a store with one run and one record.
 inline void make_store(const std::filesystem::path& file) {
   Store store(file, Store::Mode::append);
   store.add_run(sample_run());
@@ -38,7 +38,8 @@ inline std::vector<std::byte> bytes_of(std::string_view text) {
   return {bytes.begin(), bytes.end()};
 }
 
-// A disk of 1 MiB that only this process sees; needs no root where users may have namespaces.
+// Mounts a 1 MiB disk that only this process sees. If users may create namespaces, this does not
+// need root.
 inline bool mount_small_disk(const std::filesystem::path& folder) {
   const uid_t user = geteuid();
   if (unshare(CLONE_NEWNS) != 0) {
@@ -49,7 +50,7 @@ inline bool mount_small_disk(const std::filesystem::path& folder) {
          mount("none", folder.c_str(), "tmpfs", 0, "size=1m") == 0;
 }
 
-// From now on, no file of this process can have more than this many bytes.
+// Limits the size of every file that this process writes from now on.
 inline void limit_files(rlim_t bytes) {
   std::signal(SIGXFSZ, SIG_IGN);
   const rlimit limit{.rlim_cur = bytes, .rlim_max = bytes};
@@ -61,10 +62,10 @@ class StoreTest : public ::testing::Test {
   StoreTest() {
     std::string pattern = ::testing::TempDir() + "triptych-store-XXXXXX";
     folder_ = mkdtemp(pattern.data());
-    // Gives other users access, because some tests drop the rights of root, for whom nothing is
-    // read-only.
+    // Gives other users access, because some tests drop root privileges. (For root, nothing is
+    // read-only.)
     std::filesystem::permissions(folder_, std::filesystem::perms::all);
-    // The name contains characters that must be escaped in a URI of SQLite.
+    // The name contains characters that must be escaped in SQLite URIs.
     file_ = folder_ / "a store?#%.sqlite";
   }
   ~StoreTest() override {
@@ -72,7 +73,7 @@ class StoreTest : public ::testing::Test {
     std::filesystem::remove_all(folder_);
   }
 
-  // Runs `action` in a separate process, and returns its text or the text of its exception.
+  // Runs `action` in a child process. Returns its result, or the message of its exception.
   static std::string in_child(const std::function<std::string()>& action) {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) != 0) return "no pipe";
@@ -98,7 +99,7 @@ class StoreTest : public ::testing::Test {
     return text;
   }
 
-  // Does the same without the rights of root.
+  // Runs `action` in a child process without root privileges.
   static std::string as_nobody(const std::function<std::string()>& action) {
     return in_child([&]() -> std::string {
       if (geteuid() == 0 && (setgid(65534) != 0 || setuid(65534) != 0)) return "still root";

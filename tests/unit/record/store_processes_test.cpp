@@ -1,4 +1,4 @@
-// A store that several processes use.
+// Tests stores that several processes use at the same time.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
@@ -21,8 +21,8 @@
 namespace triptych::record {
 namespace {
 
-// The time limit of the test's own connection, because the late writer may access the file at any
-// time, even during a commit.
+// Time limit of the test's own connection. It must be able to wait, because the late writer may
+// access the file at any time, even during a commit.
 constexpr int patience_ms = 10'000;
 
 using std::chrono::milliseconds;
@@ -61,7 +61,7 @@ TEST_F(StoreTest, BusyForAShortTimeIsNoError) {
   release.join();
 }
 
-// CTest starts the devices of a plan at the same time, and all of them must add to one run.
+// CTest starts the devices of a plan in parallel, and all of them must add to the same run.
 TEST_F(StoreTest, OfManyThatWouldBeginARunOneDoes) {
   { const Store empty(file_, Mode::append); }
   std::array<std::string, 8> ids;
@@ -117,8 +117,8 @@ TEST_F(StoreTest, SeveralProcessesCreateOneStore) {
   for (const record::Run& each : store.runs()) EXPECT_THAT(store.records(each.id), SizeIs(10));
 }
 
-// A process that appends as soon as it gets a signal. It is forked before its parent opens a
-// connection, because a connection must not be used across a fork.
+// A child process that appends to the store as soon as it is signalled. It is forked before the
+// parent opens its connection, because a connection must not be used across a fork.
 class LateWriter {
  public:
   explicit LateWriter(const std::filesystem::path& file) {
@@ -134,7 +134,7 @@ class LateWriter {
   LateWriter(const LateWriter&) = delete;
   LateWriter& operator=(const LateWriter&) = delete;
 
-  // Starts the writer and waits so long that it gets as far as it can.
+  // Starts the writer, and waits long enough for it to get as far as it can.
   void begin() const {
     ASSERT_EQ(write(ends_[1], "x", 1), 1);
     std::this_thread::sleep_for(milliseconds(300));
@@ -150,8 +150,8 @@ class LateWriter {
   pid_t child_ = 0;
 };
 
-// Another process has created the file and is about to switch it to the log. SQLite refuses all
-// others that want to switch it at the same time, without waiting.
+// Another process has created the file and is about to enable write-ahead logging. If a second
+// process also tries to enable it, SQLite rejects the attempt at once instead of waiting.
 TEST_F(StoreTest, SwitchedToTheLogByAnotherMeanwhile) {
   make_store(file_);
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA journal_mode = DELETE");
@@ -168,7 +168,8 @@ TEST_F(StoreTest, CreatedByAnotherBetweenLookAndLock) {
   const std::filesystem::path model = folder_ / "model.sqlite";
   make_store(model);
   const LateWriter late(file_);
-  // RESERVED: others can still read a blank file, but have to wait before they write.
+  // This takes a RESERVED lock: others can still read the blank file, but must wait before they
+  // write.
   SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, patience_ms);
   other.exec("BEGIN IMMEDIATE");
   late.begin();

@@ -138,7 +138,7 @@ TEST_F(StoreTest, RunsInTheOrderTheyWereAdded) {
   EXPECT_EQ(store.latest_run("fake/quick")->id, "a");
   EXPECT_EQ(store.latest_run("fake/other")->id, "c");
 
-  // A run that is resumed is added again; it keeps its position and its records.
+  // Adding a run again when it is resumed keeps its position and its records.
   store.add_record(sample_record("x", "d", "b"));
   record::Run again = sample_run("b");
   again.system["resumed"] = "yes";
@@ -214,7 +214,7 @@ TEST_F(StoreTest, StoresCanBeMoved) {
   EXPECT_THAT(third.runs(), SizeIs(2));
 }
 
-// docs/store.md promises these columns to users.
+// docs/store.md documents these columns for users' own queries.
 TEST_F(StoreTest, ColumnsForQueriesByHand) {
   {
     Store store(file_, Mode::append);

@@ -1,4 +1,4 @@
-// Distinguishes records that fail from those that do not.
+// Tests which records count as failures, and which failures are of the same kind.
 
 #include "reduction/failure.hpp"
 

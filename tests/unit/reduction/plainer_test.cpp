@@ -1,4 +1,4 @@
-// Lists the simpler levels of each level.
+// Tests which simpler levels are tried in place of each level.
 
 #include "reduction/plainer.hpp"
 

@@ -1,4 +1,4 @@
-// Reduces configurations of the volume suite that fail by a known rule.
+// Reduces configurations of the volume suite that fail according to a known rule.
 
 #include "reduction/reduce.hpp"
 
@@ -23,7 +23,8 @@ class Reduce : public testing::Test {
   [[nodiscard]] Configuration configuration(const measure::Overrides& overrides) const {
     return measure::default_plan(*suite, overrides).configurations.front();
   }
-  // Every frame for which `fails` returns true fails in this way.
+  // Reduces `start`, where every configuration for which `fails` returns true fails in the same
+  // way.
   [[nodiscard]] Reduction reduce_from(const Configuration& start,
                                       const std::function<bool(const Configuration&)>& fails,
                                       int most_frames = 1000) const {
@@ -64,7 +65,7 @@ TEST_F(Reduce, WhatTheFaultNeedsStays) {
                                             {"ert", {"0"}}}));
 }
 
-// One factor can be made simpler only after another one.
+// Sometimes one factor can be simplified only after another factor has been.
 TEST_F(Reduce, FactorsAreTriedAgainWhenOthersBecamePlainer) {
   const Reduction result = reduce_from(
       configuration({{"adapt", {"0.1"}}, {"skip", {"bricks"}}}), [](const Configuration& each) {

@@ -1,5 +1,5 @@
-// The error bound must hold for arithmetic of the given precision, and must be tight enough to find
-// a renderer that is wrong.
+// The error bound must hold for arithmetic of the given precision, but must be tight enough to
+// expose a faulty renderer.
 
 #include <gtest/gtest.h>
 
@@ -19,9 +19,9 @@ namespace {
 
 struct Comparison {
   int violations = 0;
-  int visible = 0;           // pixels that do not show only the background
-  int visible_exceeded = 0;  // the number of these whose error exceeds their bound
-  double largest_ratio = 0;  // largest error divided by its bound
+  int visible = 0;           // pixels that show more than the background
+  int visible_exceeded = 0;  // visible pixels whose error exceeds their bound
+  double largest_ratio = 0;  // the largest ratio of an error to its bound
   double largest_bound = 0;
 };
 
@@ -72,14 +72,14 @@ TEST(Bound, HoldsForSinglePrecisionOnRandomScenes) {
       largest_ratio = std::max(largest_ratio, c.largest_ratio);
     }
   }
-  // The bound would also hold if it were any large number. The error of some pixel comes close to
-  // it, which shows that it is not too large.
+  // Any huge number would be a valid bound. To show that the bound is not too large, the error of
+  // some pixel must come reasonably close to it.
   EXPECT_GT(largest_ratio, 0.05);
 }
 
 // Tests every kind of ray that needs a separate rule: in a face, along an edge, from a corner, with
-// components of zero, grazing, and through a silhouette. With an opaque table, a missing sample has
-// its full effect.
+// direction components of zero, grazing, and through a silhouette. With an opaque table, a missing
+// sample has its full effect.
 TEST(Bound, HoldsWhereRaysGrazeTheBox) {
   const std::array<glm::dvec3, 7> eyes{
       {{0, 4, 30}, {0, 0, 30}, {8, 8, 30}, {1e-7, 4, 30}, {8 + 1e-6, 4, 30}, {0, 0, 0}, {8, 4, 4}}};
@@ -101,10 +101,11 @@ TEST(Bound, HoldsWhereRaysGrazeTheBox) {
   }
 }
 
-// If all positions of a device have the same error, its image is the one that a perfect device sees
-// from an eye that is displaced by that error. Such an image uses the whole position error, so it
-// reveals everything that the bound forgets: neighbouring cells and table entries, the lattice that
-// slides along a grazing ray, and samples that appear at its end.
+// If a device computes all positions with the same error, its image is the one that a perfect
+// device would draw with the eye displaced by that error. Such an image uses up the entire position
+// error, so it reveals everything that the bound might have overlooked: neighbouring cells and
+// table entries, a sampling lattice that slides along a grazing ray, and samples that appear at the
+// end of the ray.
 Comparison compare_displaced(const scene::VolumeScene& scene, const glm::dvec3& sign,
                              double voxels) {
   ErrorModel model;
@@ -118,8 +119,8 @@ Comparison compare_displaced(const scene::VolumeScene& scene, const glm::dvec3& 
   return compare(render_volume(displaced).image(), render_volume(scene, model), scene.background);
 }
 
-// If the eye moves, cuts move with it, and cells at grazing angles appear and disappear, so the
-// error of the rule itself changes.
+// When the eye moves, the cuts through cells move as well, and cells at grazing angles appear and
+// disappear. The quadrature error itself therefore changes.
 TEST(Bound, OfCellsHoldsForADisplacedEye) {
   double largest_ratio = 0;
   for (std::uint64_t seed = 208; seed < 216; ++seed) {
@@ -128,7 +129,7 @@ TEST(Bound, OfCellsHoldsForADisplacedEye) {
     scene.quadrature = scene::Quadrature::cells;
     scene.step_voxels = seed % 2 == 0 ? 1.0 : 0.4;
     scene.shading.enabled = seed % 4 < 2;
-    // Each seed has every distance, and each distance has both directions.
+    // Each seed tests every displacement, and each displacement is tested in both directions.
     glm::dvec3 sign = seed % 2 == 0 ? glm::dvec3{1, 1, 1} : glm::dvec3{1, -1, -1};
     for (const double voxels : {1e-5, 1e-3, 0.02}) {
       const Comparison c = compare_displaced(scene, sign, voxels);
@@ -160,8 +161,8 @@ TEST(Bound, HoldsForADisplacedEye) {
   EXPECT_GT(largest_ratio, 0.5);
 }
 
-// Rays enter and leave at a small angle to the faces. Every sample at their ends is opaque, and
-// colours change along the ray.
+// Rays enter and leave at a small angle to the faces. All samples at the ends of rays are opaque,
+// and colours change along the rays.
 TEST(Bound, HoldsForADisplacedEyeAtGrazingIncidence) {
   for (const double height : {0.01, 0.2, -0.05}) {
     for (const float alpha : {0.2F, 1.0F}) {
@@ -267,11 +268,11 @@ TEST(Bound, GrowsWithEveryTermOfTheModel) {
     ErrorModel two;
     two.*term = 2e-5;
     EXPECT_GT(total(one), 0.0);
-    EXPECT_NEAR(total(two) / total(one), 2.0, 0.1);  // the bound is of first order
+    EXPECT_NEAR(total(two) / total(one), 2.0, 0.1);  // the bound is proportional to each error
   }
 }
 
-// Compares both ways of bounding the corrected opacity with a search of the allowed range.
+// Compares both methods of bounding the corrected opacity with a search through the allowed range.
 TEST(StepOpacity, EncloseEveryAllowedValue) {
   for (const double alpha : {1e-6, 0.01, 0.5, 0.99, 1 - 1e-7, 1.0}) {
     for (const double error : {0.0, 1e-8, 1e-4, 0.03}) {

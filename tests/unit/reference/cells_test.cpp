@@ -1,5 +1,5 @@
-// Quadrature cells in double precision: it is exact where the field and the table are linear, and
-// of fourth order elsewhere, also for sharp transfer functions.
+// Tests the quadrature `cells` in double precision: it is exact where field and table are linear,
+// and converges with fourth order elsewhere, even for sharp transfer functions.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,8 @@ TEST(CellsPicture, TendsToTheLimitOfTheMidpointRule) {
   }
 }
 
-// Opacity and red rise linearly to the ridge and fall behind it.
+// Returns a table in which opacity and red rise linearly up to the ridge and fall linearly after
+// it.
 scene::TransferFunction roof(double ridge) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {
@@ -62,8 +63,8 @@ double order_of(std::string_view data, double ridge) {
   return std::log2(coarse / rms(render_volume(scene), limit)) / 2;
 }
 
-// Rays that touch the surface on which the value has a kink have an error in the form of the root
-// of a distance, so the order is slightly below four.
+// The value has a kink on a surface. On rays that are tangent to it, the error behaves like the
+// square root of a distance, which makes the order slightly lower than four.
 TEST(CellsPicture, IsOfFourthOrder) {
   for (const char* data : {"gaussian_blob", "marschner_lobb"}) {
     EXPECT_GE(order_of(data, 255), 3.9) << data << ", which no kink meets";
@@ -71,7 +72,7 @@ TEST(CellsPicture, IsOfFourthOrder) {
   }
 }
 
-// Steps that are longer than a cell do not cut any cell.
+// Steps longer than a cell do not subdivide any cell.
 TEST(CellsPicture, IsTheSameForEveryStepFromACellOn) {
   scene::VolumeScene scene = volume_scene_of("mandelbulb", "haze");
   const Truth one = render_volume(scene);

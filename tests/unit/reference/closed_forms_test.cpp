@@ -1,5 +1,5 @@
-// Compares closed forms with adaptive Gauss–Kronrod quadrature of their definitions, with which
-// they have no code in common.
+// Compares the closed-form solutions with adaptive Gauss–Kronrod quadrature of their defining
+// integrals, which shares no code with them.
 
 #include "reference/closed_forms.hpp"
 
@@ -21,7 +21,8 @@ double quadrature(const std::function<double(double)>& f, double a, double b) {
   return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(f, a, b, 12, 1e-14);
 }
 
-// The integral by its definition, for a given optical depth from the start to t.
+// Evaluates the defining integral, where `depth(t)` is the optical depth from the start of the ray
+// to t.
 Radiance by_quadrature(const std::function<double(double)>& tau,
                        const std::function<double(double)>& colour,
                        const std::function<double(double)>& depth, double length) {
@@ -61,7 +62,8 @@ TEST(ClosedForms, RampMatchesItsFormulaAndQuadrature) {
 TEST(ClosedForms, RandomSegmentsMatchQuadrature) {
   core::Random random(1);
   for (int n = 0; n < 2000; ++n) {
-    // The cases are thin to thick, and increase, decrease or stay almost constant.
+    // The segments are thin to thick, and their extinction increases, decreases or is almost
+    // constant.
     const double thickness = std::exp2(random.uniform(-12, 6));
     const double length = std::exp2(random.uniform(-4, 4));
     const double start = thickness / length * random.uniform();

@@ -1,5 +1,5 @@
-// Tests the limit of the step: the order of its rule, the number of points that it needs, and its
-// stated tolerance.
+// Tests the image in the limit of small steps: the order of its quadrature rule, the number of
+// points that it needs, and its stated tolerance.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@
 namespace triptych::reference {
 namespace {
 
-// A piece in which extinction and colour are not linear.
+// Returns the light of a ray segment with nonlinear extinction and colour.
 PieceLight bent(double begin, double end) {
   return gauss_light(end - begin, [&](double share) {
     const double t = begin + share * (end - begin);
@@ -54,7 +54,8 @@ TEST(PieceOfRay, OfOneColourIsItsOpacityTimesTheColour) {
 }
 
 TEST(Polynomial, ChangesItsSignAtItsRoots) {
-  // (s − 0.2)(s − 0.5)²(s − 0.9)(s + 3)(s − 7), which only touches zero at 0.5.
+  // The polynomial is (s − 0.2)(s − 0.5)²(s − 0.9)(s + 3)(s − 7). At 0.5, it touches zero without
+  // changing its sign.
   std::vector<double> c{1};
   for (const double root : {0.2, 0.5, 0.5, 0.9, -3.0, 7.0}) {
     c.push_back(0);
@@ -113,7 +114,7 @@ TEST(Converged, StaysWithinItsToleranceAndSaysSo) {
   }
 }
 
-// The rough table has jumps, contains 0 and 1, and has a kink at every entry.
+// The rough table has jumps, contains the opacities 0 and 1, and has a kink at every entry.
 TEST(Converged, StaysWithinItsToleranceAcrossOpacityOne) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     scene::VolumeScene scene = random_scene(seed, Character::rough, scene::VoxelFormat::f32);
@@ -127,7 +128,7 @@ TEST(Converged, StaysWithinItsToleranceAcrossOpacityOne) {
   }
 }
 
-// Nothing behind an opaque layer is visible, however thin the layer is.
+// Nothing behind an opaque layer may be visible, however thin the layer is.
 TEST(Converged, ShowsTheFaceOfWhatIsOpaque) {
   scene::VolumeScene scene;
   scene.grid = make_grid({4, 4, 16}, {1, 1, 1}, scene::VoxelFormat::f32,
@@ -146,7 +147,7 @@ TEST(Converged, ShowsTheFaceOfWhatIsOpaque) {
   }
 }
 
-// If the ray is cut at the kinks of the shading, it needs hardly more points than without shading.
+// If rays are cut at the kinks of the shading, shading requires hardly any additional points.
 TEST(Converged, TakesFewPointsWithShadingToo) {
   const auto points = [](const char* function, bool shaded) {
     return static_cast<double>(

@@ -1,4 +1,4 @@
-// Compares the renderer with closed forms. The order of convergence must be that of the midpoint
+// Compares the renderer with closed-form solutions. It must converge with the order of the midpoint
 // rule.
 
 #include <gtest/gtest.h>
@@ -17,7 +17,8 @@ namespace {
 struct Difference {
   double rms = 0;
   double largest = 0;
-  double excess = 0;  // the largest amount by which a pixel exceeds its model error
+  // The largest amount by which the error of a pixel exceeds the error of the grid model.
+  double excess = 0;
 };
 
 Difference difference(const AnalyticScene& analytic, const Truth& truth) {
@@ -99,9 +100,9 @@ double order_against_limit(AnalyticProblem problem, int size, const std::vector<
   return test::fitted_order(steps, errors);
 }
 
-// The grid of the blob differs from its closed form, so the order in the step is measured against
-// the limit of the grid itself. It starts with one more step, because on a smooth field the kinks
-// at the boundaries of cells dominate only for small steps.
+// The voxel grid only approximates the blob, so its convergence in the step size is measured
+// against the limit image of the grid itself. The series begins with an additional, larger step,
+// because the kinks at cell boundaries of a smooth field dominate only at small steps.
 TEST(Convergence, BlobIsOfSecondOrderInTheStep) {
   EXPECT_GE(order_against_limit(AnalyticProblem::v4_gaussian, 24, more_halvings), 1.9);
 }
@@ -134,15 +135,16 @@ TEST(Convergence, LayersAreLimitedByTheirEdge) {
   EXPECT_LT(order, 1.7);
 }
 
-// The image is compared with the limit of the grid itself, which is not the closed form.
+// Compares with the limit image of the grid itself, which differs from the closed-form solution.
 TEST(Convergence, AShellIsLimitedByItsFaces) {
   const double order = order_against_limit(AnalyticProblem::v7_shell, 24, halvings);
   EXPECT_GT(order, 0.4);
   EXPECT_LT(order, 1.7);
 }
 
-// The limit of the step, with rays that cross the faces steeply. The remaining error is the
-// distance of the grid from the centre. The ramp of the table is symmetric about a face.
+// Compares limit images for rays that cross the faces of the shell steeply. The remaining error
+// comes from interpolating the distance from the centre, which the grid stores. The ramps in the
+// table hardly contribute, because they are symmetric about the faces.
 TEST(Convergence, AShellIsOfSecondOrderInTheVoxelSize) {
   std::vector<double> sizes;
   std::vector<double> errors;
@@ -169,8 +171,8 @@ TEST(Convergence, LayersSeenFromBehindAreReversed) {
   EXPECT_LT(difference(reversed, render_volume(reversed.scene)).largest, 2e-3);
 }
 
-// The limit of the step must equal the closed form, except for the parts that grid and table cannot
-// represent.
+// The limit image must equal the closed-form solution, apart from what the grid and the table
+// cannot represent.
 TEST(Convergence, LimitIsTheClosedForm) {
   for (const AnalyticProblem problem : analytic_problems) {
     for (const int size : {8, 32}) {

@@ -23,7 +23,7 @@ vec3 single(const glm::dvec3& v) {
   return vec3(v);
 }
 
-// A scene in the numbers that a device gets. Positions are in voxels.
+// A scene in the numbers that a device receives. Positions are in units of voxels.
 class FloatRenderer {
  public:
   FloatRenderer(const scene::VolumeScene& scene, const FloatOptions& options)
@@ -116,7 +116,7 @@ class FloatRenderer {
   [[nodiscard]] float voxel(const ivec3& at) const {
     const ivec3 p = glm::clamp(at, ivec3(0), size_ - 1);
     const auto index = static_cast<std::size_t>(p.x + size_.x * (p.y + size_.y * p.z));
-    // Recovers the stored value. This is exact, because the format represents it exactly.
+    // Recovers the stored value exactly.
     return static_cast<float>((grid_.normalised(index) - grid_.offset) / grid_.scale);
   }
 
@@ -223,18 +223,19 @@ ErrorModel float_model(const scene::VolumeScene& scene, const FloatOptions& opti
   const glm::dvec3 spacing{grid.spacing[0], grid.spacing[1], grid.spacing[2]};
   const glm::dvec3 size{grid.size[0], grid.size[1], grid.size[2]};
   const glm::dvec3 eye = scene.camera.eye / spacing;
-  // The direction is the result of about 20 operations when it is multiplied by the distance, which
-  // is a quotient of it. The products and sums that compute the position of a sample add 10 more.
+  // Multiplying the direction by the distance, which is itself a quotient of direction components,
+  // takes about 20 operations in total. Computing the position of a sample from it adds another 10
+  // products and sums.
   const double reach = glm::length(glm::max(glm::abs(eye), glm::abs(eye - size)));
   ErrorModel model;
   model.position_error_voxels = unit * (glm::length(eye) + 50 * reach);
-  // The value has three interpolations with three operations each, the mapping, and the position in
-  // the table.
+  // The value results from three interpolations of three operations each, the mapping, and the
+  // position in the table.
   model.value_error = 14 * unit;
   model.filter_weight_error =
       options.weight_bits > 0 ? 3 * std::exp2(-options.weight_bits - 1) : unit;
   model.table_error = 3 * unit;
-  // log1p and expm1 have two units each, and the two factors of the exponent are added.
+  // log1p and expm1 have an error of two ulps each, and the two factors of the exponent add to it.
   model.opacity_error = 12 * unit;
   model.compositing_error = 4 * unit;
   model.ert = options.ert;

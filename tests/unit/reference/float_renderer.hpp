@@ -1,5 +1,6 @@
 #pragma once
-// Sums samples in single precision, as a device would, to test the error bound.
+// A renderer that accumulates samples in single precision, as a device would, for tests of the
+// error bound.
 
 #include "core/image.hpp"
 #include "reference/volume.hpp"
@@ -9,8 +10,10 @@ namespace triptych::reference {
 
 struct FloatOptions {
   double ert = 0;
-  double shift_voxels = 0;  // an injected fault: the field is read with this offset along x
-  int weight_bits = 0;      // interpolation weights are rounded to this many bits; 0: not rounded
+  // Injects a fault: the field is read with this offset along x.
+  double shift_voxels = 0;
+  // The number of bits to which interpolation weights are rounded, or 0 not to round them.
+  int weight_bits = 0;
 };
 
 [[nodiscard]] core::Image render_float(const scene::VolumeScene& scene,
@@ -18,13 +21,14 @@ struct FloatOptions {
 
 struct FloatCounts {
   double hits = 0;     // number of rays that hit the volume
-  double samples = 0;  // the number of these that have opacity:
+  // Number of samples, and number of samples with non-zero opacity.
+  double samples = 0;
   double nonzero = 0;
 };
-// Counts for all rays, none of which ends early.
+// Counts hits and samples over all rays, without early ray termination.
 [[nodiscard]] FloatCounts count_float(const scene::VolumeScene& scene, const FloatOptions& options);
 
-// The errors that the arithmetic of render_float may make.
+// Returns the error model of the arithmetic of render_float().
 [[nodiscard]] ErrorModel float_model(const scene::VolumeScene& scene, const FloatOptions& options);
 
 }  // namespace triptych::reference

@@ -1,4 +1,4 @@
-// Rays, boxes and fields at the limits of what is allowed.
+// Tests rays, boxes and fields at the limits of the supported range.
 
 #include <gtest/gtest.h>
 
@@ -78,7 +78,7 @@ TEST(Reference, AllOctantsMirrorEachOther) {
       EXPECT_GT(first.rgba[4 * (8 * 21 + 10) + 3], 0.1);
       continue;
     }
-    // An odd number of reflections exchanges left and right in the image.
+    // An odd number of reflections swaps left and right in the image.
     if ((octant & 1) ^ ((octant >> 1) & 1) ^ (octant >> 2)) {
       for (int y = 0; y < truth.height; ++y) {
         for (int x = 0; x < truth.width / 2; ++x) {
@@ -179,8 +179,8 @@ TEST(Reference, OneVoxelIsABox) {
   }
 }
 
-// One thick layer is the same field as two thin equal layers, because values are clamped to the
-// edge.
+// Values are clamped at the edge, so one thick layer is the same field as two equal layers of half
+// its thickness.
 TEST(Reference, OneLayerEqualsTwoHalves) {
   const auto value = [](int i, int j, int) { return ((7 * i + 3 * j) % 13) / 12.0; };
   scene::VolumeScene thick = random_scene(6, Character::smooth, scene::VoxelFormat::u8);

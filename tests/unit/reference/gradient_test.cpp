@@ -1,6 +1,6 @@
-// Compares the gradient with which the reference renderer shades with closed forms: the factor of
-// V9 for samples at voxel centres, and quadratic fields, for which central differences are exact
-// everywhere.
+// Compares the gradient that the reference renderer uses for shading with closed-form solutions:
+// with the factor of problem V9 for samples at voxel centres, and with quadratic fields, for which
+// central differences are exact everywhere.
 
 #include <gtest/gtest.h>
 
@@ -18,11 +18,12 @@ namespace triptych::reference {
 namespace {
 
 constexpr int voxels = 24;
-// Steeper than any field below, so that a white opaque sample is as bright as the field is steep.
+// A gradient steeper than that of any field below. Relative to it, a white opaque sample is as
+// bright as its field is steep.
 constexpr double steeper = 0.25;
 
-// A cube of voxels with the stored values value(z), with z in voxels. The table maps every value to
-// opaque white.
+// Returns a scene with a cube of voxels that store value(z), where z is in voxels. The transfer
+// function maps every value to opaque white.
 scene::VolumeScene lit_scene(const std::function<double(double)>& value) {
   scene::Volume volume;
   volume.size = {voxels, voxels, voxels};
@@ -43,7 +44,8 @@ scene::VolumeScene lit_scene(const std::function<double(double)>& value) {
   return scene;
 }
 
-// gradient · direction| per voxel at the first sample, which is half a step in front of the eye.
+// Returns |gradient · direction| per voxel at the first sample, which lies half a step in front of
+// the eye.
 double steepness_at(scene::VolumeScene scene, const glm::dvec3& p, const glm::dvec3& direction) {
   scene.camera.eye = p - 0.5 * scene.step_voxels * direction;
   scene.camera.forward = direction;
@@ -51,7 +53,8 @@ double steepness_at(scene::VolumeScene scene, const glm::dvec3& p, const glm::dv
   return render_volume(scene).rgba[0] * steeper;
 }
 
-// Half the difference of two stored values, each of which is rounded to a float.
+// Bounds the round-off of a central difference, half the difference between two values stored as
+// floats.
 double rounding_of(double largest) {
   return 0x1.0p-24 * largest;
 }
@@ -71,7 +74,7 @@ TEST(Gradient, OfASineIsTheDerivativeTimesV9sFactor) {
   }
 }
 
-// Half the spacing of a wave gives a quarter of the error.
+// If the voxels are half as large relative to the wave, the error is a quarter.
 TEST(Gradient, IsOfSecondOrderInTheVoxelSize) {
   std::vector<double> errors;
   for (const double k : {0.4, 0.2, 0.1}) {

@@ -1,5 +1,5 @@
-// Tests how many counts of a raycaster rounding leaves open: enough for arithmetic that rounds
-// differently, but not enough to hide a fault.
+// Open counts are the part of a raycaster's counts that round-off may change. They must cover
+// arithmetic that rounds differently, but must not be large enough to hide a fault.
 
 #include "reference/open_counts.hpp"
 
@@ -22,7 +22,8 @@ scene::VolumeScene volume_seen_by(scene::Camera camera, double size = 1, int vox
                             value),
           .transfer_function = table,
           .camera = camera,
-          .width = 65,  // a column of rays is exactly in the direction of the camera
+          // With an odd width, one column of rays points exactly in the direction of the camera.
+          .width = 65,
           .height = 49,
           .step_voxels = 0.5};
 }
@@ -30,7 +31,7 @@ scene::VolumeScene volume_seen_by(scene::Camera camera, double size = 1, int vox
 scene::Camera oblique() {
   return look_at({-9.1, 30.3, -17.7}, {12.3, 11.9, 12.2});
 }
-// Rays within the face x = 0, and others that pass two edges of cells at a time.
+// Some rays lie within the face x = 0, and some others cross two cell edges at a time.
 scene::Camera within_a_face() {
   return look_at({0, 11, 40}, {0, 11, 0});
 }
@@ -41,7 +42,7 @@ scene::Camera diagonal() {
   return look_at({-20, 12, -20}, {12, 12, 12});
 }
 
-// The same scene in other units is drawn with other rounding errors.
+// If the same scene is expressed in another unit of length, it is drawn with different round-off.
 TEST(OpenCounts, CoverArithmeticThatRoundsOtherwise) {
   const FloatOptions options;
   double largest = 0;
@@ -60,7 +61,7 @@ TEST(OpenCounts, CoverArithmeticThatRoundsOtherwise) {
   EXPECT_GT(largest, 0) << "no rounding decided anything";
 }
 
-// An additional sample in a tenth of the rays exceeds the open counts.
+// One additional sample in a tenth of the rays must exceed the open counts.
 TEST(OpenCounts, AreFewInAGeneralPosition) {
   const scene::VolumeScene scene = volume_seen_by(oblique());
   const FloatOptions options;
@@ -82,7 +83,7 @@ TEST(OpenCounts, AreWholeRaysWhereTheyRunWithinAFace) {
   EXPECT_GT(open.at("bricks_visited"), open.at("rays_hit"));
 }
 
-// If nothing is rounded, no count is open.
+// Without round-off, no count is open.
 TEST(OpenCounts, AreNoneOfExactArithmetic) {
   for (const scene::Quadrature quadrature :
        {scene::Quadrature::midpoint, scene::Quadrature::cells}) {

@@ -1,5 +1,5 @@
-// Quadrature preintegrated in double precision: compares the step with closed forms and brute
-// force, and the image with its limit.
+// Tests the quadrature `preintegrated` in double precision: compares the step with closed-form
+// solutions and brute-force integration, and the image with the limit image.
 
 #include "reference/preintegrated.hpp"
 
@@ -26,8 +26,8 @@ Segment segment(const Table& table, double from, double to, double length) {
                                       {length, length, length});
 }
 
-// Between two opaque entries, only the colour of the front one is visible. Next to one opaque
-// entry, colours fade.
+// Between two opaque entries, only the colour of the front entry is visible. In a cell with only
+// one opaque entry, both colours are visible.
 TEST(PreintegratedStep, EndsWhereItsPathIsOpaque) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {
@@ -42,8 +42,8 @@ TEST(PreintegratedStep, EndsWhereItsPathIsOpaque) {
       EXPECT_NEAR(found.looked.colour[i], table.at(from)[i], 1e-12) << from << ' ' << to;
     }
   }
-  // The integral is ∫ c·τT from entry 119 on. Deep in the cell before it, little light is left for
-  // the opaque entry.
+  // The integral is ∫ c·τT from entry 119 on. The cell before the opaque entry absorbs most of the
+  // light, so little of it is left for the entry itself.
   const Segment ramp = segment(table, 119, 130, 11);
   double seen = 0;
   double left = 1;
@@ -51,14 +51,14 @@ TEST(PreintegratedStep, EndsWhereItsPathIsOpaque) {
   for (int n = 0; n < parts; ++n) {
     const double alpha = (n + 0.5) / parts;
     const double opacity = step_opacity(alpha, 1.0 / parts);
-    seen += left * opacity * alpha;  // red rises from 0 to 1 as the opacity does
+    seen += left * opacity * alpha;  // red rises from 0 to 1 together with the opacity
     left -= left * opacity;
   }
   EXPECT_NEAR(ramp.looked.colour[0], seen + left, 1e-6);
 }
 
-// V3 has linear extinction and colour. The table contains opacity, so between entries extinction
-// deviates from a line by 1e-7.
+// Problem V3 has linear extinction and linear colour. Because the table stores opacity, extinction
+// deviates from a line by 1e-7 between entries.
 TEST(PreintegratedStep, IsV3WhereTheTableIsARamp) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {
@@ -81,7 +81,7 @@ TEST(PreintegratedStep, IsV3WhereTheTableIsARamp) {
   }
 }
 
-// Compares a table with jumps, a spike and full opacity with many short steps of constant opacity.
+// Compares a table with jumps, spikes and full opacity with many short steps of constant opacity.
 TEST(PreintegratedStep, IsTheIntegralOfASteepTable) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {

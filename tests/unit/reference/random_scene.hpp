@@ -1,5 +1,5 @@
 #pragma once
-// Seeded scenes for the tests in this folder.
+// Creates seeded random scenes for the tests in this folder.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace triptych::reference {
 
-// A grid from a function of the voxel's indices to a normalised value in [0, 1].
+// Creates a grid from a function that maps the indices of a voxel to a normalised value in [0, 1].
 [[nodiscard]] std::shared_ptr<const scene::VoxelGrid> make_grid(
     const std::array<int, 3>& size, const std::array<double, 3>& spacing, scene::VoxelFormat format,
     const std::function<double(int, int, int)>& value);
@@ -19,11 +19,11 @@ namespace triptych::reference {
 [[nodiscard]] scene::Camera look_at(const glm::dvec3& eye, const glm::dvec3& target,
                                     const glm::dvec3& up = {0, 1, 0}, double fov_y_deg = 45);
 
-// The same RGBA (not premultiplied) for every value.
+// Returns a transfer function with the same RGBA (not premultiplied) for every value.
 [[nodiscard]] scene::TransferFunction constant_table(const std::array<float, 4>& rgba);
 
 enum class Character {
-  smooth,  // low frequencies and a smooth table, as in real images
+  smooth,  // low frequencies and a smooth table, as in real data
   rough    // white noise, and a table of random entries with peaks, zeros and full opacity
 };
 [[nodiscard]] scene::VolumeScene random_scene(std::uint64_t seed, Character character,

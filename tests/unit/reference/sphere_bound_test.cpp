@@ -1,5 +1,5 @@
-// Everything that the error model permits for rays and spheres is within the bounds of the
-// reference image, and the bounds are not wider than necessary.
+// Every deviation of rays and spheres that the error model permits must stay within the bounds of
+// the reference image, and the bounds must not be wider than necessary.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,8 @@ struct Place {
   double x, y;
 };
 
-// Positions within `reach` pixels of the centre of a pixel, including the rim.
+// Returns positions within `reach` pixels of the centre of pixel `i`, including positions near the
+// rim.
 std::vector<Place> places_around(std::size_t i, int width, double reach) {
   const double x = static_cast<double>(i % static_cast<std::size_t>(width)) + 0.5;
   const double y = static_cast<double>(i / static_cast<std::size_t>(width)) + 0.5;
@@ -45,9 +46,9 @@ std::vector<Place> places_around(std::size_t i, int width, double reach) {
   return places;
 }
 
-// Every certain pixel keeps its id for every ray within the margin, and every pixel keeps its
-// colour within the bound. The depth and colour of certain pixels stay within their bounds for rays
-// that are `lateral_px` away.
+// Checks rays near each pixel. Within the margin, a certain pixel must keep its id, and every pixel
+// must keep its colour within the bound. For rays displaced by up to `lateral_px`, depth and colour
+// of certain pixels must stay within their bounds.
 void expect_bounded(const scene::ParticleScene& scene, const SphereErrorModel& model,
                     const std::string& what) {
   const SphereTruth truth = render_spheres(scene, model);
@@ -95,8 +96,8 @@ TEST(SphereBounds, CoverEveryRayThatTheModelAllows) {
   }
 }
 
-// The eye is inside the sphere, off its centre. The depth changes because the centre moves along
-// the ray.
+// The eye is inside the sphere, but not at its centre. Therefore the depth changes when the centre
+// is displaced along the ray.
 TEST(SphereBounds, CoverTheInsideOfASphere) {
   auto scene = scene_of(set_of({{0.3, 0, -0.3, 1}}), 15, 15, 40);
   SphereErrorModel model;
@@ -108,7 +109,8 @@ TEST(SphereBounds, CoverTheInsideOfASphere) {
   EXPECT_EQ(std::ranges::count(truth.certain, 1), 15 * 15);
 }
 
-// A displaced eye moves all centres perpendicular to the ray, by as much as the model permits.
+// Displacing the eye displaces all centres perpendicular to the ray by as much as the model
+// permits.
 TEST(SphereBounds, CoverCentresThatAreOff) {
   auto scene = scene_of(set_of({{0, 0, 0, 1}}), 64, 64, 0.1);
   SphereErrorModel model;
@@ -132,8 +134,8 @@ TEST(SphereBounds, CoverCentresThatAreOff) {
   }
 }
 
-// The bound is of first order: the largest possible change for a ray that is displaced by a share
-// of a pixel, and not much more.
+// To first order, the bound equals the largest possible change for a ray that is displaced by a
+// fraction of a pixel, and it must not be much larger.
 TEST(SphereBounds, AreAsTightAsTheyCanBe) {
   auto scene = scene_of(set_of({{0, 0, -10, 2}}), 101, 101, 30);
   SphereErrorModel model;
@@ -167,8 +169,8 @@ TEST(SphereBounds, OnlyTheSilhouetteIsUncertain) {
 }
 
 TEST(SphereBounds, AParticleSmallerThanTheMarginIsNoticed) {
-  // The sphere is next to the central ray, so that neither the ray nor the rim of the margin meets
-  // it.
+  // The sphere lies next to the central ray, so neither this ray nor a ray at the rim of the margin
+  // hits it.
   const double pixel = 2 * std::tan(std::numbers::pi / 6) / 9;
   const double off = 0.05 * pixel * 2;
   auto scene = scene_of(set_of({{0, 0, -5, 2}, {off, 0, -2, 0.2 * off}}), 9, 9, 60);
@@ -195,10 +197,10 @@ TEST(SphereBounds, SurfacesAsNearAsTheDepthErrorAreUncertain) {
     return render_spheres(scene, model).certain[middle] != 0;
   };
   EXPECT_TRUE(certain(0.25, 1e-3));
-  EXPECT_FALSE(certain(0.25, 0.02));  // two errors of 0.14 each
+  EXPECT_FALSE(certain(0.25, 0.02));  // each surface has an error of 0.14
   EXPECT_FALSE(certain(0.002, 1e-3));
   EXPECT_TRUE(certain(0.002, 1e-5));
-  EXPECT_FALSE(certain(0x1p-20, 1e-6));  // almost the same sphere, but not quite
+  EXPECT_FALSE(certain(0x1p-20, 1e-6));  // almost, but not exactly, the same sphere
 }
 
 }  // namespace

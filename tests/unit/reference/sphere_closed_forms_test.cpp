@@ -1,4 +1,4 @@
-// Compares the reference image of particles with closed forms for spheres.
+// Compares the reference images of particles with closed-form solutions for spheres.
 
 #include "reference/sphere_closed_forms.hpp"
 
@@ -21,7 +21,8 @@ namespace {
 
 using std::numbers::pi;
 
-// The bounds and the number of the pixels that are not empty. Columns and rows are counted from 0.
+// The bounding rectangle of all pixels that are not empty, and their number. Columns and rows are
+// counted from 0.
 struct Extent {
   int left = 1 << 20, right = -1, top = 1 << 20, bottom = -1;
   std::size_t count = 0;
@@ -91,8 +92,8 @@ TEST(SphereClosedForms, EntryIsOnTheSphereAndIsWhatIsShown) {
   }
 }
 
-// At a distance of 1e5 radii, where a disc has about 200 pixels, the form of S2 determines every
-// pixel of the mask correctly.
+// At a distance of 1e5 radii, where the disc covers about 200 pixels, formula S2 must still
+// classify every pixel of the mask correctly.
 TEST(SphereClosedForms, FarSpheresKeepTheirMask) {
   const double fov = 2 * std::asin(1e-5) * 180 / pi * 1.3;
   auto scene = scene_of(set_of({{0, 0, 0, 1}}), 256, 256, fov);
@@ -144,8 +145,8 @@ TEST(SphereClosedForms, EqualSpheresMeetInTheBisectingPlane) {
   EXPECT_GT(seen[1], 1000U);
 }
 
-// From far away, spheres are discs at random positions. The expected share of the inner window
-// remains free.
+// From far away, spheres look like discs at random positions. Compares the uncovered share of the
+// inner window with its expected value.
 TEST(SphereClosedForms, RandomDiscsLeaveTheExpectedShareFree) {
   core::Random random(11);
   const double radius = 0.02;
@@ -161,7 +162,7 @@ TEST(SphereClosedForms, RandomDiscsLeaveTheExpectedShareFree) {
   scene.camera =
       look_at({0, 0, distance}, {0, 0, 0}, {0, 1, 0}, 2 * std::atan(0.9 / distance) * 180 / pi);
   const double uncovered = 1 - render_spheres(scene).coverage;
-  // Discs with the relative area a change the share by at most about √(N·a²·share²).
+  // Discs with a relative area of a change the uncovered share by at most about √(N·a²·share²).
   const double area = pi * radius * radius / 4;
   const double expected = s5_uncovered(discs, radius, 4);
   EXPECT_NEAR(expected, 0.778, 1e-3);

@@ -1,5 +1,5 @@
 #pragma once
-// Particle scenes that are made by hand, and a renderer that tries every sphere for every pixel.
+// Creates particle scenes by hand, and contains a renderer that tests every sphere for every pixel.
 
 #include <array>
 #include <cstddef>
@@ -14,18 +14,19 @@
 
 namespace triptych::reference {
 
-// The view is from the origin along −z.
+// Returns a scene viewed from the origin along −z.
 [[nodiscard]] scene::ParticleScene scene_of(scene::ParticleSet set, int width, int height,
                                             double fov_y_deg);
 
-// Centre and radius; the id is the index, the colour a hash of it.
+// Each sphere is given as centre and radius. Its id is its index, and its colour is a hash of the
+// id.
 [[nodiscard]] scene::ParticleSet set_of(const std::vector<std::array<double, 4>>& spheres);
 
-// Spheres in the cube [−1, 1]³ with log-uniform radii.
+// Returns spheres in the cube [−1, 1]³ with log-uniformly distributed radii.
 [[nodiscard]] scene::ParticleSet random_set(std::uint64_t seed, int count, double smallest,
                                             double largest);
 
-// The same particles in another order, with their ids and colours.
+// Returns the same particles, with their ids and colours, in random order.
 [[nodiscard]] scene::ParticleSet shuffled(const scene::ParticleSet& set, std::uint64_t seed);
 
 struct Shown {
@@ -34,10 +35,11 @@ struct Shown {
   std::array<double, 4> rgba{};
 };
 
-// The result for a ray in this direction, found by trying every sphere.
+// Returns what a ray in this direction shows, by testing every sphere.
 [[nodiscard]] Shown brute_force(const scene::ParticleScene& scene, const glm::dvec3& direction);
 
-// The ray through a position in the image, in pixels from its upper left corner.
+// Returns the direction of the ray through a position, given in pixels from the upper left corner
+// of the image.
 [[nodiscard]] glm::dvec3 ray_at(const scene::ParticleScene& scene, double x, double y);
 
 }  // namespace triptych::reference

@@ -1,5 +1,5 @@
-// Compares the reference image of particles with a loop over all of them, and checks changes that
-// must not affect it.
+// Compares the reference image of particles with a loop over all particles, and applies changes
+// that must not affect the image.
 
 #include "reference/spheres.hpp"
 
@@ -40,8 +40,8 @@ void expect_equal(const SphereTruth& a, const SphereTruth& b, const std::string&
   EXPECT_EQ(a.coverage, b.coverage) << what;
 }
 
-// Compares all bits. Returns the number of different particles that are visible, so that a test can
-// check that there were some.
+// Expects bit-identical results, and returns the number of different particles that are visible, so
+// that a test can check that there are enough.
 std::size_t expect_brute_force(const scene::ParticleScene& scene, const SphereErrorModel& model,
                                const std::string& what) {
   const SphereTruth truth = render_spheres(scene, model, 2);
@@ -120,7 +120,7 @@ TEST(Spheres, OneSphereTenThousandTimesAsLargeAsItsNeighbours) {
   auto scene = scene_of(std::move(set), 48, 48, 50);
   scene.camera = look_at({0.5, 0.4, 3}, {0, 0, 0});
   EXPECT_GT(expect_brute_force(scene, some_sphere_model(), "from above"), 100U);
-  scene.camera.eye = {0, -150, 0};  // inside the large one
+  scene.camera.eye = {0, -150, 0};  // the eye is inside the large sphere
   EXPECT_EQ(expect_brute_force(scene, some_sphere_model(), "from below"), 0U);
 }
 
@@ -165,7 +165,7 @@ TEST(Spheres, LowestIdOnATie) {
     EXPECT_EQ(truth.certain[middle], 1);
     EXPECT_LT(truth.bound[middle], 1e-2);
   }
-  // The spheres touch in one point only. The lowest id is visible there, but a device need not
+  // The spheres touch at a single point. The lowest id is visible there, but devices need not
   // agree.
   const auto touching = scene_of(set_of({{0, 0, -4, 2}, {0, 0, -3, 1}}), 21, 21, 60);
   const SphereTruth truth = render_spheres(touching);
@@ -192,7 +192,8 @@ TEST(Spheres, ColoursOfEveryKind) {
   scene.particles = std::make_shared<const scene::ParticleSet>(set);
   expect(0.5, 0.125, 2);
   set.colour = scene::ColourKind::intensity;
-  set.intensity = {(10 + 0.75F) / 256};  // a quarter of the way from entry 10 to entry 11
+  // A quarter of the way from entry 10 to entry 11.
+  set.intensity = {(10 + 0.75F) / 256};
   scene.particles = std::make_shared<const scene::ParticleSet>(set);
   scene.intensity_colours.entries[10] = {1, 0, 0.5F, 0};
   scene.intensity_colours.entries[11] = {0, 1, 0.5F, 0};

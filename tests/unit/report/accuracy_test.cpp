@@ -34,7 +34,7 @@ accuracy::AccuracyScene some_scene() {
   return scene;
 }
 
-// The section for a scene in which no time was measured.
+// Returns the report section for a scene without measured times.
 std::string untimed_section(accuracy::AccuracyScene scene = some_scene()) {
   for (accuracy::AccuracyCase& each : scene.cases) each.time_ns.reset();
   accuracy::evaluate(scene);
@@ -50,7 +50,7 @@ TEST(AccuracyChart, ShowsWhatLogarithmicAxesCan) {
   EXPECT_EQ(test::xml_fault(html), "") << html;
   EXPECT_THAT(html, HasSubstr("step=2: RMSE 0.004, 3 ms"));
   EXPECT_THAT(html, HasSubstr("the front"));
-  // A case without error cannot be shown.
+  // A logarithmic axis cannot show a case without any error.
   EXPECT_THAT(html, testing::Not(HasSubstr("step=0.125:")));
   EXPECT_EQ(accuracy_chart(scenes, Cost::samples).text(), "");
   EXPECT_THAT(accuracy_chart(scenes, Cost::instructions).text(),
@@ -60,8 +60,8 @@ TEST(AccuracyChart, ShowsWhatLogarithmicAxesCan) {
   EXPECT_THAT(accuracy_chart(scenes, Cost::energy).text(), HasSubstr("step=2: RMSE 0.004, 0.25 J"));
 }
 
-// Each axis has its own front. The most accurate case that has an error also needs the least
-// memory, so it is the only one on that front.
+// Each axis has its own Pareto front. On the memory axis, the case with the smallest non-zero error
+// also needs the least memory, so it is the only case on the front.
 TEST(AccuracyChart, DrawsTheFrontOfWhatItShows) {
   std::vector<accuracy::AccuracyScene> scenes{some_scene()};
   scenes[0].cases[2].memory = 1U << 20;
@@ -84,7 +84,7 @@ TEST(AccuracySection, TellsOrdersTimesAndParts) {
   const std::string text = accuracy_section(plan).text();
   EXPECT_THAT(text, HasSubstr("2.00 ± 0.00 (3 steps)"));
   EXPECT_THAT(text, HasSubstr("ball &lt;1&gt;"));
-  EXPECT_THAT(text, HasSubstr("1 of 5"));  // dominated
+  EXPECT_THAT(text, HasSubstr("1 of 5"));  // the number of dominated cases
   EXPECT_THAT(text, HasSubstr("step 0.125 → 0.25"));
   EXPECT_THAT(text, HasSubstr("time of a frame, ms"));
   EXPECT_THAT(text, HasSubstr("memory on the device, MiB"));
@@ -93,11 +93,11 @@ TEST(AccuracySection, TellsOrdersTimesAndParts) {
   EXPECT_THAT(text, HasSubstr("cache misses, MiB"));
 }
 
-// The plan counts instructions and measures no time.
+// Here, the plan counts instructions but measures no times.
 TEST(AccuracySection, TellsInstructionsWhereThereAreNoTimes) {
   const std::string text = untimed_section();
-  EXPECT_THAT(text, HasSubstr("1.0 M instructions"));  // the cost of RMSE 1/255
-  EXPECT_THAT(text, HasSubstr("3.2 M instructions"));  // the cost of RMSE 1e-4, between two steps
+  EXPECT_THAT(text, HasSubstr("1.0 M instructions"));  // the cost of an RMSE of 1/255
+  EXPECT_THAT(text, HasSubstr("3.2 M instructions"));  // the cost of an RMSE of 1e-4, interpolated
   EXPECT_THAT(text, testing::Not(HasSubstr("time of a frame, ms")));
 }
 
@@ -124,7 +124,7 @@ TEST(AccuracySection, ComparesDevicesByTheArea) {
   EXPECT_THAT(text, HasSubstr(">1.00<"));
 }
 
-// Images of another size are separate scenes with separate names.
+// Scenes that differ only in image size are listed separately, each under its own name.
 TEST(AccuracySection, TellsPicturesOfOneDataApart) {
   accuracy::AccuracyScene finer = some_scene();
   finer.limit = "ball of 128";

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 using enum judge::Verdict;
 
-// A repository with baselines in which the second configuration is in line 3.
+// Provides a repository whose baseline file stores the second configuration in line 3.
 class Annotations : public testing::Test {
  protected:
   Annotations() {
@@ -102,7 +102,7 @@ TEST_F(Annotations, CodeQualityHasAllThatGitLabNeeds) {
   EXPECT_FALSE(issues[0]["fingerprint"].get<std::string>().empty());
 }
 
-// The sum over a document is the time that was taken.
+// The times of all test cases in a JUnit file add up to the time of the run.
 TEST_F(Annotations, JunitHasTimesFilesAndShortNames) {
   judge::GateResult result = result_with(regression, "step=2,technique=raycast");
   result.findings.push_back(finding_of(Check::image, pass, "gl:x", "step=2,technique=raycast"));

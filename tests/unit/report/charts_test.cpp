@@ -1,4 +1,4 @@
-// Tests the contents of the charts.
+// Tests what the charts show.
 
 #include "report/page/charts.hpp"
 
@@ -74,7 +74,7 @@ TEST(TimeChart, HasAFigureForEachSceneAndARowForEachDevice) {
   EXPECT_EQ(time_chart({}).text(), "");
 }
 
-// Compute work and draws have separate clocks, and one of them may not be trusted.
+// Dispatches and draws are timed by different clocks, and one of them may not be trustworthy.
 TEST(SpeedOfLight, DividesTimesOnOneClock) {
   PlanData plan;
   for (const char* technique : {"raycast", "speed_of_light"}) {
@@ -105,7 +105,7 @@ TEST(TimesSection, SaysWhetherTimesDecided) {
   EXPECT_THAT(times_section(plan).text(), Not(HasSubstr("not judged")));
 }
 
-// Pairs in which something moved are visible, the others are folded.
+// Pairs of devices with an outlier are shown; all other pairs are folded.
 TEST(CorrelationSection, FoldsPairsInWhichNothingMoved) {
   judge::CorrelationPair moved{.device_a = "gl:x", .device_b = "gl:y", .signal = "cost"};
   for (int i = 0; i < 3; ++i) {

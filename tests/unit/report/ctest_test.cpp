@@ -1,4 +1,4 @@
-// Tests the output for CTest: the list of tests, and the results of a check.
+// Tests the output for CTest: the list of tests, and the results of their checks.
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// Tests the export of stores as CSV.
+// Tests the CSV export of stores.
 
 #include <gmock/gmock.h>
 
@@ -31,7 +31,7 @@ TEST(Csv, QuotesWhatNeedsItAndLeavesMissingEmpty) {
   EXPECT_EQ(csv_field(std::string("say \"x\"\n")), "\"say \"\"x\"\"\n\"");
 }
 
-// OpenOffice, Excel and Google Sheets run cells that begin in this way.
+// OpenOffice, Excel and Google Sheets evaluate cells that begin like this.
 TEST(Csv, NoTextIsAFormula) {
   for (const char* text : {"=1+1", "+1+1", "-1+1", "@SUM(1)", "=cmd|' /C calc'!A0", "＝1", "-"}) {
     const std::string field = csv_field(std::string(text));
@@ -47,7 +47,7 @@ TEST(Csv, NoTextIsAFormula) {
   }
 }
 
-// The fields of a line, if none of them contains the end of a line.
+// Returns the fields of a line, in which no field may contain a line break.
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> fields{""};
   bool quoted = false;
@@ -81,7 +81,7 @@ class ExportTest : public testing::Test {
   ExportedRows write(const std::string& plan = "") {
     return export_tables({&store_}, {.plan = plan, .folder = folder_.path(), .made_by = "a test"});
   }
-  // Column → field, for each row.
+  // Returns the rows of a table, each as a map from column names to fields.
   std::vector<std::map<std::string, std::string>> rows(const std::string& table) {
     std::istringstream text(folder_.read(table + ".csv"));
     std::string line;
@@ -136,10 +136,10 @@ TEST_F(ExportTest, ARowForEachRecordAndAColumnForEachFactor) {
   ASSERT_EQ(cost.size(), 3U);
   EXPECT_EQ(cost.at(1).at("unit"), "cache lines");
   EXPECT_EQ(cost.at(2).at("of"), "prepare");
-  EXPECT_EQ(rows("counters").at(0).at("count"), "0");  // something was counted, and the result is 0
+  EXPECT_EQ(rows("counters").at(0).at("count"), "0");  // counted, with the result 0
 }
 
-// A value that was not measured is empty, and never zero.
+// A value that was not measured must be exported as an empty field, and never as zero.
 TEST_F(ExportTest, MissingIsEmpty) {
   add("step=1", [](Record& each) {
     each.outcome = record::Outcome::skipped;
@@ -152,7 +152,7 @@ TEST_F(ExportTest, MissingIsEmpty) {
   for (const auto& [column, field] : record) EXPECT_NE(field, "0") << column;
   EXPECT_EQ(record.at("median_wall_ns"), "");
   EXPECT_EQ(record.at("clock"), "");
-  EXPECT_EQ(rows("clocks").at(0).at("ratio"), "");  // a clock that reports no time has no ratio
+  EXPECT_EQ(rows("clocks").at(0).at("ratio"), "");  // a clock that reports no times has no ratio
 }
 
 TEST_F(ExportTest, TheDictionaryDescribesEveryColumn) {

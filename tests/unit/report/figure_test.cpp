@@ -25,11 +25,11 @@ TEST(Ticks, AreWholeStepsWithinTheAxis) {
   EXPECT_THAT(ticks(1, 1000, true, 5), ElementsAre(1, 10, 100, 1000));
   EXPECT_THAT(ticks(0.9, 6, true, 5), ElementsAre(1, 2, 5));
   EXPECT_THAT(ticks(1e-9, 1e9, true, 4).size(), testing::Le(5U));
-  // A range within a decade has the same ticks as on a linear axis.
+  // A range within one decade has the same ticks as a linear axis.
   EXPECT_THAT(ticks(100, 102, true, 4).size(), testing::Ge(2U));
 }
 
-// A narrow figure asks for few ticks, and its range may begin and end anywhere.
+// Even a narrow figure must show at least two ticks, wherever its range begins and ends.
 TEST(Ticks, AreAtLeastTwo) {
   core::Random random(11);
   for (int i = 0; i < 2000; ++i) {
@@ -86,7 +86,7 @@ TEST(Figure, ARuleHasItsLabelInsideTheFrame) {
   Figure figure("rules", {.low = 0, .high = 10}, {.low = 0, .high = 1}, 200, 100);
   figure.point({1, 0}, {});
   figure.upright(5, "1/255");
-  figure.upright(5.2, "1/256");  // there is no space beside the first
+  figure.upright(5.2, "1/256");  // there is no space for this label beside the first one
   const std::string svg = figure.svg().text();
   EXPECT_THAT(svg, HasSubstr(">1/255</text>"));
   EXPECT_THAT(svg, Not(HasSubstr(">1/256</text>")));
@@ -99,8 +99,8 @@ TEST(Figure, ALogarithmicAxisIsMarked) {
   EXPECT_THAT(figure.svg().text(), HasSubstr(">time<"));
 }
 
-// The mark lies at the same place whatever else a figure shows, if the axes contain the same
-// values.
+// If the axes of two figures contain the same values, a mark is drawn at the same position in both,
+// whatever else the figures show.
 TEST(Figure, SharesItsAxisByTheValuesItContains) {
   const std::vector<double> shared{1, 1000};
   const auto mark = [&](double other) {
@@ -142,7 +142,7 @@ TEST(Figure, IsWellFormedWhateverItIsTold) {
 
 TEST(Figure, DrawsNothingAtNoNumber) {
   Figure figure("f", {.logarithmic = true}, {}, 100, 50);
-  figure.point({0, 1}, {});  // there is no 0 on a logarithmic axis
+  figure.point({0, 1}, {});  // a logarithmic axis has no 0
   figure.point({1, NAN}, {});
   figure.box({1, 1}, {NAN, 2}, {});
   figure.line(std::array{Figure::Place{-1, 1}}, {});
@@ -159,7 +159,7 @@ TEST(Figure, ABoxLiesWhereItsCornersAre) {
   EXPECT_THAT(figure.svg().text(), HasSubstr("width=\"20.0\" height=\"50.0\""));
 }
 
-// An axis for a single value, or for many equal ones, also has a length.
+// Even if all values are equal, the axis must not have length zero.
 TEST(Figure, OfOneValueHasAxes) {
   for (const bool logarithmic : {false, true}) {
     Figure figure("f", {.logarithmic = logarithmic}, {.logarithmic = logarithmic}, 100, 50);
@@ -169,7 +169,7 @@ TEST(Figure, OfOneValueHasAxes) {
   }
 }
 
-// Every text is within the view box, if it has the assumed width.
+// Assuming the estimated text width, every label must lie inside the view box.
 TEST(Figure, LabelsStayInside) {
   Figure figure("f", {.title = "across"}, {.names = {"a device with a long name", "b"}}, 200, 60);
   figure.box({0, -0.3}, {1'000'000, 0.3}, {});
@@ -202,7 +202,7 @@ TEST(Figure, LabelsDoNotCoverEachOther) {
   EXPECT_THAT(figure.svg().text(), Not(HasSubstr("second")));
 }
 
-// The names differ in the middle, as those of factors do.
+// As with lists of factors, long names may differ only in the middle.
 TEST(Figure, ALegendTellsLongNamesApart) {
   Figure figure("", {}, {}, 100, 100);
   figure.point({1, 1}, {}, "");

@@ -66,8 +66,8 @@ TEST(FindingGroups, WhoseItIsByWhatOtherDevicesDo) {
             Blame::Of::unknown);
 }
 
-// Configurations that were not tried because two failures predicted theirs are counted with the
-// cause of those failures. The command shows one that was tried.
+// Configurations that were skipped because two similar ones had failed belong to the cause of those
+// failures. The command must reproduce a configuration that was actually tried.
 TEST(FindingGroups, WhatWasNotTriedIsOfTheCauseThatWas) {
   judge::Observation not_tried = crashed(11);
   not_tried.reason.not_tried = true;
@@ -188,12 +188,12 @@ TEST(CommandOf, DrawsTheConfigurationAgain) {
       regression, "gl:x", "step=1",
       ended(record::Outcome::hung, {.cause = record::Cause::timeout, .numbers = {{"limit_s", 2}}}));
   EXPECT_THAT(command_of(hung, quick), HasSubstr(" --limit 2 --truth --out"));
-  hung.reason.numbers["limit_s"] = 60;  // `render` waits that long by default
+  hung.reason.numbers["limit_s"] = 60;  // 60 s is the default limit of `render`.
   EXPECT_THAT(command_of(hung, quick), Not(HasSubstr("--limit")));
 }
 
-// If a finding compares with stored values, the command must use them, too: it judges one
-// configuration of the plan under the name that was typed.
+// To reproduce a finding that is based on stored values, the command must also compare with them:
+// it judges a single configuration of the plan, with the plan argument that the user typed.
 TEST(CommandOf, JudgesAgainWhatIsHeldAgainstBaselines) {
   const Finding cost = finding(regression, "gl:x", "step=1", dearer, Check::cost);
   judge::GateResult mine{.plan = "mine", .run = "r", .findings = {}};
@@ -218,8 +218,8 @@ TEST(CommandOf, MeasuresTimesAgainWhereTheyDecided) {
   EXPECT_EQ(command_of(slower, quick), command + " --times");
 }
 
-// An image alone does not show an error that is compared with stored values, and an order needs all
-// steps.
+// An image alone does not show an error that is judged against stored values, and an order of
+// convergence needs all step sizes.
 TEST(CommandOf, JudgesAnErrorAgain) {
   const judge::GateResult plan{.plan = "volume/accuracy", .run = "r", .findings = {}};
   EXPECT_EQ(

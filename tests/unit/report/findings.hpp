@@ -1,5 +1,5 @@
 #pragma once
-// Findings for the tests of texts.
+// Helpers that create findings for tests of messages and reports.
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ namespace triptych::report {
   return finding;
 }
 
-// An image in which this many of 36,864 pixels are wrong.
+// Returns the observation that `pixels` of 36,864 pixels exceed their error bound.
 [[nodiscard]] inline judge::Observation over_bound(double pixels) {
   return {.cause = judge::Cause::pixels_over_bound,
           .against = judge::Against::reference,
@@ -59,7 +59,7 @@ namespace triptych::report {
           .changes = {{.name = name, .before = 3, .now = 4}}};
 }
 
-// A finding whose sentence quotes this text.
+// Returns an observation whose message quotes `text`.
 [[nodiscard]] inline judge::Observation quoting(const std::string& text) {
   return {.cause = judge::Cause::no_reference, .detail = text};
 }

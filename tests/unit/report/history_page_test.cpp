@@ -10,7 +10,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// `times`: for the stores d0/gate.sqlite, d1/gate.sqlite, …
+// Returns the history page for the stores d0/gate.sqlite, d1/gate.sqlite, …, with these times.
 std::string page_of(const std::vector<double>& times) {
   core::Json points = core::Json::array();
   for (const double time : times) {
@@ -26,7 +26,7 @@ std::string page_of(const std::vector<double>& times) {
   return history_page(core::Json::array({{{"device", "gl:x"}, {"points", points}}}));
 }
 
-// A change of two hundredths of a per cent must not look like a step.
+// A change of 0.02 % must not look like a step.
 TEST(HistoryPage, MakesNoSlopeOfNoise) {
   EXPECT_THAT(page_of({1, 1.0002}), HasSubstr(">1.01<"));
   EXPECT_THAT(page_of({1, 1.5}), Not(HasSubstr(">1.01<")));

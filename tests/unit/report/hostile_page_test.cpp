@@ -1,4 +1,5 @@
-// The page of a store in which every string is hostile: each of them must remain text.
+// Creates pages from a store in which every string is hostile. Each string must be shown as plain
+// text.
 
 #include <gmock/gmock.h>
 
@@ -19,7 +20,7 @@ namespace {
 
 using core::Json;
 
-// Tags and attributes that Triptych's pages contain. Anything else came from a string.
+// All tags that Triptych's pages contain. Any other tag must have come from an unescaped string.
 const std::set<std::string>& known_tags() {
   static const std::set<std::string> tags{
       "circle", "dd",     "dl",      "dt",      "a",    "article",    "b",      "body",
@@ -71,8 +72,8 @@ bool is_known_attribute(const std::string& name) {
   return names.contains(name) || name.starts_with("data-") || name.starts_with("aria-");
 }
 
-// Returns an element that Triptych does not make; empty if there is none. The script and the style
-// sheet must be those in the program, once each.
+// Returns the first element that Triptych does not generate, or an empty string. The page must
+// contain Triptych's own script and style sheet exactly once each.
 std::string stranger_in(std::string page) {
   for (const char* file : {"page.js", "style.css"}) {
     const std::string ours(embedded(file));
@@ -111,7 +112,7 @@ std::string stranger_in(std::string page) {
   return seen["script"] > 1 || seen["style"] > 1 ? "a second script or style" : "";
 }
 
-// Each string, and each name in a map, is hostile and different from all others.
+// Replaces every string value with a hostile string, numbered so that all of them differ.
 Json hostile(const Json& json, const std::string& string, int& number) {
   const auto next = [&] { return std::to_string(++number) + string; };
   if (json.is_string()) return next();
@@ -294,7 +295,7 @@ TEST(HostilePage, EveryStringStaysText) {
   }
 }
 
-// Proves that the test can fail: it finds the element that an unescaped name would insert.
+// Shows that the test can fail: it must detect the elements that unescaped names could insert.
 TEST(HostilePage, AStrangerIsSeen) {
   for (const char* page :
        {"<p><blink>x</blink></p>", "<p onload=\"x\">", "<a href=\"javascript:x\">", "<p class=x>",
@@ -319,8 +320,8 @@ TEST(HostilePage, HistoryToo) {
   }
 }
 
-// Even if an element is inserted, its script does not run, because only the page's own script has
-// the hash that the policy names.
+// If an element were inserted, its script would still not run, because the policy allows only the
+// script with the hash of the page's own.
 TEST(HostilePage, ThePolicyNamesTheScriptAlone) {
   const std::string drawn = page_of("x");
   EXPECT_THAT(drawn, testing::HasSubstr("<meta http-equiv=\"Content-Security-Policy\" content=\""

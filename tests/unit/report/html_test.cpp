@@ -15,7 +15,7 @@ TEST(Html, ShowsHiddenCharacters) {
   EXPECT_EQ(escape("\u202Egnp.exe\x1b\n"), "\\u{202e}gnp.exe\\x1b\n");
 }
 
-// Code that makes an element always escapes its arguments, because only a literal is markup.
+// Only literals are markup. All arguments are escaped automatically.
 TEST(Html, MarkupEscapesItsArguments) {
   const std::string name = "<script>\"";
   const Html inner = markup("<b>{}</b>", name);
@@ -30,10 +30,10 @@ TEST(Html, MarkupEscapesItsArguments) {
 TEST(Html, MalformedTextIsReplaced) {
   EXPECT_EQ(escape("µ–\U0001F600"), "µ–\U0001F600");
   EXPECT_EQ(escape("a\xff<"), "a\uFFFD&lt;");
-  EXPECT_EQ(escape("\xC2"), "\uFFFD");                      // cut off
-  EXPECT_EQ(escape("\xC0\xBC"), "\uFFFD\uFFFD");            // '<', encoded in two bytes
+  EXPECT_EQ(escape("\xC2"), "\uFFFD");                      // truncated
+  EXPECT_EQ(escape("\xC0\xBC"), "\uFFFD\uFFFD");            // '<' in an overlong encoding
   EXPECT_EQ(escape("\xED\xA0\x80"), "\uFFFD\uFFFD\uFFFD");  // half of a surrogate pair
-  EXPECT_EQ(escape("\xEF\xBF\xBF"), "\\u{ffff}");           // not a character in XML
+  EXPECT_EQ(escape("\xEF\xBF\xBF"), "\\u{ffff}");           // not a valid character in XML
   EXPECT_EQ(escape("\xF5\x80\x80\x80"), "\uFFFD\uFFFD\uFFFD\uFFFD");
 }
 
@@ -42,7 +42,7 @@ TEST(Html, BreaksBetweenParts) {
   EXPECT_EQ(breakable("").text(), "");
 }
 
-// RFC 4648, section 10.
+// The examples are from RFC 4648, section 10.
 TEST(Html, DataUriIsBase64) {
   const auto encoded = [](std::string_view text) {
     return data_uri(std::as_bytes(std::span(text.data(), text.size()))).text().substr(22);

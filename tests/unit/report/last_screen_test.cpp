@@ -53,7 +53,7 @@ TEST(LastScreen, OfAPassIsShort) {
   EXPECT_LE(std::ranges::count(text, '\n'), 10);
 }
 
-// A bound to which no image comes close is a weak test, and the screen must show that.
+// If no image comes close to its bound, the bound is a weak test, and the screen must show that.
 TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   for (const auto& [device, ratio] :
@@ -62,7 +62,7 @@ TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
     result.findings.back().numbers["ratio"] = ratio;
   }
   add(result, Check::image, pass, "", "", {.cause = judge::Cause::reference_as_stored});
-  result.findings.back().numbers["ratio"] = 7;  // not about a device
+  result.findings.back().numbers["ratio"] = 7;  // this ratio does not belong to a device
   EXPECT_THAT(
       last_screen(std::vector{result}, 3, {}, {.width = 120}),
       HasSubstr("3 within their error bounds; at most 0.61 of the bound, only 0.003 on opencl:y in "
@@ -75,7 +75,7 @@ TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
   EXPECT_EQ(all.bounds[1].share, 0.003);
 }
 
-// An excused finding must not count as an image within its bound.
+// A waived finding must not be counted as an image within its bound.
 TEST(LastScreen, NamesWhatIsWaived) {
   GateResult result = passing();
   result.findings.back().numbers["ratio"] = 0.5;
@@ -176,7 +176,7 @@ TEST(LastScreen, RepeatsTheEnvironment) {
               HasSubstr("LP_NUM_THREADS=2 triptych render"));
 }
 
-// Accepting cannot make an image right, so it is proposed only for stored values.
+// Accepting a baseline cannot correct an image, so the screen proposes it only for changed values.
 TEST(LastScreen, SaysWhatToDoNext) {
   const std::string wrong = last_screen(std::vector{failing()}, 3, {});
   EXPECT_THAT(wrong, HasSubstr("next: for a bug report, use the command above with reduce"));
@@ -188,13 +188,13 @@ TEST(LastScreen, SaysWhatToDoNext) {
   EXPECT_THAT(last_screen(std::vector{passing()}, 3, {}), Not(HasSubstr("next:")));
 }
 
-// A single fault of a driver appears in every plan.
+// A single driver bug typically affects every plan.
 TEST(LastScreen, OneCauseInSeveralPlansIsToldOnce) {
   GateResult stress{.plan = "volume/stress", .run = "r", .findings = {}};
   add(stress, Check::image, regression, "vulkan:lavapipe", "technique=raycast", over_bound(3));
   const std::string text = last_screen(std::vector{failing(), stress}, 3, {});
   EXPECT_THAT(text, HasSubstr("vulkan:lavapipe (7 configurations)"));
-  // The screen describes the worst configuration, and its command reproduces the smallest one.
+  // The screen describes the worst configuration, but its command reproduces the smallest.
   EXPECT_THAT(text, HasSubstr("image on vulkan:lavapipe: 11144 of 36864 pixels"));
   EXPECT_THAT(text, HasSubstr("worst in raycast.s6: 11144 of 36864 pixels"));
   EXPECT_THAT(text, Not(HasSubstr("3 of 36864 pixels")));

@@ -30,7 +30,8 @@ TEST(Page, OfAPassShowsVerdictRowsAndPicturesAndFoldsTheRest) {
   EXPECT_THAT(page, HasSubstr("<header id=\"verdict\" class=\"pass\"><h1>PASS (0)</h1>"));
   EXPECT_THAT(page, HasSubstr("16 within their error bounds"));
   EXPECT_THAT(page, Not(HasSubstr("id=\"findings\"")));
-  // One image of each scene is visible: reference, image and difference.
+  // For each of two scenes, three images are visible: the reference, a rendered image and the
+  // difference.
   const std::string open = before(page.substr(page.find("id=\"pictures\"")), "<details>");
   int pictures = 0;
   for (auto at = open.find("<img "); at != std::string::npos; at = open.find("<img ", at + 1)) {
@@ -75,8 +76,8 @@ TEST(Page, ShowsCostAndTimesBesideWhatIsStored) {
   EXPECT_THAT(page, HasSubstr("<td class=\"number\">-10.00 %</td><td><span class=\"bar less\""));
 }
 
-// If a wrong image also has wrong counters, they are reported with the image, and a filter for
-// counters finds both.
+// If an image is wrong, its wrong counters are reported together with it. Filtering by counters
+// finds both.
 TEST(Page, ListsEveryValueThatDiffersFromTheStoredOne) {
   const std::string page = page_of(true);
   const std::string table = page.substr(page.find("data-kind=\"values\" data-check=\"counters\""));
@@ -87,7 +88,7 @@ TEST(Page, ListsEveryValueThatDiffersFromTheStoredOne) {
   EXPECT_THAT(page_of(false), Not(HasSubstr("data-kind=\"values\"")));
 }
 
-// A single pixel is easily missed, and readers differ in the colors that they can distinguish.
+// A single pixel is easily overlooked, and not all readers can distinguish the same colours.
 TEST(Page, RingsPixelsBeyondTheirBound) {
   EXPECT_THAT(page_of(true), HasSubstr("<circle class=\"over\""));
   EXPECT_THAT(page_of(false), Not(HasSubstr("<circle class=\"over\"")));
@@ -115,7 +116,7 @@ TEST(Page, TellsHowMuchOfWhatWasTakenThePictureNeeded) {
       "<td class=\"number\">0.750</td>";
   EXPECT_THAT(page, HasSubstr(row));
   const std::string devices = before(page.substr(page.find(row) + row.size()), "</tr>");
-  EXPECT_THAT(devices, HasSubstr(", "));  // every device did the same work
+  EXPECT_THAT(devices, HasSubstr(", "));  // all devices did the same work, so they share a row
 }
 
 TEST(Page, NeedsNoNetwork) {
@@ -124,7 +125,7 @@ TEST(Page, NeedsNoNetwork) {
   EXPECT_THAT(page, Not(HasSubstr("href=\"http")));
 }
 
-// The reference image of a scene is on the page only once.
+// Each reference image is embedded only once in the page.
 TEST(Page, KeepsAPictureOnce) {
   const std::string page = page_of(false);
   std::set<std::string> seen;
@@ -135,10 +136,10 @@ TEST(Page, KeepsAPictureOnce) {
   EXPECT_THAT(page, HasSubstr("<img data-same=\"0\""));
 }
 
-// Names of factors come from plans, and levels and reasons may come from anywhere.
+// Factor names come from plans, whereas levels and reasons may come from anywhere.
 TEST(Page, KeepsTextText) {
   const std::string page = page_of(true, "<script>\"&\x1b");
-  EXPECT_EQ(page.find("<script"), page.rfind("<script"));  // only the page's own script
+  EXPECT_EQ(page.find("<script"), page.rfind("<script"));  // the only script is the page's own
   EXPECT_EQ(page.find('\x1b'), std::string::npos);
 }
 

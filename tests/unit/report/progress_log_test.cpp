@@ -63,7 +63,8 @@ TEST_F(ProgressLogTest, AGreenLogHasALineForEachDevice) {
 
 TEST_F(ProgressLogTest, ItsLengthDoesNotGrowWithThePlan) {
   ProgressLog failing = log();
-  const std::string text = run(failing, 2000, record::Outcome::crashed, seconds(2));  // 67 minutes
+  // The run takes 67 minutes.
+  const std::string text = run(failing, 2000, record::Outcome::crashed, seconds(2));
   EXPECT_LE(lines_of(text), 30) << text;
   EXPECT_THAT(text, HasSubstr("1/2000 gl:x volume.quick.raycast.ball.s1: crashed: "));
   EXPECT_THAT(text, HasSubstr("0 measured, 0 skipped, 2000 failed"));

@@ -1,5 +1,5 @@
 #pragma once
-// A store and a verdict like those of a gate with two devices, made without a device.
+// Creates a store and a verdict like those of `gate` with two devices, without using any device.
 
 #include <cmath>
 #include <span>
@@ -38,7 +38,8 @@ inline judge::TruthPair truth_of(const record::Record& record) {
   return {disc(record.factors.at("data") == "ball" ? 20 : 12, 0.9F), bound};
 }
 
-// `wrong`: raycast on the second device draws a smaller disc, and one of its frames crashes.
+// If `wrong` is true, raycast on the second device draws too small a disc, and one of its frames
+// crashes.
 class ScriptedStore {
  public:
   ScriptedStore(const std::filesystem::path& file, bool wrong, const std::string& name = "step")

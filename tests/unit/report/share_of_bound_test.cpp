@@ -49,8 +49,8 @@ TEST(ShareOfBound, MarksTheWorstFirstAndNoneOverAnother) {
   }
 }
 
-// The color of pixels beyond the bound differs from every color of the ramp in lightness or in blue
-// against yellow, which readers without red or green cones can distinguish.
+// Pixels beyond the bound must differ from every colour of the ramp either in lightness or along
+// the blue–yellow axis, which red–green colour-blind readers can distinguish.
 TEST(ShareOfBound, ThePixelsBeyondTheBoundLookLikeNoOther) {
   const auto color = [](float error) {
     return share_of_bound(constant(0.5F + error), constant(0.5F), constant(0.25F)).image;

@@ -35,8 +35,8 @@ TEST(Camera, RaysFollowTheStatedFormula) {
   Camera camera;
   camera.fov_y_deg = 90;
   expect_near(camera.right(), {1, 0, 0}, 0);
-  // The centre pixel of an image with odd size looks straight ahead; the corners are those of a 4×2
-  // image with aspect 2 and tan 45° = 1.
+  // The centre pixel of an image with odd width and height looks straight ahead. The corners below
+  // belong to a 4×2 image with aspect ratio 2 and tan 45° = 1.
   expect_near(camera.ray_direction(1, 1, 3, 3), {0, 0, -1}, 0);
   expect_near(camera.ray_direction(0, 0, 4, 2), glm::normalize(dvec3(-1.5, 0.5, -1)), 1e-15);
   expect_near(camera.ray_direction(3, 1, 4, 2), glm::normalize(dvec3(1.5, -0.5, -1)), 1e-15);
@@ -45,7 +45,7 @@ TEST(Camera, RaysFollowTheStatedFormula) {
               glm::normalize(dvec3(0, 0.5 * std::tan(std::numbers::pi / 6), -1)), 1e-15);
 }
 
-// Every machine must compute these bits, because all images and counts depend on them.
+// Cameras must be bit-identical on every machine, because all images and counters depend on them.
 TEST(Camera, IsTheSameEverywhere) {
   const Box box{glm::dvec3(-3, 0.5, 1), glm::dvec3(40, 30.25, 77)};
   core::HashBuilder bits("cameras");
@@ -110,8 +110,8 @@ TEST(Camera, OrbitsTurnAboutTheirAxisEvenlyAndClose) {
   }
 }
 
-// The up vector follows the orbit: neighbouring views differ by the rotation of one step, and never
-// by a flip.
+// The up vector must turn with the orbit: successive views differ by a small rotation, and never by
+// a flip.
 TEST(Camera, OrbitsNeverFlip) {
   for (const std::string path : {"orbit_x", "orbit_y", "orbit_z"}) {
     for (int i = 0; i < 360; ++i) {
@@ -131,8 +131,8 @@ TEST(Camera, StraightPathsEndAtTheCentreLookingAhead) {
     const Camera last = camera_at(spec(path, n - 1, n), slab, 60);
     EXPECT_LT(glm::length(last.eye - centre), 2e-4) << path;
     EXPECT_EQ(first.forward, last.forward);
-    // The distance is half the extent along the axis, plus the distance from which 40 units fill 60
-    // degrees.
+    // The path begins at half the extent of the box along the axis, plus the distance at which 40
+    // units fill a field of view of 60 degrees.
     const int axis = path.back() - 'x';
     const double half = std::array{20.0, 0.5, 6.5}.at(static_cast<std::size_t>(axis));
     expect_near(first.eye, centre - first.forward * (half + 20 * std::sqrt(3)), 1e-12);
@@ -228,7 +228,7 @@ TEST(Camera, RandomViewsAreSeededAndSeeEnough) {
   EXPECT_NO_THROW((void)camera_at("random:18446744073709551615", cube, 60));
 }
 
-// Every machine must compute these bits, whatever its C library is.
+// Cameras must be bit-identical on every machine, whichever C library it has.
 TEST(Camera, HasTheSameBitsEverywhere) {
   const Camera camera = camera_at("random:7", slab, 60);
   EXPECT_EQ(camera.eye, dvec3(-0x1.15448c0e8efd3p+5, 0x1.7e866b09e47p-1, 0x1.038534fd6ac76p+4));

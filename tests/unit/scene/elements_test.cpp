@@ -56,7 +56,7 @@ TEST(Elements, FollowFromNamesAndResidues) {
       {"FE", "HEM", "Fe", false},
       {"MG", "CLA", "Mg", false},
       {"CHA", "CLA", "C", false},
-      // Names of ions as elements, and as CHARMM, AMBER and GROMACS write them.
+      // Ions, named as elements and as CHARMM, AMBER and GROMACS write them.
       {"NA", "NA", "Na", false},
       {"CL", "CL-", "Cl", false},
       {"CA", "CA", "Ca", false},
@@ -72,7 +72,7 @@ TEST(Elements, FollowFromNamesAndResidues) {
       {"K", "K", "K", false},
       {"CD", "CD", "Cd", false},
       {"FE", "FE2", "Fe", false},
-      // Residues that no table contains.
+      // Residues that are in no table, so the element is guessed.
       {"CL1", "LIG", "Cl", true},
       {"BR", "LIG", "Br", true},
       {"SI", "LIG", "Si", true},

@@ -64,7 +64,7 @@ TEST(ExactMath, LogarithmOf1PlusAgreesWithTheLibrary) {
   EXPECT_EQ(logarithm_of_1_plus(-1), -std::numeric_limits<double>::infinity());
 }
 
-// Every machine must compute these bits.
+// The results must be bit-identical on every machine.
 TEST(ExactMath, MakesTheSameBitsEverywhere) {
   core::HashBuilder bits("exact maths");
   for (int i = -500; i <= 500; ++i) {

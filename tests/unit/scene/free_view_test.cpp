@@ -1,4 +1,5 @@
-// Views that are chosen with a mouse are cameras like any other, and each has only one spelling.
+// Tests views chosen with the mouse: they behave like all other cameras, and each has only one
+// spelling.
 
 #include "scene/free_view.hpp"
 
@@ -58,7 +59,7 @@ TEST(FreeView, ASpellingIsReadBackAndSpelledTheSame) {
   EXPECT_EQ(camera_of({725, 100, 1e6}), "view:5/90/1000");
 }
 
-// The scene must not jump when a drag begins.
+// When a drag begins on a camera path, the image must not jump.
 TEST(FreeView, BeginsWhereAPathIs) {
   for (const char* camera : {"orbit_y:1/8", "orbit_y:7/8", "view:12.5/-30/0.4", "path_z:1/3"}) {
     const Camera path = camera_at(camera, Box{}, 60);

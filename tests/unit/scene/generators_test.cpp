@@ -27,7 +27,8 @@ std::size_t index_of(const Volume& volume, int i, int j, int k) {
               static_cast<std::size_t>(volume.size[1]) * static_cast<std::size_t>(k));
 }
 
-// Compares a generator with its formula, computed with functions of the C library: field(u, v, w).
+// Compares a generated volume with the formula `field(u, v, w)`, which is computed with the C
+// library.
 template <typename Field>
 void expect_field(const Volume& volume, double tolerance, Field&& field) {
   for (int k = 0; k < volume.size[2]; ++k) {
@@ -44,8 +45,8 @@ void expect_field(const Volume& volume, double tolerance, Field&& field) {
 
 constexpr double float_rounding = 0x1p-24;
 
-// Every machine must compute these bits. If a value changes, the data set changes, and every
-// baseline that depends on it has to be accepted again.
+// Generated volumes must be bit-identical on every machine. If a hash changes, the data set has
+// changed, and every baseline that depends on it has to be accepted again.
 TEST(Generators, MakeTheSameBitsEverywhere) {
   const std::map<std::string_view, std::string> golden{
       {"uniform_box", "d0e96d0c4eb979ba168352d2fa7c40d7"},
@@ -148,8 +149,8 @@ TEST(Generators, SparseFieldIsMostlyExactlyZero) {
   EXPECT_GT(largest, 250);
 }
 
-// The set contains the origin, has a radius below 1.2 and an eightfold symmetry about the z axis in
-// the plane z = 0 (here only the fourfold part is checked).
+// The set contains the origin, lies within a radius of 1.2, and has an eightfold symmetry about the
+// z axis in the plane z = 0. Only the fourfold symmetry is checked.
 TEST(Generators, MandelbulbLooksLikeOne) {
   const Volume volume = generate_volume("mandelbulb", {48, 48, 48});
   EXPECT_EQ(volume.value(index_of(volume, 24, 24, 24)), 255);

@@ -30,7 +30,8 @@ TEST(Half, HasTheValuesOfTheStandard) {
   EXPECT_EQ(value_of(0xc000), -2);
 }
 
-// A number between two half floats is rounded to the nearer one, and the middle to the even one.
+// A number between two half floats is rounded to the nearest. Halfway cases are rounded to the even
+// one.
 TEST(Half, IsTheNearestOfAll) {
   for (unsigned bits = 0; bits < 0x7bff; ++bits) {
     const double below = value_of(bits);

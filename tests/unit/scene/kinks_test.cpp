@@ -12,8 +12,8 @@ std::ptrdiff_t count(const TransferFunction& function) {
   return std::ranges::count(kinks(function), true);
 }
 
-// A control point between entries makes two kinks, and one at an entry makes one. Where everything
-// is transparent, there is none.
+// A control point between two entries causes two kinks, and a control point at an entry causes one.
+// Where the function is transparent, there are no kinks.
 TEST(Kinks, OfAPresetAreItsControlPoints) {
   EXPECT_EQ(count(load_transfer_function("surfaces")), 21);
   const auto found = kinks(load_transfer_function("haze"));

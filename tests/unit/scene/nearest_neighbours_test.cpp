@@ -43,7 +43,8 @@ TEST(NearestNeighbours, LeaveOutEqualAndInfinitePlaces) {
   EXPECT_EQ(median_nearest_distance({}), std::nullopt);
 }
 
-// If squares overflow or vanish, they do not show which point is nearer.
+// Squared distances of such positions would overflow or underflow, and could not show which
+// position is nearer.
 TEST(NearestNeighbours, LeaveOutPlacesBeyondSinglePrecisionAndStayFast) {
   std::vector<Place> places;
   for (int i = 0; i < 1000; ++i) places.push_back({i * 0.5, 0, 0});
@@ -52,7 +53,7 @@ TEST(NearestNeighbours, LeaveOutPlacesBeyondSinglePrecisionAndStayFast) {
   const auto seconds_of = [](double unit) {
     std::vector<Place> line;
     for (int i = 0; i < 30'000; ++i) line.push_back({unit * i, unit * (i % 173), unit * (i % 71)});
-    // Measures processor time, which does not include other programs.
+    // Measures processor time, which is independent of other running programs.
     const std::clock_t start = std::clock();
     static_cast<void>(median_nearest_distance(std::move(line)));
     return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;

@@ -36,7 +36,8 @@ void expect_values(const Volume& volume, ScalarType type, const std::vector<T>& 
   EXPECT_EQ(volume.range_hi, static_cast<double>(*std::max_element(values.begin(), values.end())));
 }
 
-// Tests every spelling of a type, both byte orders, both encodings, attached and detached.
+// Tests every spelling of a type in both byte orders, in both encodings, and with attached and
+// detached headers.
 template <typename T>
 void expect_reads(ScalarType type, const std::vector<std::string>& spellings) {
   const TemporaryFolder folder;
@@ -98,8 +99,8 @@ TEST(Nrrd, SpaceDirectionsGiveTheLengths) {
   EXPECT_NEAR(turned.spacing[1], 1, 1e-15);
 }
 
-// If the header does not state the spacing, it follows from the ends of the axes. The library of
-// the format assumes that samples are cells.
+// If the header does not state the spacing, it follows from the ends of the axes. Like the
+// reference library of the format (Teem), the reader assumes cell-centred samples by default.
 TEST(Nrrd, SpacingFollowsFromWhereAxesBeginAndEnd) {
   std::string head = minimal;
   head.replace(head.find("2 1 1"), 5, "2 3 1");
@@ -202,7 +203,7 @@ TEST(Nrrd, RangeIgnoresWhatIsNotFinite) {
   EXPECT_EQ(none.range_hi, 0);
 }
 
-// A broken file, and what its message must say after the name of the file.
+// A broken file, and the message expected after the file's name.
 struct Broken {
   std::string text;
   std::string message;
@@ -219,7 +220,7 @@ void expect_rejected(const std::vector<Broken>& cases) {
   }
 }
 
-// A header whose third line is `line`, before lines that are valid.
+// Returns a file whose header has `line` as its third line, followed by valid lines.
 std::string with_line(const std::string& line) {
   std::string text = "NRRD0004\n# one\n" + line + "\n";
   for (const std::string other :
@@ -352,7 +353,8 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-// The header claims a size that gzip could have, but that is far larger than the data.
+// The header claims a size that gzip could produce in principle, but that is far larger than the
+// actual data.
 TEST(Nrrd, AClaimTakesNoMemoryBeforeTheDataAreThere) {
   core::Random random(1);
   std::string bytes(std::size_t{1} << 20, '\0');

@@ -39,7 +39,7 @@ TEST(Pdb, TakesElementsFromTheirColumns) {
   EXPECT_THAT(set.ids, ElementsAre(0U, 1U, 2U));
   EXPECT_EQ(set.name, "a.pdb");
   EXPECT_EQ(set.rgba8.size(), 3U);
-  // The intensity is the atomic number: C, N, Ca.
+  // The intensity is the normalised rank of the atomic number, here of C, N and Ca.
   EXPECT_THAT(load("a.pdb", pdb, ColourKind::intensity).intensity,
               ElementsAre(1.F / 3, 0.F, 2.F / 3));
 }
@@ -54,7 +54,7 @@ TEST(Pdb, TakesElementsFromNamesWhereThereAreNone) {
   EXPECT_EQ(set.spheres[2][3], 1.39F);
 }
 
-// In old files, columns 73 to 80 contain the id of the entry and the number of the line.
+// In old files, columns 73 to 80 contain the entry's id and the line number.
 TEST(Pdb, TakesElementsFromNamesWhereTheirColumnsHoldSomethingElse) {
   const ParticleSet set =
       load("a.pdb",
@@ -77,7 +77,7 @@ TEST(Pdb, FramesAreModels) {
   expect_refused("a.pdb", text.substr(0, text.size() - 7), ":6", "ENDMDL was expected");
 }
 
-// VMD writes no models. Each frame ends with END, and may have a heading of its own.
+// VMD writes no MODEL records. Each frame ends with END and may begin with its own header.
 TEST(Pdb, FramesWithoutModelsEndWithEnd) {
   const auto frame = [](int x) {
     return "CRYST1   52.000   58.600   61.900\nATOM      1  CA  THR A   1       " +
@@ -88,7 +88,7 @@ TEST(Pdb, FramesWithoutModelsEndWithEnd) {
   EXPECT_THAT(load("a.pdb", text, ColourKind::rgba8, "@2").spheres,
               ElementsAre(Sphere{3, 2, 3, 1.7F}));
   expect_refused("a.pdb", text, "", "no frame 3; the file has 3", "@3");
-  // The last frame is cut off. This is an error, whichever frame is requested.
+  // The last frame is cut off, which is an error regardless of the requested frame.
   const std::string atoms = replaced(frame(1), "CRYST1   52.000   58.600   61.900\n", "");
   expect_refused("a.pdb", atoms + atoms.substr(0, atoms.size() - 4), ":3:", "END was expected");
   const std::string model = "MODEL        1\n" + atoms.substr(0, atoms.size() - 4) + "ENDMDL\n";
@@ -105,8 +105,8 @@ TEST(Pdb, RefusesBrokenFiles) {
   const std::string atom = "ATOM      1  CA  THR A   1       1.000   2.000   3.000\n";
   for (const std::string head :
        {"TITLE     A PROTEIN\n", "CRYST1   52.000   58.600   61.900\n", "HEADER    VESTA_phase_1\n"}) {
-    // Complete files of several programs have no END, so only entries of the PDB itself must have
-    // one.
+    // Several programs write complete files without END, so only entries of the PDB itself must end
+    // with it.
     EXPECT_EQ(load("a.pdb", head + atom).count(), 1U);
     EXPECT_EQ(load("a.pdb", head + atom + "END\n").count(), 1U);
     EXPECT_EQ(load("a.pdb", head + "MODEL        1\n" + atom + "ENDMDL\n").count(), 1U);
@@ -153,7 +153,7 @@ TEST(Mmcif, RefusesBrokenFiles) {
   expect_refused("a.cif", "data_X\n_a 'text\n", ":2:", "expected a closing quote (')");
 }
 
-// The PDB ends each part with '#', also the heading.
+// The PDB ends each section with '#', including the header.
 TEST(Mmcif, RefusesALoopThatIsCutOff) {
   const std::string loop =
       "loop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n"
@@ -162,13 +162,13 @@ TEST(Mmcif, RefusesALoopThatIsCutOff) {
   expect_refused("a.cif", closing, ":15:", "the file ends here, where '#' was expected");
   EXPECT_EQ(load("a.cif", closing + "#\n").count(), 2U);
   EXPECT_EQ(load("a.cif", closing + "_entry.more 1\n").count(), 2U);
-  // If a file has only a few such marks, there is only a note.
+  // If the file has only a few such marks, the reader only adds a note.
   const ParticleSet unsure = load("a.cif", "data_X\n#\n_entry.id X\n#\n" + loop);
   EXPECT_THAT(unsure.facts.notes, ElementsAre(HasSubstr("if the file was cut off")));
-  // Other programs write '#' only between parts, or not at all.
+  // Some programs write '#' only between sections, or not at all.
   EXPECT_EQ(load("a.cif", "# made by hand\n#\ndata_X\n_entry.id X\n#\n" + loop).count(), 2U);
   EXPECT_EQ(load("a.cif", "data_X\n" + loop).count(), 2U);
-  // OpenMM writes its name into the file.
+  // OpenMM writes its name as a comment.
   for (const std::string marks : {"# Created with OpenMM 8.1\n#\n", "# by hand\n", "#\n#\n"}) {
     EXPECT_EQ(load("a.cif", "data_cell\n" + marks + "_cell.length_a 1\n#\n" + loop).count(), 2U)
         << marks;
@@ -227,7 +227,7 @@ TEST(Xyz, OneElementHasTheRankAsIntensity) {
       ElementsAre(0.F, 0.25F, 0.75F));
 }
 
-// The comment of an extended XYZ file names its columns.
+// The comment line of an extended XYZ file names the columns.
 TEST(Xyz, TakesColumnsFromProperties) {
   const std::string rows = "7 0.5 1 2 3 C\n8 0.5 4 5 6 O\n";
   const auto with = [&](const std::string& comment) { return "2\n" + comment + "\n" + rows; };
@@ -239,7 +239,7 @@ TEST(Xyz, TakesColumnsFromProperties) {
     EXPECT_THAT(load("a.xyz", with(comment)).spheres, expected) << comment;
   }
   EXPECT_EQ(load("a.xyz", "1\nNo Properties, \"Properties=x\"\nC 1 2 3 4\n").count(), 1U);
-  // Each frame has its own names of columns.
+  // Each frame has its own column names.
   const std::string frames =
       with("Properties=" + list) + "1\nProperties=species:S:1:pos:R:3\nO 1 2 3\n";
   EXPECT_THAT(load("a.xyz", frames, ColourKind::rgba8, "@1").spheres,
@@ -271,7 +271,8 @@ TEST(Xyz, RefusesBrokenFiles) {
   expect_refused("a.xyz", "-1\n\n", ":1:", "expected the number of atoms, found '-1'");
   expect_refused("a.xyz", "0\n\n", ":2:", "expected atoms, found none");
   expect_refused("a.xyz", xyz, "", "no frame 1; the file has 1", "@1");
-  // A count that exceeds the file's size must not make the reader allocate that much memory.
+  // If the stated count exceeds the size of the file, the reader must not allocate that much
+  // memory.
   expect_refused("a.xyz", replaced(xyz, "3\n", "4294967294\n"), ":5:", "the file ends here");
 }
 
@@ -312,15 +313,15 @@ TEST(ParticleFiles, RefuseWhatTheyCannotRead) {
                core::InputError);
 }
 
-// A file without usable particles is refused, because its empty image would be correct on every
-// device.
+// A file without usable particles is rejected, because any device would draw its empty image
+// correctly.
 TEST(ParticleFiles, WithoutAnyUsableParticleAreRefused) {
   expect_refused("a.xyz", "2\n\nC nan 0 0\nC 0 inf 0\n", ": ",
                  "none of its 2 particles can be drawn");
   EXPECT_EQ(load("a.xyz", "2\n\nC nan 0 0\nC 0 0 0\n").dropped, 1U);
 }
 
-// Tapes and block devices pad their last block with zero bytes.
+// Tapes and block devices pad the last block with zero bytes.
 TEST(ParticleFiles, ZeroBytesBehindGzipAreSkipped) {
   const std::string padded = gzipped(xyz) + std::string(100'000, '\0');
   EXPECT_EQ(load("a.xyz.gz", padded).hash, load("a.xyz.gz", gzipped(xyz)).hash);
@@ -339,7 +340,7 @@ TEST(ParticleFiles, UnpackNoMoreThanIsAllowed) {
                   HasSubstr("a.pdb.gz: unpacks to more than 3145727 bytes; if that is intended")));
 }
 
-// A message is one line that a terminal can show, whatever the file contains.
+// Messages quote file contents as one printable line, whatever the file contains.
 TEST(ParticleFiles, QuoteShortlyAndPrintably) {
   const std::string quoted = "found '" + std::string(40, '7') + "…'";
   expect_refused("a.xyz", std::string(100, '7') + "\n", ":1:", quoted);

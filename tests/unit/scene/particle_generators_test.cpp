@@ -22,7 +22,7 @@ using testing::HasSubstr;
 using testing::Le;
 using testing::ThrowsMessage;
 
-// A box around the centres only, because a bounding box would include the radii.
+// Returns the box around the centres. (A bounding box of the spheres would include their radii.)
 Box box_of_centres(const ParticleSet& set) {
   Box box{glm::dvec3(1e30), glm::dvec3(-1e30)};
   for (const auto& sphere : set.spheres) {
@@ -36,7 +36,7 @@ Box box_of_centres(const ParticleSet& set) {
 }
 
 TEST(ParticleGenerators, GiveTheSameBitsEverywhere) {
-  // These hashes are fixed, because a change here changes every baseline.
+  // If one of these hashes changes, every baseline that uses the data set is invalid.
   const std::map<std::string, std::string> hashes{
       {"uniform", "61b18ae12f76b005ebf1940b716909a1"},
       {"droplets", "73c7764209bc54a9b7fdd96e99f61ecc"},
@@ -109,13 +109,14 @@ TEST(ParticleGenerators, UniformFillsATenthOfItsBoxEvenly) {
 
 TEST(ParticleGenerators, DropletsAreDenseInAMostlyEmptyBox) {
   const ParticleSet set = generate_particles("droplets", 40'000, ColourKind::rgba8);
-  std::set<std::array<int, 3>> cells;  // cubes of half a unit
+  // The droplets' cells are cubes with an edge of half a unit.
+  std::set<std::array<int, 3>> cells;
   for (const auto& sphere : set.spheres) {
     cells.insert({static_cast<int>(sphere[0] * 2), static_cast<int>(sphere[1] * 2),
                   static_cast<int>(sphere[2] * 2)});
   }
-  // There are 16000 cells. The droplets take about 160 units of volume, and each of the 2000 vapour
-  // particles takes a cell.
+  // The box has 16,000 cells. The droplets occupy about 160 units of volume, and each of the 2,000
+  // vapour particles occupies one cell.
   EXPECT_LT(cells.size(), 16'000 / 4);
   EXPECT_LE(box_of_centres(set).hi.x, 20);
 }
@@ -142,7 +143,7 @@ TEST(ParticleGenerators, PlumeThinsOutWithHeightAboveALatticeWithACrater) {
     smallest = std::min(smallest, r);
     largest = std::max(largest, r);
     if (y >= 2 && y < 20) ++heights.at(static_cast<std::size_t>((y - 2) / 6));
-    // The lattice comes first, in layers of decreasing height. No part of it lies in the crater.
+    // The lattice comes first, in layers of decreasing height, and leaves the crater empty.
     if (in_slab == i && y < 0 && (i == 0 || y <= set.spheres[i - 1][1])) {
       ++in_slab;
       EXPECT_GE(x * x + y * y + z * z, 15.99F);
@@ -210,7 +211,8 @@ TEST(ParticleHash, SeesEveryArray) {
   EXPECT_FALSE(changed([](ParticleSet& other) { other.name = "another"; }));
 }
 
-// Both data sets have the same wall in the same box, so that equal cameras draw equal images of it.
+// Both data sets contain the same wall in the same box, so that the same camera shows the same
+// image of it.
 TEST(ParticleGenerators, WhatIsHiddenStandsBehindAnEqualWall) {
   const ParticleSet wall = generate_particles("wall", 2000, ColourKind::rgba8);
   const ParticleSet hidden = generate_particles("hidden", 20000, ColourKind::rgba8);

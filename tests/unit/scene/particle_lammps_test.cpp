@@ -20,7 +20,7 @@ TEST(LammpsDump, SortsByIdWhateverTheColumnsOrder) {
   const std::string text =
       dump("mol z x id y type ", "3", "7 3 1 30 2 2 \n7 3 1 -1 4 1\n7 3 1 7 0 1\n");
   const ParticleSet set = load("a.lammpstrj", text);
-  // The radius is half the median of the distances 2, 2 and 2.
+  // The radius is half the median of the nearest-neighbour distances 2, 2 and 2.
   EXPECT_THAT(set.spheres, ElementsAre(Sphere{1, 4, 3, 1}, Sphere{1, 0, 3, 1}, Sphere{1, 2, 3, 1}));
   EXPECT_THAT(set.ids, ElementsAre(0U, 1U, 2U));
   EXPECT_EQ(set.rgba8[0], set.rgba8[1]);
@@ -44,8 +44,8 @@ TEST(LammpsDump, TakesEveryKindOfPlace) {
   EXPECT_EQ(place("xs ys zs", "0.5 0.25 1"), (Sphere{15, -2.5F, 4, 1.7F}));
   EXPECT_EQ(place("xsu ysu zsu", "1.5 0.25 1"), (Sphere{25, -2.5F, 4, 1.7F}));
   EXPECT_EQ(place("xs ys zs x y z", "0.5 0.5 0.5 1 2 3"), (Sphere{1, 2, 3, 1.7F}));
-  // A box of 10 x 10 x 4 at (10, -5, 0), tilted by xy = -2, xz = 1, yz = 3, has the bounds 8..21,
-  // -5..8.
+  // A box of 10 x 10 x 4 at (10, -5, 0), tilted by xy = -2, xz = 1 and yz = 3, has the bounds 8..21
+  // in x and -5..8 in y.
   const std::string tilted = "xy xz yz pp pp pp\n8 21 -2\n-5 8 1\n0 4 3\n";
   EXPECT_EQ(place("xs ys zs", "0 0 0", tilted), (Sphere{10, -5, 0, 1.7F}));
   EXPECT_EQ(place("xs ys zs", "1 0.5 0.5", tilted), (Sphere{19.5F, 1.5F, 2, 1.7F}));
@@ -134,13 +134,13 @@ TEST(LammpsData, RefusesBrokenFiles) {
   expect_refused("a.data", data("Atoms # full", rows), ":14:", "expected 7 or");
   expect_refused("a.data", data("Atoms", "1 1 0.5 1 2 3\n2 1 0.5 1 2 3\n"),
                  ":14:", "the style of atoms with 6 columns is ambiguous");
-  // The styles full and sphere, with image flags or without.
+  // Could be of style `full` or `sphere`, with or without image flags.
   for (const std::string row : {"1 9 1 0.1 1 2 3", "1 9 1 0.1 1 2 3 0 0 0"}) {
     expect_refused("a.data", data("Atoms", row + "\n", "1"),
                    ":14:", "expected a comment that names the style");
   }
   expect_refused("a.data", data("Atoms", "1 1 1 2 3 0 0 0\n", "1"), ":14:", "8 whole numbers");
-  // An electron has eight columns. The last ones are its position.
+  // The style `electron` has eight columns, and the last three are the position.
   const std::string electron = "1 1 0.5 1 1.0 1.5 2.5 3.5\n";
   expect_refused("a.data", data("Atoms", electron, "1"),
                  ":14:", "the style of atoms with 8 columns is ambiguous");

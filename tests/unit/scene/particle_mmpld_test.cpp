@@ -36,7 +36,8 @@ std::uint16_t word(int value) {
   return static_cast<std::uint16_t>(value);
 }
 
-// Makes one list: its types, the contents of its header, and its particles.
+// Returns the bytes of one particle list: its vertex and colour types, `header`, and the particles
+// in `data`.
 std::string list(int version, int vertex, int colour, const std::string& header,
                  std::uint64_t count, const std::string& data) {
   std::string bytes = pack(byte(vertex), byte(colour)) + header + pack(count);

@@ -1,5 +1,5 @@
-// Reads real particle files from the folder that TRIPTYCH_DATA names, which docs/data.md describes.
-// The expected counts, elements and extents come from the data's own description, which was made
+// Reads real particle files from the folder that TRIPTYCH_DATA names (see docs/data.md). The
+// expected counts, elements and extents come from the description of the data, which was created
 // with other readers.
 
 #include <gtest/gtest.h>
@@ -20,14 +20,16 @@ namespace {
 struct ParticleFacts {
   std::size_t count;
   std::uint64_t frames;
-  std::map<float, std::size_t> by_radius;  // of the first frame
-  std::array<double, 3> lo;                // of the centres of the first frame
+  // The number of particles with each radius in the first frame.
+  std::map<float, std::size_t> by_radius;
+  // The bounds of the centres in the first frame.
+  std::array<double, 3> lo;
   std::array<double, 3> hi;
   std::size_t kinds;
 };
 
 const std::map<std::string, ParticleFacts>& known_particle_facts() {
-  // Mn and Ca have the radius of elements that are not listed; P and S have the radius 1.8.
+  // Mn and Ca have the default radius of unlisted elements; P and S have the radius 1.8.
   static const std::map<std::string, ParticleFacts> facts{
       {"crambin_1crn_327.pdb",
        {327,
@@ -95,7 +97,7 @@ void expect_facts(const std::string& name, const ParticleFacts& facts,
   } else {
     EXPECT_EQ(by_radius.size(), 1U) << "types share one radius";
   }
-  // The description has three decimals.
+  // The description states three decimals.
   for (std::size_t axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(lo.at(axis), facts.lo.at(axis), 1e-3);
     EXPECT_NEAR(hi.at(axis), facts.hi.at(axis), 1e-3);

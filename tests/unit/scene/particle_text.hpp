@@ -1,5 +1,5 @@
 #pragma once
-// Particle files that a test writes as text.
+// Helpers for tests that write particle files.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@ namespace triptych::scene {
 
 using Sphere = std::array<float, 4>;
 
-// Loads a file with this name and text from a temporary folder. `suffix` follows the name, such as
-// "@2" for a frame.
+// Writes `text` to a file in a temporary folder and loads it. `suffix` is appended to the name when
+// loading, for example "@2" to select a frame.
 inline ParticleSet load(const std::string& name, const std::string& text,
                         ColourKind colour = ColourKind::rgba8, const std::string& suffix = "") {
   const test::TemporaryFolder folder;
@@ -24,8 +24,8 @@ inline ParticleSet load(const std::string& name, const std::string& text,
   return load_particles(name + suffix, colour, {folder.path()});
 }
 
-// Expects an error with `place` right after the file's name, and with the text of what was
-// expected.
+// Expects that loading fails, with a message that contains `place` right after the file's name and
+// also contains `expectation`.
 inline void expect_refused(const std::string& name, const std::string& text,
                            const std::string& place, const std::string& expectation,
                            const std::string& suffix = "") {

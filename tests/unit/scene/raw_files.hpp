@@ -1,5 +1,5 @@
 #pragma once
-// Bytes of test volumes: every type in both byte orders, plain or compressed.
+// Contents of test volumes: values of every type in both byte orders, plain or compressed.
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -28,7 +28,7 @@ std::string bytes_of_values(const std::vector<T>& values, bool big_endian) {
   return bytes;
 }
 
-// 24 values (2 x 3 x 4), which include both ends of the type's range.
+// Returns 24 values (2 x 3 x 4), including the smallest and the largest value of the type.
 template <typename T>
 std::vector<T> typical_values() {
   std::vector<T> values{std::numeric_limits<T>::lowest(), std::numeric_limits<T>::max()};

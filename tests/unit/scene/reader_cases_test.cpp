@@ -1,6 +1,6 @@
-// Mistakes that readers of other programs made: lines that are left out, wrong elements, numbers
-// cut out of their columns, grammars that are only partly read. Each case comes from a public
-// report by users of such a program; the data were made for these tests.
+// Tests mistakes that the readers of other programs have made: ignored lines, wrong elements,
+// numbers split at the wrong columns, grammars that are only partly supported. Each case is based
+// on a public bug report; the data were created for these tests.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,11 +46,11 @@ TEST(PdbColumns, NumbersThatRunTogetherAreRefused) {
         "   1.000-12345.678   3.000", "  12.3456   2.000   3.000", "   1.0000  2.0000  3.0000"}) {
     expect_refused("a.pdb", pdb_atom(" C  ", "LIG", place), ":1:", "");
   }
-  // The number begins in column 30, which should be blank.
+  // The number begins in column 30, which must be blank.
   std::string wide = pdb_atom(" C  ", "LIG", here);
   wide.replace(29, 9, "12345.678");
   expect_refused("a.pdb", wide, ":1:", "x in columns 31 to 38: '2345.678' is not separated");
-  // Numbers may touch if each fills the columns that the format gives it.
+  // Numbers may touch if each of them fills its columns exactly.
   EXPECT_EQ(load("a.pdb", pdb_atom(" C  ", "LIG", "-123.456-123.456-123.456")).spheres[0][2],
             -123.456F);
   EXPECT_EQ(load("a.pdb", pdb_atom(" C  ", "LIG", "     1.0     2.0     3.0")).spheres[0][2], 3);
@@ -63,7 +63,7 @@ TEST(PdbRecords, NothingThatBeginsLikeAnAtomIsLeftOut) {
        {"atom  ", "Atom  ", " ATOM ", "hetatm", "Hetatm", "ATOM\t ", "ATOM* "}) {
     expect_refused("a.pdb", begin + rest + atom, ":1:", "");
   }
-  // The serial number has six digits.
+  // The serial number has six digits, so it touches the record name.
   EXPECT_EQ(load("a.pdb", "ATOM 1" + std::string("00000") + atom.substr(11) + atom).count(), 2U);
   EXPECT_EQ(load("a.pdb", "HETATM100000" + atom.substr(12) + atom).count(), 2U);
   EXPECT_EQ(load("a.pdb", "REMARK ATOM\nATOMS IN ALL\nSIGATM\n" + atom).count(), 1U);
@@ -86,7 +86,7 @@ TEST(PdbElements, ComeFromTheColumnsWhereNamesAreAdjustedToTheRight) {
   EXPECT_THAT(set.facts.notes, IsEmpty());
 }
 
-// The last columns may contain the end of a word.
+// The columns of the element may contain the end of a word, which must not be read as an element.
 TEST(PdbElements, AreNoPartOfAWord) {
   const ParticleSet set = load(
       "a.pdb", pdb_atom(" C1 ", "POPC", here, "  1.00  0.00      MEMBRANE").replace(21, 1, "") +
@@ -208,11 +208,11 @@ TEST(Pqr, HasItsOwnRadii) {
   expect_refused("a.pqr", "ATOM1 N ALA 1 1 2 3 0 1\n", ":1:", "expected a blank after ATOM");
 }
 
-// The files of a folder that is not part of the project. Each row names the file with the expected
-// content.
+// A file in a data folder outside the project, and another file with the expected content.
 struct Row {
   const char* file;
-  const char* twin;  // the file whose content is equal; nullptr if the file only has to be readable
+  // The file with the same content, or nullptr if `file` only has to be readable.
+  const char* twin;
 };
 
 TEST(ReaderCases, EveryRowOfTheTableIsRight) {
@@ -265,8 +265,8 @@ TEST(ReaderCases, EveryRowOfTheTableIsRight) {
     EXPECT_EQ(load_volume(file, {folder}).voxels, twin.voxels) << file;
   }
   EXPECT_EQ(load_volume("v12c_iv3d.dat", {folder}).type, ScalarType::i16);
-  // These hold no volume: the NIfTI headers are empty, and the VTK files end before the values.
-  // nibabel refuses the former, and VTK finds no array in the latter.
+  // These files contain no volume: the NIfTI headers are empty, and the VTK files end before the
+  // values. nibabel rejects the NIfTI files, and VTK finds no array in the VTK files.
   const std::map<std::string, std::string> reasons{
       {"v04.nii", "states neither sizes nor a type"},
       {"v04.nii.gz", "states neither sizes nor a type"},

@@ -1,6 +1,6 @@
-// Reads real volumes from the folder that TRIPTYCH_DATA names, which docs/data.md describes. The
-// expected sizes, types and ranges come from the data's own description, which was made with
-// another reader.
+// Reads real volumes from the folder that TRIPTYCH_DATA names (see docs/data.md). The expected
+// sizes, types and ranges come from the description of the data, which was created with another
+// reader.
 
 #include <gtest/gtest.h>
 
@@ -59,7 +59,7 @@ TEST(RealData, EveryVolumeLoadsAsDescribed) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       EXPECT_DOUBLE_EQ(volume.spacing.at(axis), facts.spacing.at(axis));
     }
-    // The description has seven digits.
+    // The description states seven digits.
     EXPECT_NEAR(volume.range_lo, facts.lo, 1e-7 * std::max(1.0, facts.hi));
     EXPECT_NEAR(volume.range_hi, facts.hi, 1e-7 * std::max(1.0, facts.hi));
     const VoxelFormat format = lossless_format(volume.type);

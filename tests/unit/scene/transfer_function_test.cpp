@@ -37,8 +37,7 @@ TEST(TransferFunction, PresetsAreStraightColoursInRange) {
   }
 }
 
-// Skipping of empty space relies on this: low values are not only nearly transparent, their opacity
-// is exactly zero.
+// Empty-space skipping needs low values with an opacity of exactly zero, not just nearly zero.
 TEST(TransferFunction, LowValuesAreExactlyTransparent) {
   const TransferFunction haze = load_transfer_function("haze");
   for (std::size_t k = 0; k < 32; ++k) EXPECT_EQ(haze.entries.at(k)[3], 0) << k;
@@ -109,7 +108,7 @@ TEST(TransferFunction, BrokenFilesAreNamedWithTheirLine) {
   expect("", ": the file ends after 0 entries; expected 256");
 }
 
-// The text is as long as a table of bytes.
+// The cut-off text has exactly the size of a binary table.
 TEST(TransferFunction, TextCutOffIsNotTakenForBytes) {
   const TemporaryFolder folder;
   for (const std::string start : {"", "# made by hand: µ\n"}) {
@@ -119,7 +118,7 @@ TEST(TransferFunction, TextCutOffIsNotTakenForBytes) {
                 ThrowsMessage<core::InputError>(HasSubstr(file.string() + ":")))
         << start;
   }
-  // All bytes but one could be text.
+  // A single byte that cannot occur in text makes the file a binary table.
   std::string bytes = repeated("0 0\n", 256);
   bytes[600] = '\1';
   EXPECT_EQ(load_transfer_function(folder.write("c.rgba", bytes).string()).entries[0][0],

@@ -35,7 +35,8 @@ VoxelGrid natural(Volume volume) {
   return encode(std::move(volume), format);
 }
 
-// Values with a long tail: most are near 0, and the largest is a thousand times the median.
+// Returns values with a long tail: most are small, and the largest are about a thousand times the
+// median.
 std::vector<float> long_tail(int count) {
   core::Random random(7);
   std::vector<float> values;
@@ -87,11 +88,12 @@ TEST(Window, IsLinearBetweenItsEndsAndFlatBeyond) {
   EXPECT_GT(between, 50);
 }
 
-// Compares with the definition, independent of the way in which values are sorted.
+// Checks the definition of a percentile directly, without sorting.
 TEST(Window, PercentilesAreTheSmallestValuesThatEnoughVoxelsDoNotExceed) {
   for (const int count : {1, 2, 99, 100, 101, 777}) {
     std::vector<float> values = long_tail(count);
-    values.push_back(values.front());  // a tie
+    // Creates a tie.
+    values.push_back(values.front());
     for (const double percent : {0.0, 0.5, 1.0, 37.0, 50.0, 99.0, 99.9}) {
       const double found =
           mapped(row_of(values, ScalarType::f32), "p" + std::to_string(percent) + "..1e9").range_lo;
@@ -155,7 +157,8 @@ TEST(Mapping, OfALogarithmHasAPlaceForEveryValue) {
   }
 }
 
-// The bits must be the same on every machine, because baselines contain hashes of such data.
+// The results must be bit-identical on every machine, because baselines contain hashes of such
+// data.
 TEST(Mapping, OfALogarithmHasTheSameBitsEverywhere) {
   std::vector<std::uint16_t> values(65536);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint16_t>(i);
@@ -174,7 +177,8 @@ TEST(LosslessFormat, IsThatOfTheIntegersUnlessAMappingChangesThem) {
   EXPECT_EQ(lossless_format(mapped(volume, "full", Mapping::logarithmic)), VoxelFormat::f32);
 }
 
-// A window helps formats with few steps, because all steps of the format lie within the window.
+// If a window is narrower than the range of values, all steps of the format lie within the window,
+// so the rounding is finer.
 TEST(LosslessFormat, IntegersThatAreClampedAreRoundedToStepsOfTheWindow) {
   std::vector<std::uint16_t> values;
   for (int v = 0; v < 2000; ++v) values.push_back(static_cast<std::uint16_t>(v));

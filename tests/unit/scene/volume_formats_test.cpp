@@ -59,7 +59,7 @@ std::string bzip2ed(std::string plain) {
   return packed;
 }
 
-// Builds a NIfTI header field by field, in a chosen byte order.
+// Builds a NIfTI header field by field, in the given byte order.
 class Nifti {
  public:
   Nifti(int version, bool big)
@@ -289,7 +289,7 @@ TEST(VtkXml, IsReadInAllItsForms) {
   };
   const std::string little = "byte_order=\"LittleEndian\"";
   expect(vti(little, "format=\"ascii\">-3 500"));
-  // The size of 4 bytes (04000000) is followed by the bytes FDFF F401.
+  // The block begins with its size, 4 bytes (04000000), followed by the data FDFF F401.
   expect(vti(little, "format=\"binary\">\n  BAAAAP3/9AE=\n"));
   expect(vti("byte_order=\"BigEndian\"", "format=\"binary\">AAAABP/9AfQ="));
   expect(vti(little + " header_type=\"UInt64\"", "format=\"binary\">BAAAAAAAAAD9//QB"));
@@ -299,7 +299,7 @@ TEST(VtkXml, IsReadInAllItsForms) {
       bytes_of_values<std::uint32_t>({4}, false) + bytes_of_values<std::int16_t>({-3, 500}, false);
   expect(vti(little, "format=\"appended\" offset=\"2\"/><DataArray>",
              "<AppendedData encoding=\"raw\"> _xx" + raw + "</AppendedData>"));
-  // The data are compressed in two blocks of 2 bytes.
+  // The data are compressed in two blocks of 2 bytes each.
   std::string blocks[2];
   for (int i = 0; i < 2; ++i) {
     const std::string plain = raw.substr(4 + static_cast<std::size_t>(i) * 2, 2);
@@ -422,7 +422,8 @@ TEST(WideIntegers, BecomeTheSmallestTypeThatHoldsThem) {
   EXPECT_EQ(type_of({-1, 32767}).facts.value_type, "i64");
 }
 
-// A new format needs more than a row in the table. This test names the parts that are missing.
+// Besides a row in the table, a new format needs seeds, a second reader and documentation. Reports
+// what is missing.
 template <typename Format>
 void expect_complete(std::span<const Format> formats, const std::string& seeds) {
   const std::filesystem::path root = TRIPTYCH_SOURCE_FOLDER;

@@ -50,7 +50,7 @@ std::vector<T> every_value() {
   return values;
 }
 
-// `stored·scale + offset` must give each value within the rounding of that formula.
+// Checks that `stored·scale + offset` reproduces each value within the rounding of that formula.
 template <typename T>
 void expect_exact(VoxelFormat format, double lo, double hi) {
   const std::vector<T> values = every_value<T>();
@@ -114,8 +114,8 @@ double half_at(const VoxelGrid& grid, std::size_t index) {
   return static_cast<double>(half);
 }
 
-// Tests signed values of a scanner with twelve bits, bytes in a window that is larger than their
-// range, and even numbers up to the largest half float.
+// Tests signed 12-bit values of a scanner, bytes in a window that is larger than their range, and
+// even numbers up to the largest half float.
 TEST(Encode, HalvesHoldIntegersOfElevenBits) {
   expect_exact<std::uint8_t>(VoxelFormat::f16, -3.5, 260);
   expect_exact<std::int8_t>(VoxelFormat::f16, -128, 127);
@@ -128,7 +128,7 @@ TEST(Encode, HalvesHoldIntegersOfElevenBits) {
   EXPECT_EQ(grid.normalised(5), 1);
 }
 
-// Tests floats, integers with more bits, and integers that are clamped.
+// Tests values that half floats cannot represent: floats, wider integers, and clamped integers.
 TEST(Encode, HalvesRoundWhatTheyCannotHold) {
   const auto expect_rounded = [](const Volume& volume) {
     ASSERT_FALSE(fits_halves(volume));
@@ -198,7 +198,7 @@ TEST(Encode, HashTellsVoxelsMappingAndGeometryApart) {
                        VoxelFormat format) { return encode(row_of(values, lo, hi), format).hash; };
   const std::string base = hash({1, 2, 3}, 1, 3, VoxelFormat::u8);
   EXPECT_EQ(base,
-            // The same on every machine, because baselines contain such hashes.
+            // This hash must be the same on every machine, because baselines contain such hashes.
             "cf634823698adb06e1995b9bbb56f84e");
   EXPECT_EQ(base, hash({1, 2, 3}, 1, 3, VoxelFormat::u8));
   EXPECT_NE(base, hash({1, 2, 4}, 1, 3, VoxelFormat::u8));

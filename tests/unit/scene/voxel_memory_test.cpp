@@ -13,7 +13,7 @@
 namespace triptych::scene {
 namespace {
 
-// Limits the memory of the process that RLIMIT_DATA counts.
+// Limits the process memory that RLIMIT_DATA covers.
 class DataLimit {
  public:
   explicit DataLimit(rlim_t bytes) {
@@ -78,7 +78,7 @@ TEST(VoxelMemory, WithoutRoomSaysWhereAndWhatToDo) {
             "/no/such/folder: cannot create a file of 512 MiB for voxels (No such file or "
             "directory); free space there, or set TMPDIR to another folder");
   const test::TemporaryFolder folder;
-  // The size is larger than any file system.
+  // No file system can hold a file of this size.
   const std::string full = message(folder.path().c_str(), std::size_t{1} << 60U);
   EXPECT_NE(full.find("; free space there"), std::string::npos) << full;
 }

@@ -1,4 +1,4 @@
-// Measures the memory that arranging needs, by replacing the allocation functions of this program.
+// Measures how much memory `arrange()` needs, by replacing this program's allocation functions.
 
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -14,13 +14,14 @@
 
 namespace {
 
-// Initialised at compile time, because allocations happen before main.
+// Initialised at compile time, because allocations can happen before main().
 constinit std::atomic<std::size_t> held_bytes{0};
 constinit std::atomic<std::size_t> most_bytes{0};
 
 }  // namespace
 
-// Not inlined: if only one of the two is inlined, GCC 12 considers the pair a mismatch.
+// Neither operator may be inlined: if only one of them is, GCC 12 warns that the pair does not
+// match.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   void* memory = std::malloc(std::max<std::size_t>(size, 1));
   if (memory == nullptr) throw std::bad_alloc();
@@ -50,8 +51,8 @@ std::size_t bytes_of(const scene::ParticleSet& set) {
 
 class ArrangementMemory : public testing::TestWithParam<scene::ColourKind> {};
 
-// The order is the only array besides those of the set. A hundredth of the set's size is allowed
-// for cells.
+// The only new array is the order of the particles. Another hundredth of the set's size is allowed
+// for the cells.
 TEST_P(ArrangementMemory, ArrangingTakesFourBytesPerParticle) {
   scene::ParticleScene scene;
   const std::size_t before = held_bytes;

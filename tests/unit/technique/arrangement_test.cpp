@@ -33,7 +33,8 @@ std::vector<std::uint32_t> ids_of(const Arrangement& arranged) {
   return ids;
 }
 
-// A property, joined from the pieces in which a device gets it.
+// Returns a property of all particles, joined from pieces of the size in which a device receives
+// them.
 std::vector<std::byte> gathered(const Arrangement& arranged, Property property,
                                 std::size_t piece_bytes) {
   std::vector<std::byte> all(arranged.bytes(property));
@@ -48,7 +49,7 @@ std::vector<std::byte> gathered(const Arrangement& arranged, Property property) 
   return gathered(arranged, property, arranged.bytes(property));
 }
 
-// The bytes of value(index in the set) for all particles, in the order of the arrangement.
+// Returns the bytes of value(index in the set) for all particles, in the order of the arrangement.
 template <typename Value>
 std::vector<std::byte> expected(const Arrangement& arranged, const Value& value) {
   std::vector<decltype(value(0U))> values;
@@ -150,8 +151,8 @@ TEST(Arrangement, CellsComeFrontToBackAndIdsAscend) {
   }
 }
 
-// The particles fill more than one run. If two are at one position, the one with the lower id must
-// be drawn first.
+// The particles do not fit into a single cell. Of two particles at the same position, the one with
+// the lower id must be drawn first.
 TEST(Arrangement, CrowdsThatCannotBeDividedStayInOrder) {
   scene::ParticleSet set = scene::generate_particles("uniform", 2600, scene::ColourKind::rgba8);
   for (auto& sphere : set.spheres) {
@@ -163,7 +164,8 @@ TEST(Arrangement, CrowdsThatCannotBeDividedStayInOrder) {
     set.rgba8.push_back(set.rgba8[i]);
     set.ids.push_back(static_cast<std::uint32_t>(half + i));
   }
-  set.spheres.push_back({50, 50, 50, 1});  // so that all others share a part
+  // This distant particle puts all other particles into the same part of the grid.
+  set.spheres.push_back({50, 50, 50, 1});
   set.rgba8.push_back(set.rgba8.front());
   set.ids.push_back(static_cast<std::uint32_t>(2 * half));
   scene::ParticleScene scene = scene_of(std::move(set));
@@ -195,7 +197,7 @@ TEST(Arrangement, DoesNotDependOnTheOrderOfTheSet) {
   }
 }
 
-// A sphere that would make the box of its cell too large for culling gets a separate cell.
+// A sphere that would make the box of its cell too large for culling gets a cell of its own.
 TEST(Arrangement, ALargeSphereGrowsNoCell) {
   scene::ParticleSet set = scene::generate_particles("uniform", 20000, scene::ColourKind::rgba8);
   set.spheres[777][3] = 20;

@@ -1,5 +1,5 @@
-// Compares the bricks that may be merged with a search over every value and every path through a
-// brick.
+// Compares the classification of bricks with an exhaustive search over the values in a brick and
+// the paths through it.
 
 #include "technique/volume/brick_kinds.hpp"
 
@@ -31,15 +31,14 @@ scene::VolumeScene generated_volume(std::string_view name, std::string_view func
   return scene_of(scene::generate_volume(name, {40, 40, 40}), function);
 }
 
-// A single brick with the values lo … hi.
+// Returns the ranges of a single brick with values from `lo` to `hi`.
 BrickRanges one_brick(float lo, float hi) {
   return {.counts = {1, 1, 1}, .minimum = {lo}, .maximum = {hi}};
 }
 
 scene::TransferFunction random_function(core::Random& random) {
   scene::TransferFunction function;
-  // From almost constant to rough, so that there are ranges of values on both sides of every
-  // budget.
+  // The roughness varies widely, so that the classification has both outcomes for every budget.
   const double roughness = std::exp2(random.uniform(-16, 0));
   const std::array<double, 4> base{random.uniform(), random.uniform(), random.uniform(),
                                    0.5 * random.uniform()};
@@ -70,8 +69,8 @@ Sample sample_at(const scene::TransferFunction& function, double value) {
   return {{mixed[0], mixed[1], mixed[2]}, -std::log1p(-mixed[3])};
 }
 
-// Composites pieces of equal length with a colour and an opacity, front to back, over black or
-// white.
+// Composites segments of equal length front to back, in front of a background of brightness
+// `behind` (black or white).
 std::array<double, 4> composite(const std::vector<Sample>& samples, double length, double behind) {
   std::array<double, 4> sum{};
   double left = 1;
@@ -98,8 +97,8 @@ TEST(BrickKinds, MergedBricksKeepTheirBudget) {
     const BrickRanges brick = one_brick(static_cast<float>(lo), static_cast<float>(hi));
     if (brick_kinds(brick, scene, adapt)[0] != merged) continue;
     ++merged_bricks;
-    // The volume is full of such bricks. A ray takes one value from each, whereas the lattice takes
-    // many.
+    // The ray passes only through such bricks. Merging takes one sample per brick, whereas the
+    // sampling lattice takes several.
     const int bricks = 9;
     const int steps = 8;
     std::vector<Sample> lattice;
@@ -124,7 +123,7 @@ TEST(BrickKinds, MergedBricksKeepTheirBudget) {
   EXPECT_LT(merged_bricks, 3500);
 }
 
-// Evaluates the criterion itself. The extremes are found by trying many values.
+// Evaluates the merging criterion directly, with the extreme values found by trying many values.
 TEST(BrickKinds, AreThoseOfTheCriterion) {
   core::Random random(12);
   scene::VolumeScene scene = generated_volume("uniform_box", "haze");
@@ -159,7 +158,7 @@ TEST(BrickKinds, AreThoseOfTheCriterion) {
     const double cost =
         largest.extinction - least.extinction + (colours - spent) * largest.extinction;
     const double budget = (adapt / 2 - spent) * least.extinction + adapt / 2 / longest;
-    // Skips cases that depend on the rounding of the range, or on its widening for rounding.
+    // Skips cases in which round-off could change the decision.
     if (std::abs(cost - budget) < 1e-3 * (cost + budget)) continue;
     ++decided;
     const BrickRanges brick = one_brick(static_cast<float>(lo), static_cast<float>(hi));
@@ -190,7 +189,8 @@ TEST(BrickKinds, AnOpaqueBrickIsNot) {
   EXPECT_EQ(brick_kinds(one_brick(0.2F, 0.4F), scene, 0.5)[0], sampled);
 }
 
-// Shading can brighten a brick as much as its range of values allows the gradient to be steep.
+// Shading can change the brightness of a brick by as much as its range of values permits steep
+// gradients.
 TEST(BrickKinds, ShadingCountsAsColour) {
   scene::VolumeScene scene = generated_volume("uniform_box", "haze");
   scene.transfer_function.entries.fill({0.5F, 0.5F, 0.5F, 0.25F});

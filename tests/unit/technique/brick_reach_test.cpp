@@ -1,4 +1,4 @@
-// Compares how far a ray may leap with a search through every brick.
+// Compares the distances that rays may leap with a search through every brick.
 
 #include "technique/volume/brick_reach.hpp"
 
@@ -16,7 +16,8 @@
 namespace triptych::technique {
 namespace {
 
-// The distance to the nearest brick of the other kind, found by testing all bricks.
+// Returns the distance to the nearest brick of the other kind (visible or empty), found by testing
+// all bricks.
 int distance_to_other_kind(const std::array<int, 3>& counts,
                            const std::vector<std::uint32_t>& visible,
                            const std::array<int, 3>& at) {
@@ -65,7 +66,8 @@ TEST(BrickLayout, CoversWhatASampleInABrickMayRead) {
   EXPECT_EQ(brick_layout(scene, Skip::distance),
             (BrickLayout{.edge = 2, .border = 0, .of_cells = true}));
   scene.quadrature = scene::Quadrature::preintegrated;
-  scene.step_voxels = 0.25;  // reads up to 5/8 of a voxel, plus rounding, outside of a face
+  // A sample reads up to 5/8 of a voxel beyond a face of its brick, plus round-off.
+  scene.step_voxels = 0.25;
   EXPECT_EQ(brick_layout(scene, Skip::bricks).border, 1);
   EXPECT_EQ(brick_layout(scene, Skip::distance).border, 1);
   scene.step_voxels = 1;
@@ -83,7 +85,8 @@ TEST(BrickLayout, ALargeVolumeHasLargerBricksOfCells) {
     scene.grid = std::make_shared<const scene::VoxelGrid>(grid);
     return brick_layout(scene, Skip::distance).edge;
   };
-  EXPECT_EQ(edge({513, 513, 1025}), 2);  // 2²⁵ bricks, whose map has 2²⁷ bytes
+  // 2²⁵ bricks, whose map needs 2²⁷ bytes.
+  EXPECT_EQ(edge({513, 513, 1025}), 2);
   EXPECT_EQ(edge({513, 513, 1026}), 4);
   EXPECT_EQ(edge({16384, 16384, 16384}), 64);
 }

@@ -12,8 +12,8 @@
 namespace triptych::technique {
 namespace {
 
-// A transfer function that is opaque in only one range of its table, or transparent in only one
-// range. Empty bricks may therefore be at a corner or inside.
+// Returns a transfer function that is opaque only within a random range of its table, or only
+// outside of it. Empty bricks may therefore contain the lowest, the highest or intermediate values.
 scene::TransferFunction stretch(core::Random& random) {
   scene::TransferFunction function;
   const std::size_t begin = random.bits() % 256;
@@ -25,7 +25,7 @@ scene::TransferFunction stretch(core::Random& random) {
   return function;
 }
 
-// Tests every voxel of brick (x, y, z) and of its border.
+// Checks the range of values against every voxel of brick (x, y, z) and its border.
 void expect_range(const scene::VoxelGrid& grid, const BrickLayout& layout, std::array<int, 3> brick,
                   float minimum, float maximum) {
   float lo = std::numeric_limits<float>::infinity();
@@ -91,7 +91,8 @@ TEST(Bricks, AnyIsEmptyAgreesWithTheVisibilityOfAll) {
       with_empty += empty ? 1 : 0;
     }
   }
-  EXPECT_GT(with_empty, trials / 10);  // both results occurred
+  // Both results must have occurred often enough.
+  EXPECT_GT(with_empty, trials / 10);
   EXPECT_LT(with_empty, 2 * trials - trials / 10);
 }
 

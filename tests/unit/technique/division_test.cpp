@@ -35,8 +35,8 @@ std::vector<std::size_t> counts_of(const scene::ParticleScene& scene, const Divi
   return counts;
 }
 
-// 316 × 316 spheres are in a wall, and 900,144 are behind it. Without division, cells of the grid
-// would contain 71,507 of the latter together with spheres of the wall.
+// The wall consists of 316 × 316 spheres, and 900,144 spheres are behind it. Without division, the
+// grid cells that contain spheres of the wall would also contain 71,507 of the spheres behind it.
 TEST(Division, AWallIsPartedFromWhatIsBehindIt) {
   constexpr std::size_t wall = 316 * 316;
   const scene::ParticleScene scene = scene_without_camera(generated_set("hidden", 1'000'000));
@@ -51,8 +51,8 @@ TEST(Division, AWallIsPartedFromWhatIsBehindIt) {
   EXPECT_LT(with_wall, wall * 11 / 10);
 }
 
-// If particles are evenly distributed, dividing a cell is worthwhile from 1.5 times their number
-// on, so cells of 512 ± 23 stay whole.
+// In an even distribution, a cell is worth dividing only from 1.5 times the average number of
+// particles on. Cells with 512 ± 23 particles are therefore not divided.
 TEST(Division, EvenlySpreadParticlesStayInTheCellsOfTheGrid) {
   const scene::ParticleScene scene =
       scene_without_camera(generated_set("uniform", 13 * 13 * 13 * 512));
@@ -61,7 +61,7 @@ TEST(Division, EvenlySpreadParticlesStayInTheCellsOfTheGrid) {
   EXPECT_EQ(division.parts(), grid.cells() + 1);
 }
 
-// A single particle far away puts all others into one cell of the grid.
+// Because of a single distant particle, all others fall into one cell of the grid.
 TEST(Division, AFarParticleDoesNotKeepTheOthersTogether) {
   scene::ParticleSet set = generated_set("uniform", 20'000);
   set.spheres[777][0] = 1e5F;

@@ -16,7 +16,7 @@ namespace {
 
 using Pixels = std::vector<std::pair<int, int>>;
 
-// The pixels that a launch draws again, in the order of its grid.
+// Returns the pixels that a launch draws a second time, in the order of its grid.
 Pixels drawn_again(int width, int height, int stride) {
   Pixels pixels;
   const int again = again_from(width);
@@ -48,13 +48,15 @@ TEST(ExtraWork, NoPixelIsDrawnTwiceAndTheShareIsAsAsked) {
       EXPECT_EQ(once.size(), pixels.size());
       const double tiles = size * size / 128.0;
       const double share = static_cast<double>(pixels.size()) / (size * size);
-      // Multiples of the golden ratio distribute up to 64 rows evenly, within three tiles.
+      // Multiples of the golden ratio distribute up to 64 rows evenly, with a deviation of at most
+      // three tiles.
       EXPECT_NEAR(share, 1.0 / stride, 3 / tiles + 1e-12) << size << " pixels, stride " << stride;
     }
   }
 }
 
-// A driver may assign rows to two processors in advance, half of them to each.
+// A driver may statically assign half of the rows to each of two processors, so both halves need
+// equal work.
 TEST(ExtraWork, EveryHalfHasItsShare) {
   for (const int size : {192, 320, 512}) {
     for (const int stride : {5, 10, 20, 33}) {
@@ -68,7 +70,8 @@ TEST(ExtraWork, EveryHalfHasItsShare) {
   }
 }
 
-// Rays are longest in the middle of an image, so the extra work must not lie in one quarter only.
+// Rays are longest in the middle of an image, so the middle must receive its share of the extra
+// work.
 TEST(ExtraWork, IsSpreadOverThePicture) {
   for (const int stride : {5, 10, 20, 33}) {
     const Pixels pixels = drawn_again(512, 512, stride);

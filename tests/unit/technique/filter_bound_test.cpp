@@ -14,8 +14,8 @@ TEST(FilterBound, IsOfTheWeightsAndOfTheFormat) {
   EXPECT_DOUBLE_EQ(allowed_filter_error(8, f32), 3.0 / 256 + 3 * 0x1p-24);
 }
 
-// Nearest-voxel sampling must exceed the bound: between a black and a white voxel, its error is
-// half of their difference.
+// The bound must reject nearest-voxel sampling, whose error halfway between a black and a white
+// voxel is 0.5.
 TEST(FilterBound, TheNearestVoxelIsNoFilter) {
   for (const scene::VoxelFormat format : {u8, u16, f32, f16}) {
     EXPECT_LT(allowed_filter_error(least_weight_bits, format), 0.5);

@@ -1,4 +1,4 @@
-// Tests the hierarchy's shape, the curve that orders it, and the boxes around spheres.
+// Tests the shape of the hierarchy, the curve that orders it, and the boxes around spheres.
 
 #include "technique/particles/hierarchy.hpp"
 
@@ -64,8 +64,8 @@ TEST(Hierarchy, GroupsCoverAllInvocations) {
   }
 }
 
-// Consecutive cells on the curve are neighbours: they differ by one step along one axis. The first
-// 512 cells of the curve are an 8×8×8 corner of the grid, and each is visited once.
+// Consecutive cells on the curve must be neighbours, one step apart along one axis. The first 512
+// cells must fill an 8×8×8 corner of the grid, each exactly once.
 TEST(BoxMath, HilbertsCurveGoesFromNeighbourToNeighbour) {
   std::vector<std::array<int, 3>> at(512, {-1, -1, -1});
   for (int x = 0; x < 8; ++x) {
@@ -104,7 +104,8 @@ TEST(BoxMath, GridCellsAreClampedAndNeverUndefined) {
   EXPECT_EQ(tri_grid_cell(3e38F, -3e38F, 0), 0);
 }
 
-// Each side of the box lies outside the sphere in double precision, and not by more than a few roundings.
+// In double precision, each side of the box lies outside the sphere, but only by a few rounding
+// errors.
 TEST(BoxMath, BoxesContainTheirSpheres) {
   core::Random random(3);
   for (int i = 0; i < 20000; ++i) {

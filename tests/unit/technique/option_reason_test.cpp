@@ -50,7 +50,7 @@ TEST(OptionReason, RaysAreMadeAtVerticesWhereThereAreSome) {
 TEST(OptionReason, APolygonHasFourCornersAtLeast) {
   EXPECT_THAT(reason("polygon_tess", {.corners = 3}), HasSubstr("3 corners"));
   EXPECT_EQ(reason("polygon_tess", {.corners = 4}), "");
-  // This technique does not use the number.
+  // The adaptive technique ignores the number of corners.
   EXPECT_EQ(reason("polygon_adaptive", {.corners = 3}), "");
 }
 

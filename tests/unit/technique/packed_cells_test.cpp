@@ -26,7 +26,8 @@ std::vector<std::byte> packed(const scene::VoxelGrid& grid) {
   return bytes;
 }
 
-// Whether the k-th voxel of a texel equals the voxel of the grid.
+// Returns whether the k-th voxel of a texel equals the given voxel of the grid, with indices
+// clamped to the grid.
 bool holds(const std::vector<std::byte>& bytes, std::size_t texel, std::size_t k,
            const scene::VoxelGrid& grid, std::array<int, 3> voxel) {
   std::size_t index = 0;

@@ -18,7 +18,8 @@ core::Image picture_of(std::vector<std::uint32_t> ids) {
   return image;
 }
 
-// Each counter has its number as its value, in the first and in the last row.
+// Returns sums in which the first row counts ten times the number of each counter, and the last row
+// counts 1.
 std::vector<std::uint32_t> two_rows() {
   std::vector<std::uint32_t> sums(particle_counter_rows * particle_counter_columns);
   for (std::uint32_t column = 0; column < particle_counter_columns; ++column) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Layers of_one_byte{.bytes = 1, .more = 1, .whole = 102};
 
-// A volume of 100 slices, with the eye at this height.
+// Returns a scene with a volume of 100 slices and the eye at slice `eye_z`.
 scene::VolumeScene scene_of(double eye_z) {
   scene::VolumeScene scene;
   scene.grid = std::make_shared<const scene::VoxelGrid>(scene::VoxelGrid{
@@ -50,7 +50,7 @@ TEST(Parts, TakeEveryCellOnceAndHoldWhatItsSamplesReach) {
           for (int cell = part.begin; cell < part.end; ++cell)
             ++taken[static_cast<std::size_t>(cell)];
         }
-        // The slices next to the first part belong to it, too.
+        // The slices that border on the first part are also part of it.
         const Part& first = parts.front();
         for (const int beside : {first.begin, first.end - 1}) {
           int& times = taken[static_cast<std::size_t>(beside)];
@@ -62,8 +62,8 @@ TEST(Parts, TakeEveryCellOnceAndHoldWhatItsSamplesReach) {
   }
 }
 
-// Every ray meets the parts in this order: the first part contains the eye, and the others continue
-// upwards or downwards.
+// Every ray must meet the parts in their order: the first part contains the eye, and each later
+// part continues upwards or downwards from there.
 TEST(Parts, BeginAtTheEyeAndGoOutwards) {
   for (const double eye : {-30.0, 0.0, 37.0, 50.0, 99.0, 200.0}) {
     const std::vector<Part> parts = cut(scene_of(eye), 20);
@@ -84,7 +84,7 @@ TEST(Parts, BeginAtTheEyeAndGoOutwards) {
   }
 }
 
-// A part contains whole steps, because a preintegrated step reads both of its ends.
+// A part must hold the voxels of whole steps, because a preintegrated step reads both of its ends.
 TEST(Parts, HoldAWholeStep) {
   scene::VolumeScene scene = scene_of(50);
   scene.quadrature = scene::Quadrature::preintegrated;
@@ -133,7 +133,8 @@ TEST(Parts, AreReadWhereABrickNearThemIsVisible) {
       const bool has_slice_70 = pass.part.begin <= 71 && pass.part.end > 70;
       EXPECT_TRUE(pass.read || !has_slice_70);
     }
-    // A walk reads the last sample behind the exit, which may be in another part.
+    // Unless rays leap over empty bricks, a ray may take its last sample beyond the exit of a
+    // brick, where another part may begin. All parts must then be read.
     if (skip == Skip::distance) {
       EXPECT_LE(read, 3);
     } else {

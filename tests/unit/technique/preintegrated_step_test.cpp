@@ -1,5 +1,5 @@
-// Computes a step of quadrature preintegrated in floats on the host, as preintegrated.glsl does,
-// and compares it with the reference and its bound.
+// Computes a step of the quadrature `preintegrated` with floats on the host, as preintegrated.glsl
+// does on a device, and compares it with the reference and its error bound.
 
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ namespace {
 using Texel = std::array<float, 4>;
 using Colour = std::array<float, 3>;
 
-// The largest depth of a piece. Infinity means that all whole cells are taken at once, as in an
-// earlier version.
+// As the largest optical depth of a piece, this value disables the splitting: all whole cells are
+// taken at once, as in an earlier version of the shader.
 constexpr float any_depth = 1e30F;
 
 class Step {
@@ -30,7 +30,7 @@ class Step {
   Step(const scene::TransferFunction& function, const std::vector<Texel>& pairs, float deepest)
       : function_(function), pairs_(pairs), deepest_(deepest) {}
 
-  // Premultiplied colour and opacity between two positions in the table.
+  // Returns premultiplied colour and opacity of a step between two positions in the table.
   [[nodiscard]] Texel operator()(float from, float to, float length) {
     gathered_ = {};
     const int first_cell = static_cast<int>(std::floor(from));
@@ -125,11 +125,13 @@ scene::TransferFunction rough_table(core::Random& random) {
 }
 
 struct Found {
-  double largest = 0;  // error of the light if both ends are exact
-  int beyond = 0;      // steps outside of their bound
+  // Largest error of the light if both ends are exact.
+  double largest = 0;
+  // Number of steps that exceed their bound.
+  int beyond = 0;
 };
 
-// Random steps whose ends a device computes with an error of up to `error` entries.
+// Tries random steps. The device computes each end with an error of up to `error` table entries.
 Found find(const scene::TransferFunction& function, double length, double error, float deepest,
            int count = 1000) {
   constexpr double u = 0x1p-24;
@@ -150,7 +152,8 @@ Found find(const scene::TransferFunction& function, double length, double error,
           std::clamp(at + 0.99 * random.uniform(-error, error), -0.75, 255.75));
     };
     const auto [r, g, b, a] = device(moved(from), moved(to), static_cast<float>(length));
-    const double e = error + 512 * u;  // positions and their differences are floats
+    // Positions and their differences are rounded to floats.
+    const double e = error + 512 * u;
     const reference::Segment truth =
         steps({(from + 0.5) / 256, e / 256}, {(to + 0.5) / 256, e / 256}, {length, length, length});
     bool inside = a >= truth.opacity.lo - u && a <= truth.opacity.hi + u;
@@ -180,8 +183,8 @@ TEST(PreintegratedStep, IsExactHoweverOpaqueItIs) {
   }
 }
 
-// If whole cells are taken at once, however deep they are, three coefficients cannot represent
-// their light, and the bound reveals that.
+// If all whole cells are taken at once regardless of their optical depth, three coefficients cannot
+// represent their light. The bound must detect that.
 TEST(PreintegratedStep, ByOneChunkIsWrongAndBeyondTheBound) {
   const scene::TransferFunction function = scene::load_transfer_function("surfaces");
   for (const auto& [length, error] : {std::pair{2.0, 5e-3}, {64.0, 0.25}}) {
@@ -208,7 +211,8 @@ TEST(PreintegratedStep, StaysWithinItsBoundWhereItsEndsAreUncertain) {
 
 TEST(PreintegratedStep, IsTakenInChunksWhereItMayBeDeep) {
   scene::VolumeScene scene;
-  scene.transfer_function.entries.fill({1, 1, 1, 0.5F});  // a power of two per voxel
+  // Each voxel halves the transmittance.
+  scene.transfer_function.entries.fill({1, 1, 1, 0.5F});
   EXPECT_EQ(preintegration_form(scene), 0);
   scene.quadrature = scene::Quadrature::preintegrated;
   scene.step_voxels = 0.499;
@@ -217,11 +221,13 @@ TEST(PreintegratedStep, IsTakenInChunksWhereItMayBeDeep) {
   EXPECT_EQ(preintegration_form(scene), 2);
 }
 
-// The position in a cell as a function of the share of its depth. Returns the error of three
-// coefficients, for linear extinction and for linear opacity.
+// `tau(s)` is the extinction at the relative position s in a cell. Expresses the position as a
+// function of the share of the optical depth with three coefficients, and returns the remaining
+// error divided by the squared tilt.
 double left_behind(double tau_a, double tau_b, const auto& tau) {
   constexpr int parts = 4000;
-  const auto place = [](int i) {  // positions are denser at the ends
+  // Positions are denser at both ends.
+  const auto place = [](int i) {
     const double x = static_cast<double>(i) / parts;
     return x * x * x * (x * (6 * x - 15) + 10);
   };

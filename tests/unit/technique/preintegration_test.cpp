@@ -1,4 +1,4 @@
-// Compares the table of paths and the maths around it with brute-force integration in long double.
+// Compares the preintegration table and its maths with brute-force integration in long double.
 
 #include "technique/volume/preintegration.hpp"
 
@@ -23,8 +23,8 @@ struct Light {
   std::array<Wide, 3> colour{};
 };
 
-// The light of a path of `length` voxels between two positions in the table, by the midpoint rule
-// with very many parts.
+// Integrates the light along a path of `length` voxels between two positions in the table, with the
+// midpoint rule and a very large number of parts.
 Light integrate(const scene::TransferFunction& function, Wide from, Wide to, Wide length,
                 int parts) {
   Light light;
@@ -45,7 +45,7 @@ Light integrate(const scene::TransferFunction& function, Wide from, Wide to, Wid
   return light;
 }
 
-// The light of the same path, as the kernels compute it from the table.
+// Computes the light of the same path from the table, as the kernels do.
 Light by_table(const std::vector<std::array<float, 4>>& pairs, std::size_t from, std::size_t to,
                float length) {
   const auto* pair = &pairs[texels_per_pair * (256 * from + to)];
@@ -70,8 +70,8 @@ double largest_difference(const Light& a, const Light& b) {
   return static_cast<double>(largest);
 }
 
-// The function is smooth: the truncation error is at most (range of colour)·D⁴/635, and far less
-// where colour is smooth. The rest is the rounding of a dozen operations.
+// For smooth functions, the truncation error is at most (range of colour)·D⁴/635, and far smaller
+// where the colour is smooth. The remaining tolerance is the round-off of a dozen operations.
 TEST(PreintegratedPairs, AreTheIntegralsOfPathsBetweenEntries) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {
@@ -118,7 +118,7 @@ TEST(PreintegratedPairs, SteepFunctionsStayWithinTheCutOff) {
   }
 }
 
-// Every machine must compute these bits, because a device reads them.
+// Devices read this table, so it must be bit-identical on every machine.
 TEST(PreintegratedPairs, AreTheSameEverywhere) {
   const auto pairs = preintegrated_pairs(scene::load_transfer_function("surfaces"));
   EXPECT_EQ(core::HashBuilder("pairs").add_array(std::span(pairs)).hash(),
@@ -156,7 +156,7 @@ TEST(PreintegrationMath, MeanOfTheLogarithmErrsAsItsRestSays) {
     const double r = std::abs(0.5 * (static_cast<double>(b) - static_cast<double>(a))) /
                      (1 - 0.5 * (static_cast<double>(a) + static_cast<double>(b)));
     const double rest = std::min(std::pow(r, 14) / (210 * (1 - r * r)), 0.038);
-    // The opacity in the middle of a cell is rounded once.
+    // The opacity in the middle of a cell is rounded only once.
     const double middle = 0x1.0p-24 / (1 - 0.5 * (static_cast<double>(a) + static_cast<double>(b)));
     const double found = -0.6931471805599453 * portable::tri_mean_log2_1m(a, b);
     ASSERT_NEAR(found, static_cast<double>(exact),
@@ -171,7 +171,8 @@ TEST(PreintegrationMath, AttenuationIsOfTheLangevinFunction) {
     const float opacity = portable::tri_1m_exp2(-2.885390082F * z);
     const Wide wide = z;
     const Wide q = wide * wide;
-    Wide w = q / 61;  // the continued fraction, with far more terms than needed
+    // Evaluates the continued fraction with far more terms than necessary.
+    Wide w = q / 61;
     for (int level = 59; level >= 5; level -= 2) w = q / (level + w);
     const Wide langevin = wide / (3 + w);
     const float found = portable::tri_attenuation(z, opacity);

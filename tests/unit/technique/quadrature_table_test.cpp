@@ -9,7 +9,8 @@
 namespace triptych::technique {
 namespace {
 
-// The function is 0 up to entry 100, a ramp up to entry 120, and constant after it.
+// Returns a function that is 0 up to entry 100, rises linearly to entry 120, and is constant from
+// there.
 scene::TransferFunction ramp() {
   scene::TransferFunction function;
   for (std::size_t k = 101; k < 256; ++k) {

@@ -43,8 +43,8 @@ TEST(RaycastBuffers, AreThoseThatAreMade) {
   }
 }
 
-// The volume has 1024³ voxels. The map of its bricks of 4³ cells has 64 MiB; for bricks of 2³ cells
-// it would have 512 MiB.
+// The volume has 1024³ voxels. Its map of bricks with 4³ cells needs 64 MiB; with 2³ cells, the map
+// would need 512 MiB.
 TEST(RaycastBuffers, TheOneThatIsTooLargeIsNamed) {
   constexpr std::uint64_t most = 1U << 27U;
   scene::VolumeScene scene = scene_of({2, 2, 2});

@@ -1,5 +1,5 @@
-// Tests the inputs of a raycaster, and the reasons why a scene cannot be raycast, which are
-// reported before anything is drawn.
+// Tests the parameters of the raycaster, and the reasons for which a scene is rejected before
+// anything is drawn.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,8 @@ namespace {
 
 using testing::HasSubstr;
 
-// A cube with an edge length of 1, except for `flat`, the thickness of a voxel.
+// Returns a cube of 8³ voxels with an edge length of 1, except that voxels have the thickness
+// `flat` along z.
 scene::VolumeScene flat_scene(double flat) {
   scene::Volume volume = scene::generate_volume("uniform_box", {8, 8, 8});
   volume.spacing = {0.125, 0.125, flat};
@@ -29,7 +30,8 @@ TEST(RaycastReason, SamplesAreCountedInIntegersOfADevice) {
   EXPECT_FALSE(raycast_reason("raycast", scene, {}));
 }
 
-// Rays go from plane to plane of the grid, and there are few planes.
+// With the quadrature `cells`, rays advance from one grid plane to the next, so the spacing does
+// not matter.
 TEST(RaycastReason, OfCellsHasNoSamplesToCount) {
   scene::VolumeScene scene = flat_scene(1e-10);
   scene.quadrature = scene::Quadrature::cells;

@@ -16,7 +16,7 @@ TEST(Sources, WholeHasWhatItIncludesInTheirPlace) {
     const std::size_t name = at + begin.size();
     const std::size_t end = expected.find('"', name);
     const std::string text(source(expected.substr(name, end - name)));
-    // The text includes the quotation mark and the end of the line.
+    // Also replaces the closing quotation mark and the end of the line.
     expected.replace(at, end + 2 - at, text);
   }
   EXPECT_GE(included, 5);

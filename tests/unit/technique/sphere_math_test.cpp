@@ -28,7 +28,8 @@ float along_axis(const glm::vec3& p, const dvec3& eye, const dvec3& axis) {
                         a.y, a.z, rest(axis.x), rest(axis.y), rest(axis.z));
 }
 
-// The function exists for this case: it is right to the last bit even if all three products cancel.
+// This is the case for which the function exists: the result must be correctly rounded even if all
+// three products cancel.
 TEST(SphereMath, CameraCoordinatesAreRightToTheLastBit) {
   core::Random random(1);
   for (int i = 0; i < 20000; ++i) {
@@ -58,8 +59,8 @@ TEST(SphereMath, RaysAreClassifiedUpToA100000Radii) {
   int wrong = 0;
   for (int i = 0; i < 20000; ++i) {
     const double distance = std::exp(random.uniform(std::log(1.1), std::log(1e5)));
-    // A sphere of radius 1 near the axis, and a ray that passes its silhouette at 1e-5 of the
-    // radius.
+    // Creates a sphere of radius 1 near the axis, and a ray that passes its silhouette at a
+    // distance of 1e-5 radii.
     const dvec3 c{random.uniform(-1, 1), random.uniform(-1, 1), distance};
     const double angle = random.uniform(0, 2 * std::numbers::pi);
     const double off = 1 + (random.uniform() < 0.5 ? -1e-5 : 1e-5);
@@ -85,8 +86,8 @@ TEST(SphereMath, TheIntervalEnclosesTheSilhouetteTightly) {
     const glm::vec2 interval =
         tri_sphere_interval(static_cast<float>(s.centre.x), static_cast<float>(s.centre.z),
                             static_cast<float>(s.radius));
-    // Every direction in this plane whose ray meets the sphere in front of the eye is within the
-    // interval.
+    // Finds the range of directions in this plane whose rays meet the sphere in front of the eye.
+    // The interval must contain this range.
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     const double distance = std::hypot(s.centre.x, s.centre.z);
@@ -101,7 +102,7 @@ TEST(SphereMath, TheIntervalEnclosesTheSilhouetteTightly) {
       high = std::max(high, std::tan(phi));
     }
     if (low > high) {
-      // The interval is empty, or smaller than the sampling can see.
+      // The interval is empty, or smaller than this sampling can resolve.
       EXPECT_TRUE(interval.x > interval.y || interval.y - interval.x < 2e-3 ||
                   std::abs(interval.x) > 1000 || std::abs(interval.y) > 1000);
       continue;

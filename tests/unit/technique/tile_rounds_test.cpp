@@ -41,8 +41,8 @@ TEST(TileRounds, HoldEveryCellOnceAndKeepTheirLimits) {
   }
 }
 
-// Each of the 2,048 spheres around the eye is in every tile, and an invocation processes 32 of
-// them.
+// Each of the 2,048 spheres around the eye covers every tile, and an invocation processes 32
+// spheres.
 TEST(TileRounds, SpheresAroundTheEyeMakeAsManyPassesAsTheyHaveTiles) {
   scene::ParticleScene scene = uniform(2048, 1000);
   scene.camera.eye = {0.5, 0.5, 0.5};
@@ -63,17 +63,18 @@ TEST(TileRounds, SmallSpheresNeedNoEntries) {
   EXPECT_TRUE(rounds.small);
 }
 
-// If all spheres are large, nothing is cleared for small ones.
+// If all spheres are large, the buffers for small spheres need not be cleared.
 TEST(TileRounds, LargeSpheresAlonePromiseThatNoneIsSmall) {
   const scene::ParticleScene large = uniform(8, 2);
   EXPECT_FALSE(tile_rounds(large, arrange(large), 65535, 1U << 20U).small);
-  scene::ParticleScene edge = large;  // one may be visible by only a few pixels
+  // The sphere may be visible in only a few pixels.
+  scene::ParticleScene edge = large;
   edge.camera.eye = {5, 5, 5};
   EXPECT_TRUE(tile_rounds(edge, arrange(edge), 65535, 1U << 20U).small);
 }
 
-// If there are few large spheres, their entries are read once for each pixel. If there are more,
-// they are resolved once for all pixels of a column.
+// If there are only a few large spheres, every pixel reads their entries. Otherwise, the entries
+// are resolved once for all pixels of a column.
 TEST(TileRounds, FewLargeSpheresAreDrawnAtOnce) {
   for (const auto& [count, at_once] : {std::pair{8U, true}, {200U, false}, {60000U, false}}) {
     const scene::ParticleScene scene = uniform(count, 2);
@@ -84,7 +85,8 @@ TEST(TileRounds, FewLargeSpheresAreDrawnAtOnce) {
   }
 }
 
-// The loop of a tile over its entries has fewer iterations than Mesa's drivers permit.
+// Mesa's drivers limit the iterations of a loop. A tile's loop over its entries must stay below
+// that limit.
 TEST(TileRounds, ARoundHasNotMoreLargeSpheresThanALoopMayTake) {
   scene::ParticleScene scene = uniform(200000, 1000);
   scene.width = scene.height = 16;

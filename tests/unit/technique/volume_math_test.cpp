@@ -1,4 +1,4 @@
-// Compares logarithm, exponential and opacity in both precisions with long double.
+// Compares logarithm, exponential and opacity in single and double precision with long double.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,8 @@ namespace {
 
 using Wide = long double;
 
-// Errors in units of the roundoff (2⁻²⁴ for float, 2⁻⁵³ for double), as volume_math.h states them.
+// Error bounds as stated in volume_math.h, in units of the round-off (2⁻²⁴ for float, 2⁻⁵³ for
+// double).
 struct Single {
   using Real = float;
   static constexpr Wide roundoff = 0x1p-24L;
@@ -44,8 +45,8 @@ class VolumeMath : public testing::Test {
  protected:
   using Number = typename Precision::Real;
 
-  // The opacities reach from the smallest one that differs from 0 to the largest one below 1. They
-  // are dense at both ends, and around √½, where an exponent is split off.
+  // Returns opacities from the smallest that differs from 0 to the largest below 1. They are dense
+  // at both ends, and where 1 − opacity is near √½, because an exponent is split off there.
   static std::vector<Number> opacities() {
     core::Random random(5);
     const Number step = static_cast<Number>(2 * Precision::roundoff);

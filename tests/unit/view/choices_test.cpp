@@ -1,4 +1,4 @@
-// The controls of the window offer, accept and refuse the right values.
+// Tests which values the window's controls offer, accept and reject.
 
 #include "view/choices.hpp"
 

@@ -1,5 +1,5 @@
-// The differences that the window shows, and the largest difference that two right devices may
-// have.
+// Tests the error images that the window shows, and the bound on the difference between two correct
+// devices.
 
 #include "view/shown_error.hpp"
 
@@ -54,7 +54,8 @@ TEST(ShownError, ImagesOfDifferentSizesHaveNoPicture) {
   EXPECT_TRUE(error.picture.rgb.empty());
 }
 
-// Two devices at opposite ends of their bounds are both right, and one beyond both is not.
+// Two devices at opposite ends of their bounds are both correct. A device beyond both bounds is
+// not.
 TEST(BoundBetween, IsTheSumOfBothBoundsAndOfTheDistanceOfTheReferences) {
   const accuracy::TruthPair a{flat(0.5F), flat(0.125F)};
   const accuracy::TruthPair b{flat(0.75F), flat(0.0625F)};

@@ -1,4 +1,4 @@
-// The command that the window copies, and the request by which the window is started.
+// Tests the command line that the window copies, and the request with which the window is started.
 
 #include "view/view_command.hpp"
 

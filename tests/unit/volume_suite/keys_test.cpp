@@ -1,4 +1,4 @@
-// The keys that show whether a reference image belongs to the current scene.
+// Tests the keys that identify which scene a reference image belongs to.
 
 #include <gtest/gtest.h>
 
@@ -28,8 +28,8 @@ TEST(Keys, ChangeWithTheTransferFunctionsFile) {
   test::expect_keys_to_follow_the_table(*suite, configuration, folder);
 }
 
-// The key must not contain tables that cannot change, so that reference images in stores remain
-// useful.
+// Fixed tables must not be part of the key, so that reference images that are already stored remain
+// usable.
 TEST(Keys, SayNothingOfTablesThatCannotChange) {
   const auto suite = make_suite({});
   for (const char* function : {"haze", "surfaces", "own"}) {
@@ -39,7 +39,8 @@ TEST(Keys, SayNothingOfTablesThatCannotChange) {
   }
 }
 
-// Entries that were stored before windows existed must be found under the same keys.
+// Entries stored before the factors `window` and `mapping` existed must still be found under their
+// old keys.
 TEST(Keys, NameAWindowAndAMappingOnlyWhereThereIsOne) {
   const auto suite = make_suite({});
   measure::Configuration configuration = configuration_of(*suite, "haze");

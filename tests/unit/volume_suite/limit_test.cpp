@@ -1,4 +1,4 @@
-// Compares the limit of a configuration with its closed form.
+// Compares limit images with closed-form solutions.
 
 #include <gtest/gtest.h>
 
@@ -30,8 +30,8 @@ double largest_difference(const core::Image& a, const core::Image& b) {
   return largest;
 }
 
-// The error that the table cannot represent is below 4e-5 for the ramp, according to the model in
-// analytic_scenes.hpp.
+// According to the model in analytic_scenes.hpp, the transfer function table represents the ramp
+// with an error below 4e-5.
 TEST(Limit, OfARampIsItsClosedForm) {
   const auto suite = make_suite({});
   const measure::Configuration ramp = limited_configuration(*suite, "analytic:v2_ramp:16");

@@ -1,4 +1,4 @@
-// Finds configurations that do the same work in a scene with a volume.
+// Tests which configurations are recognized as doing the same work in a volume scene.
 
 #include "suites/volume/plain_work.hpp"
 
@@ -35,7 +35,7 @@ TEST(PlainVolumeWork, LeapsOverNothingAreNone) {
   EXPECT_EQ(full.levels, plain("uniform_box", technique::Skip::none).levels);
 }
 
-// A ray must visit a brick to find that it is not empty, and counts that visit.
+// To find out that a brick is not empty, a ray must visit it, and the visit is counted.
 TEST(PlainVolumeWork, OfCellsLeapsOverNothingAreWork) {
   measure::VolumeWork work = work_of("uniform_box", technique::Skip::distance);
   work.scene.quadrature = scene::Quadrature::cells;

@@ -1,5 +1,5 @@
-// The stress cases of volumes: each is a valid scene, the plan contains all of them, and their
-// reference images show what the cases test.
+// Tests the stress cases for volumes. Each case is a valid scene, the plan contains all cases, and
+// their reference images show the features under test.
 
 #include <gtest/gtest.h>
 
@@ -44,8 +44,7 @@ accuracy::TruthPair truth_of(const std::string& data) {
   return make_suite({})->truth(configuration(data), {{"filter_weight_error", 0}});
 }
 
-// The largest ratio of a difference to the larger bound, for an image and the same image read at
-// other positions.
+// Returns the largest ratio of difference to error bound between an image and its flipped copy.
 double largest_ratio(const accuracy::TruthPair& truth, bool flip_x, bool flip_y) {
   double largest = 0;
   for (int y = 0; y < truth.truth.height; ++y) {
@@ -114,7 +113,7 @@ TEST(Stress, UnknownNamesAreRefusedWithWhatThereIs) {
   }
 }
 
-// Flips up and down, left and right: the error of every flip is far beyond the bound.
+// Flipping the image vertically, horizontally or both ways exceeds the bound by far.
 TEST(Stress, TheAsymmetricSceneTellsEveryFlip) {
   const accuracy::TruthPair truth = truth_of("stress:asymmetric");
   EXPECT_GT(largest_ratio(truth, true, false), 100);
@@ -140,17 +139,19 @@ TEST(Stress, MirroredOctantsHaveMirroredTruths) {
   EXPECT_GT(largest_ratio(first, true, false), 100);
 }
 
-// 1 − (1 − 2⁻²⁰)^n for a ray with n samples, where n is known from its chord.
+// The closed-form solution for a ray with n samples is 1 − (1 − 2⁻²⁰)^n, where n follows from the
+// length of its chord.
 TEST(Stress, FaintSamplesAddUpToTheirClosedForm) {
   const StressScene scene = stress_scene(*stress_data("stress:faint"));
   const accuracy::TruthPair truth = truth_of("stress:faint");
-  // The background of the scene is opaque, so the colour shows how much is covered.
+  // The background of the scene is opaque, so the coverage follows from the colour of the pixel.
   const double covered = (static_cast<double>(truth.truth.pixel(1, 1)[0]) - 0.25) / (0.875 - 0.25);
   const double samples = std::log1p(-covered) / std::log1p(-0x1.0p-20);
   EXPECT_NEAR(samples, 3.9 / scene.step_voxels, 0.05 / scene.step_voxels);
 }
 
-// The bounds of these images alone would not reveal that a third of the samples is missing.
+// The error bounds of these images are so wide that they would not reveal if a third of the samples
+// were missing.
 TEST(Stress, ScenesOfManySamplesExpectEverySample) {
   for (const std::string data : {"stress:faint", "stress:march:1e5", "stress:march:1e6"}) {
     const StressScene scene = stress_scene(*stress_data(data));
@@ -163,10 +164,11 @@ TEST(Stress, ScenesOfManySamplesExpectEverySample) {
   }
 }
 
-// A case with an empty image would be right on every device.
+// If a case had an empty image, every device would pass it.
 TEST(Stress, EveryCaseShowsSomething) {
   for (const std::string& data : all_data()) {
-    // each of these takes a second; the images of the plan show them
+    // Each of these scenes takes a second to draw, and the images of the plan already show that
+    // they are not empty.
     if (data.starts_with("stress:march")) continue;
     const StressScene scene = stress_scene(*stress_data(data));
     const bool is_empty = std::ranges::any_of(scene.expectations, [&](const auto& each) {
@@ -190,8 +192,8 @@ TEST(Stress, EveryCaseShowsSomething) {
   }
 }
 
-// The image of a far eye through a long lens is as accurate as the image from nearby. If the bound
-// used the position of the eye itself, it would allow any image.
+// A distant eye with a narrow field of view must produce as accurate an image as a nearby eye. If
+// the bound were derived from the distance of the eye, it would accept any image.
 TEST(Stress, AFarEyeCostsNoPrecision) {
   const auto error_at = [](const char* data) {
     const StressScene stress = stress_scene(*stress_data(data));
@@ -208,8 +210,8 @@ TEST(Stress, AFarEyeCostsNoPrecision) {
   EXPECT_LT(error_at("stress:far:1e7"), 1e-3);
 }
 
-// The rounding of a direction moves samples by multiples of the smallest spacing, whatever the
-// other spacings are.
+// Rounding a ray direction moves samples by a multiple of the smallest voxel spacing, regardless of
+// the other spacings.
 TEST(Stress, AnisotropicVoxelsAreCountedInTheSmallest) {
   scene::VolumeScene scene;
   scene::VoxelGrid grid;

@@ -1,4 +1,4 @@
-// Tests the bound by which devices are judged with known arithmetic.
+// Tests that the error bound holds for images drawn with known arithmetic.
 
 #include "suites/volume/tolerance.hpp"
 
@@ -15,7 +15,8 @@
 namespace triptych::volume_suite {
 namespace {
 
-// A box as flat as a plate. From just above it, rays enter at its far edge.
+// Returns a scene with a flat box. If the eye is just above the box, rays enter it as far away as
+// its far edge.
 scene::VolumeScene plate(const glm::dvec3& eye) {
   scene::VolumeScene scene =
       reference::random_scene(5, reference::Character::rough, scene::VoxelFormat::f32);
@@ -33,7 +34,7 @@ TEST(Tolerance, PaysForTheWayToTheFarthestEntry) {
   };
   expect({1, 5, 1}, std::hypot(63, 5, 63), std::hypot(63, 1, 63));
   expect({1, 3, 1}, std::hypot(63, 3, 63), 0);
-  // From outside an edge, the eye sees two faces, and the farthest corner is on the larger one.
+  // From outside an edge, the eye sees two faces, and the farthest corner is on the larger face.
   expect({-10, 5, 1}, std::hypot(74, 5, 63), std::hypot(74, 1, 63));
 }
 
@@ -59,11 +60,12 @@ TEST(Tolerance, HoldsForSinglePrecision) {
   for (const glm::dvec3& eye : {glm::dvec3{1, 5, 1}, {-40, 4.1, -30}, {32, 300, 32}}) {
     judge(plate(eye));
   }
-  EXPECT_GT(largest, 0.02);  // otherwise the bound could be any large number
+  // Otherwise, the bound might be arbitrarily large.
+  EXPECT_GT(largest, 0.02);
 }
 
-// An image of rounded voxels compared with the reference image of the original ones. Without the
-// term for rounding, the bound does not hold.
+// Compares images of rounded voxels with the reference images of the original voxels. The bound
+// must include a term for this rounding; without it, the bound is exceeded.
 TEST(Tolerance, PaysForVoxelsRoundedToHalves) {
   double paid = 0;
   double unpaid = 0;

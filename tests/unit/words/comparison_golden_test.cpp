@@ -1,4 +1,4 @@
-// Every sentence about a comparison, in one line for each cause.
+// Checks every sentence about comparisons, one line for each cause.
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ using comparison::DifferenceCause;
 using comparison::TimeCause;
 using comparison::WallClockCause;
 
-// A difference with every value that a sentence may contain.
+// Returns a difference with every number and name that a sentence may contain.
 Difference everything(DifferenceCause cause) {
   Difference what{.cause = cause};
   what.side = measure::Side::b;

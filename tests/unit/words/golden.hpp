@@ -1,6 +1,6 @@
 #pragma once
-// Files with the expected texts. TRIPTYCH_WRITE_GOLDEN=1 writes them again: review the difference
-// like any other change.
+// Compares output with golden files. Set TRIPTYCH_WRITE_GOLDEN=1 to regenerate the files, and
+// review their changes like any other change.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ inline void expect_golden(const std::string& name, const std::string& text) {
   EXPECT_EQ(text, core::read_text(file)) << "TRIPTYCH_WRITE_GOLDEN=1 writes " << file;
 }
 
-// Calls `act` with every value of an enum that has a name.
+// Calls `act` with every named value of an enum.
 template <typename Enum, typename Act>
 void for_each_value(const Act& act) {
   const auto has_name = [](int i) { return name_of(static_cast<Enum>(i)) != "unknown"; };

@@ -1,4 +1,4 @@
-// Every sentence that the words room can make, in one line for each cause.
+// Checks every sentence about findings, outcomes and advice, one line for each cause.
 
 #include "golden.hpp"
 
@@ -12,7 +12,7 @@
 namespace triptych::report {
 namespace {
 
-// An observation with every value that a sentence may contain.
+// Returns an observation with every number and name that a sentence may contain.
 judge::Observation everything(judge::Cause cause) {
   judge::Observation what = over_bound(16);
   what.cause = cause;
@@ -187,7 +187,7 @@ TEST(Sentences, OfExcusesAndOfWhatWasDrawnAgain) {
   expect_golden("excuses.txt", text);
 }
 
-// A check without a row would have no words on screens and pages.
+// A check without a row would be shown without a name on screens and pages.
 TEST(CheckWords, EveryCheckHasARow) {
   record::Checks checks;
   for (const words::CheckWords& row : words::check_words) checks.insert(row.check);

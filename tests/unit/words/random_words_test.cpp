@@ -1,6 +1,6 @@
-// No decision depends on a text that is written for people. The same runs are judged once with
-// plain texts, and once with random words in every place where a driver, a library or a person may
-// put a text. Verdicts, groups, retries, reductions and exit codes must be the same.
+// No decision may depend on strings that are written for people. The same runs are judged twice:
+// once with plain messages, and once with random words wherever a driver, a library or a person can
+// supply a string. Verdicts, groups, retries, reductions and exit codes must be identical.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -17,7 +17,8 @@
 namespace triptych::judge {
 namespace {
 
-// Random texts: words that once had a meaning for this program, and letters without a meaning.
+// Generates random strings from phrases that the program once interpreted and from meaningless
+// letters.
 class Words {
  public:
   explicit Words(std::uint64_t seed) : random_(seed) {}
@@ -46,10 +47,10 @@ class Words {
 
 class RandomWords : public GateTest {
  protected:
-  // Removes noise, which would sort findings by their times.
+  // Makes all times equal, because findings are sorted by time and noise would change their order.
   static void steady(record::Record& record, core::Image&) { record.wall_ns.assign(5, 1e6); }
 
-  // Failures of every kind, by configuration and device.
+  // Adds a run in which each configuration fails in a different way on each device.
   void add_failing_run(const std::string& run, Words* words) {
     const auto say = [words](const std::string& plain) { return words ? (*words)() : plain; };
     add_run(run, [&](record::Record& record, core::Image& image) {
@@ -80,7 +81,7 @@ class RandomWords : public GateTest {
     });
   }
 
-  // All decisions of the judge and its report, without any text.
+  // Returns all decisions of the judge and its report, without any messages.
   static std::string decided(const GateResult& result) {
     std::string text = fmt::format("exit {}\n", static_cast<int>(result.exit_code()));
     for (const Finding& each : result.findings) {
@@ -88,7 +89,8 @@ class RandomWords : public GateTest {
           fmt::format("{} {} {} {}: {} {}\n", name_of(each.check), name_of(each.verdict),
                       each.device, each.configuration, kind_of(each), name_of(each.advice.advice));
     }
-    const std::vector<GateResult> results{result};  // the overview points into it
+    // The overview points into these results.
+    const std::vector<GateResult> results{result};
     const report::Overview all = report::overview(results);
     for (const auto* causes : {&all.open, &all.aside}) {
       for (const report::Cause& cause : *causes) {
@@ -100,8 +102,9 @@ class RandomWords : public GateTest {
     return text;
   }
 
-  // Judges a run with failures as gate and validate do, when they are drawn again and when they are
-  // expected the next time. Then reduces and compares it, as reduce, compare and diff do.
+  // Judges a run with failures as `gate` and `validate` do: first as it is, then after the failures
+  // are drawn again, then with the failures as expected ones. Finally reduces and compares the run,
+  // as `reduce`, `compare` and `diff` do.
   std::string everything(const std::string& name, Words* words) {
     add_failing_run(name, words);
     add_run(name + "-again", steady);
@@ -124,7 +127,7 @@ class RandomWords : public GateTest {
     return text;
   }
 
-  // The failures of frames, from which `reduce` starts.
+  // Returns which failures of the run are of the same kind. `reduce` starts from these failures.
   std::string failures(const std::string& run) {
     const reduction::Evidence evidence{
         .truth = request_.truth,
@@ -140,7 +143,7 @@ class RandomWords : public GateTest {
     return text + "\n";
   }
 
-  // All members of a comparison that another program reads, except for texts.
+  // Returns the machine-readable members of a comparison, without its messages.
   static core::Json without_texts(core::Json json) {
     if (json.is_object()) {
       for (const char* text : {"text", "headline", "detail", "last_words"}) json.erase(text);
@@ -151,8 +154,8 @@ class RandomWords : public GateTest {
     return json;
   }
 
-  // The verdicts of compare and diff about this run and a correct one. There is no suite, so the
-  // reference images are missing for a reason that is a text.
+  // Returns the verdicts of `compare` and `diff` on this run and a correct run. Because there is no
+  // suite, the reference images are missing, and the reason is one of the random strings.
   std::string differences(const std::string& run, Words* words) {
     const std::string unknown = words ? (*words)() : "no such suite";
     measure::Truths truths(
@@ -192,7 +195,8 @@ TEST_F(RandomWords, DecideNothing) {
   }
 }
 
-// If a reference image cannot be computed, the findings are the same for any text of the exception.
+// If a reference image cannot be computed, the findings do not depend on the message of the
+// exception.
 TEST_F(RandomWords, OfAnExceptionDecideNothing) {
   accept_first();
   add_run("b");

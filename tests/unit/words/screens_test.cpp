@@ -1,5 +1,5 @@
-// The last screens that users see: a pass, each kind of failure, and a run that could not be
-// judged.
+// Checks the final screens that users see: for a pass, for each kind of failure, and for a run that
+// could not be judged.
 
 #include "findings.hpp"
 #include "golden.hpp"
@@ -15,8 +15,8 @@ using enum judge::Verdict;
 
 const std::string lavapipe = "vulkan:lavapipe";
 
-// Two devices with two techniques and six configurations each. Raycast on lavapipe has the finding
-// `what`.
+// Returns the findings of two devices, each with two techniques of six configurations. Only raycast
+// on lavapipe has the finding `what`; all other configurations pass.
 judge::GateResult result_with(Check check, judge::Verdict verdict, const judge::Observation& what,
                               const judge::Advised& advice = {}) {
   judge::GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
