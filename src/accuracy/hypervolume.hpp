@@ -13,7 +13,7 @@ namespace triptych::accuracy {
 // The reference point of the area. Its coordinates do not depend on the measurements; otherwise,
 // the area of one front would change whenever another front changes:
 //   - time: one second, which is too long for any interactive frame. An error that is not reached
-//     counts as one that takes one second.
+//     counts as if it took one second.
 //   - error: the error of an image in which nothing was drawn (0 in every channel), which takes no
 //     time. It depends on the scene.
 inline constexpr double reference_time_ns = 1e9;

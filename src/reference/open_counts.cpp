@@ -155,7 +155,7 @@ class Counter {
     const bool cells = scene_.quadrature == scene::Quadrature::cells;
     Tally tally = cells ? in_cells(*ray, crossings) : on_lattice(*ray, crossings);
     tally.skipped += ties;
-    if (cells) tally.visited += ties;  // a device visits a brick where the ray enters it
+    if (cells) tally.visited += ties;  // entering a brick counts as a visit
     if (ray->shortest <= 0 && ray->longest > 0) tally.hits += 1;
     return tally;
   }

@@ -226,9 +226,9 @@ double PreintegrationBound::extinction_around(double position) const {
   return sum;
 }
 
-// Returns the largest optical depth of the path. If a raised opacity would be 1, the sum of the
-// pieces is infinite. The depth is then computed from the exact depth, because a device passes the
-// same cells, and at both ends it passes at most as much more as its values have errors.
+// Returns the largest optical depth that the path may have on a device. If a raised opacity would
+// be 1, the sum of the pieces is infinite. The depth is then computed from the exact depth instead:
+// a device passes the same cells, and at each end it goes farther by at most its value error.
 double PreintegrationBound::most_depth() const {
   if (std::isfinite(most_) || widening_ == 0.0) return most_;
   const double ends = (extinction_around(path_.from) + extinction_around(path_.to)) / span_;

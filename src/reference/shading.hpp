@@ -54,7 +54,7 @@ template <typename Stored>
 
 // Replaces the looked-up colour by the shaded colour. `rounding` is the relative error of one
 // operation. Each squaring doubles a relative error, so the highlight has `exponent` roundings.
-// Adding the highlight to the colour has four more.
+// Adding the highlight to the colour contributes four more roundings.
 inline void shade(Looked& looked, const Bounded& cosine, const scene::Shading& shading,
                   double rounding) {
   const double cosine_hi = std::min(cosine.value + cosine.error, 1.0);

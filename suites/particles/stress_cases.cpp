@@ -37,8 +37,8 @@ const std::vector<Entry>& entries() {
         "every pixel shows the point where the ray leaves the sphere; everything outside is hidden",
         {"centre", "off_centre", "under_surface"}}, stress_inside},
       {{37, "skimming", "the eye is 1.0001 or 1.0006 radii from a centre, with the horizon in view",
-        "up to 1.0005 radii the sprite is the whole viewport; beyond that it reaches behind the eye "
-        "and is clipped; no pixel is lost at the horizon",
+        "up to a distance of 1.0005 radii, the sprite is the whole viewport; beyond that, it reaches "
+        "behind the eye and is clipped; no pixel is lost at the horizon",
         {"1.0001", "1.0006"}}, stress_skimming},
       {{38, "near_plane", "spheres cross the plane of the eye or come close to the eye",
         "there is no hole, because no visible point is clipped by the near plane, which only scales "

@@ -172,14 +172,15 @@ std::vector<StressCase> cases_of_transfer() {
       {22,
        "faint",
        "100,000 samples of opacity 2⁻²⁰",
-       "the result along the cube is 1 − (1 − 2⁻²⁰)^100000 = 0.091, within 4u for each sample",
+       "the opacity along the cube is 1 − (1 − 2⁻²⁰)^100000 = 0.091, with an error of at most 4u "
+       "per sample",
        {},
        stress_faint},
       {23,
        "march",
        "100,000 and 1,000,000 steps through a varying field",
        "samples are at (i + ½)·h, with i exact up to 2²³, so their positions do not drift; the "
-       "image is within 4u for each sample",
+       "error of the image is at most 4u per sample",
        {"1e5", "1e6"},
        stress_march},
       {24,
@@ -262,8 +263,8 @@ std::vector<StressCase> cases_of_frame() {
       {53,
        "field_of_view",
        "the field of view is 0.001° or 179°",
-       "the image is within its bound, because a direction is a sum of three products for any "
-       "angle",
+       "the image is within its bound, because the error of a direction does not depend on the "
+       "field of view: a direction is always a sum of three products",
        {"narrowest", "widest"},
        stress_field_of_view},
       {54,

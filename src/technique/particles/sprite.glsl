@@ -23,8 +23,8 @@ Corner corner_on_image(vec2 low, vec2 high, vec2 side, float distance) {
 // view.
 Corner nowhere() { return Corner(vec4(2.0, 2.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0)); }
 
-// Computes the bounds on the image plane of the part of a sphere inside the viewport, with a margin of 1/64 pixel.
-// low > high if there is no such part. An injected fault makes the bounds 1 % smaller.
+// Computes the bounds of a sphere on the image plane, with a margin of 1/64 pixel, clipped to the viewport.
+// low > high if the sphere is outside the viewport. An injected fault makes the bounds 1 % smaller.
 void image_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   vec2 x = tri_sphere_interval(sphere.x, sphere.z, sphere.w);
   vec2 y = tri_sphere_interval(sphere.y, sphere.z, sphere.w);

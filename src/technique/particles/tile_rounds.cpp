@@ -113,7 +113,7 @@ TileRounds tile_rounds(const scene::ParticleScene& scene, const Arrangement& arr
   const NeedBound bound(scene);
   TileRounds out;
   TileRound round;
-  Need need;           // of the current round
+  Need need;           // needs of the current round
   double covered = 0;  // number of pixels of all previous rounds
   const auto finish = [&] {
     if (round.cells == 0) return;

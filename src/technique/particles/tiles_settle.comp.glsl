@@ -1,4 +1,4 @@
-// After the round has drawn into the tiles, one invocation per tile prepares it for the next round.
+// After the round has drawn into the tiles, one invocation per tile prepares the tile for the next round.
 layout(local_size_x = 64) in;
 
 void main() {

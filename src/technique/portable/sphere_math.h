@@ -178,8 +178,8 @@ TRI_FN int tri_adaptive_corners(float projected_radius) {
 }
 
 // Returns the cosine of an angle in turns, |turns| ≤ 1, with an error below 1e-6. It is computed by its series in
-// the nearest quarter of a turn, because the cosine of the languages is accurate only to 2⁻¹¹, or has no guaranteed
-// accuracy.
+// the nearest quarter of a turn, because the built-in cosine is guaranteed to be accurate only to 2⁻¹¹ in some
+// languages, and not at all in others.
 TRI_FN float tri_cosine_turns(float turns) {
   float a = turns < 0.0f ? 0.0f - turns : turns;  // the cosine is even
   float b = a > 0.5f ? 1.0f - a : a;              // symmetric about half a turn, so b is in 0…½

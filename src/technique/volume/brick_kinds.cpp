@@ -67,7 +67,7 @@ class FunctionExtremes {
   [[nodiscard]] const Extremes& overall() const { return levels_.back()[0]; }
 
  private:
-  // Level n contains, for each entry, the extremes of the 2ⁿ entries that begin with this entry.
+  // Level n contains, for each entry, the extremes of 2ⁿ successive entries, starting at this one.
   std::array<std::array<Extremes, function_entries>, std::bit_width(function_entries)> levels_{};
 
   [[nodiscard]] static double position(double value) {

@@ -16,7 +16,7 @@ namespace triptych::technique {
 enum class BrickKind : std::int32_t {
   invisible = 0,  // the ray skips the brick
   sampled = 1,    // the ray takes the samples of the lattice
-  merged = 2,     // one sample in the middle of the chord, with the opacity of the whole chord (V1)
+  merged = 2,     // one sample in the middle of the chord, with the opacity of the whole chord
   // This and all larger numbers are homogeneous bricks, with one number for each value. Successive
   // bricks of a ray with the same number are merged into one sample.
   homogeneous = 3

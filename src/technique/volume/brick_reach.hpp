@@ -8,10 +8,11 @@
 
 namespace triptych::technique {
 
-// Returns, for each brick (x fastest), the distance to the nearest brick of the other kind, in
-// bricks. It is positive for a visible brick and negative for an invisible brick. The distance is
-// the largest of the distances along the three axes. If there is no brick of the other kind, it is
-// the grid's longest edge. `visible` is the result of technique::brick_visibility.
+// Returns a signed distance, in bricks, for each brick (x fastest). For a visible brick, it is the
+// distance to the nearest invisible brick, as a positive number. For an invisible brick, it is the
+// distance to the nearest visible brick, as a negative number. A distance is the largest of the
+// distances along the three axes. If all bricks are of the same kind, it is the grid's longest
+// edge. `visible` is the result of technique::brick_visibility.
 [[nodiscard]] std::vector<std::int32_t> brick_reach(const std::array<int, 3>& counts,
                                                     std::span<const std::uint32_t> visible);
 

@@ -133,8 +133,8 @@ void write(const Moments& m, const Entry& colour, std::array<float, 4>* texels) 
 
 std::vector<std::array<float, 4>> preintegrated_pairs(const scene::TransferFunction& function) {
   const auto& table = function.entries;
-  std::vector<Moments> up(entries - 1);    // cell k from entry k to entry k + 1
-  std::vector<Moments> down(entries - 1);  // cell k from entry k + 1 to entry k
+  std::vector<Moments> up(entries - 1);    // [k]: the path from entry k to entry k + 1
+  std::vector<Moments> down(entries - 1);  // [k]: the path from entry k + 1 to entry k
   for (std::size_t k = 0; k + 1 < entries; ++k) {
     up[k] = CellIntegral(table[k], table[k + 1]).moments();
     down[k] = CellIntegral(table[k + 1], table[k]).moments();
