@@ -1,4 +1,4 @@
-// Chooses the longest step and the fastest case that meet a requested error.
+// Tests choosing the longest step and the fastest case that meet a requested error.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ TEST(LongestStep, OfASecondOrderErrorIsWithinAQuarterOctave) {
 }
 
 TEST(LongestStep, IsNotOneThatHitsByChance) {
-  // The error has a dip at a step of 4 voxels, and is asymptotic below 1.
+  // The error has a dip at a step of 4 voxels, and follows its asymptotic order below 1.
   const auto found =
       longest_step(1e-3, {}, [](double step) { return step == 4 ? 1e-4 : 2e-3 * step * step; });
   EXPECT_LT(found.step, 1);
@@ -47,7 +47,7 @@ TEST(LongestStep, IsNoneWhereTheShortestIsNotEnough) {
   EXPECT_FALSE(longest_step(1e-3, {}, [](double) { return std::nan(""); }).error <= 1e-3);
 }
 
-// The step that was found with few pixels is too long for all pixels.
+// A step that was found with few pixels can be too long for all pixels, so it has to be shortened.
 TEST(ShortenedStep, KeepsTheErrorAndLosesLittle) {
   for (const double order : {1.0, 2.0, 4.0}) {
     int calls = 0;
@@ -105,7 +105,7 @@ TEST(PictureErrors, AreOfEveryMetric) {
   core::Image limit(100, 20);
   core::Image picture = limit;
   for (std::size_t i = 0; i < 20; ++i) limit.rgba[4 * i] = 0.5F;  // 1 % of the pixels
-  picture.rgba[0] = 1.0F;  // this pixel has the error 0.5, and so have all others
+  picture.rgba[0] = 1.0F;  // this pixel has the error 0.5, and all other pixels have the same error
   const PictureErrors errors = errors_against(limit, picture);
   EXPECT_EQ(errors.covered, 20U);
   EXPECT_DOUBLE_EQ(errors.of(Metric::max), 0.5);

@@ -1,4 +1,4 @@
-// Orders, fronts and times to an error, for numbers with known results.
+// Tests orders, fronts and times to an error with numbers whose results are known.
 
 #include "accuracy/accuracy.hpp"
 
@@ -42,8 +42,8 @@ TEST(FitOrder, FindsThePowerAndItsCertainty) {
   EXPECT_NEAR(first->order, 1, 1e-12);
 }
 
-// Computed by hand: ln e = 2·ln h ± 0.1, alternating over four halvings. The slope's deviation is
-// Σ(x − x̄)d/Σ(x − x̄)², and the interval is t₀.₉₇₅(2) = 4.3027 standard errors.
+// Computed by hand: ln e = 2·ln h ± 0.1, with alternating signs over four halvings. The deviation
+// of the slope is Σ(x − x̄)d/Σ(x − x̄)², and the interval is t₀.₉₇₅(2) = 4.3027 standard errors.
 TEST(FitOrder, TheIntervalIsStudents) {
   const std::vector<double> steps{1, 0.5, 0.25, 0.125};
   double sign = 0.1;
@@ -70,14 +70,13 @@ TEST(FitOrder, StepsBeyondAVoxelAreNoRefinement) {
   EXPECT_EQ(order->points, 5U);
 }
 
-// With an error of rounding f in addition to the step's own error s, the measured error is
-// √(s² + f²).
+// If a rounding error f is added to the step-size error s, the measured error is √(s² + f²).
 TEST(FitOrder, RoundingDoesNotFlattenIt) {
   const double floor = 1e-4;
   const auto order = fit_order(errors_by(
       halvings, [&](double h) { return std::hypot(0.1 * h * h, floor); }, floor));
   ASSERT_TRUE(order);
-  EXPECT_EQ(order->points, 4U);  // 0.1, 0.025, 0.006 and 0.0016, but not 0.0004
+  EXPECT_EQ(order->points, 4U);  // the points 0.1, 0.025, 0.006 and 0.0016, but not 0.0004
   EXPECT_NEAR(order->order, 2, 0.005);
   EXPECT_FALSE(fit_order(errors_by(
       halvings, [&](double) { return floor; }, floor)));
@@ -93,7 +92,7 @@ TEST(Front, IsWhatNothingBeats) {
   const auto front = pareto_front(cases);
   EXPECT_EQ(front, (std::vector<std::size_t>{0, 1, 3}));
   const auto beaten = dominated(cases, front);
-  ASSERT_EQ(beaten.size(), 2U);  // a case that equals one on the front is not beaten by it
+  ASSERT_EQ(beaten.size(), 2U);  // a case that equals one on the front is not dominated by it
   EXPECT_EQ(beaten[0].index, 2U);
   EXPECT_EQ(beaten[0].by, 1U);
   EXPECT_EQ(beaten[1].index, 5U);
@@ -110,11 +109,11 @@ TEST(Families, DifferByTheStepAlone) {
 }
 
 TEST(TimeToError, IsStraightOnLogarithmicAxes) {
-  // Time is proportional to 1/step and error to step², so error is proportional to time⁻².
+  // Time is proportional to 1/step and the error to step², so the error is proportional to time⁻².
   const std::vector<AccuracyCase> cases{at(1, 1e-2, 1), at(4, 1e-2 / 16, 0.25)};
   const auto families = accuracy_families(cases);
   EXPECT_NEAR(*time_to_error(cases, families, 1e-2 / 4), 2, 1e-12);
-  EXPECT_EQ(*time_to_error(cases, families, 0.1), 1);  // already the fastest
+  EXPECT_EQ(*time_to_error(cases, families, 0.1), 1);  // the first case is already the fastest
   EXPECT_FALSE(time_to_error(cases, families, 1e-4));
 }
 
@@ -137,7 +136,8 @@ TEST(SwitchedAlone, ChangesOneFactor) {
   EXPECT_EQ(switched[1].to, 1U);
 }
 
-// A setting that was tried with only one step is compared with the best case of that step.
+// A setting that was tried with a single step size is compared with the best case of that step
+// size.
 TEST(SwitchedAlone, IsToldOfTheBestThatHasALikeOne) {
   const std::vector<AccuracyCase> cases{at(9, 1, 0.5, "0"), at(5, 2, 1, "0"), at(5, 4, 1, "0.1")};
   const auto switched = switched_alone(cases);
@@ -154,12 +154,12 @@ TEST(SwitchedPicture, FindsTheLikeOneElsewhere) {
   for (AccuracyCase& each : others) each.factors["viewport"] = "96";
   const auto found = switched_picture(cases, others, "viewport");
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->from, 1U);  // the most accurate case has no such partner
+  EXPECT_EQ(found->from, 1U);  // the most accurate case has no such counterpart
   EXPECT_EQ(found->to, 0U);
   EXPECT_FALSE(switched_picture(cases, others, "step"));
 }
 
-// Errors and orders need no times. Fronts and times to an error contain only cases with times.
+// Errors and orders need no times. Fronts and times to an error contain only cases that have times.
 TEST(Untimed, HasOrdersButNoFront) {
   std::vector<AccuracyCase> cases;
   for (const double step : {1.0, 0.5, 0.25}) cases.push_back(at(1, 0.1 * step * step, step));

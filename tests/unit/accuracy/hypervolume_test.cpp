@@ -1,4 +1,4 @@
-// The area of a front, for points whose logarithms to base ten are integers.
+// Tests the area of a front for points whose decimal logarithms are integers.
 
 #include "accuracy/hypervolume.hpp"
 
@@ -24,13 +24,13 @@ AccuracyCase case_at(double time_ns, double rmse) {
           .rmse = rmse};
 }
 
-// The area in units of one decade of time times one decade of error.
+// Returns the area in units of one decade of time times one decade of error.
 double area_of(const std::vector<AccuracyCase>& cases, double reference_error = 1) {
   return hypervolume(cases, pareto_front(cases), reference_error) / (decade * decade);
 }
 
-// 1 ms is three decades below one second, and 1e-2 is two decades below 1, which gives an area of
-// 3·2. Reaching 1e-4 from 1e-2 takes 10 ms, which adds 2·2.
+// 1 ms is three decades below one second and 1e-2 is two decades below 1, so the area is 3·2.
+// Reducing the error from 1e-2 to 1e-4 takes 10 ms and adds 2·2.
 TEST(Hypervolume, IsTheSumOfRectangles) {
   EXPECT_NEAR(area_of({case_at(1e6, 1e-2)}), 6, 1e-12);
   EXPECT_NEAR(area_of({case_at(1e6, 1e-2), case_at(1e7, 1e-4)}), 10, 1e-12);
@@ -55,14 +55,14 @@ TEST(Hypervolume, EndsAtTheCorner) {
   EXPECT_NEAR(area_of({case_at(1e6, 1e-2), untimed}), 6, 1e-12);
 }
 
-// The smallest error is the rounding to floats, so an error of 0 counts as 2⁻²⁴.
+// The smallest possible error is the rounding to floats, so an error of 0 counts as 2⁻²⁴.
 TEST(Hypervolume, AnExactPictureHasAFiniteArea) {
   EXPECT_NEAR(area_of({case_at(1e6, 0)}), 3 * 24 * std::log10(2.0), 1e-12);
   EXPECT_EQ(area_of({case_at(1e6, 1e-9)}), area_of({case_at(1e6, 0)}));
 }
 
-// If all times are 2.5 times as long, the area is smaller by ln 2.5 over four decades of error, and
-// that factor is reported.
+// If all times are 2.5 times as long, the area over four decades of error becomes smaller by ln 2.5
+// per decade, and the factor 2.5 is reported.
 TEST(Hypervolume, TellsHowManyTimesAsLongADeviceTakes) {
   const auto area_at = [](double factor) {
     const std::vector<AccuracyCase> cases{case_at(1e6 * factor, 1e-2), case_at(1e7 * factor, 1e-4)};

@@ -29,7 +29,7 @@ TEST(ImageMetrics, EqualPicturesHaveNoError) {
   EXPECT_EQ(result.worst.ratio, 0);
 }
 
-// The pixel with the largest error is not the one with the largest error relative to its own bound.
+// The pixel with the largest error is not the pixel with the largest ratio of error to bound.
 TEST(ImageMetrics, FindsWorstAgainstItsOwnBound) {
   const core::Image truth = filled(4, 3, 0.0F);
   core::Image image = truth;
@@ -72,8 +72,8 @@ TEST(ImageMetrics, SizesMustMatch) {
   EXPECT_TRUE(std::isnan(root_mean_square(filled(2, 3, 0), filled(3, 2, 0))));
 }
 
-// An image of four pixels: particles 7 and 8 at depths 2 and 3, then nothing, then an uncertain
-// pixel.
+// Returns an image of four pixels: particles 7 and 8 at depths 2 and 3, then an empty pixel, then
+// an uncertain one.
 core::Image particles() {
   core::Image image = filled(4, 1, 0.5F);
   constexpr float none = std::numeric_limits<float>::infinity();

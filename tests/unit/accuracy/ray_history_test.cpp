@@ -13,8 +13,8 @@ Allowed near(double value) {
   return {value, value - wide, value + wide};
 }
 
-// Four samples of opacity ¼ along x, with a spacing of two voxels. The last sample covers half a
-// step.
+// Returns a ray with four samples of opacity ¼ along x, two voxels apart. The last sample covers
+// half a step.
 ExpectedRay four_samples() {
   ExpectedRay ray{.entry = {1, 5, 5}, .stride = {2, 0, 0}, .samples = {}, .ends_below = 0.001};
   for (int i = 0; i < 4; ++i) {
@@ -31,7 +31,7 @@ ExpectedRay four_samples() {
   return ray;
 }
 
-// The record of a device without faults.
+// Returns what a device without faults would record.
 std::vector<TakenSample> taken_from(const ExpectedRay& ray) {
   std::vector<TakenSample> samples;
   TakenSample sample{.transmittance = 1};
@@ -61,7 +61,7 @@ TEST(RayHistory, HasNoDifferenceForWhatIsExpected) {
 }
 
 // Each operation is changed alone in sample 2. The history must name that operation, and no earlier
-// one.
+// operation.
 TEST(RayHistory, NamesTheFirstOperationThatDiffers) {
   const ExpectedRay ray = four_samples();
   const auto changed = [&](auto change) {
@@ -86,7 +86,7 @@ TEST(RayHistory, TellsALeftOutSampleFromOneWithoutOpacity) {
   ExpectedRay ray = four_samples();
   std::vector<TakenSample> taken = taken_from(ray);
   taken.erase(taken.begin() + 1);
-  // The following samples are consistent with it, because compositing starts from the recorded
+  // The samples that follow are consistent with this, because compositing starts from the recorded
   // light.
   RayHistory history = compare(ray, taken);
   EXPECT_EQ(history.first, 1);
@@ -109,7 +109,7 @@ TEST(RayHistory, FindsSamplesBeyondTheEndAndTakenTwice) {
   EXPECT_EQ(compare(ray, taken).rows[2].differs, Operation::take);
 }
 
-// A ray may end early only when hardly any light is left.
+// A ray may end early only if hardly any light is left.
 TEST(RayHistory, AllowsARayToEndInTheDarkOnly) {
   ExpectedRay ray = four_samples();
   std::vector<TakenSample> taken = taken_from(ray);

@@ -62,7 +62,7 @@ TEST(ComparisonScreen, NamesTheVariablesOfASide) {
               HasSubstr("WIDTH=128\nb: the same, but WIDTH=256\n"));
 }
 
-// One configuration, which neither side supports.
+// There is one configuration, which neither side supports.
 TEST(ComparisonScreen, ExplainsWhyNothingWasCompared) {
   ComparisonResult result;
   Compared skipped;
@@ -76,7 +76,7 @@ TEST(ComparisonScreen, ExplainsWhyNothingWasCompared) {
                     Not(HasSubstr("no differences"))));
 }
 
-// Its shift is 0 because no time was measured, so it must not be divided by the work.
+// The shift is 0 because no time was measured, so the screen must not divide it by the work.
 TEST(ComparisonScreen, HasNoTimePerWorkWithoutAMeasuredTime) {
   ComparisonResult result;
   result.timed = true;

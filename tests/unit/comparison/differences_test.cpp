@@ -48,7 +48,7 @@ class Differences : public testing::Test {
     return find_differences({record_a, device_a, image_a, &truth, {}, open_counts},
                             {record_b, device_b, image_b, &truth, {}, open_counts}, same_setup);
   }
-  // The only difference; there must be exactly one.
+  // Returns the only difference; fails unless there is exactly one.
   [[nodiscard]] Difference only(bool same_setup = true) const {
     const Comparison found = find(same_setup);
     EXPECT_EQ(found.differences.size(), 1U);
@@ -104,9 +104,10 @@ TEST_F(Differences, ALostCounterIsARegressionOnlyOnTheSameDriver) {
 
 TEST_F(Differences, AStatisticIsComparedAsExactlyAsItsDriversCount) {
   record_b.statistics["fragment_invocations"] = 160;
-  EXPECT_EQ(only().kind, DifferenceKind::regression);  // one driver reports two different numbers
+  // the same driver reports two different numbers
+  EXPECT_EQ(only().kind, DifferenceKind::regression);
   use_another_driver();
-  // The API leaves the number open, although both drivers count exactly.
+  // The API does not define this number, although both drivers count exactly.
   EXPECT_EQ(only().kind, DifferenceKind::changed);
   device_a.statistics_calibration["fragment_invocations"] = {
       .worth = record::Worth::inflated, .low = 1.02, .high = 3.9};
@@ -257,7 +258,7 @@ TEST(DeviceDifferences, LimitsAreGainedLostAndChanged) {
   EXPECT_THAT(find_differences(a, b), IsEmpty());
 }
 
-// OpenCL sorts spheres into bins, and Vulkan and GL draw them at once.
+// OpenCL sorts spheres into bins, whereas Vulkan and GL draw them directly.
 TEST_F(Differences, ACounterThatIsSpecificToAnApiIsNotComparedAcrossApis) {
   use_another_driver();
   record_a.counters["bin_entries"] = 44;

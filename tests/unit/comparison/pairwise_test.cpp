@@ -15,8 +15,8 @@ namespace {
 
 using test::normal;
 
-// Hollander & Wolfe (1973), p. 29f.: depression scale at the first and the second visit. R's
-// wilcox.test gives V = 40, one-sided p = 0.01953, estimate 0.46.
+// Hollander & Wolfe (1973), p. 29f.: depression scale at the first and second visits. R's
+// wilcox.test gives V = 40, one-sided p = 0.01953, and the estimate 0.46.
 std::vector<double> depression_scale() {
   const std::vector<double> first{1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30};
   const std::vector<double> second{0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29};
@@ -33,7 +33,7 @@ TEST(SignedRank, GivesThePublishedValues) {
   EXPECT_NEAR(estimate_shift(depression_scale(), 0.025).estimate, 0.46, 1e-12);
 }
 
-// Enumerates every assignment of signs to the distances, which is the definition of the null
+// Enumerates every assignment of signs to the differences, which is the definition of the null
 // distribution.
 TEST(SignedRank, IsTheEnumeratedNullDistributionWithAndWithoutTies) {
   core::Random random(3);
@@ -69,7 +69,8 @@ TEST(SignedRank, ZerosSayNothing) {
   EXPECT_EQ(wilcoxon_signed_rank(std::vector<double>(30, 0.5), 0.5).p_greater, 1);
 }
 
-// Differences of n distinct sizes. The sum of the ranks above 0 is `statistic`.
+// Returns n differences of distinct sizes. The sum of the ranks of the positive ones is
+// `statistic`.
 std::vector<double> differences_with(std::size_t n, std::size_t statistic) {
   std::vector<double> values;
   for (std::size_t rank = n; rank > 0; --rank) {
@@ -80,9 +81,9 @@ std::vector<double> differences_with(std::size_t n, std::size_t statistic) {
   return values;
 }
 
-// The first term that the normal approximation leaves out (Edgeworth; V is symmetric) is
-// φ(z)(3z − z³)·κ₄/(24σ⁴) with κ₄ = −Σi⁴/8, and φ(z)(3z − z³) ≤ 0.551. A tenth is added for the
-// following terms.
+// The first term that the normal approximation omits (Edgeworth; V is symmetric) is φ(z)(3z −
+// z³)·κ₄/(24σ⁴) with κ₄ = −Σi⁴/8, and φ(z)(3z − z³) ≤ 0.551. A tenth is added for the terms that
+// follow.
 TEST(SignedRank, TheApproximationErrsByItsNextTermAtMost) {
   constexpr std::size_t n = most_for_exact + 1;
   std::vector<double> share{1};
@@ -108,7 +109,8 @@ TEST(SignedRank, TheApproximationErrsByItsNextTermAtMost) {
   }
 }
 
-// 40 differences of two sizes: n(n+1)(2n+1)/24 − (20³−20)·2/48 = 5203.75…, computed by hand.
+// For 40 differences of two sizes, the variance is n(n+1)(2n+1)/24 − (20³−20)·2/48 = 5203.75…,
+// computed by hand.
 TEST(SignedRank, TiesNarrowTheApproximation) {
   std::vector<double> values(20, 1.0);
   values.insert(values.end(), 20, -2.0);
@@ -140,8 +142,8 @@ TEST(Shift, TooFewDifferencesHaveAnEndlessInterval) {
   EXPECT_TRUE(std::isnan(estimate_shift({}, 0.01).estimate));
 }
 
-// Simulates a comparison on a machine: both sides share a slow drift (AR(1) from batch to batch),
-// each batch has its own noise, and sometimes another program uses a share of the machine.
+// Simulates a comparison on one machine. Both sides share a slow drift (AR(1) from batch to batch),
+// each batch has its own noise, and some batches are disturbed by another program.
 struct Machine {
   double noise = 0.01;
   double drift = 0.01;        // standard deviation of the drift
@@ -197,8 +199,8 @@ Outcomes repeat(const Machine& machine, double shift, int times, std::uint64_t s
   return outcomes;
 }
 
-// The design has an error rate of α = .01 on each side. With 300 repetitions, 8 or fewer errors are
-// expected with a probability above .99.
+// The design has an error rate of α = .01 on each side. With 300 repetitions, 8 or fewer errors
+// occur with a probability above .99.
 constexpr int repetitions = 300;
 constexpr int most_errors = 8;
 
@@ -238,7 +240,7 @@ TEST(Sequential, LooksFollowOneAnother) {
   const SequentialDesign design = SequentialDesign::standard();
   EXPECT_EQ(design.next_look(0), 12);
   EXPECT_EQ(design.next_look(12), 24);
-  EXPECT_EQ(design.next_look(20), 24);  // the design looks at the data when the budget ends
+  EXPECT_EQ(design.next_look(20), 24);  // the design evaluates the data when the budget ends
   EXPECT_EQ(design.next_look(384), 0);
   EXPECT_NEAR(design.alpha_of_a_look(), 0.01 / 6, 1e-15);
 }
@@ -268,8 +270,7 @@ TEST(Confirm, WhatOneProcessRunAloneSaidIsTakenBack) {
             PairVerdict::undecided);
 }
 
-// A configuration that is no longer suspected is not tested further, so there is no statement about
-// it.
+// A configuration that is no longer suspected is not tested further, so nothing is stated about it.
 TEST(Confirm, CountsTheSuspectsAsHypotheses) {
   std::vector<Suspect> suspects{{{0.0135, 0.0175, 0.0095, 0.0155, 0.0115}, true}};
   EXPECT_EQ(confirm(suspects, 0.05, SequentialDesign::standard())[0].verdict, PairVerdict::slower);
@@ -298,7 +299,7 @@ TEST(Confirm, OneProcessRunHasNoScatter) {
   EXPECT_EQ(confirmed[2].verdict, PairVerdict::slower);
 }
 
-// The process runs of each suspect, returned one by one.
+// Returns the process runs of each suspect one by one.
 struct ProcessRuns {
   std::vector<std::vector<double>> process_runs;
   std::vector<std::vector<std::size_t>> asked;  // the suspects that each process run measured
@@ -320,7 +321,7 @@ struct ProcessRuns {
   }
 };
 
-// Five process runs decide the obvious cases; the others are run five more times.
+// Five process runs decide the obvious cases. The undecided cases are run five more times.
 TEST(ConfirmInLooks, GoesOnWithWhatIsOpen) {
   core::Random random(21);
   std::vector<double> scattered{0.05, 0.01, 0.06, 0.012, 0.05, 0.035, 0.03, 0.04, 0.036, 0.03};
@@ -347,9 +348,10 @@ TEST(ConfirmInLooks, EndsWithTheProcessRunsThatThereAre) {
 }
 
 // A process run shifts all of its blocks, so the interval from a single process run is far too
-// narrow, and a slowdown in only one of them must not be reported. Among 200 families of 24
-// configurations, none of which is slower by more than the tolerance, at most a share q may have
-// false discoveries: with q = .02, more than 10 happen with a probability below .003.
+// narrow. A slowdown in a single process run must not be reported. There are 200 families of 24
+// configurations, none of which is slower by more than the tolerance. At most a share q of the
+// families may have false discoveries: with q = .02, more than 10 occur with a probability below
+// .003.
 TEST(ConfirmInLooks, ProcessRunEffectsAreSeldomBelieved) {
   const SequentialDesign design = SequentialDesign::standard();
   const double between = 0.01;

@@ -61,7 +61,7 @@ TEST(SideBySide, TakesTimesWhereNothingWasCountedAndSaysWhatIsMissing) {
   EXPECT_THAT(report::screen_of(*table), HasSubstr("\nbest  a 10 ms  a 20 ms  b 20 ms  \n"));
 }
 
-// The device's clock shows less time for a frame than the wall clock, so devices with different
+// The device's clock reports less time for a frame than the wall clock, so devices with different
 // clocks are not compared.
 TEST(SideBySide, ComparesTimesOnOneClock) {
   std::vector<record::Record> records{measured("gl:x", "a", "1", 10),

@@ -67,7 +67,7 @@ TEST(File, TextsHaveALargestSize) {
   EXPECT_EQ(read_text(file, 10), std::string(10, 'x'));
   EXPECT_THAT([&] { (void)read_text(file, 9); },
               ThrowsMessage<InputError>(HasSubstr("a.txt: is too large; the limit is 9 bytes")));
-  // The limit also holds for a file that reports no size.
+  // The limit applies also to a file that reports no size.
   EXPECT_THAT([&] { (void)read_text("/proc/self/status", 100); },
               ThrowsMessage<InputError>(HasSubstr("is too large")));
 }
@@ -81,14 +81,14 @@ TEST(File, SaysWhyItCannotBeWritten) {
 }
 
 TEST(File, ReportsAFullDisk) {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "/dev/full does not exist";
   EXPECT_THAT([] { write_file("x", "/dev/full"); },
               ThrowsMessage<IoError>(HasSubstr("No space left on device")));
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
-// Limits files to `bytes` while this object exists, which imitates a full disk and also affects the
-// superuser.
+// Limits the size of files to `bytes` while this object exists. This simulates a full disk, and
+// applies even to root.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

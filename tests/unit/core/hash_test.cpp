@@ -15,7 +15,7 @@
 namespace triptych::core {
 namespace {
 
-// Values of the XXH3 specification's reference implementation (XXH128, seed 0).
+// Values from the reference implementation of XXH3 (XXH128, seed 0).
 TEST(ContentHash, MatchesTheSpecification) {
   EXPECT_EQ(content_hash(std::string_view{}), "99aa06d3014798d86001c324468d497f");
 }
@@ -28,8 +28,8 @@ TEST(ContentHash, TellsContentsApart) {
   EXPECT_EQ(content_hash(text).size(), 32U);
 }
 
-// Every machine must compute these values from these parts, because identities in stores and
-// baselines consist of them.
+// Every machine must compute these values from these parts, because they identify things in stores
+// and baselines.
 TEST(HashBuilder, IsTheSameEverywhere) {
   const auto of_parts = [](std::int64_t number, double real, std::string_view text) {
     return HashBuilder("kind").add(number).add(real).add(text).hash();

@@ -27,7 +27,8 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::ThrowsMessage;
 
-// Random bits, so that the values include NaN payloads, infinities and denormals.
+// Returns an image with random bits, so that its values include NaN payloads, infinities and
+// denormals.
 Image noise(int width, int height, bool particles) {
   Random random(7);
   Image image(width, height);
@@ -75,7 +76,7 @@ TEST(Exr, FileAndMemoryAgree) {
   expect_same(read_exr(folder.path() / "a.exr"), image);
 }
 
-// The file is read by the library's own reader, as any other program would do.
+// The file is read with OpenEXR's own reader, as other programs would do.
 TEST(Exr, IsWhatOtherProgramsExpect) {
   const TemporaryFolder folder;
   Image image(3, 2);
@@ -98,7 +99,7 @@ TEST(Exr, IsWhatOtherProgramsExpect) {
 TEST(Exr, ReadsHalfFloatsAndShiftedWindows) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "half.exr";
-  // A frame of 5 columns and 7 rows, of which the lower right 3×2 pixels are written to the file.
+  // Of a frame with 5 columns and 7 rows, only the lower right 3×2 pixels are written to the file.
   std::vector<Imf::Rgba> frame(5 * 7);
   frame[5 * 5 + 3] = Imf::Rgba(0, 1, 0, 1);
   frame[5 * 6 + 4] = Imf::Rgba(0, 0, 0.5F, 0.5F);
@@ -137,8 +138,8 @@ TEST(Exr, EveryTruncationIsOneLineOfBadInput) {
   }
 }
 
-// Whichever byte is wrong, the result is an image or a typed error, never a crash or an endless
-// loop.
+// Whichever byte is wrong, the result must be an image or a typed error, never a crash or an
+// infinite loop.
 TEST(Exr, DamagedBytesNeverEscape) {
   const std::vector<std::byte> bytes = encode_exr(noise(8, 20, false));
   for (std::size_t i = 0; i < std::min<std::size_t>(bytes.size(), 600); ++i) {
@@ -151,7 +152,7 @@ TEST(Exr, DamagedBytesNeverEscape) {
   }
 }
 
-// A header of some hundred bytes would make OpenEXR allocate two gigabytes.
+// OpenEXR would allocate two gigabytes for a header of some hundred bytes.
 TEST(Exr, AnAttributeBeyondTheFileIsRefusedBeforeMemoryIsAskedFor) {
   std::vector<std::byte> bytes = encode_exr(noise(8, 20, false));
   const std::string_view name("channels\0chlist", 15);

@@ -21,7 +21,7 @@ class JsonFileTest : public testing::Test {
     core::write_file(text, folder_.path() / "file.json");
     return *JsonFile::read(folder_.path() / "file.json");
   }
-  // The error that `use` throws for this text.
+  // Returns the error that `use` throws for this JSON text.
   core::InputError error_of(std::string_view text,
                             const std::function<void(const JsonNode&)>& use) {
     try {

@@ -20,11 +20,11 @@ TEST(ShellQuoted, LeavesAloneWhatNeedsNoQuotes) {
   EXPECT_EQ(shell_quoted("a b"), "'a b'");
   EXPECT_EQ(shell_quoted("it's"), R"('it'\''s')");
   EXPECT_EQ(shell_quoted("vulkan:*"), "'vulkan:*'");
-  EXPECT_EQ(shell_quoted("=ls"), "'=ls'");  // zsh would take it for a program's path
+  EXPECT_EQ(shell_quoted("=ls"), "'=ls'");  // zsh would replace it by the path of a program
   EXPECT_EQ(shell_quoted("a\x1b'\n"), "\"$(printf 'a\\033\\047')\"'\n'");
 }
 
-// Words that a shell could execute, or of which it could lose a part.
+// Words that a shell could execute, or that it could split or truncate.
 const std::vector<std::string> hostile_words{"ev$(touch x)`id`",
                                              "a;b|c&d>e<f",
                                              "it's \"both\"",
@@ -49,7 +49,7 @@ const std::vector<std::string> hostile_words{"ev$(touch x)`id`",
                                              "no utf-8 \xff'\\",
                                              std::string(20000, '\'')};
 
-// The shells on this machine, into which people may paste commands.
+// Returns the installed shells, into which people may paste commands.
 std::vector<std::string> shells() {
   std::vector<std::string> found;
   for (const std::string& shell : {std::string("dash"), std::string("bash"), std::string("zsh -f"),
@@ -77,8 +77,8 @@ TEST(ShellQuoted, EveryShellReadsTheWordAndRunsNothing) {
   }
 }
 
-// The quoted text contains no character that a terminal hides, except line ends at the end of a
-// word.
+// The quoted word must not contain characters that a terminal hides, except line ends at the end of
+// a word.
 TEST(ShellQuoted, HoldsNoHiddenCharacter) {
   for (const std::string& word : hostile_words) {
     if (word.ends_with('\n')) continue;
@@ -90,7 +90,7 @@ TEST(ShellEnvironment, IsReadByEveryShellWhateverTheNames) {
   for (const std::string& shell : shells()) {
     for (const std::string& hostile : hostile_words) {
       if (hostile.find('=') != std::string::npos || hostile.size() > 1000) continue;
-      // `env` does not take a variable for an option, because each entry contains a '='.
+      // `env` does not mistake a variable for an option, because each entry contains a '='.
       const std::string name = "V" + hostile;
       const std::array words{std::string("printenv"), name};
       EXPECT_EQ(read_back(shell, shell_environment({{"A", "1"}, {name, hostile}}) +
@@ -112,7 +112,7 @@ TEST(Printable, ShowsWhatATerminalWouldObey) {
   EXPECT_EQ(printable("µ\xff\u0085"), "µ\uFFFD\\u{0085}");
 }
 
-// Characters that make a name look like another one: some change the direction of text, and others
+// These characters make a name look like another one: some change the text direction, and others
 // are invisible.
 TEST(Printable, ShowsWhatChangesTheDirectionOfText) {
   EXPECT_EQ(printable("\u202Egnp.exe\u2069\u200F"), "\\u{202e}gnp.exe\\u{2069}\\u{200f}");

@@ -7,7 +7,7 @@
 namespace triptych::core {
 namespace {
 
-// First outputs of the authors' reference implementation for the seed 1234567.
+// The first outputs of the authors' reference implementation for the seed 1234567.
 TEST(Random, MatchesTheReferenceSequence) {
   Random random(1234567);
   EXPECT_EQ(random.bits(), 6457827717110365317U);
@@ -33,7 +33,7 @@ TEST(Random, UniformFillsItsInterval) {
   }
   EXPECT_LT(lowest, 2.001);
   EXPECT_GT(highest, 4.999);
-  // Five standard errors of the mean of 1e5 values: 5·(3/√12)/√1e5.
+  // Five standard errors of the mean of 1e5 values are 5·(3/√12)/√1e5.
   EXPECT_NEAR(sum / draws, 3.5, 0.0137);
 }
 

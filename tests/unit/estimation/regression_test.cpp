@@ -1,4 +1,4 @@
-// Lines for data sets with published fits.
+// Fits lines to data sets with published results.
 
 #include "estimation/regression.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-// Anscombe 1973, "Graphs in Statistical Analysis", tables: four data sets with the same
+// Anscombe (1973), "Graphs in Statistical Analysis", tables: four data sets with the same
 // least-squares line.
 const Values anscombe_x{10, 8, 13, 9, 11, 14, 6, 4, 12, 7, 5};
 const Values anscombe_x4{8, 8, 8, 8, 8, 8, 8, 19, 8, 8, 8};
@@ -26,8 +26,8 @@ const std::array<Values, 4> anscombe_y{
     Values{7.46, 6.77, 12.74, 7.11, 7.81, 8.84, 6.08, 5.39, 8.15, 6.42, 5.73},
     Values{6.58, 5.76, 7.71, 8.84, 8.47, 7.04, 5.25, 12.50, 5.56, 7.91, 6.89}};
 
-// Rousseeuw & Leroy 1987, "Robust Regression and Outlier Detection", table 3: logarithms of
-// temperature and light of 47 stars in the direction of Cygnus, four of them giants.
+// Rousseeuw & Leroy (1987), "Robust Regression and Outlier Detection", table 3: logarithms of the
+// temperature and luminosity of 47 stars in the direction of Cygnus, four of which are giants.
 const Values star_temperature{
     4.37, 4.56, 4.26, 4.56, 4.30, 4.46, 3.84, 4.57, 4.26, 4.37, 3.49, 4.43, 4.48, 4.01, 4.29, 4.42,
     4.23, 4.42, 4.23, 3.49, 4.29, 4.29, 4.42, 4.49, 4.38, 4.42, 4.29, 4.38, 4.22, 3.48, 4.38, 4.56,
@@ -37,8 +37,8 @@ const Values star_light{5.23, 5.74, 4.93, 5.74, 5.19, 5.46, 4.65, 5.27, 5.57, 5.
                         5.02, 4.66, 4.66, 4.90, 4.39, 6.05, 4.42, 5.10, 5.22, 6.29, 4.34, 5.62,
                         5.10, 5.22, 5.18, 5.57, 4.62, 5.06, 5.34, 5.34, 5.54, 4.98, 4.50};
 
-// The same book, table 1: international calls from Belgium in tens of millions, 1950 to 1973; six
-// years were reported in minutes.
+// Rousseeuw & Leroy (1987), table 1: international calls from Belgium in tens of millions, 1950 to
+// 1973. Six years were reported in minutes.
 const Values calls{0.44, 0.47, 0.47, 0.59, 0.66, 0.73, 0.81, 0.88, 1.06, 1.20, 1.35, 1.49,
                    1.61, 2.12, 11.9, 12.4, 14.2, 15.9, 18.2, 21.2, 4.30, 2.40, 2.70, 2.90};
 Values call_years() {
@@ -59,7 +59,7 @@ TEST(LeastSquares, GivesAnscombesFourSetsTheSameLine) {
 }
 
 TEST(LeastSquares, FollowsTheGiantsAndTheMinutes) {
-  // Rousseeuw & Leroy, chapter 2: −0.413, 6.793 for the stars, 0.504, −26.01 for the calls.
+  // Rousseeuw & Leroy, chapter 2: −0.413 and 6.793 for the stars, 0.504 and −26.01 for the calls.
   const Line stars = least_squares(star_temperature, star_light).line;
   EXPECT_NEAR(stars.slope, -0.413, 0.0005);
   EXPECT_NEAR(stars.intercept, 6.793, 0.0006);
@@ -69,7 +69,8 @@ TEST(LeastSquares, FollowsTheGiantsAndTheMinutes) {
 }
 
 TEST(RobustLine, SeesTheMainSequenceOfTheStars) {
-  // The MM-estimate with the same two bisquare functions, from R's robustbase for starsCYG.
+  // The MM-estimate with the same two bisquare functions, from R's package robustbase for the data
+  // set starsCYG.
   const RobustLine fit = robust_line(star_temperature, star_light);
   EXPECT_NEAR(fit.line.slope, 2.253, 0.001);
   EXPECT_NEAR(fit.line.intercept, -4.969, 0.005);
@@ -81,8 +82,8 @@ TEST(RobustLine, SeesTheMainSequenceOfTheStars) {
 }
 
 TEST(RobustLine, SeesTheCallsAndNotTheMinutes) {
-  // Venables & Ripley 2002, "Modern Applied Statistics with S", 6.5: MM-estimate 1.1009 and −52.42
-  // in millions.
+  // Venables & Ripley (2002), "Modern Applied Statistics with S", section 6.5: the MM-estimates
+  // 1.1009 and −52.42 in millions.
   const RobustLine fit = robust_line(call_years(), calls);
   EXPECT_NEAR(fit.line.slope, 0.1101, 0.0002);
   EXPECT_NEAR(fit.line.intercept, -5.242, 0.01);
@@ -103,7 +104,7 @@ TEST(RobustLine, IsLeastSquaresWhereNothingIsWild) {
   EXPECT_NEAR(robust.slope_error, plain.slope_error, 0.25 * plain.slope_error);
   double sum = 0;
   for (const double h : robust.leverages) sum += h;
-  EXPECT_NEAR(sum, 2, 0.2);  // the number of parameters, except for the weights
+  EXPECT_NEAR(sum, 2, 0.2);  // the number of parameters, except for the effect of the weights
 }
 
 TEST(RobustLine, AnExactLineHasNoScale) {
@@ -134,7 +135,7 @@ TEST(RobustLine, WithstandsWildPointsOfAlmostHalf) {
 TEST(Lines, TheilAndSenFindTheSlope) {
   Values x;
   Values y;
-  for (int i = 0; i < 26; ++i) {  // with 325 pairs, the median is one of them
+  for (int i = 0; i < 26; ++i) {  // there are 325 pairs, so the median is one of them
     x.push_back(0.2 * i + 0.03 * std::cos(5.0 * i));
     y.push_back(0.4 + 0.18 * i + 0.03 * std::sin(9.0 * i));
   }

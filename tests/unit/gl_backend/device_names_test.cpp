@@ -1,4 +1,4 @@
-// The short names of drivers, derived from the strings that they report.
+// Tests the short names of drivers, derived from the strings that the drivers report.
 #include <gmock/gmock.h>
 
 #include "backends/gl/device_info.hpp"

@@ -1,4 +1,4 @@
-// A child process behaves like the worst possible driver.
+// Tests child processes that behave like the worst possible drivers.
 #include "backends/gl/isolate.hpp"
 
 #include <gmock/gmock.h>

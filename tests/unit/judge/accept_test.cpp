@@ -106,7 +106,7 @@ TEST_F(AcceptTest, WhatThePlanNoLongerHoldsIsDropped) {
   EXPECT_EQ(std::ranges::distance(std::filesystem::directory_iterator(baseline("images"))), 1);
 }
 
-// This happens only on request, because a skip may be temporary.
+// Values are dropped only on request, because a skip may be temporary.
 TEST_F(AcceptTest, WhatADeviceSkipsNowIsDropped) {
   accept_first([](record::Record& record, core::Image&) { record.memory = {{"buffers", 9}}; });
   const auto timings = device_file("timings", "opencl");
@@ -130,7 +130,7 @@ TEST_F(AcceptTest, WhatADeviceSkipsNowIsDropped) {
 }
 
 // With `drop`, accepting removes only the values of configurations that are skipped now. It keeps
-// all other values in the same files, and does not restore earlier ones.
+// all other values in the same files, and does not restore earlier values.
 TEST_F(AcceptTest, DroppingKeepsWhatIsAcceptedBesides) {
   add_run("b", [&](record::Record& record, core::Image&) {
     record.counters["samples"] = 7;
@@ -151,7 +151,7 @@ TEST_F(AcceptTest, DroppingKeepsWhatIsAcceptedBesides) {
   expect_accepted();
 }
 
-// A run of one device replaces the hash for that device's voxel format and keeps the hashes for
+// A run on one device replaces the hash for that device's voxel format, and keeps the hashes for
 // other formats.
 TEST_F(AcceptTest, DataOfOtherFormatsKeepsItsHash) {
   const auto with_formats = [](record::Record& record, core::Image&) {
@@ -212,7 +212,7 @@ TEST_F(AcceptTest, TheTimesAreOfOneRun) {
   EXPECT_NEAR(median("opencl") / opencl, 2, 0.05);
 }
 
-// The checks of the plan decide this, not its name.
+// The plan's checks decide what is stored, not its name.
 TEST_F(AcceptTest, PicturesAndTimesAreKeptOfPlansThatCheckThem) {
   checks_ = {Check::image, Check::timing};
   accept_first();
@@ -247,7 +247,8 @@ TEST_F(AcceptTest, CostIsOfOneEmulator) {
             (core::Json{{"device_code", 700}, {"driver", 300}, {"allocations", 4}}));
   EXPECT_EQ(cost["configurations"][plain_]["prepare"]["driver"], 9000);
   add_run("b", counted_by("two"));
-  EXPECT_THROW((void)accept_run("b", {.only = plain_}), core::InputError) << "others would go";
+  EXPECT_THROW((void)accept_run("b", {.only = plain_}), core::InputError)
+      << "values of another emulator would be lost";
   EXPECT_EQ(read(device_file("cost", "vulkan")), cost);
   (void)accept_run("b");
   EXPECT_EQ(read(device_file("cost", "vulkan"))["counted_by"], "two");
@@ -268,7 +269,7 @@ TEST_F(AcceptTest, MemoryIsKeptByDevice) {
     if (record.device == "vulkan:lavapipe") record.memory = {{"buffers", 4096}};
   });
   (void)accept_run("b");
-  EXPECT_EQ(read(baseline("memory.json"))[plain_].size(), 1U) << "one tells it no longer";
+  EXPECT_EQ(read(baseline("memory.json"))[plain_].size(), 1U) << "one device no longer reports it";
 }
 
 TEST_F(AcceptTest, DataThatChangedSinceTheRunAreRefused) {
@@ -325,11 +326,11 @@ TEST_F(AcceptTest, WhatIsNotAsItWasAcceptedIsNotBuiltUpon) {
   EXPECT_EQ(gate("b").exit_code(), core::ExitCode::pass) << text(gate("b"));
 }
 
-// --- all or nothing ---
+// All or nothing
 
 class WholeAcceptTest : public AcceptTest {
  protected:
-  // Every file below the root of the baselines, with its content.
+  // Returns the contents of every file below the root of the baselines.
   [[nodiscard]] std::map<std::string, std::string> everything() const {
     std::map<std::string, std::string> files;
     for (const auto& entry :

@@ -1,4 +1,4 @@
-// Compares images with their limit images: the parts of an error, and errors as baselines.
+// Tests comparing images with their limit images: the parts of an error, and errors as baselines.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -48,7 +48,7 @@ class AccuracyGateTest : public JudgeTest {
     (void)accept(store_, run, folder_.path() / "baselines", request);
   }
 
-  // Returns a reference image whose error is only nine hundredths smaller than that of the image.
+  // Returns a reference image whose error is only 9 % smaller than that of the device's image.
   core::Image nearer_truth(const record::Record& record) {
     core::Image image = core::decode_exr(store_.image(record.image));
     const core::Image& limit = limit_of(record)->image;
@@ -58,7 +58,7 @@ class AccuracyGateTest : public JudgeTest {
     return image;
   }
 
-  // An image with the distance 0.02·stepᵒʳᵈᵉʳ from the limit.
+  // Adds an image whose distance from the limit is 0.02·stepᵒʳᵈᵉʳ.
   void add_step(const std::string& run, double step, double order) {
     record::Record record;
     record.run = run;
@@ -78,7 +78,7 @@ class AccuracyGateTest : public JudgeTest {
     store_.add_record(record);
   }
 
-  // Changes the images of one device.
+  // Returns a change that shifts the images of one device.
   static Tweak moved(float by) {
     return [by](record::Record& record, core::Image& image) {
       if (record.device == "vulkan:lavapipe" && record.configuration == plain_) {
@@ -121,7 +121,7 @@ TEST_F(AccuracyGateTest, AcceptedErrorsPass) {
   EXPECT_EQ(json.at("configurations")[1].at("rmse"), result.accuracies[0].cases[1].rmse);
 }
 
-// The device's clock is used if it is trusted for every kind of work that the device did.
+// The device's clock is used only if it is trusted for every kind of work that the device did.
 TEST_F(AccuracyGateTest, TimesOfADeviceAreOfOneClock) {
   const auto timed = [](bool all) {
     return [all](record::Record& record, core::Image&) {
@@ -143,7 +143,7 @@ TEST_F(AccuracyGateTest, TimesOfADeviceAreOfOneClock) {
   }
 }
 
-// The distance from the limit exceeds what rounding explains, although it is within the bound of
+// The distance from the limit exceeds what rounding can explain, although it is within the bound of
 // the image.
 TEST_F(AccuracyGateTest, ALargerErrorIsARegression) {
   add_run("a");
@@ -170,7 +170,7 @@ TEST_F(AccuracyGateTest, WithoutAStoredErrorNothingIsDecided) {
   EXPECT_EQ(with(gate("a"), Verdict::cannot_judge, Check::accuracy).size(), 12U);
 }
 
-// A device that was never accepted may have an error as large as the worst accepted one.
+// The error of a device that was never accepted may be as large as the worst accepted error.
 TEST_F(AccuracyGateTest, AnotherDeviceIsHeldToTheWorstOfTheAccepted) {
   add_run("a");
   accept_with_errors("a");
@@ -190,7 +190,8 @@ TEST_F(AccuracyGateTest, AnotherDeviceIsHeldToTheWorstOfTheAccepted) {
   EXPECT_TRUE(with(gate("c"), Verdict::regression, Check::accuracy).empty());
 }
 
-// With order 1.95 the error of the finest step is 15 % larger, which the accepted rounding permits.
+// With order 1.95, the error of the finest step is 15 % larger, which the accepted rounding
+// permits.
 TEST_F(AccuracyGateTest, AnOrderThatFellIsARegression) {
   request_.truth = [this](const record::Record& record) {
     const core::Image truth = nearer_truth(record);
@@ -212,7 +213,7 @@ TEST_F(AccuracyGateTest, AnOrderThatFellIsARegression) {
   ASSERT_EQ(fallen.size(), 1U) << text(gate("c"));
   EXPECT_NEAR(fallen[0].number("order"), 1.95, 5e-3);
   EXPECT_NEAR(fallen[0].number("stored_order"), 2, 5e-3);
-  // A reference image so far from the images that almost no error comes from the step.
+  // This reference image is so far from the images that almost no error comes from the step size.
   request_.truth = [](const record::Record& record) {
     const core::Image truth = truth_of(record.scene);
     return TruthPair{.truth = truth, .bound = truth};
@@ -222,7 +223,7 @@ TEST_F(AccuracyGateTest, AnOrderThatFellIsARegression) {
   EXPECT_EQ(lost[0].cause, Cause::no_order);
 }
 
-// A configuration that cannot be judged does not change the verdicts of others.
+// A configuration that cannot be judged must not change the verdicts about other configurations.
 TEST_F(AccuracyGateTest, WhatCannotBeLookedAtIsTold) {
   add_run("a");
   accept_with_errors("a");

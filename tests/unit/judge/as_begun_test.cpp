@@ -1,4 +1,5 @@
-// A run that is incomplete, a machine that lost a device, and a plan that lost a check do not pass.
+// Tests that an incomplete run, a machine that lost a device, and a plan that lost a check do not
+// pass.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
@@ -30,7 +31,7 @@ class AsBegunTest : public GateTest {
     begun.host = "host1";
     store_.begin(run, begun, configurations_);
   }
-  // Adds a run on such a machine.
+  // Adds a run on a machine with these properties.
   void add_begun(const std::string& run, const record::Beginning& begun = {}) {
     add_run(run);
     begin(run, begun);
@@ -45,7 +46,7 @@ class AsBegunTest : public GateTest {
   void write_absent(const std::string& text) {
     core::write_file(text, folder_.path() / "baselines" / "absent.json");
   }
-  // The findings that cannot be judged, each as "DEVICE CAUSE NAMES".
+  // Returns the findings that cannot be judged, each as "DEVICE CAUSE NAMES".
   static std::vector<std::string> undecided(const GateResult& result) {
     std::vector<std::string> lines;
     for (const Finding& each : with(result, Verdict::cannot_judge)) {
@@ -123,7 +124,7 @@ TEST_F(AsBegunTest, TheReasonIsGivenWhyARequiredDeviceWasNotMeasured) {
   EXPECT_EQ(found[1].reason, aborted);
 }
 
-// The driver crashes while it is listed.
+// The driver crashes during device enumeration.
 TEST_F(AsBegunTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
   accept_begun();
   const record::Beginning without{.found = {all_devices[1], all_devices[2]},
@@ -144,7 +145,7 @@ TEST_F(AsBegunTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::cannot_judge);
   write_absent(R"([{"device": "gl:*", "reason": "no EGL", "expiry": "2026-02-28"}])");
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::cannot_judge);
-  // The fixture's runs began on 2026-02-01, and the clock was set back since.
+  // The fixture's runs began on 2026-02-01, and the clock was set back afterwards.
   write_absent(R"([{"device": "gl:*", "reason": "no EGL", "expiry": "2026-01-31"}])");
   request_.today = "2025-06-01";
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::cannot_judge);
@@ -152,7 +153,7 @@ TEST_F(AsBegunTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
   EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
 }
 
-// These are machines of another kind: they have none of the accepted driver versions, or the run
+// These are different machines: they have none of the accepted driver versions, or their run
 // requested only some devices.
 TEST_F(AsBegunTest, OtherMachinesLackNothing) {
   accept_begun();
@@ -185,10 +186,10 @@ TEST_F(AsBegunTest, AListingThatEndedCannotBeJudgedAndIsShown) {
                        .found = all_devices,
                        .devices = all_devices,
                        .unusable = {crashed}});
-  // The run requested no Vulkan device.
+  // The run did not request a Vulkan device.
   EXPECT_EQ(gate("others").exit_code(), core::ExitCode::pass);
   // If the run named a device in full and found it, no other device can be missing. If the run
-  // named a glob, one may be missing.
+  // named a glob, a device may be missing.
   for (const bool whole : {true, false}) {
     const std::string run = whole ? "named" : "glob";
     add_begun(run, {.asked = {whole ? "vulkan:lavapipe" : "vulkan:*"},
@@ -219,7 +220,7 @@ TEST_F(AsBegunTest, InjectedFaultsAreCountedWhateverTheVerdict) {
   EXPECT_EQ(gate("run").injected, (std::map<std::string, std::size_t>{{"slowdown", 4}}));
 }
 
-// The manifest proves the other files, so it must agree with their content.
+// The manifest vouches for the other files, so it must agree with their content.
 TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
   accept_begun();
   const std::string whole = folder_.read(baseline("manifest.json"));
@@ -238,7 +239,7 @@ TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
               HasSubstr("is outside the folder"));
   EXPECT_THAT(changed([](core::Json& json) { json["configurations"] = 3; }),
               HasSubstr("states 3 configurations, but counters.json contains 4"));
-  // The history contains a hash of these statements, because no other file contains them.
+  // The history contains a hash of these entries, because no other file contains them.
   for (const char* name : {"plan_hash", "checks"}) {
     EXPECT_THAT(changed([&](core::Json& json) { json[name] = "memory"; }),
                 HasSubstr("is not the one that was accepted last"))
@@ -249,8 +250,7 @@ TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
   EXPECT_EQ(changed([](core::Json&) {}), "");
 }
 
-// If a reader of counters.json lost a configuration, that configuration would not be missed in a
-// run.
+// If reading counters.json lost a configuration, nobody would notice that the run lacks it.
 TEST_F(AsBegunTest, ALostConfigurationOfTheBaselinesIsNoticed) {
   accept_begun();
   core::Json counters = core::Json::parse(folder_.read(baseline("counters.json")));
@@ -274,7 +274,7 @@ TEST_F(AsBegunTest, AnOldRunIsNamedWithItsDay) {
   }
 }
 
-// One build began the run, and another one resumed it.
+// One build began the run, and another build resumed it.
 TEST_F(AsBegunTest, EveryProgramThatMeasuredIsCompared) {
   request_.program = "1, commit b";
   add_begun("run", {.program = "1, commit b", .devices = {"gl:llvmpipe-egl"}});

@@ -1,4 +1,4 @@
-// Missing, edited or unknown baseline files are distinguished from a new device.
+// Tests that missing, edited or unknown baseline files are distinguished from a new device.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ class BaselinesTest : public JudgeTest {
       record.memory = {{"buffers", 4096}};
     });
   }
-  // The problem with the baselines of the whole plan.
+  // Returns the problem with the baselines of the whole plan.
   std::string verdict() {
     const GateResult result = gate("accepted");
     EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge) << text(result);
@@ -45,7 +45,7 @@ class BaselinesTest : public JudgeTest {
 
 TEST_F(BaselinesTest, AsAcceptedTheyPass) {
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
-  // The folders for plans, images, cost, times and statistics.
+  // These are the folders for plans, images, cost, times and statistics.
   EXPECT_GE(names().size(), 4U + 2 + 3 + 3 + 2);
 }
 
@@ -85,7 +85,7 @@ TEST_F(BaselinesTest, ABrokenManifestIsNamedWithItsLine) {
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
 }
 
-// A careless merge of two branches can leave such a value, even if the checksum was corrected.
+// A careless merge of two branches can leave such a value, even if somebody corrected the checksum.
 TEST_F(BaselinesTest, AWrongValueIsAnErrorWithItsLine) {
   rewrite("counters.json", "{\n \"x\": {\n  \"samples\": {\"gl:a\": \"many\"}}}\n");
   try {
@@ -103,7 +103,7 @@ TEST_F(BaselinesTest, APictureIsStillJudgedWithoutThem) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
 }
 
-// The baselines of this repository, which a careless merge of two branches could damage.
+// These are the baselines in this repository, which a careless merge of two branches could damage.
 TEST(OurBaselines, AreWhole) {
   const std::filesystem::path root = std::filesystem::path(TRIPTYCH_SOURCE_FOLDER) / "baselines";
   int plans = 0;

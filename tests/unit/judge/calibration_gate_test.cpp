@@ -1,5 +1,5 @@
-// The statistics of a new driver version are judged by the calibrations of that version and of the
-// stored versions.
+// Tests that the statistics of a new driver version are judged with the calibrations of that
+// version and of the stored versions.
 
 #include <gmock/gmock.h>
 
@@ -20,8 +20,8 @@ const Calibration doubled{
 
 class CalibrationGateTest : public JudgeTest {
  protected:
-  // The finding about a new version of lavapipe with the calibration `own`, which counts 49 instead
-  // of 48, if only the numbers of GL are stored.
+  // Returns the finding about a new version of lavapipe, which has the calibration `own` and counts
+  // 49 instead of 48. Only the numbers of GL are stored.
   Finding advice(const Calibration& stored, const Calibration& own) {
     calibrations_["gl:llvmpipe-egl"] = stored;
     accept_first([](record::Record& record, core::Image&) {
@@ -39,8 +39,8 @@ class CalibrationGateTest : public JudgeTest {
   }
 };
 
-// The driver reports another number for the same image each time, so it is not compared with a
-// stored one.
+// The driver reports a different number for the same image each time, so the number is not compared
+// with a stored one.
 TEST_F(CalibrationGateTest, WhatIsUnsteadyIsNotHeldToWhatIsStored) {
   const auto verdict_of = [&](const std::string& run, Worth worth) {
     calibrations_["vulkan:lavapipe"] = {{"fragment_invocations", {.worth = worth}}};

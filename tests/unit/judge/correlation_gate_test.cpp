@@ -1,4 +1,4 @@
-// The correlation must find injected slowdowns, and must not report other changes.
+// Tests that the correlation finds injected slowdowns, and does not report other changes.
 
 #include <gmock/gmock.h>
 
@@ -17,7 +17,7 @@ constexpr const char* llvmpipe = "gl:llvmpipe-egl";
 constexpr const char* pocl = "opencl:pocl";
 const std::string chosen = "camera=c1,data=d2,step=1,technique=t3";
 
-// Without findings about other devices, or about a device as a whole.
+// Returns the findings without those about other devices and about a device as a whole.
 std::vector<Finding> named(const CorrelationFindings& result) {
   std::vector<Finding> findings;
   for (const Finding& finding : result.findings) {
@@ -40,7 +40,7 @@ TEST(AcceptedDevices, JitterWithinTheBoundsIsNothing) {
   }
 }
 
-// Proves that the previous test can fail: jitter beyond its bound is reported.
+// This proves that the previous test can fail: jitter beyond its bound is reported.
 TEST(AcceptedDevices, JitterBeyondTheBoundIsTold) {
   CorrelationWorld world(1);
   world.add_device(lavapipe, true);
@@ -70,8 +70,8 @@ TEST(AcceptedDevices, HalfAPercentOfOneConfigurationIsNamedFirst) {
   }
 }
 
-// The injected slowdown is half a percent of the frame, only in the driver. It is found because the
-// sum of PoCL's bound and the other device's bound is smaller.
+// The injected slowdown is half a percent of the frame, in the driver only. It is found because it
+// exceeds the sum of PoCL's bound and the other device's bound.
 TEST(AcceptedDevices, HalfAPercentInTheDriverIsFoundOnPocl) {
   CorrelationWorld world(3);
   world.add_device(lavapipe, true);
@@ -121,8 +121,8 @@ TEST(AcceptedDevices, LessIsAnImprovement) {
   EXPECT_EQ(found[0].verdict, Verdict::improved);
 }
 
-// A change of the program that affects both devices equally does not change their residual; the
-// check of cost finds it.
+// A change in Triptych that affects both devices equally does not change their residual. The check
+// `cost` finds such a change.
 TEST(AcceptedDevices, WhatBothChangedAlikeLeavesTheResidual) {
   CorrelationWorld world(7);
   world.add_device(lavapipe, true, 0.02, {}, on_configuration(chosen, 1.5));
@@ -130,7 +130,7 @@ TEST(AcceptedDevices, WhatBothChangedAlikeLeavesTheResidual) {
   EXPECT_TRUE(named(world.judge()).empty()) << text(world.judge());
 }
 
-// If a run has only one device, that device is compared with the stored costs of others.
+// If a run has only one device, it is compared with the stored costs of other devices.
 TEST(AcceptedDevices, OneAloneIsHeldAgainstWhatIsStored) {
   CorrelationWorld world(8);
   world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.01));
@@ -153,7 +153,8 @@ TEST(AcceptedDevices, CountsByAnotherCounterAreNotCompared) {
   EXPECT_THAT(text(result), HasSubstr("no_partner"));
 }
 
-// The costs of a new device: a factor, and 96 configurations that scatter around the line.
+// The costs of a new device: a factor times the costs of another device, for 96 configurations that
+// scatter around the line.
 struct Trials {
   int found = 0;
   int wrong = 0;
@@ -178,9 +179,10 @@ Trials new_devices(const CorrelationWorld::Change& injected, const std::string& 
   return trials;
 }
 
-// In 100 trials, q permits one false report on average; four would mean that q is larger. With
-// normal scatter of 2 % and 96 configurations, 10 % are 4.8 standard deviations, and 4 are needed
-// so that only 1 % are wrong. With a scatter of 1.5 %, almost all slowdowns are found.
+// In 100 trials, q permits one false report on average. Four false reports would show that the
+// actual rate is higher than q. With normally distributed scatter of 2 % and 96 configurations, a
+// slowdown of 10 % is 4.8 standard deviations, and 4 are needed so that only 1 % of the reports are
+// wrong. With a scatter of 1.5 %, almost all slowdowns are found.
 TEST(NewDevice, TenPercentOfOneConfiguration) {
   const Trials wide = new_devices(on_configuration(chosen, 1.1), chosen, "", 0.02);
   EXPECT_GE(wide.found, 60);
@@ -212,7 +214,7 @@ TEST(NewDevice, WhatDoesNotCorrelateIsRefused) {
   EXPECT_TRUE(named(result).empty());
 }
 
-// If two devices were accepted, the one whose costs scatter least around the line is used.
+// If two devices were accepted, the device whose costs scatter least around the line is used.
 TEST(NewDevice, TheNearestJudges) {
   CorrelationWorld world(11);
   world.add_device(lavapipe, true, 0.1);
@@ -273,7 +275,7 @@ TEST(Pairs, WithoutCostADeviceIsLeftOut) {
   }
   const CorrelationFindings result = world.judge();
   EXPECT_THAT(text(result), HasSubstr("skipped gl:llvmpipe-egl  : not_reported"));
-  EXPECT_EQ(result.pairs.size(), 1U) << "by time alone";
+  EXPECT_EQ(result.pairs.size(), 1U) << "only times can be compared";
 }
 
 }  // namespace

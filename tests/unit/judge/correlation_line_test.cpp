@@ -1,4 +1,5 @@
-// The line that relates the costs of two devices, and the conditions under which it is meaningful.
+// Tests the line that relates the costs of two devices, and the conditions under which it is
+// meaningful.
 
 #include <gmock/gmock.h>
 
@@ -9,7 +10,7 @@
 namespace triptych::judge {
 namespace {
 
-// y = 0.7 + slope·x, plus a wave with this amplitude.
+// Returns y = 0.7 + slope·x, plus a wave with this amplitude.
 CorrelationPair pair_of(std::size_t points, double slope = 1, double wave = 0.02) {
   CorrelationPair pair{.device_a = "a", .device_b = "b", .signal = "cost"};
   for (std::size_t i = 0; i < points; ++i) {
@@ -54,9 +55,9 @@ TEST(FitLine, TooFewForALineHaveNone) {
   EXPECT_FALSE(line_of(alike).admitted());
 }
 
-// A level that is off the line by far more than the scatter is reported as one finding. Its own
-// configurations are then no outliers, and all other configurations are still compared with the
-// line.
+// A level that is off the line by far more than the scatter is reported as one finding. Its
+// configurations are then not outliers by themselves, and all other configurations are still
+// compared with the line.
 TEST(OffTheLine, ALevelAndOneConfiguration) {
   CorrelationPair pair = pair_of(60);
   std::vector<Factors> factors;

@@ -1,4 +1,4 @@
-// Describes how residuals moved from their stored values.
+// Tests the description of how residuals differ from their stored values.
 
 #include <gmock/gmock.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 using Of = Movement::Of;
 
-// All combinations of three factors a, b and c with 2, 3 and 4 levels.
+// Returns all combinations of three factors a, b and c with 2, 3 and 4 levels.
 std::vector<Factors> grid() {
   std::vector<Factors> all;
   for (int i = 0; i < 24; ++i) {
@@ -87,7 +87,7 @@ TEST(Repeatability, EachPartByItself) {
   const Repeatability bound = repeatability("opencl:pocl", "raycast", {1e7, 0});
   EXPECT_EQ(moved_by({0, 3.6e-3}, bound), 0);
   EXPECT_NEAR(moved_by({0, 3.8e-3}, bound), 3.8e-3, 1e-5);
-  // A movement within the driver's jitter does not count.
+  // A change within the driver's jitter does not count.
   EXPECT_NEAR(moved_by({1e-4, -2e-3}, bound), 1e-4, 1e-6);
   EXPECT_EQ(moved_by({0.9e-5, 0}, repeatability("vulkan:lavapipe", "tiles", {1e7, 0})), 0);
   EXPECT_NE(moved_by({0.9e-5, 0}, repeatability("vulkan:lavapipe", "raycast", {1e7, 0})), 0);

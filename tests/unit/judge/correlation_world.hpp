@@ -1,5 +1,5 @@
 #pragma once
-// Invented costs of one plan on several devices: those of today, and the accepted ones.
+// Invented costs of one plan on several devices: current costs and accepted costs.
 
 #include <fmt/format.h>
 
@@ -15,17 +15,18 @@
 
 namespace triptych::judge {
 
-// 96 configurations: techniques × data × steps × cameras.
+// A plan with 96 configurations: techniques × data × steps × cameras.
 class CorrelationWorld {
  public:
   explicit CorrelationWorld(std::uint64_t seed) : random_(seed) {}
 
   bool with_times = false;
 
-  // The factor by which the device code and the driver of a configuration changed today.
+  // The factor by which the device code and the driver of a configuration changed since they were
+  // accepted.
   using Change = std::function<double(const record::Record&)>;
 
-  // Uniform between −1 and 1.
+  // Returns a number between −1 and 1, uniformly distributed.
   double jitter() { return random_.uniform(-1, 1); }
   double normal() {
     double sum = 0;
@@ -33,8 +34,8 @@ class CorrelationWorld {
     return sum - 6;
   }
 
-  // Adds the counts of today, which are those of `cost_of`, changed, with the driver's jitter
-  // within its bounds. `accepted`: they are also stored, with another jitter.
+  // Adds the current counts: those of `cost_of` after the change, with the driver's jitter within
+  // its bounds. If `accepted` is true, also stores them as accepted counts, with another jitter.
   void add_device(const std::string& id, bool accepted, double scatter = 0.02,
                   const Change& device_code = {}, const Change& driver = {}) {
     record::Device device;
@@ -55,7 +56,7 @@ class CorrelationWorld {
       record->outcome = record::Outcome::measured;
       record->counted_by = "emulator";
       const double frame = std::exp(15 + 0.02 * i + scatter * normal());
-      // Half of a bound for each, so that two counts differ by at most the bound.
+      // Each count gets half of a bound, so that two counts differ by at most the bound.
       const double bound =
           repeatability(id, record->technique, {0.7 * frame, 0.3 * frame}).driver / 2.01;
       stored.configurations[record->configuration].frame =

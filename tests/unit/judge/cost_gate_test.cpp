@@ -1,4 +1,4 @@
-// The findings of the gate about instructions per frame.
+// Tests the gate's findings about instructions per frame.
 
 #include <gmock/gmock.h>
 
@@ -29,7 +29,7 @@ class CostGateTest : public JudgeTest {
       if (change) change(record);
     };
   }
-  // Changes one configuration on one device.
+  // Returns a change of one configuration on one device.
   static Tweak changed(const std::string& device, const std::string& part, std::int64_t by) {
     return counted([=](record::Record& record) {
       if (record.device != device || record.configuration != plain_) return;
@@ -43,7 +43,7 @@ class CostGateTest : public JudgeTest {
       record.cost["misses"] *= 2;
     });
   }
-  // Accepts a run, applies `change` to one configuration, and judges it.
+  // Accepts a run, applies `change` to one configuration of a second run, and judges that run.
   GateResult judge(const Tweak& change) {
     accept_first(counted());
     add_run("b", change);
@@ -70,7 +70,7 @@ TEST_F(CostGateTest, OneInstructionOfDeviceCodeIsARegression) {
   EXPECT_EQ(wrong[0].number("instructions"), 2000001);
 }
 
-// A resumed run, or one merged from shards, may contain counts of two emulators.
+// A resumed run, or a run merged from shards, may contain counts from two emulators.
 TEST_F(CostGateTest, CountsOfTwoEmulatorsAreNotJudged) {
   const GateResult result = judge(counted([](record::Record& record) {
     if (record.configuration != plain_) return;
@@ -90,8 +90,8 @@ TEST_F(CostGateTest, OneInstructionLessIsAnImprovement) {
   EXPECT_EQ(with(result, Verdict::improved).size(), 1U) << text(result);
 }
 
-// Fewer instructions in one part do not compensate for more in another: each part is judged by
-// itself.
+// Fewer instructions in one part do not compensate for more in another part, because each part is
+// judged by itself.
 TEST_F(CostGateTest, MoreDeviceCodeIsNotMadeUpForByTheDriver) {
   const GateResult result = judge(counted([](record::Record& record) {
     if (record.configuration != plain_) return;
@@ -104,7 +104,7 @@ TEST_F(CostGateTest, MoreDeviceCodeIsNotMadeUpForByTheDriver) {
   EXPECT_EQ(change_of(wrong[0], "driver").now, 900000);
 }
 
-// 5e-4 of a frame of two million instructions, plus 2,000.
+// The tolerance is 5e-4 of a frame with two million instructions, plus 2,000.
 TEST_F(CostGateTest, TheDriverMayDifferByItsTolerance) {
   EXPECT_EQ(judge(changed("gl:llvmpipe-egl", "driver", 3000)).exit_code(), ExitCode::pass);
 }
@@ -114,7 +114,7 @@ TEST_F(CostGateTest, TheDriverMayNotDifferByMore) {
   EXPECT_EQ(change_of(wrong[0], "driver").now, 1003001);
 }
 
-// The tolerance is 16 plus a hundredth of 20,000, because a buffer may begin at another position
+// The tolerance is 16 plus one hundredth of 20,000, because a buffer may begin at another position
 // within a cache line.
 TEST_F(CostGateTest, CacheMissesMayDifferByTheirTolerance) {
   EXPECT_EQ(judge(changed("gl:llvmpipe-egl", "misses", 216)).exit_code(), ExitCode::pass);
@@ -128,7 +128,7 @@ TEST_F(CostGateTest, MoreCacheMissesAreARegressionThoughNoInstructionIsMore) {
 TEST_F(CostGateTest, CacheMissesOfSpeedOfLightAreJudgedToo) {
   EXPECT_EQ(judge(twice_the_misses("speed_of_light")).exit_code(), ExitCode::regression);
 }
-// The cache misses of sprites differ from run to run, so they are not judged.
+// The cache misses of sprites vary from run to run, so they are not judged.
 TEST_F(CostGateTest, CacheMissesOfParticlesAreShown) {
   const GateResult result = judge(twice_the_misses("quad_ray"));
   EXPECT_TRUE(with(result, Verdict::regression).empty()) << text(result);
@@ -191,7 +191,7 @@ TEST_F(CostGateTest, PreparingIsShown) {
   EXPECT_EQ(change_of(advice[0], "driver").now, 1200000);
 }
 
-// Each device has one line about its other version, with the known differences.
+// There is one line for each device whose driver version differs, with the known differences.
 TEST_F(CostGateTest, AnotherDriverVersionIsAdvice) {
   accept_first(counted());
   driver_versions_["vulkan:lavapipe"] = "23.0";

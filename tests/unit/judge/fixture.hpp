@@ -1,6 +1,6 @@
 #pragma once
 // A small world to judge: three devices with two scenes and two paths each. The store and the
-// folder of baselines are temporary.
+// folder with the baselines are temporary.
 
 #include <gtest/gtest.h>
 
@@ -31,28 +31,28 @@ class JudgeTest : public testing::Test {
  protected:
   JudgeTest();
 
-  // Adds twelve measured records. Times have 0.5 % noise around a level for each configuration.
+  // Adds twelve measured records. Times have 0.5 % noise around a mean for each configuration.
   void add_run(const std::string& run, const Tweak& tweak = {});
-  // `how`: all settings except the plan, the reason, the date and the reference image.
+  // `how` contains all settings except the plan, the reason, the date and the reference image.
   std::vector<std::string> accept_run(const std::string& run, AcceptRequest how = {});
   // Accepts a run with the id "accepted".
   void accept_first(const Tweak& tweak = {});
   [[nodiscard]] GateResult gate(const std::string& run) const { return gate(run, request_); }
   [[nodiscard]] GateResult gate(const std::string& run, const GateRequest& request) const;
-  // Changes an accepted file and its checksum, as if it had been accepted with this content.
+  // Changes an accepted file and its checksum, as if this content had been accepted.
   void rewrite(const std::string& name, const std::string& content);
   [[nodiscard]] std::filesystem::path baseline(const std::string& name) const;
-  // The only file in a folder of the plan's baselines whose name begins with `prefix`.
+  // Returns the only file in a folder of the plan's baselines whose name begins with `start`.
   [[nodiscard]] std::filesystem::path device_file(const std::string& folder,
                                                   const std::string& start) const;
 
   [[nodiscard]] static core::Image truth_of(const std::string& scene);
-  // The findings with one verdict, and those of them that are from one check.
+  // Return the findings with this verdict, optionally of one check only, or with this cause.
   [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Verdict verdict);
   [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Verdict verdict,
                                                  Check check);
   [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Cause cause);
-  // All findings of a result as text, for expectations that fail.
+  // Returns all findings of a result as text, for messages of failed expectations.
   [[nodiscard]] static std::string text(const GateResult& result);
 
   static inline const std::string plain_ = "camera=front,data=ball,technique=raycast";
@@ -76,9 +76,9 @@ class JudgeTest : public testing::Test {
   core::Random random_{7};
 };
 
-// The change of one value; the test fails if the value did not change.
+// Returns the change of one number. The test fails if the number did not change.
 [[nodiscard]] Change change_of(const Observation& what, const std::string& name);
-// Whether this cause is among those that lost points.
+// Returns whether this cause is among those that lost points.
 [[nodiscard]] bool has(const std::vector<Observation>& because, Cause cause);
 
 }  // namespace triptych::judge

@@ -1,5 +1,5 @@
 #pragma once
-// Code that the tests of the gate share, in addition to the fixture.
+// What the tests of the gate share in addition to the fixture.
 
 #include "core/file.hpp"
 #include "core/json.hpp"

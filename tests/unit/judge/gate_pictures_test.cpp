@@ -1,4 +1,4 @@
-// The findings of the gate about images.
+// Tests the gate's findings about images.
 
 #include <gmock/gmock.h>
 
@@ -74,7 +74,7 @@ TEST_F(GateTest, ChangedTruthIsNamedAsSuch) {
   EXPECT_EQ(wrong[0].cause, Cause::reference_changed);
 }
 
-// Plans whose images are not stored have only the hash of the reference image.
+// If a plan does not store its images, only the hash of the reference image is stored.
 TEST_F(GateTest, ATruthWithoutAStoredPictureIsKnownByItsHash) {
   checks_ = {Check::image, Check::counters};
   accept_first();
@@ -86,7 +86,7 @@ TEST_F(GateTest, ATruthWithoutAStoredPictureIsKnownByItsHash) {
       return pair;
     };
   };
-  request_.truth = moved(1e-7F);  // another math library
+  request_.truth = moved(1e-7F);  // as with another math library
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
   request_.truth = moved(5e-4F);
   const auto wrong = with(gate("accepted"), Verdict::regression);

@@ -1,4 +1,4 @@
-// The findings of the gate about counters and statistics, and the verdict on the whole run.
+// Tests the gate's findings about counters and statistics, and the verdict about the whole run.
 
 #include <gmock/gmock.h>
 
@@ -23,7 +23,7 @@ TEST_F(GateTest, SameStoreJudgedTwiceGivesTheSameBytes) {
   EXPECT_EQ(text(gate("b")), text(gate("b")));
 }
 
-// --- counters ---
+// Counters
 
 TEST_F(GateTest, OneSampleMoreOnTheSameDeviceIsARegression) {
   add_run("a");
@@ -70,7 +70,7 @@ TEST_F(GateTest, AnotherDeviceMayDifferByOneInTenThousand) {
   EXPECT_EQ(change_of(far.findings.front(), "samples").accepted.at("llvmpipe"), 1000000);
 }
 
-// An accepted driver version must repeat its values; any other version counts as another driver.
+// An accepted driver version must repeat its values. Any other version counts as another driver.
 TEST_F(GateTest, AnotherVersionOfADriverMayDifferByOneInTenThousand) {
   accept_first();
   request_.checks = {Check::counters};
@@ -88,7 +88,8 @@ TEST_F(GateTest, AnotherVersionOfADriverMayDifferByOneInTenThousand) {
   EXPECT_EQ(gate("lost").exit_code(), ExitCode::regression);
 }
 
-// The driver decides where the edge of a sprite is, but not which of its fragments hit the sphere.
+// The driver determines where the edge of a sprite lies, but not which of its fragments hit the
+// sphere.
 TEST_F(GateTest, AnotherVersionOfADriverMayMoveTheEdgesOfSprites) {
   const auto fragments = [](std::uint64_t discarded, std::uint64_t kept) {
     return [=](record::Record& record, core::Image&) {
@@ -114,7 +115,7 @@ TEST_F(GateTest, AnotherVersionOfADriverMayMoveTheEdgesOfSprites) {
   EXPECT_THAT(gate("version as accepted").findings.front().accepted_on, testing::IsEmpty());
 }
 
-// Two drivers were accepted with different values, and both are right.
+// Two drivers were accepted with different values, and both are correct.
 TEST_F(GateTest, AnotherDeviceIsHeldToTheRangeOfTheAccepted) {
   const auto count = [](std::uint64_t pocl, std::uint64_t mesa) {
     return [=](record::Record& record, core::Image&) {
@@ -135,8 +136,7 @@ TEST_F(GateTest, AnotherDeviceIsHeldToTheRangeOfTheAccepted) {
   EXPECT_EQ(change.accepted, (std::map<std::string, double>{{"llvmpipe", 1e6}, {"pocl", 9e5}}));
 }
 
-// If counters differ, and only then, the suite computes how many of them rounding can change in the
-// scene.
+// Only if counters differ, the suite computes how many of them rounding can change in the scene.
 TEST_F(GateTest, OfAnotherDriverAsManyCountsAreOpenAsTheSuiteSays) {
   accept_first([](record::Record& record, core::Image&) {
     record.counters["samples"] = 1000;
@@ -173,7 +173,7 @@ TEST_F(GateTest, WhatHasNoStoredCountersIsOneLineADevice) {
   EXPECT_EQ(unjudged[0].names.size(), 3U);
 }
 
-// --- statistics ---
+// Statistics
 
 TEST_F(GateTest, StatisticsAreExactOnTheSameDriver) {
   add_run("a");
@@ -214,7 +214,7 @@ TEST_F(GateTest, DevicesWithoutStatisticsAreSkipped) {
   EXPECT_EQ(skipped[0].device, "opencl:pocl");
 }
 
-// --- the verdict on the whole ---
+// The verdict about the whole run
 
 TEST(GateResultTest, Precedence) {
   const auto code = [](std::vector<Verdict> verdicts) {
@@ -235,7 +235,7 @@ TEST(GateResultTest, Precedence) {
   EXPECT_EQ(code({waived}), ExitCode::pass);
 }
 
-// A verdict about one device is no verdict about another one.
+// A verdict about one device says nothing about another device.
 TEST(GateResultTest, EveryDeviceNeedsADecision) {
   GateResult result{.devices = {"gl:a", "vulkan:b"}};
   Finding passed;
@@ -251,7 +251,7 @@ TEST(GateResultTest, EveryDeviceNeedsADecision) {
   EXPECT_EQ(result.exit_code(), ExitCode::pass);
 }
 
-// If a check had no row in the table, it would never run, and the gate would pass.
+// A check without a row in the table would never run, and the gate would pass.
 TEST(GateResultTest, EveryCheckIsJudged) {
   EXPECT_EQ(judged_checks(), record::every_check());
 }
@@ -263,8 +263,8 @@ TEST(GateResultTest, NamesReadBack) {
   EXPECT_THROW((void)check("colour"), core::InputError);
 }
 
-// A file was replaced under the same name. This is not a regression of the driver, and never a
-// pass.
+// A file was replaced by another one with the same name. This is not a regression of the driver,
+// and it must not pass either.
 TEST_F(GateTest, OtherDataUnderTheSameNameIsNamed) {
   const auto with_data = [](const std::string& hash) {
     return [hash](record::Record& record, core::Image&) { record.data_hash = hash; };
@@ -282,8 +282,7 @@ TEST_F(GateTest, OtherDataUnderTheSameNameIsNamed) {
   EXPECT_EQ(findings[0].fact("accepted"), "0a0a");
 }
 
-// The file was replaced after the run, so the reference image would be of other data than the
-// image.
+// The file was replaced after the run, so the reference image would show other data than the image.
 TEST_F(GateTest, DataThatChangedSinceTheRunAreNoRegression) {
   accept_first([](record::Record& record, core::Image&) { record.data_hash = "0a0a"; });
   request_.data_hash = [](const record::Record&) { return "0a0a"; };

@@ -1,4 +1,4 @@
-// The findings of the gate about incomplete runs and baselines.
+// Tests the gate's findings about incomplete runs and baselines.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -75,8 +75,8 @@ TEST_F(GateTest, RequiredDeviceMustHaveMeasured) {
   EXPECT_EQ(with(result, Verdict::cannot_judge).at(0).fact("glob"), "gl:softpipe");
 }
 
-// Its driver is new, so there are only advisory findings about it. The exit code is 2, and the
-// reason must be printed.
+// The device's driver is new, so there are only advisory findings about it. The exit code is 2, and
+// the reason must be printed.
 TEST_F(GateTest, ADeviceOfWhichNothingIsDecidedIsNamed) {
   accept_first();
   driver_versions_["vulkan:lavapipe"] = "99";
@@ -127,7 +127,7 @@ TEST_F(GateTest, ARunOfAnotherPlanTextCannotBeJudged) {
   EXPECT_EQ(with(gate("accepted"), Cause::other_plan).at(0).fact("hash"), "");
 }
 
-// The run must have exactly the configurations of the plan.
+// The run must contain exactly the configurations of the plan.
 TEST_F(GateTest, TheRunHoldsWhatThePlanHas) {
   accept_first();
   for (const auto& configuration : Baselines(folder_.path() / "baselines", plan).configurations()) {
@@ -171,7 +171,7 @@ TEST_F(GateTest, EveryUnhappyOutcomeIsARegressionOnce) {
   }
 }
 
-// A broken data file cannot be judged, whether the device measured it before or not.
+// A broken data file cannot be judged, whether the device measured it earlier or not.
 TEST_F(GateTest, BadInputCannotBeJudged) {
   const auto broken = [](record::Record& record, core::Image&) {
     if (record.configuration != bricks_) return;

@@ -1,4 +1,4 @@
-// Known failures: one run writes them to a file, and the next one expects them.
+// Tests known failures: one run writes them to a file, and the next run expects them.
 
 #include <gmock/gmock.h>
 
@@ -22,7 +22,7 @@ class KnownGateTest : public GateTest {
     (void)accept_run("accepted");
   }
 
-  // The known failures that the run leaves, read back from their file.
+  // Returns the known failures of the run, read back from their file.
   [[nodiscard]] std::vector<Waiver> written_by(const GateResult& result) const {
     const auto file = folder_.path() / "known.json";
     core::write_file(
@@ -49,7 +49,8 @@ TEST_F(KnownGateTest, AFailureIsWaivedTheNextTime) {
   EXPECT_EQ(second.exit_code(), ExitCode::pass) << text(second);
   ASSERT_THAT(with(second, Verdict::waived), SizeIs(1));
   EXPECT_EQ(with(second, Verdict::waived).at(0).excuse.of, Excuse::Of::known);
-  // A second run that expects them writes the same file, because waived failures remain known.
+  // A second run that expects these failures writes the same file, because waived failures remain
+  // known.
   EXPECT_EQ(expected_text(written_by(second)), expected_text(*request_.known));
 }
 
@@ -87,7 +88,7 @@ TEST_F(KnownGateTest, ASkipThatWasNotExpectedIsNoPass) {
   ASSERT_THAT(*request_.known, SizeIs(1));
   EXPECT_EQ(request_.known->front().known, Known::skip);
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
-  // A known skip that was drawn counts as improved.
+  // If a configuration with a known skip is drawn, it counts as improved.
   EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(1));
   request_.known->clear();
   EXPECT_EQ(gate("b").exit_code(), ExitCode::cannot_judge);
@@ -116,7 +117,7 @@ TEST_F(KnownGateTest, AFileWithAMistakeIsRefused) {
   }
 }
 
-// --- drawn again ---
+// Drawing failed configurations again
 
 TEST_F(KnownGateTest, WhatIsRightWhenDrawnAgainIsAFlakeAndNoPass) {
   add_run("b", wrong_image_on(known_device));
@@ -135,12 +136,12 @@ TEST_F(KnownGateTest, WhatIsRightWhenDrawnAgainIsAFlakeAndNoPass) {
   EXPECT_EQ(known[0].known, Known::flake);
   request_.known = known;
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass);  // the flake fails this time
-  // A flake that passes is no unexpected pass.
+  // A flake that passes must not count as an unexpected pass.
   EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(0));
 }
 
-// The verdict is neither a failure nor a pass, because a slow driver on a busy machine also ends in
-// this way.
+// The verdict is neither a failure nor a pass, because a slow driver on a busy machine can end in
+// the same way.
 TEST_F(KnownGateTest, AHangThatIsRightWhenDrawnAgainCannotBeJudged) {
   add_run("b", [](record::Record& record, core::Image&) {
     if (record.device != known_device || record.configuration != plain_) return;
@@ -156,8 +157,8 @@ TEST_F(KnownGateTest, AHangThatIsRightWhenDrawnAgainCannotBeJudged) {
   EXPECT_THAT(written_by(right.result), SizeIs(0));
 }
 
-// A crash is reported under the first check. Configurations that only sum have no image when they
-// are drawn again, so there is no such finding then.
+// A crash is reported under the first check. A configuration that produces no image still has no
+// image when it is drawn again, so there is no such finding then.
 TEST_F(KnownGateTest, ACrashOfWhatHasNoPictureIsAFlakeToo) {
   const auto sums = [](record::Record& record, core::Image&) {
     if (record.device != known_device || record.configuration != plain_) return;
@@ -190,7 +191,7 @@ TEST_F(KnownGateTest, WhatIsSkippedWhenDrawnAgainStaysARegression) {
   EXPECT_EQ(wrong[0].again[0].reason.cause, record::Cause::not_supported);
 }
 
-// Its counters fail both times, so only the image is a flake.
+// The counters fail both times, so only the image is a flake.
 TEST_F(KnownGateTest, EachCheckIsAFlakeByItself) {
   request_.checks = {Check::image, Check::counters};
   const auto miscounted = [](record::Record& record, core::Image& image) {

@@ -1,4 +1,4 @@
-// A driver version may lack a feature that another version of the same device has.
+// Tests driver versions that lack a feature that another version of the same device has.
 
 #include <filesystem>
 
@@ -18,7 +18,7 @@ class LackingTest : public JudgeTest {
     accept_first();
   }
 
-  // Adds a run of this version, which skips one configuration for this cause.
+  // Adds a run of this driver version, which skips one configuration for this cause.
   void add_without(const std::string& run, const std::string& version, record::Cause cause) {
     driver_versions_[lavapipe] = version;
     add_run(run, [&](record::Record& record, core::Image&) {
@@ -38,8 +38,8 @@ class LackingTest : public JudgeTest {
   }
 };
 
-// Counters are stored for a device. A driver version that lacks the feature must not be expected to
-// have them, but a version that was accepted with it must.
+// Counters are stored for a device. A driver version that lacks the feature need not have them, but
+// a version that was accepted with the feature must.
 TEST_F(LackingTest, IsNotedForTheDriverVersion) {
   add_without("22", "22", record::Cause::not_supported);
   EXPECT_EQ(verdict_of_skip("22"), Verdict::cannot_judge);

@@ -1,4 +1,4 @@
-// The findings of the gate about bytes allocated on a device.
+// Tests the gate's findings about the memory that a device allocates.
 
 #include <gmock/gmock.h>
 
@@ -37,7 +37,7 @@ TEST_F(MemoryGateTest, OneByteMoreIsARegression) {
   EXPECT_EQ(change_of(wrong[0], "buffers").unit, Unit::bytes);
 }
 
-// The injected slowdown itself allocates memory, which is not the fault of the device.
+// The injected slowdown itself allocates memory, which is not a fault of the device.
 TEST_F(MemoryGateTest, AnInjectedSlowdownIsNotJudged) {
   accept_first(taking(4096));
   add_run("b", [](record::Record& record, core::Image& image) {
@@ -69,7 +69,7 @@ TEST_F(MemoryGateTest, ANewDeviceIsOneLineOfAdvice) {
   const auto advice = with(gate("b"), Verdict::advisory);
   ASSERT_EQ(advice.size(), 1U) << text(gate("b"));
   EXPECT_EQ(advice[0].device, "opencl:pocl");
-  // A device that reports nothing is skipped.
+  // A device that reports no memory is skipped.
   EXPECT_EQ(with(gate("accepted"), Verdict::skipped).size(), 1U);
 }
 

@@ -17,15 +17,15 @@ core::Image picture(std::uint64_t seed) {
   return image;
 }
 
-// Each colour changes by the last bit of a float, which is 10⁵ times the effect of another math
-// library.
+// Each colour changes by the last bit of a float, which is 10⁵ times the effect of using another
+// math library.
 TEST(ReferenceHash, LastBitsAreTheSamePicture) {
   int same = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const core::Image image = picture(seed);
     core::Image other = image;
     core::Random random(1000 + seed);
-    // Another math library rounds about one of a few thousand values to another float.
+    // Another math library rounds about one in a few thousand values to a different float.
     for (float& value : other.rgba) {
       if (random.uniform() < 1e-3) value = std::nextafter(value, 2.0F);
     }
@@ -61,7 +61,7 @@ TEST(ReferenceHash, SizeCountsAndStrangeNumbersAreNoTrouble) {
   EXPECT_TRUE(is_same_reference(reference_hash(image), reference_hash(image)));
 }
 
-// No colour of a scene is near an edge of either rounding grid.
+// No colour of a scene is close to an edge of either rounding grid.
 TEST(ReferenceHash, RoundNumbersMayMoveByALastBit) {
   for (const float value : {0.0F, 0.25F, 0.5F, 1.0F, 1.0F / 4096, 1.0F / 8192}) {
     core::Image image(1, 1);

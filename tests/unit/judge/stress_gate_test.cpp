@@ -1,5 +1,5 @@
-// Stress cases: the reason for each point, scores as baselines, and expectations besides the
-// reference image.
+// Tests stress cases: the reason for each point, scores as baselines, and expectations in addition
+// to the reference image.
 
 #include <gmock/gmock.h>
 
@@ -35,14 +35,14 @@ class StressGateTest : public JudgeTest {
     (void)accept(store_, run, folder_.path() / "baselines", request);
   }
 
-  // Changes the plain image of one device.
+  // Returns a change of one device's image of the plain case.
   static Tweak on_lavapipe(const std::function<void(record::Record&, core::Image&)>& change) {
     return [change](record::Record& record, core::Image& image) {
       if (record.device == stress_device && record.configuration == plain_) change(record, image);
     };
   }
 
-  // Accepts a run without a change, and returns the only finding about a second run with it.
+  // Accepts a run without the change, and returns the only finding about a second run with it.
   Finding found(const Tweak& tweak) {
     add_run("accepted");
     accept_scores("accepted");
@@ -167,7 +167,7 @@ TEST_F(StressGateTest, ARefusalIsRightOnlyWhereItIsAllowed) {
   EXPECT_EQ(with(gate("judged"), Verdict::pass, Check::stress).size(), 12U);
 }
 
-// Skipping must not change a bit, even if the bound would permit the change.
+// Skipping must not change a single bit, even if the bound would permit the change.
 TEST_F(StressGateTest, OtherBitsThanAnotherConfigurationLoseAPoint) {
   expected_ = [](const record::Record& record) {
     std::vector<record::Expectation> result;
@@ -189,7 +189,7 @@ TEST_F(StressGateTest, OtherBitsThanAnotherConfigurationLoseAPoint) {
   EXPECT_EQ(finding.because[0].number("x"), 1);
 }
 
-// A shard may contain only one of the two configurations that are compared.
+// A shard may contain only one of two configurations that are to be compared.
 TEST_F(StressGateTest, OfAPartOfAPlanThePicturesThatAreNotInItAreNotMissed) {
   add_run("a");
   accept_scores("a");
@@ -230,7 +230,7 @@ TEST_F(StressGateTest, OnlyAStressPlanIsJudgedUnasked) {
   }
 }
 
-// Tests expectations alone, with two configurations of one device.
+// Tests expectations in isolation, with two configurations of one device.
 class ExpectationTest : public JudgeTest {
  protected:
   static constexpr int width = 3;
@@ -247,7 +247,7 @@ class ExpectationTest : public JudgeTest {
     return records_.back();
   }
 
-  // Each pixel contains its position.
+  // Returns an image in which each pixel contains its position.
   static core::Image places(int w, int h, const std::function<float(int, int)>& at) {
     core::Image image(w, h);
     for (int y = 0; y < h; ++y) {
@@ -261,7 +261,7 @@ class ExpectationTest : public JudgeTest {
     return image;
   }
 
-  // Returns the observation, whose cause is Cause::none if the expectation is met.
+  // Returns the observation. Its cause is Cause::none if the expectation is met.
   Observation judge(const record::SamePicture& rule) {
     StressRun run(store_, records_);
     const auto what = unmet({"a test", rule}, records_.front(), run, [](const record::Record&) {
@@ -271,7 +271,7 @@ class ExpectationTest : public JudgeTest {
     });
     return what.value_or(Observation{});
   }
-  // The number of pixels that differ.
+  // Returns the number of pixels that differ.
   double differing(const record::SamePicture& rule) {
     return judge(rule).number("pixels_differing");
   }

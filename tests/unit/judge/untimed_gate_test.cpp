@@ -1,5 +1,5 @@
-// In runs for images and counters only, values that were not measured are neither judged nor
-// accepted.
+// Tests that in runs that measure only images and counters, values that were not measured are
+// neither judged nor accepted.
 
 #include <gmock/gmock.h>
 
@@ -56,7 +56,7 @@ TEST_F(UntimedGateTest, WhatIsStoredOfTimesAndStatisticsStays) {
   EXPECT_EQ(contents(device_file("statistics", "vulkan")), statistics);
 }
 
-// The plan judges statistics but no times.
+// The plan judges statistics but not times.
 TEST_F(UntimedGateTest, StatisticsThatWereReadAreAccepted) {
   const auto without_times = [](record::Record& record, core::Image&) {
     record.warm_up_frames = 0;
@@ -66,11 +66,12 @@ TEST_F(UntimedGateTest, StatisticsThatWereReadAreAccepted) {
   (void)accept_run("a");
   EXPECT_FALSE(std::filesystem::exists(baseline("timings")));
   add_run("b", without_times);
-  const GateResult result = gate("b");  // one of three devices reports none
+  const GateResult result = gate("b");  // one of the three devices reports no statistics
   EXPECT_EQ(with(result, Verdict::pass, Check::statistics).size(), 8U) << text(result);
 }
 
-// The first run is accepted without times, so nothing may be stored that looks like a time.
+// The first run is accepted without times, so nothing may be stored that could be mistaken for a
+// time.
 TEST_F(UntimedGateTest, AcceptsNoMissingTimeAsATime) {
   add_run("a", untimed);
   (void)accept_run("a");
@@ -80,7 +81,7 @@ TEST_F(UntimedGateTest, AcceptsNoMissingTimeAsATime) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
 }
 
-// Times that were never stored are not lost. This holds for a whole device, and for all
+// Times that were never stored are not lost. This applies to a whole device, and to all
 // configurations but one.
 TEST_F(UntimedGateTest, AfterThemTimesAreNewAndOnlyAdvise) {
   add_run("a", untimed);

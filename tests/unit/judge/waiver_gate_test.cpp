@@ -1,4 +1,4 @@
-// Which findings are excused, and until when.
+// Tests which findings are excused, and until when.
 
 #include <gmock/gmock.h>
 
@@ -98,7 +98,7 @@ TEST_F(GateTest, AWaiverNeedsReasonAndDate) {
   }
 }
 
-// A waiver may last at most a year, so that somebody looks at it again. The fixture judges on
+// A waiver may last at most a year, so that somebody reviews it again. The fixture judges on
 // 2026-03-01.
 TEST_F(GateTest, AWaiverThatEndsFarAwayIsRefused) {
   add_run("a");
@@ -119,7 +119,7 @@ TEST_F(GateTest, AWaiverThatEndsFarAwayIsRefused) {
   }
 }
 
-// Without its misspelled key, the waiver would excuse every configuration.
+// Without the misspelled key, the waiver would excuse every configuration.
 TEST_F(GateTest, AWaiverWithAMisspelledKeyIsRefused) {
   accept_first();
   write_waivers("2026-12-31");

@@ -1,4 +1,4 @@
-// Compares the number of instructions that are counted in a disassembly with a count by hand.
+// Compares the instruction counts of a disassembly with counts by hand.
 
 #include "measure/code/amd_assembly.hpp"
 
@@ -58,7 +58,7 @@ TEST(AmdAssembly, OneMoreInstructionInTheLoopCounts) {
   EXPECT_EQ(count_amd_instructions(text)->sampling_loop->vector, 43);
 }
 
-// Separate loops read the bricks of the volume from a buffer. They must not be taken for the
+// Separate loops read the bricks of the volume from a buffer. They must not be mistaken for the
 // sampling loop.
 TEST(AmdAssembly, ALoopWithASamplerIsLikelierThanOneThatReadsMemory) {
   const auto counts = count_amd_instructions(

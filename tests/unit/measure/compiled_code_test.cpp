@@ -1,4 +1,4 @@
-// Statistics are read from the lines that drivers print.
+// Tests reading statistics from the lines that drivers print.
 
 #include "measure/code/compiled_code.hpp"
 
@@ -43,7 +43,7 @@ TEST(ParseCounts, ReadsLinesOfIntelAndNvidia) {
               AllOf(Contains(Pair("registers", 32)), Contains(Pair("bytes stack frame", 8))));
 }
 
-// Output of rusticl of Mesa 25.0.7, shortened.
+// Shortened output of rusticl in Mesa 25.0.7.
 TEST(PrintedKernels, HaveTheNameThatWasPrintedBefore) {
   const auto kernels = parse_printed_kernels(
       "Shader main disassembly:\ns_endpgm\n*** SHADER STATS ***\nVGPRs: 8\n*****\n"
@@ -93,8 +93,8 @@ TEST(CompiledCode, NothingReportedIsNotSupported) {
   EXPECT_THROW(static_cast<void>(code.take()), core::NotSupported);
 }
 
-// Two drivers for one GPU: one reports the number of instructions; for the other one, they are
-// counted in the disassembly.
+// There are two drivers for one GPU. One reports the number of instructions. For the other driver,
+// they are counted in the disassembly.
 TEST(CompiledCode, CountsInstructionsThatAreNotReported) {
   const std::string assembly = "BB0:\n\tv_mov_b32 v0, 0\n\ts_endpgm\n";
   CompiledCode code;

@@ -1,4 +1,4 @@
-// Tests the choice for `auto`, which uses only records.
+// Tests the choice for `auto`, which depends only on records.
 
 #include "measure/request/fastest.hpp"
 
@@ -69,12 +69,12 @@ TEST_F(FastestTest, IsChosenOfEachSceneAndDeviceByItself) {
       add("raycast_fragment", {2e6}, device, data);
     }
   }
-  add("raycast", {1e6}, "null:c");  // there is nothing to choose from
+  add("raycast", {1e6}, "null:c");  // there is only one technique to choose from
   EXPECT_EQ(answers().size(), 4U);
 }
 
-// A device may have one clock for compute work and another for drawing, whose times cannot be
-// compared.
+// A device may have one clock for compute work and another one for drawing, and their times cannot
+// be compared.
 TEST_F(FastestTest, IsToldByOneClock) {
   record::Record& trusted = add("raycast", {9e6});
   trusted.device_ns = {1e6};
@@ -86,7 +86,7 @@ TEST_F(FastestTest, IsToldByOneClock) {
   EXPECT_THAT(text(), HasSubstr("raycast is the fastest, 1.000 ms (median 1.000, device clock)"));
 }
 
-// The choice repeats if the records repeat, so instructions are used if they were counted.
+// The choice must repeat, so instructions are used if they were counted.
 TEST_F(FastestTest, IsThatOfTheFewestInstructionsWhereTheyWereCounted) {
   add("raycast", {}).cost = {{"device_code", 5'000'000}, {"driver", 1'000'000}, {"libc", 9}};
   add("raycast_fragment", {}).cost = {{"device_code", 2'000'000}, {"driver", 2'000'000}};

@@ -1,4 +1,4 @@
-// Texts that are not valid plans, and the errors for them.
+// Tests files that are not valid plans, and the errors about them.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -117,7 +117,7 @@ TEST_F(PlanTest, WhatIsNoPlan) {
   EXPECT_THAT(refusal("suite: fake\nname: x\n"), HasSubstr("unknown factor 'name'"));
 }
 
-// If such a token is at the root, yaml-cpp returns empty documents without end.
+// At such a token in the root, yaml-cpp returns an endless sequence of empty documents.
 TEST_F(PlanTest, WhatStandsWhereNothingCanBeginIsNoPlan) {
   EXPECT_THAT(refusal(",\n"), AllOf(StartsWith(at(1, 1)), HasSubstr("not valid YAML")));
   EXPECT_THAT(refusal("&R, x\n"), HasSubstr("not valid YAML"));
@@ -160,13 +160,12 @@ TEST_F(PlanTest, TooManyCombinations) {
   std::string list = "[1";
   for (int i = 2; i <= 101; ++i) list += ", " + std::to_string(i);
   list += "]\n";
-  // 101³.
+  // These are 101³ combinations.
   const std::string yaml = "suite: fake\ndata: " + list + "camera: " + list + "viewport: " + list;
   EXPECT_THAT(refusal(yaml), AllOf(StartsWith(at(3, 1)), HasSubstr("1000000 combinations")));
 }
 
-// --- --set
-// -----------------------------------------------------------------------------------------------
+// The option --set
 
 }  // namespace
 }  // namespace triptych::measure

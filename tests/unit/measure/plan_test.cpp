@@ -67,7 +67,7 @@ TEST_F(PlanTest, AutoIsEveryTechniqueThatDraws) {
 TEST_F(PlanTest, AutoIsForgottenWhereALevelIsNamed) {
   const std::string yaml = "suite: fake\ntechnique: auto\n";
   EXPECT_THAT(load(yaml, {{"technique", {"raycast"}}}).automatic, IsEmpty());
-  // Levels of the default path are not automatic.
+  // If `auto` is the level of another factor, it stands for the device's default path.
   EXPECT_THAT(load("suite: fake\nsampler: auto\n").automatic, IsEmpty());
 }
 
@@ -124,7 +124,7 @@ TEST_F(PlanTest, AlsoAddsCombinationsBesideTheirDataAndNoneTwice) {
   EXPECT_THAT(plan.varied, ElementsAre("data", "step", "skip", "ert"));
 }
 
-// Values that the plan has select its configurations. Other values make new configurations.
+// Levels that the plan contains select its configurations. Other levels make new configurations.
 TEST_F(PlanTest, AnOverrideOfSeveralBlocksSelectsWhatThePlanHas) {
   const std::string yaml =
       "suite: fake\n"
@@ -153,12 +153,11 @@ TEST_F(PlanTest, AnOverrideOfSeveralBlocksSelectsWhatThePlanHas) {
   }
   EXPECT_THAT(values(load(yaml, {{"step", {"8"}}}), "step"), testing::Each("8"));
   EXPECT_EQ(values(load(yaml, {{"step", {"8"}}}), "data").size(), 5U);
-  // No block has both values, so they replace the values of the blocks.
+  // No block has both levels, so they replace the levels of the blocks.
   EXPECT_THAT(values(load(yaml, {{"ert", {"0.5"}}, {"step", {"4"}}}), "step"), testing::Each("4"));
 }
 
-// --- what is refused, and where
-// ------------------------------------------------------------------------
+// Invalid plans
 
 TEST_F(PlanTest, AlsoIsAListOfBlocks) {
   EXPECT_THAT(refusal("suite: fake\nalso: 1\n"), AllOf(StartsWith(at(2, 7)), HasSubstr("'also'")));
@@ -192,11 +191,10 @@ TEST_F(PlanTest, OverridesAreCheckedLikeThePlan) {
   EXPECT_THAT(refusal("suite: fake\n", {{"step", {"1"}}, {"step", {"2"}}}), HasSubstr("twice"));
   EXPECT_THAT(refusal("suite: fake\n", {{"step", {"x"}}}), HasSubstr("expected a number"));
   EXPECT_THAT(refusal("suite: fake\nstep: x\n", {{"step", {"1"}}}), StartsWith(at(2, 7)))
-      << "a mistake in the file stays one";
+      << "a mistake in the file must still be reported";
 }
 
-// --- keys and shards
-// ---------------------------------------------------------------------------------------
+// Keys and shards
 
 TEST_F(PlanTest, KeyNamesWhatIsNotDefault) {
   Configuration configuration = load("suite: fake\n").configurations.front();
@@ -259,7 +257,7 @@ TEST_F(PlanTest, ShardOutOfRange) {
   }
 }
 
-// The plan has five million combinations: a shard stores only its own part, and a list stores none
+// The plan has five million combinations. A shard stores only its own part, and `list` stores none
 // of them.
 TEST_F(PlanTest, MillionsAreListedAndCutWithoutBeingHeld) {
   std::string cameras;
@@ -283,7 +281,8 @@ TEST_F(PlanTest, MillionsAreListedAndCutWithoutBeingHeld) {
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 20 << 10) << "KiB";
 }
 
-// A plan with 10¹² combinations can be neither run nor listed. It is refused before the first one.
+// A plan with 10¹² combinations can be neither run nor listed. It is rejected before the first
+// combination is generated.
 TEST_F(PlanTest, AListThatWouldNotEndIsRefused) {
   std::string values;
   for (int i = 1; i <= 1000; ++i) values += std::to_string(0.01 * i) + ", ";

@@ -1,4 +1,4 @@
-// Reference images are rendered once and saved, for the same command and for later ones.
+// Tests that reference images are rendered once and saved, for this command and for later ones.
 
 #include "measure/truth/truths.hpp"
 
@@ -14,7 +14,7 @@
 namespace triptych::measure {
 namespace {
 
-// A suite whose only image depends on the step.
+// A suite whose image depends only on the step size.
 class TruthfulSuite final : public SuiteWithTruth {
  public:
   int rendered = 0;
@@ -91,8 +91,8 @@ TEST_F(TruthsTest, AreRenderedOnceAndKeptForTheNext) {
   EXPECT_EQ(suite_.rendered, 2);
 }
 
-// Anybody can write a valid seal into a store that they give away, so only reference images that
-// were drawn on this machine are trusted.
+// Anybody can write a valid seal into a store before giving it away. Therefore only reference
+// images that were drawn on this machine are trusted.
 TEST_F(TruthsTest, ABoundThatAnybodyWroteIsDrawnAgain) {
   {
     record::Store first = store();
@@ -108,7 +108,7 @@ TEST_F(TruthsTest, ABoundThatAnybodyWroteIsDrawnAgain) {
   EXPECT_EQ(truths(second).of(record_with("1")).bound.rgba[0], 0.25F);
   EXPECT_EQ(suite_.rendered, 2);
   EXPECT_EQ(truths(second).of(record_with("1")).bound.rgba[0], 0.25F);
-  EXPECT_EQ(suite_.rendered, 2);  // the new image was drawn by this user
+  EXPECT_EQ(suite_.rendered, 2);  // this user drew the new image
 }
 
 // RFC 4231, test cases 1, 2 and 6.

@@ -91,7 +91,7 @@ TEST(Calibrate, TakesFewerFramesWhereTheyAreLong) {
 
 TEST(Plausible, NeedsATimePerFrameAboveZeroAndWithinTheWallTime) {
   EXPECT_TRUE(plausible({1 * millisecond, 2 * millisecond}, {1.1 * millisecond, 2 * millisecond}));
-  EXPECT_TRUE(plausible({5e3}, {4e3}));  // the difference is within a tick
+  EXPECT_TRUE(plausible({5e3}, {4e3}));  // the difference is within one clock tick
   EXPECT_FALSE(plausible({}, {}));
   EXPECT_FALSE(plausible({1 * millisecond}, {1 * millisecond, 1 * millisecond}));
   EXPECT_FALSE(plausible({0}, {1 * millisecond}));
@@ -112,7 +112,7 @@ TEST(Plausible, ExcusesLaunchesAndAFewLateWakeUpsButNotMissingWork) {
   EXPECT_FALSE(plausible(device_ns, wall_ns));
 }
 
-// Frames last 0.1 millisecond per voxel length at step 1 and grow with the number of samples.
+// A device whose frames take 0.1 ms per voxel length at step 1, and longer with more samples.
 class GrowingDevice final : public Device {
  public:
   explicit GrowingDevice(double finest_step) : finest_step_(finest_step) {}
@@ -128,7 +128,7 @@ class GrowingDevice final : public Device {
     const double step = std::get<VolumeWork>(work.scene).scene.step_voxels;
     longest_ns = 0.1 * millisecond / step;
     return std::make_unique<ScriptedPrepared>(
-        // The wall time includes 30 us of launch, which the device's clock leaves out.
+        // The wall time includes 30 µs for the launch, which the device's clock excludes.
         [ns = longest_ns](int) { return frame_of(ns + 3e4, ns); });
   }
   double longest_ns = 0;

@@ -16,7 +16,7 @@
 namespace triptych::measure {
 namespace {
 
-// Runs the helper under the emulator and returns its output.
+// Runs the helper under the emulator, and returns its output.
 std::string counted(const std::string& loops, std::string_view device_files = "/nowhere",
                     const char* how = "count") {
   const auto& emulator = std::get<Emulator>(find_emulator());
@@ -46,7 +46,7 @@ TEST_F(Counting, OneInstructionMoreIsSeen) {
   EXPECT_THAT(counted("1001"), testing::StartsWith("2004 0 1\n"));
 }
 
-// PoCL's kernels are files. If they are in its cache, they count as device code.
+// PoCL's kernels are files. They count as device code if they are in its cache.
 TEST_F(Counting, FilesOfTheKernelCacheAreDeviceCode) {
   const std::string folder = std::string(MEASURE_RUN_HELPER).substr(0, 5);
   EXPECT_THAT(counted("1000", folder), testing::Not(testing::StartsWith("2002 ")));
@@ -56,8 +56,9 @@ TEST_F(Counting, WaitsForWhatAnotherThreadStillDoes) {
   EXPECT_EQ(counted("1000", "/nowhere", "count-busy"), "2002 0 1\n2002 0 1\n2002 0 1\n");
 }
 
-// The misses are the cache lines of the walk, and the line of the stack with the return address.
-// 1,000 loads touch 1,000 lines, which is more than the cache holds, or 125, which is a part of it.
+// The misses are the cache lines that the loads touch, plus the stack line with the return address.
+// 1,000 loads touch either 1,000 lines, which is more than the cache holds, or 125 lines, which fit
+// into it.
 TEST_F(Counting, AStrideThatMissesTheCacheCostsMissesAndNoInstruction) {
   EXPECT_EQ(counted("64", "/nowhere", "count-stride"), "4002 1001\n4002 1001\n4002 1001\n");
   EXPECT_EQ(counted("8", "/nowhere", "count-stride"), "4002 126\n4002 0\n4002 0\n");

@@ -22,7 +22,7 @@ using ::testing::Pair;
 
 constexpr const char* no_nvml = "no such library";
 
-// Imitates the folders of a Linux system with energy meters.
+// Simulates the folders of a Linux system with energy meters.
 class EnergyMetersTest : public ::testing::Test {
  protected:
   void write(const std::string& file, const std::string& text) const {
@@ -40,7 +40,7 @@ class EnergyMetersTest : public ::testing::Test {
   core::TemporaryFolder system_;
 };
 
-// Takes so long that ten calls last a tenth of a second.
+// Takes long enough for ten calls to last a tenth of a second.
 void take_a_while() {
   std::this_thread::sleep_for(std::chrono::milliseconds(12));
 }
@@ -67,7 +67,7 @@ TEST_F(EnergyMetersTest, WhatIsCountedAlreadyOrNotAtAllIsNoMeter) {
 }
 
 // The meter is updated with every third frame. Energy before its first update and after its last
-// one does not count.
+// update does not count.
 TEST_F(EnergyMetersTest, CountsBetweenRenewals) {
   zone("intel-rapl:0", "package-0", "1000");
   int drawn = 0;

@@ -93,11 +93,11 @@ TEST(CacheFolder, FallsBackToTheNextPlaceThatCanBeWritten) {
   EXPECT_THAT(CacheFolder("opencl:pocl").path().string(), StartsWith(scratch.path().string()));
 }
 
-// Somebody else has put compiled code into a folder with the expected name, in a place where
+// Another user has put compiled code into a folder with the expected name, in a place where
 // everybody may write.
 class PlantedCache : public testing::Test {
  protected:
-  // The folder for temporary files is the only place that is left for a cache.
+  // The folder for temporary files is the only place left for a cache.
   const ScratchFolder scratch_;
   const Variable cache_home_{"XDG_CACHE_HOME", "/proc/nowhere"};
   const Variable home_{"HOME", "/proc/nowhere"};

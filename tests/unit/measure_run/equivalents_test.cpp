@@ -1,4 +1,4 @@
-// Tests which configurations do the same work, and how runs use this.
+// Tests which configurations do the same work, and how runs make use of this.
 
 #include "measure/contract/equivalents.hpp"
 
@@ -74,7 +74,7 @@ TEST_F(EquivalentsOf, TheReasonNamesWhatWasReplacedInOneOfThem) {
   EXPECT_EQ(equivalent->reason, "skip: nothing is empty");
 }
 
-// The data "full" of the fake suite are the same work for skip=bricks and none.
+// For the data "full" of the fake suite, skip=bricks and skip=none do the same work.
 class RunTwins : public RunTest {
  protected:
   Plan full(const std::string& data = "full",
@@ -85,7 +85,8 @@ class RunTwins : public RunTest {
                  {"camera", {"random:7"}},
                  {"skip", skip}});
   }
-  // Records by configuration key. Bricks come first, because keys leave out the default level.
+  // Returns the records by configuration key. Bricks come first, because keys omit the default
+  // level.
   [[nodiscard]] std::map<std::string, record::Record> by_key(const RunResult& result) const {
     std::map<std::string, record::Record> all;
     for (const record::Record& record : records(result.run)) all[record.configuration] = record;
@@ -129,7 +130,7 @@ TEST_F(RunTwins, AreMeasuredWhereAFaultIsInjected) {
   EXPECT_EQ(run(full()).taken_over, 0);
 }
 
-// An untimed plan shares equal work, too: its records contain the same frames.
+// An untimed plan shares equal work too: its records contain the same frames.
 TEST_F(RunTwins, TakeOverPicturesOfAnUntimedRunToo) {
   options.protocol.timed = false;
   const RunResult result = run(full());

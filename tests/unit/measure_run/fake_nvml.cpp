@@ -1,4 +1,4 @@
-// Imitates libnvidia-ml with two cards, of which the second one reports no energy.
+// Simulates libnvidia-ml with two cards, the second of which does not report energy.
 
 namespace {
 unsigned long long millijoules = 5000;

@@ -1,4 +1,4 @@
-// Drivers that report frames as finished although they did not draw them.
+// Tests drivers that report frames as finished although they did not draw them.
 #include "measure/protocol/frame_proof.hpp"
 
 #include <gmock/gmock.h>
@@ -83,7 +83,7 @@ TEST(FrameProof, FindsAnImageThatIsNeverDrawn) {
   }
 }
 
-// An image with computed NaNs was drawn. The comparison with the reference image finds that it is
+// An image with computed NaNs was drawn. Comparing it with the reference image reveals that it is
 // wrong.
 TEST(FrameProof, TakesNaNsThatAFrameComputedForItsImage) {
   // The NaN that a processor computes for 0/0.

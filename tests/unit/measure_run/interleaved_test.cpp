@@ -34,7 +34,7 @@ class TurnsTest : public RunTest {
     return result;
   }
 
-  // The way in which a side ended when b had a configuration with this fault.
+  // How a side ended when b had a configuration with this fault.
   struct Ended {
     Side side;
     Outcome outcome;
@@ -87,7 +87,7 @@ TEST_F(TurnsTest, ShortFramesAreBatchedAlikeOnBothSides) {
   b.environment = {script_with(R"("base_ns": 4e5, "ns_per_sample": 0)")};
   Interleaved interleaved = open();
   hold(interleaved);
-  // The batch of the faster side lasts a millisecond.
+  // A batch of the faster side lasts a millisecond.
   EXPECT_EQ(interleaved.frames_per_batch(), 10);
   EXPECT_EQ(interleaved.times_per_block(), 10);  // a block of such batches lasts 40 ms
   const Block block = interleaved.block();
@@ -95,8 +95,8 @@ TEST_F(TurnsTest, ShortFramesAreBatchedAlikeOnBothSides) {
   EXPECT_NEAR(block.b.wall_ns[1], 4e5, 1);
 }
 
-// A block is wrong only if all ten first or all ten second batches of b are disturbed, which has a
-// probability of 1/85000.
+// A block is wrong only if all ten first batches or all ten second batches of b are disturbed,
+// which has a probability of 1/85000.
 TEST_F(TurnsTest, WhatDisturbsSomeOfABlocksTurnsDoesNotCount) {
   a.environment = {script_with(R"("base_ns": 1e6, "ns_per_sample": 0)")};
   b.environment = {script_with(
@@ -159,7 +159,7 @@ TEST_F(TurnsTest, ALostDeviceCostsItsWorker) {
 TEST_F(TurnsTest, AnErrorInAFrameEndsTheBlockAndNoWorker) {
   b.environment = {script_with(
       R"("base_ns": 3e6, "failures": [{"kind": "api_error", "at": "frame", "frame": 12, "only": "*data=*"}])")};
-  options_.kinds = {};  // otherwise the frames of the calibration would have the fault, too
+  options_.kinds = {};  // otherwise the frames of the calibration would have the fault too
   Interleaved interleaved = open();
   hold(interleaved);
   try {
@@ -170,7 +170,7 @@ TEST_F(TurnsTest, AnErrorInAFrameEndsTheBlockAndNoWorker) {
     EXPECT_EQ(error.outcome(), Outcome::failed);
     EXPECT_EQ(error.reason().code, "NULL_ERROR");
   }
-  // After a side has ended, blocks are refused.
+  // After a side has ended, further blocks are rejected.
   EXPECT_THROW(static_cast<void>(interleaved.block()), SideEnded);
   EXPECT_EQ(started_workers().size(), 2U);
 }
@@ -205,7 +205,7 @@ TEST_F(TurnsTest, AnEnvironmentThatChangesTheWorkIsRefused) {
 }
 
 TEST(TurnDifferences, ADriftThatIsLinearOverABlockCancels) {
-  // The times of the four batches are ln t = 0, 0.1, 0.2, 0.3, and b is slower by 0.05.
+  // The logarithms of the four batch times are 0, 0.1, 0.2 and 0.3, and b is slower by 0.05.
   const Block abba{.b_first = false,
                    .a = {.wall_ns = {1e6, 1e6 * std::exp(0.3)}, .device_ns = {}},
                    .b = {.wall_ns = {1e6 * std::exp(0.15), 1e6 * std::exp(0.25)}, .device_ns = {}}};

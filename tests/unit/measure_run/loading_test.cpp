@@ -20,7 +20,8 @@ using ::testing::SizeIs;
 // Reports about loading whose steps happen at known times.
 class PacedLoading : public testing::Test {
  protected:
-  // `steps` + 1 reports: the first one (share 0) now and the last one (share 1) after `length`.
+  // Sends `steps` + 1 reports: the first one (share 0) now, and the last one (share 1) after
+  // `length`.
   void load(const std::string& what, milliseconds length, int steps) {
     for (int i = 0; i <= steps; ++i) {
       tell_({.what = what, .share = static_cast<double>(i) / steps});

@@ -137,7 +137,7 @@ TEST(Protocol, AClockIsTrustedOnlyForTheKindItWasCalibratedFor) {
   ScriptedPrepared prepared = steady(50 * ms, 49 * ms);
   const record::Record record = measured(prepared, {}, trusting(technique::Work::draw)).record;
   EXPECT_FALSE(record.device_clock_trusted);
-  EXPECT_THAT(record.device_ns, Each(49 * ms));  // kept nevertheless
+  EXPECT_THAT(record.device_ns, Each(49 * ms));  // stored nevertheless
 }
 
 TEST(Protocol, ATrustedClockThatLiesInThisConfigurationIsNotBelieved) {
@@ -159,7 +159,7 @@ TEST(Protocol, ATrustedClockThatLeavesOutTheWorkOfThisConfigurationIsNotBelieved
 }
 
 TEST(Protocol, AnErrorOfAFrameComesOutAsItWas) {
-  // The failing frame is one during warm-up, a timed one, or the one for the counters.
+  // The failing frame is a warm-up frame, a timed frame, or the frame for the counters.
   for (const int failing : {2, 7, 13}) {
     ScriptedPrepared prepared([=](int n) {
       if (n == failing) throw core::ApiError("vkQueueSubmit", "VK_ERROR_UNKNOWN");

@@ -17,7 +17,7 @@
 
 namespace triptych::measure {
 
-// The time limit for tests in which a worker hangs. All other workers have to answer within this
+// The time limit in tests in which a worker hangs. All other workers have to answer within this
 // time.
 inline constexpr std::chrono::seconds hang_limit{MEASURE_RUN_PATIENCE};
 
@@ -32,11 +32,12 @@ class RunTest : public testing::Test {
     return {scratch.path() / "store.sqlite", record::Store::Mode::append};
   }
 
-  // The configurations of one block of factors. All other factors have the suite's defaults.
+  // Returns the configurations of one block of factors. All other factors have the suite's
+  // defaults.
   [[nodiscard]] Plan plan(const Overrides& overrides) {
     return load_plan("fake/quick", overrides, find());
   }
-  // Four configurations: step 0.5 and 1, two cameras; `technique` raycast, data cube.
+  // Returns four configurations: step 0.5 and 1, two cameras, technique raycast, data cube.
   [[nodiscard]] Plan small_plan() { return plan({{"technique", {"raycast"}}, {"data", {"cube"}}}); }
 
   RunResult run(const Plan& what, std::vector<std::string> devices = {"null:scripted"}) {
@@ -50,7 +51,7 @@ class RunTest : public testing::Test {
     });
   }
 
-  // The records of the latest run, by configuration and device.
+  // Returns the records of the latest run, ordered by configuration and device.
   [[nodiscard]] std::vector<record::Record> records(const std::string& run) const {
     return open_store().records(run);
   }

@@ -1,4 +1,4 @@
-// Runs are stopped from outside, and a later run continues them.
+// Tests runs that are stopped from outside and continued by a later run.
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,10 +19,10 @@ using std::chrono::seconds;
 
 class RunResume : public RunTest {
  protected:
-  // Frames really last 4 ms, so that a configuration takes about 0.15 s.
+  // Frames really take 4 ms, so a configuration takes about 0.15 s.
   Variable slow{"TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 4e6, "sleep": true})"};
 
-  // Starts a separate supervisor, in a process that can be killed.
+  // Starts a supervisor in its own process, which the test can kill.
   [[nodiscard]] Process supervise() const {
     std::vector<std::string> environment;
     for (char** entry = environ; *entry != nullptr; ++entry) environment.emplace_back(*entry);
@@ -41,7 +41,7 @@ class RunResume : public RunTest {
     FAIL() << "the supervisor stores nothing";
   }
 
-  // Runs or continues until a worker is started for the first configuration. The worker never
+  // Runs or resumes until a worker is started for the first configuration. This worker never
   // answers.
   void end_at_the_first(int signal) const {
     const Variable stuck("TRIPTYCH_NULL_SCRIPT",
@@ -90,7 +90,7 @@ TEST_F(RunResume, AKilledSupervisorLosesAtMostTheConfigurationInFlight) {
   EXPECT_EQ(store.records(result.run).size(), whole.configurations.size());
 }
 
-// This imitates a driver that crashes the machine, after which no process is left to report it.
+// This simulates a driver that crashes the machine, after which no process is left to report it.
 TEST_F(RunResume, WhatTwiceEndedAllIsPassedBy) {
   end_at_the_first(SIGKILL);
   end_at_the_first(SIGKILL);
@@ -133,7 +133,7 @@ TEST_F(RunResume, AWorkerStuckInItsDriverDoesNotOutliveItsSupervisor) {
   for (int i = 0; i < 500 && started_workers().empty(); ++i) {
     std::this_thread::sleep_for(milliseconds(10));
   }
-  std::this_thread::sleep_for(milliseconds(200));  // so that the worker hangs by now
+  std::this_thread::sleep_for(milliseconds(200));  // the worker hangs by then
   ::kill(supervisor.pid(), SIGKILL);
   ASSERT_TRUE(supervisor.wait(seconds(5)));
   ASSERT_EQ(started_workers().size(), 1U);
@@ -196,7 +196,7 @@ TEST_F(RunAgain, AResumedRunKeepsItsClocksAndRefusesAnotherDriver) {
   EXPECT_THROW(run(plan({{"technique", {"raycast"}}, {"data", {"ball"}}})), core::InputError);
 }
 
-// This is allowed if nothing is timed.
+// Sharing a plan among workers is allowed if nothing is timed.
 TEST_F(RunTest, WorkersOfOneDeviceShareAPlan) {
   options.jobs = 3;
   options.protocol.timed = false;

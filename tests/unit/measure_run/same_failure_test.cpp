@@ -56,7 +56,7 @@ TEST(SameFailure, WhereNothingIsSharedNothingIsNamed) {
   EXPECT_EQ(reason.shared_levels, "");
 }
 
-// If a factor does not matter in one case, it is assumed not to matter in the next case, so that is
+// If a factor does not matter in one case, it is assumed not to matter in the next case, so it is
 // tried only once.
 TEST(SameFailure, WhatDoesNotMatterIsRemembered) {
   SameFailure failures({"data", "step"});
@@ -101,7 +101,8 @@ TEST(SameFailure, WhatWasNotTriedIsNoWitness) {
 
 class SameFailureRun : public RunTest {};
 
-// Six configurations with two data sets; every configuration with the cube ends its worker.
+// There are six configurations with two data sets. Every configuration with the cube ends its
+// worker.
 TEST_F(SameFailureRun, IsPaidForTwice) {
   const Plan what = plan({{"technique", {"raycast"}},
                           {"data", {"ball", "cube"}},

@@ -1,5 +1,5 @@
 #pragma once
-// A prepared technique that returns scripted times immediately and records the calls.
+// A prepared technique that returns scripted times immediately and records the calls to it.
 
 #include <algorithm>
 #include <functional>
@@ -13,11 +13,11 @@
 
 namespace triptych::measure {
 
-inline constexpr double ms = 1e6;  // nanoseconds
+inline constexpr double ms = 1e6;  // in nanoseconds
 
 class ScriptedPrepared final : public Prepared {
  public:
-  // The result of the n-th frame, counted from 0, whatever its purpose.
+  // Returns the result of the n-th frame, counted from 0, regardless of its purpose.
   using Script = std::function<Frame(int n)>;
   explicit ScriptedPrepared(Script script) : script_(std::move(script)) {}
 
@@ -39,7 +39,7 @@ class ScriptedPrepared final : public Prepared {
   std::string kernel_hash() const override { return "kernel"; }
 
   std::vector<std::string> calls;  // except poison(), which frame_proof_test.cpp tests
-  // Whether the n-th frame, counted from 1, leaves an image, and the value of its pixels.
+  // Returns whether the n-th frame, counted from 1, leaves an image.
   std::function<bool(int n)> draws = [](int) { return true; };
   std::function<float(int n)> picture = [](int) { return 1.0F; };
 
@@ -59,7 +59,7 @@ inline Frame frame_of(double wall_ns, std::optional<double> device_ns = std::nul
   return {.wall_ns = wall_ns, .device_ns = device_ns, .counts = {}};
 }
 
-// The same times for every frame.
+// Returns a technique with the same times for every frame.
 inline ScriptedPrepared steady(double wall_ns, std::optional<double> device_ns = std::nullopt) {
   return ScriptedPrepared([=](int) { return frame_of(wall_ns, device_ns); });
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Whether posix_spawn reports that a program is missing. Under QEMU's emulation of a processor it
-// does not: the child of a vfork shares no memory with its parent there, and ends with code 127.
+// Whether posix_spawn reports a missing program. Under QEMU's emulation of a processor, it does
+// not: the child of a vfork does not share memory with its parent there, and exits with code 127.
 
 #include <spawn.h>
 #include <sys/types.h>

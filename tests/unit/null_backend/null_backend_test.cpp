@@ -62,8 +62,7 @@ core::Image image(const Script& script, const measure::Work& what) {
   return prepared->image();
 }
 
-// --- listing
-// -----------------------------------------------------------------------------------------------
+// Listing
 
 class NullEnvironment : public ::testing::Test {
  protected:
@@ -153,13 +152,11 @@ TEST(NullScript, MistakesAreNamed) {
   }
 }
 
-// --- time
-// --------------------------------------------------------------------------------------------------
+// Time
 
 TEST(NullTime, IsComputedFromTheWork) {
   const Script script{.devices = {1, 2}, .base_ns = 100, .ns_per_sample = 1};
-  // The image has 16·8 pixels, the longest edge has 8 voxels, and there are two samples for each
-  // voxel.
+  // The image has 16·8 pixels, the longest edge has 8 voxels, and there are two samples per voxel.
   EXPECT_THAT(times(script, 3), Each(100 + 16 * 8 * 8 * 2));
   EXPECT_THAT(times(script, 3, work(), "null:scripted#2"), Each(2 * (100 + 16 * 8 * 8 * 2)));
   measure::VolumeWork slowed = volume();
@@ -229,8 +226,7 @@ TEST(NullTime, SleepTakesTheTimeItSays) {
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(40));
 }
 
-// --- counts and images
-// -----------------------------------------------------------------------------------
+// Counts and images
 
 TEST(NullCounts, AreToldPerPurposeOrNotAtAll) {
   const auto opened = device({});
@@ -307,8 +303,7 @@ TEST(NullKernel, HashFollowsTheBuild) {
   EXPECT_NE(opened->prepare(work(other))->kernel_hash(), plain);
 }
 
-// --- failures
-// ----------------------------------------------------------------------------------------------
+// Failures
 
 Script failing(FailureKind kind, Place at, std::optional<int> frame = {},
                const std::string& only = "*") {
@@ -357,8 +352,7 @@ TEST(NullFailureDeathTest, EndsTheProcess) {
       ::testing::KilledBySignal(SIGALRM), "");
 }
 
-// --- the log
-// -------------------------------------------------------------------------------------------------
+// The log
 
 TEST(NullLog, HoldsTheCallsInOrder) {
   const Script script{.log = std::make_shared<CallLog>()};

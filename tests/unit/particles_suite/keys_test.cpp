@@ -1,4 +1,4 @@
-// The keys that show whether a reference image belongs to the current scene.
+// Tests the keys that show whether a reference image belongs to the current scene.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ TEST(Keys, ChangeWithTheTransferFunctionsFile) {
   measure::Configuration configuration = configuration_of(*suite, "generate:uniform:10");
   configuration["colour"] = "intensity";
   const std::string preset = suite->truth_key(configuration, {});
-  // The key must not change without reason, so that reference images in stores remain useful.
+  // The key must not change without a reason, so that reference images in stores remain usable.
   EXPECT_EQ(preset.find("table"), std::string::npos);
   configuration["transfer_function"] = "a.rgba";
   test::expect_keys_to_follow_the_table(*suite, configuration, folder);

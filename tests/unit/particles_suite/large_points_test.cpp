@@ -1,5 +1,5 @@
-// Compares the counts that quads instead of points leave open with spheres of known size on the
-// image.
+// Tests how many counts are uncertain because quads replace large points, with spheres of known
+// size on the image.
 
 #include "suites/particles/large_points.hpp"
 
@@ -12,8 +12,9 @@
 namespace triptych::particles_suite {
 namespace {
 
-// Spheres with radius 1, seen from the origin along −z, in a square image of 200² pixels and 90°:
-// at distance z, a sphere on the axis has a width of 200/√(z² − 1) pixels, and a margin of 1/32.
+// Returns spheres of radius 1 at these distances, seen from the origin along −z, in a square image
+// of 200² pixels and 90°. At distance z, a sphere on the axis is 200/√(z² − 1) pixels wide, plus a
+// margin of 1/32.
 scene::ParticleScene at_distances(const std::vector<float>& distances) {
   auto set = std::make_shared<scene::ParticleSet>();
   for (const float z : distances) set->spheres.push_back({0, 0, -z, 1});
@@ -26,19 +27,20 @@ scene::ParticleScene at_distances(const std::vector<float>& distances) {
 }
 
 TEST(OpenByQuads, OnlySpheresThatAreLargerThanThePoints) {
-  // Sizes of 70.7, 40.9 and 22.4 pixels.
+  // The sizes are 70.7, 40.9 and 22.4 pixels.
   const scene::ParticleScene scene = at_distances({3, 5, 9});
   EXPECT_TRUE(open_by_quads(scene, 71, true).empty());
   EXPECT_EQ(open_by_quads(scene, 70, false).at("vertices"), 3);
   EXPECT_EQ(open_by_quads(scene, 40, false).at("vertices"), 6);
   EXPECT_EQ(open_by_quads(scene, 1, false).at("vertices"), 9);
-  EXPECT_EQ(open_by_quads(scene, 70, false).size(), 3) << "nothing is open of what is kept";
+  EXPECT_EQ(open_by_quads(scene, 70, false).size(), 3) << "kept fragments must not be uncertain";
 }
 
 TEST(OpenByQuads, FragmentsInTheCornersOfSquares) {
   const scene::ParticleScene round = at_distances({3});
   EXPECT_EQ(open_by_quads(round, 10, false).at("fragments"), 72 * 72 - 70 * 70);
-  // Half of the sphere is outside the image: 72², minus 70 rows of 35 and a half pixels.
+  // Half of the sphere is outside the image. The open fragments are 72² minus 70 rows of 35.5
+  // pixels.
   scene::ParticleScene cut = round;
   auto set = std::make_shared<scene::ParticleSet>();
   set->spheres = {{3, 0, -3, 1}};
@@ -63,7 +65,8 @@ TEST(OpenByQuads, BehindQuadsOcclusionCullsMore) {
   EXPECT_FALSE(open.contains("cells"));
 }
 
-// A device whose points are as large as an image draws no quads, whatever its counters are.
+// A device whose points can be as large as an image draws no quads, so none of its counters is
+// uncertain.
 TEST(OpenByQuads, AsADeviceTells) {
   const auto suite = make_suite({});
   measure::Configuration configuration;

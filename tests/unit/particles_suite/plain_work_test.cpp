@@ -1,4 +1,4 @@
-// Finds configurations that do the same work in a scene of particles.
+// Tests finding configurations that do the same work in a scene of particles.
 
 #include "suites/particles/plain_work.hpp"
 
@@ -37,7 +37,7 @@ TEST(SpritesApart, OnlyWhereNoTwoShareAPixel) {
   EXPECT_TRUE(sprites_are_apart(work_of(apart).scene));
   EXPECT_TRUE(sprites_are_apart(work_of({}).scene));
   auto touching = apart;
-  touching.push_back({2.5, 1, -3, 0.4});  // behind the second one, beside it in the image
+  touching.push_back({2.5, 1, -3, 0.4});  // behind the second sphere, but next to it in the image
   EXPECT_FALSE(sprites_are_apart(work_of(touching).scene));
 }
 
@@ -45,7 +45,7 @@ TEST(SpritesApart, NothingIsSaidOfSpheresAtTheEye) {
   auto near = apart;
   near.push_back({0, 0, 9.5, 0.4});
   EXPECT_FALSE(sprites_are_apart(work_of(near).scene));
-  near.back() = {0, 0, 12, 0.4};  // completely behind
+  near.back() = {0, 0, 12, 0.4};  // completely behind the eye
   EXPECT_TRUE(sprites_are_apart(work_of(near).scene));
 }
 

@@ -1,5 +1,5 @@
-// Tests that the hostile scenes show what they are meant to test. Their reference images are
-// compared with closed forms, and with the data from which they were made.
+// Tests that the hostile scenes show what they are meant to test. Compares their reference images
+// with closed-form solutions, and with the data from which the scenes were made.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -48,10 +48,10 @@ Seen see(const std::string& data, bool before = false) {
   return seen;
 }
 
-// An image that is mostly uncertain would test nothing. The borders of surfaces are uncertain for
-// 1/256 pixel on each side, which is a fiftieth of the image if every pixel contains two and a half
-// times the length of its own edge of them. The same amount is added for chance in an image of 221
-// pixels.
+// An image that is mostly uncertain would test nothing. The borders of surfaces are uncertain
+// within 1/256 pixel on each side. If every pixel contains two and a half times its edge length of
+// borders, a fiftieth of the image is uncertain. The same amount is added for chance, in an image
+// of 221 pixels.
 TEST(StressScenes, AreCertainNearlyEverywhere) {
   for (const StressCase& each : stress_cases()) {
     for (std::size_t i = 0; i < std::max<std::size_t>(each.variants.size(), 1); ++i) {
@@ -80,15 +80,15 @@ TEST(StressScenes, OfAnyScaleAreOnePicture) {
   }
 }
 
-// From so far away, both silhouettes are discs, and a unit of length is 32 pixels. A disc of radius
-// R covers πR² pixels within a few times √R (the lattice problem of Gauss).
+// From so far away, both silhouettes are discs, and one unit of length is 32 pixels. A disc of
+// radius R covers πR² pixels, up to a few times √R (Gauss' lattice problem).
 TEST(StressScenes, FarSilhouettesAreDiscs) {
   for (const char* distance : {"1e3", "1e4", "1e5", "2e5"}) {
     SCOPED_TRACE(distance);
     const Seen seen = see(fmt::format("stress:far:{}", distance));
     const auto area = [](double radius) { return std::numbers::pi * radius * radius; };
     EXPECT_NEAR(static_cast<double>(seen.covered()), area(32) + area(0.6 * 32), 25);
-    // Uncertain pixels are in a ring of 1/256 pixel on each side of both rims.
+    // Uncertain pixels lie in a ring of 1/256 pixel on each side of both rims.
     EXPECT_LE(seen.uncertain(), 10);
   }
 }
@@ -97,7 +97,7 @@ TEST(StressScenes, InsideThereIsNoWayPast) {
   for (const char* eye : {"centre", "off_centre", "under_surface"}) {
     const Seen seen = see(fmt::format("stress:inside:{}", eye));
     EXPECT_EQ(seen.truth.coverage, 1);
-    EXPECT_FALSE(seen.ids().contains(3)) << "what lies outside is hidden";
+    EXPECT_FALSE(seen.ids().contains(3)) << "spheres outside must be hidden";
     EXPECT_TRUE(seen.ids().contains(0));
   }
 }
@@ -134,7 +134,7 @@ TEST(StressScenes, EqualSpheresShowTheLowestId) {
   EXPECT_EQ(seen.ids(), (std::set<std::uint32_t>{0, 1, 2, 3, 4}));
 }
 
-// S4: the visible part of a sphere is on its side of every bisecting plane.
+// S4: the visible part of each sphere lies on its own side of every bisecting plane.
 TEST(StressScenes, InterpenetratingSpheresMeetInBisectingPlanes) {
   const Seen seen = see("stress:interpenetrating");
   const scene::ParticleSet& set = *seen.scene.particles;

@@ -1,4 +1,4 @@
-// The catalogue of hostile scenes, and its use by plans.
+// Tests the catalogue of hostile scenes, and how plans use it.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ TEST(StressCases, WhatIsNoCaseIsToldWithWhatThereIs) {
   EXPECT_NE(message("stress:giant:huge").find("no variants"), std::string::npos);
 }
 
-// The plan contains all cases except the pile, which takes too long for a test on every device.
+// The plan must contain all cases except the pile, which takes too long to test on every device.
 TEST(StressCases, ThePlanHasThemAll) {
   const auto suite = make_suite({});
   const measure::Plan plan = measure::load_plan(

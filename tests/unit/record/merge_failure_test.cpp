@@ -77,7 +77,7 @@ TEST_F(MergeFailure, WithoutRoomLeavesNothing) {
     });
     if (fs::exists(out)) {
       EXPECT_EQ(answer, "");
-      EXPECT_TRUE(core::read_file(out) == expected) << "not all is in it";
+      EXPECT_TRUE(core::read_file(out) == expected) << "the merged store is incomplete";
       fs::remove(out);
     } else {
       EXPECT_THAT(answer, AllOf(StartsWith(out.string() + ": cannot be read or written"),
@@ -96,7 +96,8 @@ TEST_F(MergeFailure, FullDiskIsSaid) {
     const std::string why = merge(files, disk / "out");
     return files_in(disk).empty() ? why : "left something behind: " + why;
   });
-  if (answer == "cannot mount") GTEST_SKIP() << "this user may not mount a small disk";
+  if (answer == "cannot mount")
+    GTEST_SKIP() << "mounting a small disk is not permitted on this machine";
   EXPECT_EQ(answer, (disk / "out").string() + ": the disk is full; nothing was merged");
 }
 

@@ -136,7 +136,7 @@ TEST_F(Merge, HoldsEverythingThatItsPartsHold) {
   EXPECT_EQ(store.image("0123"), bytes_of("a picture"));
   EXPECT_EQ(store.truth("scene", "1")->bound, bytes_of("a bound"));
   EXPECT_EQ(store.begin_record("run-001", configuration(7), "null:scripted"), 2)
-      << "what was under way still is";
+      << "configurations in flight must remain in flight";
 }
 
 // The shards overlap and belong to two devices. Some records were measured twice, and some failed
@@ -200,7 +200,7 @@ TEST_F(Merge, OneWithoutAnInjectedFaultIsKept) {
                     shard(3, {clean(failed(3)), record_of(4, 8)})};
   const RecordCounts counts = merge(files).plans.at(0).counts;
   EXPECT_EQ(counts.injected, 3U);
-  EXPECT_EQ(counts.not_chosen, 1U) << "two with a fault";
+  EXPECT_EQ(counts.not_chosen, 1U) << "two records with a fault";
   EXPECT_EQ(counts.measured_anew, 0U);
   const std::vector<Record> records = merged_records();
   ASSERT_THAT(records, SizeIs(4));

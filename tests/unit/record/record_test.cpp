@@ -171,7 +171,7 @@ Json round_trip(const T& value) {
 
 TEST(RecordJson, EverythingComesBack) {
   EXPECT_EQ(round_trip(sample_record()), Json(sample_record()));
-  EXPECT_EQ(Json(sample_record()).size(), 35U) << "a new field belongs into sample_record()";
+  EXPECT_EQ(Json(sample_record()).size(), 35U) << "add the new field to sample_record()";
   EXPECT_EQ(Json::parse(Json(sample_device()).dump()).get<Device>(), sample_device());
   EXPECT_EQ(Json::parse(Json(sample_clock()).dump()).get<ClockTrust>(), sample_clock());
   EXPECT_EQ(round_trip(sample_run()), Json(sample_run()));

@@ -37,7 +37,7 @@ class StoreDamage : public StoreTest {
 
   void change(const std::string& sql) const {
     SQLite::Database database(file_.string(), SQLite::OPEN_READWRITE);
-    ASSERT_GT(database.exec(sql), 0) << sql << " changes nothing";
+    ASSERT_GT(database.exec(sql), 0) << sql << " did not change anything";
   }
 
   // Reads everything that `gate`, `accept` and `report` read from a store.

@@ -127,7 +127,7 @@ TEST_F(StoreTest, ObjectsThatOthersMadeAreRefused) {
 
 TEST_F(StoreTest, MissingFile) {
   EXPECT_THAT(refusal<core::IoError>(file_, Mode::read), HasSubstr("no such file"));
-  EXPECT_FALSE(std::filesystem::exists(file_)) << "reading makes no file";
+  EXPECT_FALSE(std::filesystem::exists(file_)) << "reading must not create a file";
   EXPECT_THAT(refusal<core::IoError>(folder_ / "no" / "x.sqlite", Mode::append),
               HasSubstr("check that its folder exists"));
   EXPECT_THAT(refusal<core::IoError>(folder_, Mode::append), HasSubstr("is a folder"));
@@ -150,7 +150,7 @@ TEST_F(StoreTest, DamagedFile) {
     const Store store(file_, Mode::read);
     static_cast<void>(store.runs());
     static_cast<void>(store.records("run-1"));
-    FAIL() << "read as if it were whole";
+    FAIL() << "a damaged file was read";
   } catch (const core::InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("damaged"));
   }
@@ -268,7 +268,7 @@ TEST_F(StoreTest, FileTakenAwayWhileItIsOpen) {
     std::filesystem::remove(file_.string() + ending);
     try {
       store.add_record(sample_record());
-      FAIL() << "was kept nowhere, without a word";
+      FAIL() << "the record was lost without an error";
     } catch (const core::IoError& error) {
       EXPECT_THAT(error.what(),
                   AllOf(StartsWith(file_.string() + ending), HasSubstr("removed or renamed")));
@@ -314,7 +314,7 @@ TEST_F(StoreTest, KilledWriterLosesAtMostTheRecordInFlight) {
   EXPECT_LE(records.size(), static_cast<std::size_t>(last) + 2);
   for (std::size_t i = 0; i < records.size(); ++i) {
     EXPECT_EQ(records[i].configuration, std::to_string(i));
-    EXPECT_EQ(records[i].wall_ns, sample_record().wall_ns) << "half a record";
+    EXPECT_EQ(records[i].wall_ns, sample_record().wall_ns) << "the record is incomplete";
     EXPECT_EQ(records[i].factors, sample_record().factors);
   }
   EXPECT_NO_THROW(store.add_record(sample_record("after")));
@@ -371,7 +371,8 @@ TEST_F(StoreTest, FullDisk) {
     if (!mount_small_disk(folder_)) return "cannot mount";
     return fill(file_);
   });
-  if (answer == "cannot mount") GTEST_SKIP() << "this user may not mount a small disk";
+  if (answer == "cannot mount")
+    GTEST_SKIP() << "mounting a small disk is not permitted on this machine";
   EXPECT_THAT(answer, AllOf(StartsWith(file_.string()), HasSubstr("disk is full")));
 }
 

@@ -43,7 +43,7 @@ TEST_F(StoreTest, BusyIsWaitedForThenSaid) {
     EXPECT_THAT(error.what(), HasSubstr("another process"));
   }
   EXPECT_GE(std::chrono::steady_clock::now() - start, milliseconds(150));
-  EXPECT_THAT(store.runs(), SizeIs(1)) << "reading needs no lock";
+  EXPECT_THAT(store.runs(), SizeIs(1)) << "reading must not need a lock";
   other.exec("COMMIT");
   EXPECT_NO_THROW(store.add_run(sample_run("x")));
 }

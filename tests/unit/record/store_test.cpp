@@ -80,7 +80,7 @@ TEST_F(StoreTest, WhatIsNotThere) {
   EXPECT_FALSE(store.has_record("run-1", "a", "b"));
   EXPECT_THROW(static_cast<void>(store.image("0123")), core::InputError);
   EXPECT_FALSE(store.truth("scene", "1"));
-  EXPECT_THROW(store.add_record(sample_record()), core::InputError) << "its run is not there";
+  EXPECT_THROW(store.add_record(sample_record()), core::InputError) << "its run does not exist";
   EXPECT_THROW(store.add_device("run-1", sample_device(), {}), core::InputError);
 }
 

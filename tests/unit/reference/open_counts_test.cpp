@@ -58,7 +58,7 @@ TEST(OpenCounts, CoverArithmeticThatRoundsOtherwise) {
       largest = std::max(largest, std::abs(other.samples - plain.samples));
     }
   }
-  EXPECT_GT(largest, 0) << "no rounding decided anything";
+  EXPECT_GT(largest, 0) << "rounding did not change any count";
 }
 
 // One additional sample in a tenth of the rays must exceed the open counts.

@@ -109,7 +109,8 @@ TEST(Spheres, EyeInsideAndCloseToSpheres) {
   expect_brute_force(scene, some_sphere_model(), "1.0001 radii, along it");
   scene.camera = look_at({6, 0, 0}, {7, 0, 0}, {0, 1, 0}, 100);
   for (const std::uint8_t certain : render_spheres(scene).certain) {
-    EXPECT_EQ(certain, 0) << "on the surface: it may be seen from inside or not at all";
+    EXPECT_EQ(certain, 0)
+        << "the eye is on the surface, which may be seen from inside or not at all";
   }
 }
 
@@ -209,7 +210,7 @@ TEST(Spheres, ImagesCarryDepthIdsAndBounds) {
   EXPECT_EQ(image.pixel(0, 0), scene.background);
   EXPECT_EQ(image.depth.at(0), std::numeric_limits<float>::infinity());
   EXPECT_EQ(image.ids.at(0), core::Image::no_particle);
-  EXPECT_EQ(bound.ids.at(0), 0U) << "that nothing is there is certain";
+  EXPECT_EQ(bound.ids.at(0), 0U) << "it is certain that the pixel is empty";
   const std::size_t middle = 15 * 31 + 15;
   EXPECT_FLOAT_EQ(image.depth[middle], 2.0F);
   EXPECT_EQ(image.ids[middle], 0U);

@@ -60,7 +60,7 @@ TEST(FindingGroups, WhoseItIsByWhatOtherDevicesDo) {
                    finding(regression, "gl:llvmpipe-egl", "technique=a")})
                 .of,
             Blame::Of::unknown)
-      << "one driver behind two interfaces";
+      << "both APIs use the same driver";
   const Finding more = finding(regression, "vulkan:new", "technique=a", dearer, Check::cost);
   EXPECT_EQ(blame({more, finding(pass, "vulkan:old", "technique=a", {}, Check::cost)}).of,
             Blame::Of::unknown);
@@ -197,7 +197,7 @@ TEST(CommandOf, DrawsTheConfigurationAgain) {
 TEST(CommandOf, JudgesAgainWhatIsHeldAgainstBaselines) {
   const Finding cost = finding(regression, "gl:x", "step=1", dearer, Check::cost);
   judge::GateResult mine{.plan = "mine", .run = "r", .findings = {}};
-  EXPECT_EQ(command_of(cost, mine), "") << "a store does not hold where the file is";
+  EXPECT_EQ(command_of(cost, mine), "") << "a store does not contain the path of the plan file";
   mine.argument = "a b/mine.yaml";
   mine.defaults = {{"skip", "distance"}};
   mine.baselines = "b";

@@ -204,7 +204,7 @@ TEST(LastScreen, OneCauseInSeveralPlansIsToldOnce) {
 
   stress.findings.front().configuration = "technique=slices";
   EXPECT_THAT(last_screen(std::vector{failing(), stress}, 3, {}), HasSubstr("technique=slices"))
-      << "of another technique it may be another cause";
+      << "another technique may fail for another cause";
 }
 
 TEST(LastScreen, WhatEndsAProgramIsOneCauseInAllPlans) {

@@ -71,7 +71,7 @@ TEST(FreeView, BeginsWhereAPathIs) {
 
 TEST(FreeView, FollowsTheMouse) {
   const FreeView from{.azimuth_deg = 10, .elevation_deg = 80, .distance = 1};
-  EXPECT_DOUBLE_EQ(turned(from, 0.25, 0).azimuth_deg, 325);  // the camera goes left
+  EXPECT_DOUBLE_EQ(turned(from, 0.25, 0).azimuth_deg, 325);  // the camera moves to the left
   EXPECT_DOUBLE_EQ(turned(from, 0, -0.5).elevation_deg, -10);
   EXPECT_DOUBLE_EQ(turned(from, 0, 1).elevation_deg, 90);
   EXPECT_DOUBLE_EQ(approached(from, 1).distance, 0.9);

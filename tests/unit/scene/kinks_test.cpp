@@ -17,8 +17,8 @@ std::ptrdiff_t count(const TransferFunction& function) {
 TEST(Kinks, OfAPresetAreItsControlPoints) {
   EXPECT_EQ(count(load_transfer_function("surfaces")), 21);
   const auto found = kinks(load_transfer_function("haze"));
-  EXPECT_FALSE(found[16]) << "colours bend where nothing shows";
-  EXPECT_TRUE(found[31] || found[32]) << "the foot of the opacity";
+  EXPECT_FALSE(found[16]) << "a colour kink in a transparent range must not count";
+  EXPECT_TRUE(found[31] || found[32]) << "the beginning of the opacity ramp";
 }
 
 TEST(Kinks, AStraightFunctionHasThemAtItsEndsOnly) {

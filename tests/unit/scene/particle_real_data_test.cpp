@@ -95,7 +95,7 @@ void expect_facts(const std::string& name, const ParticleFacts& facts,
   if (!facts.by_radius.empty()) {
     EXPECT_EQ(by_radius, facts.by_radius);
   } else {
-    EXPECT_EQ(by_radius.size(), 1U) << "types share one radius";
+    EXPECT_EQ(by_radius.size(), 1U) << "all types must have the same radius";
   }
   // The description states three decimals.
   for (std::size_t axis = 0; axis < 3; ++axis) {

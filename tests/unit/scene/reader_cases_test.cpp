@@ -220,7 +220,7 @@ TEST(ReaderCases, EveryRowOfTheTableIsRight) {
   const std::filesystem::path folder =
       std::filesystem::path(root == nullptr ? "" : root) / "readers";
   if (root == nullptr || !std::filesystem::is_directory(folder)) {
-    GTEST_SKIP() << "TRIPTYCH_DATA does not name a folder that has readers/";
+    GTEST_SKIP() << "TRIPTYCH_DATA does not name a folder that contains readers/";
   }
   const std::vector<Row> particles{{"p02_left_names.pdb", "p02_twin.xyz"},
                                    {"p04b_dexp.xyz", "p04_twin.xyz"},
@@ -275,7 +275,7 @@ TEST(ReaderCases, EveryRowOfTheTableIsRight) {
   for (const auto& [file, reason] : reasons) {
     try {
       (void)load_volume(file, {folder});
-      ADD_FAILURE() << file << " is read";
+      ADD_FAILURE() << file << " was read";
     } catch (const core::InputError& error) {
       EXPECT_THAT(error.what(), HasSubstr(reason));
     }

@@ -44,7 +44,7 @@ TEST(LoadVolume, LooksInTheFoldersInTurn) {
   EXPECT_TRUE(is_present("a.nrrd", {first.path(), second.path()}));
   EXPECT_FALSE(is_present("a.nrrd", {first.path()}));
   EXPECT_FALSE(is_present(""));
-  EXPECT_FALSE(is_present(first.path().string())) << "a folder is no volume";
+  EXPECT_FALSE(is_present(first.path().string())) << "a folder is not a volume";
   EXPECT_TRUE(is_present("generate:mandelbulb:4"));
 }
 

@@ -166,7 +166,7 @@ TEST(NiftiFiles, ApplyTheirScale) {
   };
   EXPECT_THAT(values_of(scaled(0.5, -1)), ElementsAre(-1, -0.5, 0));
   EXPECT_EQ(scaled(0.5, -1).type, ScalarType::f32);
-  EXPECT_EQ(scaled(0, 7).type, ScalarType::u8) << "a slope of 0: none";
+  EXPECT_EQ(scaled(0, 7).type, ScalarType::u8) << "a slope of 0 means no scaling";
   EXPECT_EQ(scaled(1, 0).type, ScalarType::u8);
   EXPECT_THAT(scaled(2, 0).facts.notes, ElementsAre(HasSubstr("2·stored + 0")));
 }

@@ -39,7 +39,7 @@ TEST(SphereMath, CameraCoordinatesAreRightToTheLastBit) {
     };
     const dvec3 axis = glm::normalize(any(1));
     const dvec3 eye = any(1e5);
-    // The offset is almost perpendicular to the axis, at a distance of up to 1e5.
+    // The offset is almost perpendicular to the axis, with a length of up to 1e5.
     dvec3 offset = any(1e5);
     offset -= glm::dot(offset, axis) * axis;
     const glm::vec3 p(eye + offset);

@@ -71,7 +71,7 @@ TEST(Keys, NameAComponentOnlyWhereOneIsChosen) {
             std::string::npos);
   const std::string hash = suite->data_hash(configuration);
   configuration.erase("component");
-  EXPECT_EQ(suite->data_hash(configuration), hash) << "stored before there were components";
+  EXPECT_EQ(suite->data_hash(configuration), hash) << "stored before components were introduced";
   configuration["component"] = "1";
   EXPECT_THROW((void)suite->data_hash(configuration), core::InputError);
 }
