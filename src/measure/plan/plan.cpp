@@ -42,7 +42,7 @@ struct BlockText {
   }
 };
 
-// Sets the values that the entries name; existing values are replaced.
+// Sets the values of the factors in the entries. Existing values are replaced.
 void set_values(const Suite& suite, const std::vector<PlanEntry>& entries, BlockText& block) {
   for (const PlanEntry& entry : entries) {
     block.set(suite, factor_of(suite, entry.factor), entry.values);
@@ -97,12 +97,12 @@ bool keep_values(const std::vector<std::string>& values, const Factor& factor, B
   return true;
 }
 
-// In a plan of several blocks, an override whose values all occur in the plan selects
-// configurations of the plan: each block keeps only these values, and a block that has none of them
-// is left out. Replacing the values in each block instead would make combinations that the plan
-// does not have, and for which no baselines are stored. However, an override with a value that does
-// not occur in the plan replaces the values in every block. All overrides do so if otherwise every
-// block would be left out.
+// Applies the overrides to all blocks of a plan, and returns which blocks are used. If all values
+// of an override occur in the plan, the override selects configurations: each block keeps only
+// these values, and a block that has none of them is left out. Replacing the values in each block
+// instead would create combinations that the plan does not contain and for which no baselines are
+// stored. If an override has a value that does not occur in the plan, it replaces the values in
+// every block. If every block would be left out, all overrides replace values instead.
 std::vector<bool> apply_to_all(const std::vector<PlacedOverride>& overrides, const Suite& suite,
                                std::vector<BlockText>& blocks) {
   std::vector<BlockText> chosen = blocks;
@@ -136,7 +136,7 @@ std::vector<bool> apply_to_all(const std::vector<PlacedOverride>& overrides, con
 
 struct PlanSource {
   std::string name;
-  std::string file;   // the name in errors
+  std::string file;   // the name in error messages
   std::string suite;  // for a short name; empty for a file
   std::string yaml;
 };
@@ -194,8 +194,8 @@ const Suite& suite_of(const PlanSource& source, const PlanText& text, const Find
   }
 }
 
-// The place where the factor with the most values is defined. The user should shorten this list if
-// there are too many configurations.
+// Returns the place where the factor with the most values is defined. The user should shorten this
+// list if there are too many configurations.
 core::FilePlace longest_place(const PlanSource& source, const ValuesByFactor& values,
                               const std::vector<const std::vector<PlanEntry>*>& entries,
                               const Overrides& overrides) {
@@ -216,11 +216,11 @@ core::FilePlace longest_place(const PlanSource& source, const ValuesByFactor& va
 // More configurations in one run are treated as a mistake: at a tenth of a second each, they would
 // take more than a day.
 constexpr std::size_t most_configurations = 1'000'000;
-// A list may have more configurations than a run, because listing does not store them. The limit
-// keeps its time below a day.
+// A list may have more configurations than a run, because listing does not store them. This limit
+// keeps the time for listing below a day.
 constexpr std::size_t most_listed = 100'000'000;
 
-// The content of a plan's text, before any configurations are made.
+// A plan that was read, but whose configurations have not been generated yet.
 struct OpenPlan {
   Plan plan;  // without configurations
   const Suite& suite;

@@ -21,14 +21,16 @@ struct Plan {
   // Ordered so that the data set changes least often, then the pipeline, and the view most often.
   std::vector<Configuration> configurations;
   std::vector<std::string> varied;  // factors with more than one value
-  // The checks by which its runs are judged. Only the measurements that they need are made: clocks
-  // are read only for timing, and workers run under the emulator only for cost.
+  // The checks by which the plan's runs are judged. Only the measurements that these checks need
+  // are made. For example, clocks are read only for the check `timing`, and workers run under the
+  // emulator only for the check `cost`.
   record::Checks checks = standard_checks();
-  // The hash of its text, which distinguishes plans with the same name. Empty if it has no text.
+  // The hash of the plan's YAML, which distinguishes plans with the same name. Empty if the plan
+  // has no YAML.
   std::string hash;
   std::string argument = {};         // as typed by the user
-  std::set<std::string> named = {};  // factors that its text or an override sets
-  // The factors with the value "auto", which asks for the fastest of their levels.
+  std::set<std::string> named = {};  // factors that the YAML or an override sets
+  // The factors with the value "auto", which requests the fastest of their levels.
   std::set<std::string> automatic = {};
 
   [[nodiscard]] static record::Checks standard_checks();
@@ -43,32 +45,34 @@ struct Plan {
 using Overrides = std::vector<std::pair<std::string, std::vector<std::string>>>;
 using FindSuite = std::function<Suite&(std::string_view name)>;  // throws InputError
 
-// `name_or_file` is "SUITE/PLAN" or a YAML file. Throws InputError with file, line and column for
-// an unknown or duplicate factor, a wrong type or level (with the nearest known name), an empty
-// list, a duplicate value, and for more than a million configurations. For a shard, only its own
-// configurations are stored.
+// Loads a plan. `name_or_file` is "SUITE/PLAN" or a YAML file. Throws InputError with file, line
+// and column for an unknown or duplicate factor, a wrong type or level (with the nearest known
+// name), an empty list, a duplicate value, and for more than a million configurations. The plan
+// contains only the configurations of the shard.
 [[nodiscard]] Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
                              const FindSuite& find_suite, const Shard& shard = {});
 
-// The same plan without its configurations, which are passed to `use` in their order. Throws as
-// load_plan does, but only for more than a hundred million configurations.
+// Loads a plan without storing its configurations, which are passed to `use` one after the other.
+// Throws the same exceptions as load_plan(), but allows up to a hundred million configurations.
 Plan list_plan(std::string_view name_or_file, const Overrides& overrides,
                const FindSuite& find_suite, const Shard& shard,
                const std::function<void(const Suite&, const Configuration&)>& use);
 
-// The name under which a plan's runs are stored: a short name itself, or the name of a file without
-// its extension. The file is not read.
+// Returns the name under which a plan's runs are stored: the short name, or the name of the file
+// without its extension. The file is not read.
 [[nodiscard]] std::string plan_name(std::string_view name_or_file);
 
-// A plan that consists of the suite's defaults and the overrides. Throws as load_plan does.
+// Returns a plan that consists of the suite's defaults and the overrides. Throws the same
+// exceptions as load_plan().
 [[nodiscard]] Plan default_plan(const Suite& suite, const Overrides& overrides);
 
-// Canonical "factor=value,…" of the factors that differ from the suite's defaults, and always
-// `technique`, `data` and `camera`, sorted by name. It identifies a configuration within its suite.
+// Returns the canonical "factor=value,…", sorted by name, which identifies a configuration within
+// its suite. It contains the factors that differ from the suite's defaults, and always `technique`,
+// `data` and `camera`.
 [[nodiscard]] std::string configuration_key(const Suite& suite, const Configuration& configuration);
 
-// The kinds of work (technique::name_of) in the plan's configurations, each once. To measure times,
-// the clocks are calibrated for these kinds.
+// Returns the kinds of work (technique::name_of) in the plan's configurations, without duplicates.
+// If times are measured, the clocks are calibrated for these kinds.
 [[nodiscard]] std::vector<std::string> work_kinds(const Plan& plan);
 
 }  // namespace triptych::measure

@@ -52,8 +52,9 @@ Shard PlanChoice::part() const {
 
 namespace {
 
-// The names and keys in a file. The output of `triptych list` is such a file: each line begins with
-// a name, and text after two spaces is ignored. Lines that begin with '#' are comments.
+// Reads the names and keys in a file, which may be the output of `triptych list`. Each line begins
+// with a name or a key, and text after two spaces is ignored. Lines that begin with '#' are
+// comments.
 std::set<std::string> read_cases(const std::string& file) {
   std::set<std::string> cases;
   std::istringstream lines(core::read_text(file));
@@ -85,8 +86,8 @@ struct Named {
   Configuration configuration;
 };
 
-// Keeps 1/`parts` of the configurations, rounded up, in the order of the plan. Those with the
-// smallest hashes are kept.
+// Keeps 1/`parts` of the configurations, rounded up, in the order of the plan. Keeps those whose
+// keys have the smallest hashes.
 void keep_fraction(std::size_t parts, std::vector<Named>& all) {
   const std::size_t kept = (all.size() + parts - 1) / parts;
   if (kept == all.size()) return;

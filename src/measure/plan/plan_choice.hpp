@@ -11,25 +11,27 @@ namespace triptych::measure {
 struct PlanChoice {
   std::vector<std::string> set = {};  // each is "factor=a,b"
   std::string shard = {};             // "i/n"; empty: the whole plan
-  // Each of these options reduces the configurations: to those that match one of the globs
-  // (record::names_configuration), to those that the file lists, and to one n-th of the rest.
+  // Each of these options selects some of the configurations: those that match one of the globs
+  // (record::names_configuration), those that the file lists, and one n-th of the remaining ones.
   std::vector<std::string> filter = {};
   std::string caselist = {};  // a file with a name or a key in each line
   std::string fraction = {};  // "1/n"
 
   // Whether the whole plan is loaded, without changes.
   [[nodiscard]] bool is_whole() const { return set.empty() && shard.empty() && !selects(); }
-  // Whether configurations are selected by name or by chance, so that possibly none is left.
+  // Whether configurations are selected by their names or keys, so that possibly none is left.
   [[nodiscard]] bool selects() const {
     return !filter.empty() || !caselist.empty() || !fraction.empty();
   }
-  // The options that select, as typed by the user.
+  // Returns the options that select configurations, as typed by the user.
   [[nodiscard]] std::string selection_text() const;
 
-  // Like load_plan(). The fraction is the same every time: the configurations are chosen by the
-  // hash of their keys. At least one is chosen. All functions throw core::InputError.
+  // Loads the selected part of a plan with load_plan(). A fraction always selects the same
+  // configurations, because they are chosen by the hashes of their keys, and it selects at least
+  // one. All functions throw core::InputError.
   [[nodiscard]] Plan load(const std::string& plan, const FindSuite& find_suite) const;
-  // "factor=a,b" → {factor, {a, b}}. A value may be plain or escaped by record::escaped.
+  // Converts each "factor=a,b" in `set` to {factor, {a, b}}. A value may be escaped by
+  // record::escaped().
   [[nodiscard]] Overrides overrides() const;
   [[nodiscard]] Shard part() const;
 };

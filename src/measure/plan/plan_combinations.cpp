@@ -11,9 +11,9 @@
 namespace triptych::measure {
 namespace {
 
-// Returns the position of a factor in the order of how long a change of it takes, longest first:
-// loading data, which includes mapping its values; building a pipeline; resizing the viewport; and
-// moving the camera.
+// Returns the rank of a factor by the time that a change of its level takes, longest first: 0 for
+// loading data (which includes mapping its values), 1 for building a pipeline, 2 for resizing the
+// viewport, and 3 for moving the camera.
 int speed_of(const Factor& factor) {
   if (factor.name == "data" || factor.name == "window" || factor.name == "mapping") return 0;
   if (factor.name == "viewport") return 2;
@@ -90,7 +90,7 @@ std::vector<std::string> Combinations::varied() const {
   return varied;
 }
 
-// The values of the factor `data`, or one empty value if the block has no such factor.
+// Returns the values of the factor `data`, or one empty value if the block has no such factor.
 const std::vector<std::string>& Combinations::data_of(const Block& block) {
   static const std::vector<std::string> none{""};
   return block.empty() || block.front().factor != "data" ? none : block.front().values;

@@ -14,10 +14,12 @@
 
 namespace triptych::measure {
 
-// The values in a plan, each in its canonical spelling. A factor that is left out has its default.
+// The values of the factors in a plan, in their canonical spelling. A factor that is not contained
+// has its default.
 using ValuesByFactor = std::map<std::string, std::vector<std::string>>;
 
-// The factors of the suite; earlier ones vary more slowly.
+// Returns the factors of the suite. Factors that are slow to change come first, because they vary
+// least often.
 [[nodiscard]] std::vector<const Factor*> slowest_first(const Suite& suite);
 
 // The combinations of one or more blocks of values, without duplicates, one data set after the
@@ -32,11 +34,11 @@ class Combinations {
   // Throws InputError for an invalid shard.
   void for_each(const Shard& shard, const Use& use) const;
 
-  // The number of combinations of a block, including those that other blocks also have. Saturates
-  // at the largest value of the type.
+  // Returns the number of combinations of a block, including those that other blocks also contain.
+  // Saturates at the largest value of the type.
   [[nodiscard]] std::size_t most_of(std::size_t block) const;
 
-  // Factors with more than one value.
+  // Returns the factors with more than one value.
   [[nodiscard]] std::vector<std::string> varied() const;
 
  private:

@@ -31,8 +31,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-// Parses a finite number; nullopt for other text. A number's canonical spelling is the shortest one
-// that reads back as the same double, so that 0.5, .5 and 5e-1 are one value.
+// Parses a finite number. Returns nullopt for any other text. The canonical spelling of a number is
+// the shortest text that is read back as the same double, so 0.5, .5 and 5e-1 are the same value.
 std::optional<double> parse_number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double number = 0;
@@ -64,8 +64,8 @@ std::string canonical_choice(const Factor& factor, const PlacedText& value) {
                                      suggestion(value.text, factor.levels)));
 }
 
-// A value has no control characters and no ends of lines, because a configuration is one line of a
-// list, a table or a baseline, and part of JSON and XML.
+// A value must not contain control characters or line ends, because a configuration is written on
+// one line of a list, a table or a baseline, and as a part of JSON and XML.
 std::string canonical_text(const Factor& factor, const PlacedText& value) {
   if (value.text.empty() || !core::is_line(value.text)) {
     throw core::InputError(value.place,
@@ -104,7 +104,7 @@ bool stands_for_several(const Factor& factor, const PlacedText& value) {
 }
 
 // Replaces "PATH:*/n" of a text factor by PATH:0/n to PATH:(n−1)/n, and "auto" by the factor's
-// automatic levels. All values get the place of the text that they replace.
+// automatic levels. Each new value has the place of the text that it replaces.
 std::vector<PlacedText> with_ranges(const Factor& factor, const std::vector<PlacedText>& values) {
   constexpr std::string_view all = ":*/";
   constexpr int most = 10'000;

@@ -1,5 +1,5 @@
 #pragma once
-// The values of factors in a plan, each in its canonical spelling, for load_plan and related
+// Converts the values of factors in a plan to their canonical spelling, for load_plan() and related
 // functions.
 
 #include <string>
@@ -11,10 +11,10 @@
 
 namespace triptych::measure {
 
-// "; did you mean 'step'?", or the list of all known names if none is similar.
+// Returns "; did you mean 'step'?", or the list of all known names if none is similar.
 [[nodiscard]] std::string suggestion(std::string_view wrong, const std::vector<std::string>& known);
 
-// The default in its canonical spelling.
+// Returns the default of a factor in its canonical spelling.
 [[nodiscard]] std::string standard_of(const Factor& factor);
 
 // Whether "auto" is among the values and stands for several levels of the factor.
@@ -22,7 +22,7 @@ namespace triptych::measure {
 
 // Returns each value in its canonical spelling. For a text factor "PATH:*/n" stands for n values,
 // PATH:0/n to PATH:(n−1)/n, and "auto" stands for the factor's automatic levels. Throws InputError
-// with the place of a value that is not a number, out of range, not a level, refused by the suite,
+// with the place of a value that is not a number, out of range, not a level, rejected by the suite,
 // or duplicated.
 [[nodiscard]] std::vector<std::string> canonical_values(const Suite& suite, const Factor& factor,
                                                         const std::vector<PlacedText>& given);

@@ -126,8 +126,8 @@ record::Checks checks_of(const std::vector<PlacedText>& names) {
   return checks;
 }
 
-// Remembers the places of keys, to refuse duplicate ones: yaml-cpp stores every pair of a mapping,
-// even if its key was there before.
+// Remembers the places of keys and rejects duplicate keys, because yaml-cpp accepts a mapping in
+// which a key occurs twice.
 class Keys {
  public:
   void add(const PlacedText& key) {

@@ -1,6 +1,6 @@
 #pragma once
-// The content of a plan's YAML as texts with their places in the file, before its suite is known.
-// Only plan.cpp uses it.
+// Parses a plan's YAML to strings with their places in the file. They are not interpreted, because
+// the suite is not known yet. Only plan.cpp uses this file.
 
 #include <string>
 #include <string_view>
@@ -26,11 +26,12 @@ struct PlanText {
   std::string summary;
   record::Checks checks;           // empty if the plan does not state any
   std::vector<PlanEntry> entries;  // in the order of the file, no factor twice
-  // The entries under `also`: further combinations, in which they replace the entries above.
+  // The blocks under `also`. Each of them adds combinations, in which its entries replace the
+  // entries above.
   std::vector<std::vector<PlanEntry>> also;
 };
 
-// `file` is the name of the text in errors. Throws InputError if the text is not YAML or not one
+// Error messages call the text `file`. Throws InputError if the text is not YAML or not one
 // mapping, or for a missing `suite`, a duplicate key, an empty list, a value that is missing or not
 // a scalar, or an `also` that is not a list of mappings.
 [[nodiscard]] PlanText parse_plan(std::string_view yaml, const std::string& file);

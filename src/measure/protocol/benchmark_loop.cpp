@@ -16,8 +16,9 @@
 namespace triptych::measure {
 namespace {
 
-// Writes the library's own JSON into a string. Numbers that JSON cannot express (the variation of
-// times that are all 0) are left out, because the library would print them anyway.
+// Collects the library's own JSON in a string. Numbers that JSON cannot represent, such as the
+// coefficient of variation of times that are all 0, are removed, because the library would print
+// them as invalid JSON.
 class StringReporter : public benchmark::JSONReporter {
  public:
   StringReporter() {
@@ -74,8 +75,8 @@ BenchmarkResult run_registered(const std::string& name, int frames) {
 }
 
 // The library does not handle exceptions, and aborts when one of several repetitions reports an
-// error. So the first exception is stored, the remaining iterations do nothing, and the exception
-// is thrown again afterwards.
+// error. Therefore the first exception is stored, the remaining iterations do nothing, and the
+// exception is rethrown afterwards.
 class Guarded {
  public:
   template <typename Body>
@@ -128,7 +129,8 @@ void initialize_benchmarks() {
   int count = static_cast<int>(arguments.size());
   arguments.push_back(nullptr);
   benchmark::Initialize(&count, arguments.data());
-  // The library stores the pointer to the program's name for its report.
+  // The library has stored a pointer to the program's name in `words`, which is about to be
+  // destroyed.
   benchmark::BenchmarkReporter::Context::executable_name = "triptych";
 }
 

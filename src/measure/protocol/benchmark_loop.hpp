@@ -1,6 +1,7 @@
 #pragma once
-// Google Benchmark drives the timed loops. One benchmark at a time is registered, run and removed;
-// nothing is printed. Its JSON entries are kept, so that tools for Google Benchmark can be used.
+// Runs the timed loops with Google Benchmark. Only one benchmark is registered at a time. It is run
+// and removed, and nothing is printed. Its JSON entries are kept, so that tools for Google
+// Benchmark can be used.
 
 #include <functional>
 #include <map>
@@ -10,13 +11,13 @@
 namespace triptych::measure {
 
 // Initializes the library and makes it independent of its environment variables (BENCHMARK_*).
-// Cheap, and may be called repeatedly.
+// The call is cheap and may be repeated.
 void initialize_benchmarks();
 
 struct BenchmarkResult {
   double total_ns = 0;  // total time of all iterations and repetitions
-  nlohmann::json
-      entries;  // array: the repetitions, then mean, median, minimum, quartiles, maximum, …
+  // An array: the entries of the repetitions, then those of mean, median, minimum, quartiles, …
+  nlohmann::json entries;
 };
 
 // The result of one iteration: its time, and further values that become keys of its JSON entry.
@@ -25,14 +26,14 @@ struct IterationTime {
   std::map<std::string, double> facts;
 };
 
-// Runs each frame as a repetition of its own. Its time is the one that `frame` returns
-// (UseManualTime). The JSON contains every sample and the library's statistics of them. An
-// exception from `frame` ends the loop and is passed on unchanged. Throws core::Error if the
-// library did not run what was requested.
+// Runs each frame as a separate repetition, whose time is the one that `frame` returns
+// (UseManualTime). The JSON contains every sample and the library's statistics. An exception from
+// `frame` ends the loop and is rethrown unchanged. Throws core::Error if the library did not run
+// the requested number of frames.
 [[nodiscard]] BenchmarkResult time_frames(const std::string& name, int frames,
                                           const std::function<IterationTime()>& frame);
 
-// Runs frames back to back. The library measures the wall time once for all of them.
+// Runs frames back to back. The library measures only the total wall time.
 [[nodiscard]] BenchmarkResult time_loop(const std::string& name, int frames,
                                         const std::function<void()>& frame);
 

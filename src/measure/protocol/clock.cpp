@@ -14,10 +14,11 @@ namespace {
 
 constexpr int most_frames = 8;
 constexpr int least_frames = 3;
-// The time for all calibration frames. A device that is too slow for it draws only least_frames.
+// The time budget for all calibration frames. A device that is too slow for this budget draws only
+// least_frames.
 constexpr double budget_ns = 0.5e9;
 
-// Represents the ratio of a clock that was never written.
+// The ratio that is stored for a clock whose time stamps were never written.
 constexpr double never_written = -1;
 
 record::ClockTrust without_time(technique::Work kind, std::string verdict) {
@@ -37,7 +38,8 @@ std::string percent(double ratio) {
   return fmt::format("{:.1f} %", 100 * ratio);
 }
 
-// One of at least five ratios may be too low, because the scheduler may wake the thread late. No
+// Whether a clock with these ratios of device time to wall time can be trusted. If there are at
+// least five ratios, one of them may be too low, because the scheduler may wake the thread late. No
 // ratio may be too high, because correct device time is never longer than wall time.
 bool believable(const std::vector<double>& ratios) {
   const auto low = std::ranges::count_if(
@@ -66,8 +68,9 @@ std::string verdict_of(const record::ClockTrust& trust, double wall_ns, std::siz
                      is_short ? ", but such short frames are not conclusive" : "");
 }
 
-// Makes a frame longer by finer steps along the rays, or by more pixels for the same particles,
-// which does not change the kind of work. Returns false if the work cannot be made longer.
+// Makes the frames of a work take longer, by finer steps along the rays or by more pixels for the
+// same particles. This does not change the kind of work. Returns false if the work cannot be made
+// longer.
 bool lengthen(Work& work, double factor) {
   if (auto* volume = std::get_if<VolumeWork>(&work.scene)) {
     constexpr double finest_step_voxels = 1e-3;
@@ -91,8 +94,8 @@ std::unique_ptr<Prepared> prepare_long_enough(Device& device, Work work) {
   constexpr int most_attempts = 4;
   std::unique_ptr<Prepared> prepared = device.prepare(work);
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    // Only the second frame is warm. It need not be drawn if the first one is too short already,
-    // because a warm frame is not longer than a cold one.
+    // The second frame is drawn because the first frame is a cold start. It is not needed if the
+    // first frame is too short already, because a later frame does not take longer.
     double frame_ns = prepared->frame(Purpose::timing).wall_ns;
     if (!(frame_ns < ClockLimits::least_frame_ns)) {
       frame_ns = prepared->frame(Purpose::timing).wall_ns;
@@ -162,16 +165,15 @@ record::ClockTrust calibrate_clock(Device& device, Suite& suite, technique::Work
     throw;
   } catch (const core::Error& error) {
     // This is not fatal, because the wall clock can still be used. If the device has another
-    // problem, the configurations will show it.
+    // problem, the configurations will reveal it.
     return without_time(kind, fmt::format("not calibrated: {}", error.what()));
   }
 }
 
-// A clock whose ticks have a wrong length shows device times that exceed the wall time or that are
-// a constant share of it, within a twentieth. In a clock that leaves out launches and waits, the
-// share varies by more than that from frame to frame. A clock that leaves out the work itself shows
-// less than a fiftieth of the wall time (lavapipe around dispatches: 0.0003) and is not reported
-// here.
+// If the ticks of a clock have a wrong length, its device times exceed the wall times, or they are
+// a constant fraction of them, within 5 %. If a clock leaves out launches and waits, this fraction
+// varies by more than 5 % from frame to frame. If a clock leaves out the work itself, the fraction
+// is less than 2 % (lavapipe around dispatches: 0.0003); such a clock is not reported here.
 std::optional<record::DeviceFault> clock_fault(const record::ClockTrust& trust) {
   using enum record::DeviceFaultKind;
   constexpr double steady = 1.05;
@@ -197,8 +199,8 @@ std::optional<record::DeviceFault> clock_fault(const record::ClockTrust& trust) 
 
 bool plausible(const std::vector<double>& device_ns, const std::vector<double>& wall_ns) {
   if (device_ns.empty() || device_ns.size() != wall_ns.size()) return false;
-  constexpr double tick_ns =
-      2e3;  // a timer with a resolution of 1 µs may be wrong by one tick at either end
+  // A timer with a resolution of 1 µs may be wrong by one tick at either end.
+  constexpr double tick_ns = 2e3;
   std::size_t low = 0;
   for (std::size_t i = 0; i < device_ns.size(); ++i) {
     if (!(device_ns[i] > 0)) return false;

@@ -5,8 +5,8 @@
 
 namespace triptych::measure {
 
-// The number of repetitions of `each_ns` that last `ns`, between 1 and `most`. If the clock is too
-// coarse to measure one, the result is `most`.
+// Returns how many repetitions that take `each_ns` fill `ns`, limited to 1 to `most`. If `each_ns`
+// is 0, because the clock is too coarse, the result is `most`.
 [[nodiscard]] inline int count_to_fill(double ns, double each_ns, int most) {
   if (!(each_ns > 0)) return most;
   const double count = std::ceil(ns / each_ns);

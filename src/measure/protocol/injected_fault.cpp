@@ -51,7 +51,7 @@ auto named(const Faults& faults, std::string_view name) {
 }
 
 // Converts a percentage of extra work to a stride: drawing every stride-th row twice adds 1/stride
-// of the work. Empty if `text` is not a percentage in (0, 100].
+// of the work. Returns nullopt if `text` is not a percentage from 0.01 to 100.
 std::optional<int> stride_of(std::string_view text) {
   double percent = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), percent);
@@ -68,7 +68,7 @@ bool is_mishap(std::string_view fault) {
   return false;
 }
 
-// Whether a configuration has all of the levels, "technique=raycast,step=2".
+// Whether a configuration has all levels of a list such as "technique=raycast,step=2".
 bool has_levels(const std::string& configuration, const std::string& levels) {
   const auto wanted = record::parse_factor_list(levels);
   const auto there = record::parse_factor_list(configuration);

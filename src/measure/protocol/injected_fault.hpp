@@ -1,6 +1,6 @@
 #pragma once
-// Injected faults prove that the gate finds them, and that the death of a worker affects only one
-// configuration.
+// Deliberate faults. They are injected to prove that the gate detects them, and that the death of a
+// worker affects only one configuration.
 
 #include <span>
 #include <string>
@@ -21,27 +21,27 @@ struct InjectedFault {
   std::string only;
 };
 
-// Parses texts of the form "FAULT" or "FAULT@ONLY". Whether the fault exists is checked by
-// check_fault.
+// Parses strings of the form "FAULT" or "FAULT@ONLY". Does not check whether the fault exists
+// (check_fault() does).
 [[nodiscard]] std::vector<InjectedFault> parse_faults(std::span<const std::string> faults);
 
-// The faults that apply to a configuration on a device.
+// Returns the faults that apply to a configuration on a device.
 [[nodiscard]] std::vector<std::string> faults_for(std::span<const InjectedFault> all,
                                                   const std::string& configuration,
                                                   const std::string& device);
 
-// The text "half_voxel_shift, …, slowdown:PERCENT (0.01 to 100)".
+// Returns the list of all faults, "half_voxel_shift, …, slowdown:PERCENT (0.01 to 100)".
 [[nodiscard]] std::string fault_names();
 
-// Throws InputError with the known faults for an unknown name.
+// If the fault is unknown, throws an InputError that lists the known faults.
 void check_fault(std::string_view fault);
 
 // Puts the fault into the work, or executes it immediately: "crash" ends this process with SIGSEGV,
-// "hang" never returns, "device_lost" throws DeviceLost. Throws NotSupported if this kind of work
-// does not have the fault.
+// "hang" never returns, "device_lost" throws DeviceLost. Throws NotSupported if the fault does not
+// apply to this kind of work.
 void inject(std::string_view fault, Work& work);
 
-// "lost_counter" removes the first of Triptych's counters. Other faults change nothing here.
+// "lost_counter" removes the first of Triptych's counters. Other faults do not change the record.
 void inject(std::string_view fault, record::Record& record);
 
 }  // namespace triptych::measure

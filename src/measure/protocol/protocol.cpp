@@ -27,9 +27,10 @@ struct WarmUp {
   double fastest_ns = std::numeric_limits<double>::infinity();
 };
 
-// The first frames compile code, fault pages in and wake threads. If frames are so short that four
-// of them are not sufficient, more are drawn until they have taken a tenth of the loop's time. The
-// fastest frame determines how many frames fill the loop, so that the loop does not end too early.
+// Draws the warm-up frames, during which drivers compile code, fault in pages and wake threads. If
+// frames are very short, more than the minimum number are drawn, until they have taken a tenth of
+// the loop's time. The fastest frame determines how many frames fill the loop, so that the loop
+// does not end too early.
 WarmUp warm_up(FrameProof& proof, const Protocol& protocol) {
   WarmUp result;
   const double enough_ns = protocol.least_loop_ns / 10;
@@ -53,10 +54,10 @@ bool is_trusted(technique::Work kind, const std::vector<record::ClockTrust>& clo
   });
 }
 
-// Draws the timed frames. If the device reported no time for one of them, all its times are
-// dropped, because a list with gaps would pair the wrong values. The benchmark's real time is the
-// wall time, and device time is an additional key, because only after all frames is it known
-// whether device time is plausible.
+// Draws the timed frames. If the device reported no time for one of them, all device times are
+// dropped, because with gaps they could no longer be paired with the wall times. The benchmark's
+// real time is the wall time. Device time is an additional key, because only after all frames is it
+// known whether device times are plausible.
 core::Json time_into(record::Record& record, FrameProof& proof, int frames, const std::string& name,
                      double& work_ns) {
   std::vector<std::optional<double>> device_ns;
@@ -81,8 +82,8 @@ core::Json time_into(record::Record& record, FrameProof& proof, int frames, cons
   return std::move(result.entries);
 }
 
-// Adds the counts to every entry that is about a frame, because they are the same for every frame.
-// The entries about spread (stddev, cv) do not get them.
+// Adds the counts to every entry that describes a frame, because they are the same for every frame.
+// Does not add them to the entries about spread (stddev, cv).
 void add_counts(core::Json& entries, const record::Counts& counts) {
   for (core::Json& entry : entries) {
     const std::string aggregate = entry.value("aggregate_name", "");
@@ -121,8 +122,8 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
     work_ns += drawing.ns();
     return frame;
   };
-  // After the camera jumps, a frame draws cells that the previous frame did not show, in another
-  // order.
+  // After a camera jump, the cells that the previous frame did not show are drawn in another order,
+  // so the image may differ.
   const auto check = [&](std::string_view what) {
     if (protocol.camera_jumps) {
       proof.check_drawn(what);
@@ -141,7 +142,7 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
     proof.check_drawn("the frame for the counters");
   }
   // The same commands are submitted again, because a driver that executes them only the first time
-  // would have passed until here.
+  // would have passed all checks so far.
   static_cast<void>(draw(Purpose::timing));
   check("the second frame");
   record.image = image_hash(result.image);

@@ -15,38 +15,39 @@
 
 namespace triptych::measure {
 
-// The protocol of the paper (Bruder et al.): warm-up frames, which also show how many frames fill
-// the shortest loop; timed frames; one frame for pipeline statistics; one for Triptych's counters;
-// and the wall-clock loop.
+// The protocol of the paper (Bruder et al.): warm-up frames, which also determine how many frames
+// fill the wall-clock loop; timed frames; one frame for pipeline statistics; one for Triptych's
+// counters; and the wall-clock loop.
 struct Protocol {
-  int warm_up_frames = 4;  // the minimum
+  int warm_up_frames = 4;  // minimum number
   int timed_frames = 8;
-  double least_loop_ns = 100e6;  // the shortest wall-clock loop
+  double least_loop_ns = 100e6;  // minimum time of the wall-clock loop
   int most_loop_frames = 1000;
   bool statistics = true;
   bool counters = true;
   // If false, only one frame each is drawn for the image, the statistics and Triptych's counters.
   // Nothing is warmed up, and there are no times and no benchmark.
   bool timed = true;
-  // The instructions of the third frame are counted (counting/emulator.hpp), and no times are
-  // measured. Counters and the image are recorded only if they are requested.
+  // If true, the instructions of the third frame are counted (counting/emulator.hpp), and no times
+  // are measured. Counters and the image are recorded only if they are requested.
   bool counted = false;
-  bool picture = true;  // whether the image is recorded, also for counted frames
-  // The compiler's report about the device code is recorded, and no frame is drawn.
+  bool picture = true;  // whether the image of a counted frame is recorded
+  // If true, the compiler's report about the device code is recorded, and no frame is drawn.
   bool compiled = false;
   // If false, a configuration that does exactly the same work as an earlier one
-  // (measure/contract/equivalents.hpp) copies the results of that one.
+  // (measure/contract/equivalents.hpp) copies the results of the earlier configuration.
   bool measure_every = false;
-  // Set by the worker itself and never sent to it: the frame before the first is drawn from another
-  // camera, so the first frames may differ where surfaces are equally far away.
+  // True if a frame with another camera is drawn before the first frame. Then the first frames may
+  // differ where surfaces are equally far away. The worker sets this field itself; it is never
+  // sent.
   bool camera_jumps = false;
 
   [[nodiscard]] bool has_loop() const noexcept { return timed && least_loop_ns > 0; }
 };
 
-// For times that are only shown: timing begins with the third frame, as in count_instructions(),
-// and there is no loop. Five frames are sufficient to decide whether device times are plausible
-// (measure/protocol/clock.hpp).
+// For times that are displayed but not judged. Timing begins with the third frame, as in
+// count_instructions(), and there is no loop. Five frames are sufficient to decide whether device
+// times are plausible (measure/protocol/clock.hpp).
 inline constexpr Protocol brief_protocol{
     .warm_up_frames = 2, .timed_frames = 5, .least_loop_ns = 0, .most_loop_frames = 1};
 
@@ -63,8 +64,8 @@ struct Measurement {
                                   const std::vector<record::ClockTrust>& clocks,
                                   const std::string& name, const EnergyMeters* meters = nullptr);
 
-// Counts the instructions of the third frame: drivers compile and set up during the first two. A
-// count is compared only with counts of the third frame.
+// Counts the instructions of the third frame, because drivers compile code and initialize during
+// the first two frames. A count is compared only with counts of the third frame.
 [[nodiscard]] Measurement count_instructions(Prepared& prepared, const Protocol& protocol,
                                              const InstructionCounter& counter);
 
@@ -75,7 +76,8 @@ struct Measurement {
 // the wall time, is not trusted.
 [[nodiscard]] record::ClockTrust calibrate(Prepared& prepared, technique::Work work_kind);
 
-// The content hash of the exact bits of an image and its size, which is the key for Store::image().
+// Returns the content hash of an image's exact bits and its size, which is the key for
+// Store::image().
 [[nodiscard]] std::string image_hash(const core::Image& image);
 
 }  // namespace triptych::measure

@@ -36,8 +36,8 @@ std::shared_ptr<const scene::ParticleSet> particles_of(std::vector<std::array<fl
   return set;
 }
 
-// The camera is at the origin and looks along −z. Culling is off, because one API would count its
-// compute pass together with the draw and the other would not.
+// Returns a work whose camera is at the origin and looks along −z. Culling is off, because not
+// every API would count its compute pass together with the draw.
 ParticleWork seen_from_origin(std::vector<std::array<float, 4>> spheres, int width, int height,
                               double fov_y_deg) {
   ParticleWork work;
@@ -60,8 +60,9 @@ constexpr int small_columns = 10;
 constexpr int small_rows = 10;
 constexpr std::uint64_t small_sprites = std::uint64_t{small_columns} * small_rows;
 
-// A grid of spheres that appear 5 pixels wide, in cells of 7 × 6.2 pixels, so that no sprite
-// touches another one or the border, and each has another position relative to the pixels.
+// A grid of spheres that are 5 pixels wide in the image, in cells of 7 × 6.2 pixels. No sprite
+// touches another sprite or the border, and each sprite has a different position relative to the
+// pixel grid.
 ParticleWork many_small() {
   constexpr int width = 70;
   constexpr int height = 62;
@@ -82,8 +83,8 @@ ParticleWork many_small() {
   return seen_from_origin(std::move(spheres), width, height, fov_y_deg);
 }
 
-// A technique that makes a quad from each sphere, with the pipeline's counts for each visible quad.
-// The two primitives that each quad sends to the clipping stage are not listed.
+// A technique that draws a quad for each sphere, and the pipeline statistics for each visible quad.
+// The two primitives of each quad that reach the clipping stage are not listed.
 struct QuadTechnique {
   std::string_view id;
   record::Counts counts;
@@ -140,8 +141,8 @@ std::vector<CalibrationScene> draw_scenes() {
   return scenes;
 }
 
-// One invocation for each pixel. Width and height are multiples of every work group size that is
-// used.
+// A scene with one compute invocation for each pixel. Width and height are multiples of every
+// work-group size that is used.
 CalibrationScene compute_scene(int width, int height) {
   VolumeWork volume;
   volume.scene.grid = std::make_shared<const scene::VoxelGrid>(
@@ -194,7 +195,8 @@ std::string text_of(const std::optional<std::uint64_t>& count) {
   return count ? fmt::format("{}", *count) : "nothing";
 }
 
-// Triptych's counter that equals the statistic in every scene; empty if there is none.
+// Returns the name of Triptych's counter that equals the statistic in every scene, or an empty
+// string if there is none.
 std::string counted_by_us(const std::vector<CalibrationReading>& readings) {
   for (const auto& [name, value] : readings.front().ours) {
     const bool same = std::ranges::all_of(readings, [&](const CalibrationReading& each) {
@@ -258,7 +260,7 @@ record::StatisticWorth calibration_verdict(const std::vector<CalibrationReading>
   }
   const auto [low, high] = std::ranges::minmax(readings, {}, multiple);
   if (low.first == std::uint64_t{0}) return differences(readings);
-  // Equal fractions, compared without rounding.
+  // The fractions are compared by cross-multiplication, which does not round.
   const bool same_multiple =
       std::ranges::all_of(readings, [&first = readings.front()](const CalibrationReading& each) {
         return *each.first * first.expected == *first.first * each.expected;
@@ -292,7 +294,7 @@ Calibration calibrate_statistics(Device& device, technique::Work kind,
                            .subject = std::string(technique::name_of(kind)),
                            .detail = error.what()});
       }
-      // If the device has another problem, the following configurations will show it.
+      // If the device has another problem, the configurations will reveal it.
       for (const auto& [name, value] : scene.expected) {
         unknown.emplace(name, record::StatisticWorth{
                                   .worth = record::Worth::unknown,
@@ -311,7 +313,7 @@ Calibration calibrate_statistics(Device& device, technique::Work kind,
                        .detail = fmt::format("{} statistics were read", readings.size())});
   }
   for (const auto& [name, each] : readings) calibration[name] = calibration_verdict(each);
-  // If one scene failed, the other scenes prove nothing about its statistics.
+  // If a scene failed, the remaining scenes are not sufficient to judge its statistics.
   for (const auto& [name, reason] : unknown) calibration[name] = reason;
   return calibration;
 }

@@ -15,21 +15,21 @@
 
 namespace triptych::measure {
 
-// A scene for calibration, and the numbers that a driver reports if it counts exactly.
+// A calibration scene, and the numbers that a driver reports if it counts exactly.
 struct CalibrationScene {
   std::string name;  // for display: "one quad over 66×50 pixels"
   Work work;
   record::Counts expected;
-  // Whether the expected number of fragments is Triptych's counter `fragments` of a counters frame.
+  // Whether the expected number of fragments is taken from Triptych's counter `fragments`.
   bool counts_fragments = false;
 };
 
-// The scenes for one kind of work. Widths and heights of drawn images are not multiples of 4, so
-// that a driver that counts whole blocks of pixels is detected.
+// Returns the scenes for one kind of work. Widths and heights of drawn images are not multiples of
+// 4, so that a driver that counts whole blocks of pixels is detected.
 [[nodiscard]] std::vector<CalibrationScene> calibration_scenes(technique::Work kind);
 
-// One statistic in one scene: `first` in one frame and `again` in the next. nullopt if the device
-// reported other statistics of that frame but not this one.
+// A statistic in a scene, as it was read in two frames, `first` and `again`. Each is nullopt if the
+// device reported other statistics of the frame but not this one.
 struct CalibrationReading {
   std::string scene;
   std::uint64_t expected = 0;
@@ -44,10 +44,10 @@ struct CalibrationReading {
 [[nodiscard]] record::StatisticWorth calibration_verdict(
     const std::vector<CalibrationReading>& readings);
 
-// The verdict for every statistic of the scenes that the device can draw. Empty for a device that
-// reports no statistics for any of them (OpenCL). If the API reports an error while a scene is
-// drawn, its statistics are `unknown`. Statistics that are all 0 or never become available are
-// added to `faults`. Throws DeviceLost.
+// Returns the verdict on every statistic of the scenes that the device can draw. The result is
+// empty if the device reports no statistics at all (OpenCL). If the API reports an error while a
+// scene is drawn, its statistics are `unknown`. Statistics that are all 0 or never become available
+// are added to `faults`. Throws DeviceLost.
 [[nodiscard]] std::map<std::string, record::StatisticWorth> calibrate_statistics(
     Device& device, technique::Work kind, std::vector<record::DeviceFault>* faults = nullptr);
 

@@ -26,20 +26,22 @@ const Factor& factor_of(const Suite& suite, std::string_view name) {
   const auto found = std::ranges::find(suite.factors(), name, &Factor::name);
   if (found == suite.factors().end()) {
     throw core::InputError(
-        fmt::format("--error chooses step, quadrature, ert, skip and adapt; suite {} has no {}",
+        fmt::format("--error chooses the levels of step, quadrature, ert, skip and adapt, but "
+                    "suite {} has no factor {}",
                     suite.name(), name));
   }
   return *found;
 }
 
-// The levels of a factor, except for "own", which stands for one of the other levels.
+// Returns the levels of a factor except "own", which stands for one of the other levels.
 std::vector<std::string> levels_of(const Suite& suite, std::string_view name) {
   std::vector<std::string> levels = factor_of(suite, name).levels;
   std::erase(levels, "own");
   return levels;
 }
 
-// "camera=…,data=…": all factors that the request does not change.
+// Returns the name of a scene, "camera=…,data=…". It contains all factors that the request does not
+// change.
 std::string scene_of(const Suite& suite, Configuration configuration) {
   for (const char* name : chosen_factors) configuration[name] = factor_of(suite, name).standard;
   return configuration_key(suite, configuration);
@@ -55,7 +57,7 @@ std::string text_of_step(double step) {
   return fmt::format("{}", rounded_down(step));
 }
 
-// Searches the candidates for the scenes of a plan.
+// Finds the candidates for the scenes of a plan.
 class Search {
  public:
   Search(SuiteWithTruth& suite, const RequestedError& request, Truths& truths,
@@ -136,8 +138,8 @@ class Search {
     limit_of_few_pixels_ = suite_.limit(coarse).image;
   }
 
-  // The longest step with the quadrature of the candidate: estimated from few pixels, then checked
-  // with the whole image.
+  // Returns the longest step for the quadrature of the candidate. It is estimated from an image of
+  // few pixels, and then checked with the whole image.
   [[nodiscard]] Found longest_step(Configuration candidate, const core::Image& limit) {
     const std::string viewport = std::exchange(candidate["viewport"], few_pixels_);
     accuracy::StepLimits limits = limits_;
@@ -215,7 +217,7 @@ ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite, const Reques
                            Truths& truths, const std::function<void(const std::string&)>& tell) {
   if (plan.counted()) {
     throw core::InputError(
-        fmt::format("--error compares times, but {} counts instructions instead", plan.name));
+        fmt::format("--error compares times, but plan {} counts instructions instead", plan.name));
   }
   ErrorRequest result{.plan = plan, .out_of_reach = {}};
   result.plan.checks.insert(record::Check::timing);
@@ -243,8 +245,8 @@ std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records
   std::map<std::pair<std::string, std::string>, Group> groups;
   for (const record::Record& record : records) {
     if (record.outcome == record::Outcome::skipped) continue;
-    // The levels as the plan requested them, because record.factors has resolved levels where the
-    // plan has "auto".
+    // These are the levels that the plan requested. record.factors cannot be used, because it has
+    // resolved levels where the plan has "auto".
     const auto asked = record::parse_factor_list(record.configuration);
     Group& group = groups[{record.device, scene_of(suite, asked)}];
     if (record.outcome != record::Outcome::measured || record.image.empty()) continue;

@@ -1,6 +1,6 @@
 #pragma once
-// `--error E`: finds the configurations that meet a requested error, and, after they were measured,
-// the fastest of them.
+// `--error E`: finds the configurations that meet a requested error, and, after they have been
+// measured, the fastest of them.
 
 #include <functional>
 #include <string>
@@ -15,7 +15,8 @@ namespace triptych::measure {
 
 struct ErrorRequest {
   Plan plan;  // contains the candidates for all scenes that can meet the error
-  // One line of text for each other scene: the reason, and its smallest error.
+  // One line for each scene that cannot meet the error, with the reason and the scene's smallest
+  // error.
   std::vector<std::string> out_of_reach;
 };
 
@@ -23,11 +24,12 @@ struct ErrorRequest {
 // ignored.
 //
 // For each scene of the plan, the result contains one candidate for every quadrature and skipping
-// mode. Its step is the longest one whose image (the reference image with its sample positions)
-// stays within the step's share of the error. Early ray termination gets its own share. If samples
-// can be merged, another candidate merges them. The step is searched with an image of few pixels
-// (accuracy::search_size) and shortened until the whole image stays within the share. Throws
-// InputError for a suite without these factors.
+// mode. Its step is the longest step with which the error of the reference image, computed with the
+// candidate's sample positions, stays within the step's share of the requested error. Early ray
+// termination gets its own share. If samples can be merged, another candidate merges them. The step
+// is estimated with an image of few pixels (accuracy::search_size), and then shortened until the
+// error of the whole image stays within the share. Throws InputError for a suite without these
+// factors.
 [[nodiscard]] ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite,
                                          const accuracy::RequestedError& request, Truths& truths,
                                          const std::function<void(const std::string&)>& tell);
@@ -48,7 +50,7 @@ struct ErrorAnswer {
                                                     const accuracy::RequestedError& request,
                                                     Truths& truths);
 
-// The answer as one line of text.
+// Returns the answer as one line of text.
 [[nodiscard]] std::string describe(const ErrorAnswer& answer,
                                    const accuracy::RequestedError& request);
 

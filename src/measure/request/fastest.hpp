@@ -1,6 +1,7 @@
 #pragma once
-// `technique: auto`: every technique is measured, and the fastest one of each scene and device is
-// reported with its numbers. The choice depends on records only, so it repeats if they do.
+// `technique: auto`: every technique is measured, and the fastest technique for each scene and
+// device is reported with its numbers. The choice depends only on records, so the same records
+// always lead to the same choice.
 
 #include <functional>
 #include <set>
@@ -12,9 +13,9 @@
 
 namespace triptych::measure {
 
-// The measurement that is compared: times, on the device clock if it is trusted for all
-// competitors, otherwise on the wall clock; or instructions of device code and driver, for plans
-// that count them.
+// The measurement that is compared: times on the device clock if it is trusted for all contestants,
+// otherwise times on the wall clock, or, for plans that count them, the instructions of device code
+// and driver.
 enum class Ruler : std::uint8_t { device_clock, wall_clock, instructions };
 
 struct Contestant {
@@ -28,11 +29,11 @@ struct FastestAnswer {
   std::string device;
   std::string scene;  // the factors that were not chosen
   Ruler ruler = Ruler::wall_clock;
-  std::vector<Contestant> contestants;  // the fastest first; among equal ones the first measured
+  std::vector<Contestant> contestants;  // fastest first; if equal, in the order of measurement
   std::vector<const record::Record*> not_drawn;
 };
 
-// Answers for every scene and device with more than one level of the chosen factors. If a
+// Returns an answer for every scene and device with more than one level of the chosen factors. If a
 // combination of levels was measured repeatedly, its fastest record counts. The records must
 // outlive the result.
 [[nodiscard]] std::vector<FastestAnswer> answer_fastest(const std::vector<record::Record>& records,
@@ -40,9 +41,9 @@ struct FastestAnswer {
                                                         const std::set<std::string>& chosen);
 
 // The result of trials of a plan with one scene on one device: a short trial of all techniques, and
-// a second one of those that may still be the fastest, because a disturbance may double a time. If
-// no technique can be chosen, there is no answer, or an answer without contestants. The answers
-// point to the records.
+// a second trial of those that may still be the fastest, because a disturbance may have doubled a
+// time in the first trial. If no technique can be chosen, there is no answer, or an answer without
+// contestants. The answers point to the records.
 struct FastestTried {
   std::vector<record::Record> records;
   std::vector<FastestAnswer> answers;
@@ -52,8 +53,9 @@ struct FastestTried {
     Plan plan, const Suite& suite,
     const std::function<std::vector<record::Record>(const Plan&)>& trial);
 
-// One line of text with the chosen levels and their advantage over each alternative. An alternative
-// whose fastest frame is not above the median of the chosen one counts as equally fast.
+// Returns one line with the chosen levels and their advantage over each alternative. An alternative
+// is called equally fast if its fastest frame did not take longer than the median frame of the
+// chosen levels.
 [[nodiscard]] std::string describe(const FastestAnswer& answer,
                                    const std::set<std::string>& chosen);
 

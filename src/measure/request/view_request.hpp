@@ -20,10 +20,10 @@ struct ViewSide {
 };
 
 struct ViewRequest {
-  std::string program;  // the file of `triptych`, which serves the devices
+  std::string program;  // the path of `triptych`, whose workers use the devices
   std::string suite;
   Configuration configuration;
-  std::vector<record::Device> devices;  // those of this machine
+  std::vector<record::Device> devices;  // all devices of this machine
   std::vector<ViewSide> sides;          // the columns of the window
   std::vector<std::string> faults = {};
   int limit_s = 0;  // the time limit of a frame

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Driver {
-  std::string_view id;    // the beginning of device ids; the family follows
+  std::string_view id;    // the beginning of device ids; the GPU family follows
   std::string_view name;  // short name of the driver
   std::string_view stub;  // the library with the stub of the kernel interface; empty: not needed
   std::string_view icd;   // start of the Vulkan driver's file name; empty: not a Vulkan driver
@@ -55,7 +55,7 @@ bool is_family(std::string_view text) {
   return !text.empty() && std::ranges::all_of(text, plain);
 }
 
-// Returns the value that a worker will see.
+// Returns the value that the variable will have in a worker.
 std::string value_of(std::string_view name, std::span<const std::string> overrides) {
   for (const std::string& entry : overrides) {
     if (entry.starts_with(fmt::format("{}=", name))) return entry.substr(name.size() + 1);
@@ -130,10 +130,10 @@ void add_stub(const Driver& driver, const std::string& family,
               std::span<const std::string> overrides, std::vector<std::string>& environment) {
   const std::string stub = find_library(driver.stub, overrides);
   if (stub.empty()) {
-    throw core::NotSupported(fmt::format(
-        "{} is missing: install the package mesa-drm-shim (Debian 13 and bookworm-backports have "
-        "it)",
-        driver.stub));
+    throw core::NotSupported(
+        fmt::format("{} is missing: install the package mesa-drm-shim (available in Debian 13 and "
+                    "bookworm-backports)",
+                    driver.stub));
   }
   const std::string before = value_of("LD_PRELOAD", overrides);
   environment.push_back(
@@ -180,7 +180,7 @@ std::vector<std::string> compile_only_environment(std::string_view device_id,
       throw core::NotSupported(
           fmt::format("no Vulkan driver file {}*.json was found: install the package "
                       "mesa-vulkan-drivers{}",
-                      driver.icd, driver.name == "nvk" ? " of Debian 13 or later" : ""));
+                      driver.icd, driver.name == "nvk" ? " from Debian 13 or later" : ""));
     }
     environment.push_back("VK_DRIVER_FILES=" + icd);
     environment.push_back("VK_ICD_FILENAMES=" + icd);  // read by loaders before 1.3.207

@@ -9,7 +9,8 @@
 namespace triptych::measure {
 namespace {
 
-// The vector units of x86 and ARM that LLVM uses. Other flags have no effect on generated code.
+// Whether a CPU flag affects the code that LLVM generates. These flags are the vector units of x86
+// and ARM; other flags have no effect.
 bool changes_code(std::string_view flag) {
   static constexpr std::string_view prefixes[] = {"avx", "sse4", "fma", "f16c",
                                                   "bmi", "amx",  "sve", "asimd"};

@@ -1,6 +1,5 @@
 #pragma once
-// The properties of the processor on which a driver's generated code depends, for devices that
-// compute on the processor.
+// Properties of this machine that affect the code that CPU drivers generate.
 
 #include <map>
 #include <span>
@@ -9,11 +8,11 @@
 
 namespace triptych::measure {
 
-// The instruction-set flags of this processor that compilers of device code use, sorted and
+// Returns the processor's instruction-set flags that device-code compilers use, sorted and
 // separated by spaces: "avx avx2 avx512f fma …". Empty if /proc/cpuinfo does not contain them.
 [[nodiscard]] std::string cpu_features();
 
-// The named environment variables that are set, with their values.
+// Returns those of the named environment variables that are set, with their values.
 [[nodiscard]] std::map<std::string, std::string> set_variables(
     std::span<const std::string_view> names);
 

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::array error_signals{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
 
-// The handler needs its own stack, because after a stack overflow there is no room for it on the
-// thread's stack.
+// The signal handlers have a separate stack, because after a stack overflow there is no space left
+// on the thread's stack.
 constexpr std::size_t handler_stack_bytes = std::size_t{64} << 10U;
 
 void say(std::string_view text) {
@@ -23,8 +23,8 @@ void say(std::string_view text) {
   static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
 }
 
-// Calls only functions that a signal handler may call. backtrace() loads a library at its first
-// call, so it is called once before any signal.
+// Writes the call stack. Calls only functions that a signal handler may call. backtrace() loads a
+// library in its first call, so write_stack_of_crashes() calls it once before any signal arrives.
 void write_stack() {
   constexpr int most_frames = 24;
   constexpr int own_frames = 3;  // this function, the handler and the kernel's trampoline

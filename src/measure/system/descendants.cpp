@@ -19,8 +19,8 @@
 namespace triptych::measure {
 namespace {
 
-// Returns 0 if the process is gone. In the file, the process name is in parentheses and may contain
-// any characters.
+// Returns the parent of a process, or 0 if the process has ended. In /proc/PID/stat, the name of
+// the process is in parentheses and may contain any characters.
 pid_t parent_of(pid_t pid) {
   std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
   std::string text;
@@ -45,11 +45,12 @@ std::vector<pid_t> children_of(pid_t parent) {
   return children;
 }
 
-// One object per process, because children belong to the process.
+// The children of this process. There is only one such object, because children belong to the whole
+// process.
 struct Children {
   std::mutex mutex;
   bool inherits = false;
-  std::set<pid_t> from_before;  // children of the program that became this one by exec
+  std::set<pid_t> from_before;  // children that this process already had
   std::set<pid_t> started;      // started by this process and not yet reaped
 };
 
@@ -58,9 +59,9 @@ Children& children() {
   return all;
 }
 
-// Kills the inherited processes. The children of each are inherited in turn, so this repeats until
-// there are none, but only for a limited time, because processes may be started faster than they
-// can be killed.
+// Kills the inherited processes. Their children are inherited in turn, so this is repeated until
+// there are none. The number of rounds is limited, because processes may be started faster than
+// they can be killed.
 void kill_orphans(const Children& all) {
   constexpr int most_rounds = 200;
   for (int round = 0; round < most_rounds; ++round) {
@@ -87,8 +88,8 @@ void inherit_orphans() {
   all.inherits = ::prctl(PR_SET_CHILD_SUBREAPER, 1) == 0;
 }
 
-// Holds the lock while it starts the child. Otherwise another thread could take the new child for
-// an inherited process and kill it.
+// Holds the lock while the child is started. Otherwise another thread could mistake the new child
+// for an inherited process and kill it.
 int start_child(const std::function<int(pid_t*)>& spawn, pid_t& pid) {
   Children& all = children();
   const std::scoped_lock lock(all.mutex);

@@ -9,16 +9,16 @@
 
 namespace triptych::measure {
 
-// Makes this process inherit the orphaned processes of its descendants. Call it before a worker is
-// started. Processes that are already children of this process are never touched.
+// Makes this process inherit the orphaned processes of its descendants. Must be called before a
+// worker is started. Processes that are already children of this process are never touched.
 void inherit_orphans();
 
 // Calls spawn(&pid), which starts a child that the caller reaps. Returns the result of spawn: 0, or
 // an error code if nothing was started.
 [[nodiscard]] int start_child(const std::function<int(pid_t*)>& spawn, pid_t& pid);
-// Call this after the child was reaped. If it was the last child, every process that was inherited
-// in the meantime is killed and reaped. While other workers live, it is not known to which of them
-// such a process belongs.
+// Must be called after a child was reaped. If it was the last child, all processes that were
+// inherited in the meantime are killed and reaped. This is not done earlier, because it is unknown
+// to which of the remaining workers an inherited process belongs.
 void forget_child(pid_t pid) noexcept;
 
 }  // namespace triptych::measure

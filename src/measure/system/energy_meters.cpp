@@ -25,13 +25,13 @@ std::optional<Value> value_of(const fs::path& file) {
   return std::nullopt;
 }
 
-// In a virtual machine, a counter may exist and stay at 0.
+// Whether a counter works. In a virtual machine, a counter may exist but stay at 0.
 bool counts(const fs::path& file) {
   return value_of<std::uint64_t>(file).value_or(0) > 0;
 }
 
-// The entries of a folder whose names begin with `prefix`, sorted by name; none if the folder does
-// not exist.
+// Returns the entries of a folder whose names begin with `prefix`, sorted by name, or none if the
+// folder does not exist.
 std::vector<fs::path> entries(const fs::path& folder, std::string_view prefix) {
   std::set<fs::path> found;
   std::error_code error;
@@ -46,7 +46,7 @@ std::vector<fs::path> entries(const fs::path& folder, std::string_view prefix) {
 // The reading of one meter over several frames, from its first update to its last.
 class EnergyMeters::Span {
  public:
-  // Called between frames, with the value of the meter after this many frames.
+  // Must be called between frames, with the value of the meter after this number of frames.
   void see(std::uint64_t microjoules, int frames, double ns, std::uint64_t range) {
     if (seen_ && microjoules != last_) {
       if (renewed_) {
@@ -93,9 +93,9 @@ std::vector<std::string> EnergyMeters::names() const {
   return names;
 }
 
-// Of the parts of a package only the memory is used: it is the only one that the package's own
-// meter does not include. `psys` is the whole machine; it includes the packages, which would be
-// counted twice.
+// Of the parts of a package, only the memory is used, because it is the only part that the
+// package's own meter does not include. `psys` is not used: it measures the whole machine including
+// the packages, which would be counted twice.
 void EnergyMeters::find_processors(const fs::path& system) {
   for (const fs::path& zone : entries(system / "class/powercap", "intel-rapl:")) {
     const std::string name = value_of<std::string>(zone / "name").value_or("");

@@ -1,6 +1,6 @@
 #pragma once
-// Energy, if the machine has meters. A meter counts the energy of a whole component, including its
-// idle share and other programs.
+// Measures energy if the machine has meters. A meter counts the energy of a whole component,
+// including its idle power and the energy that other programs use.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace triptych::measure {
 
 class EnergyMeters {
  public:
-  // The meters that this machine has and this process may read, in microjoules:
+  // Finds the meters of this machine that this process may read, in microjoules:
   //   package-0, package-0/dram   processors and their memory, from Linux's powercap (RAPL); most
   //                               systems allow only root to read them
   //   i915-0, xe-0                Intel's GPUs, from their kernel drivers' hwmon
@@ -26,18 +26,18 @@ class EnergyMeters {
 
   [[nodiscard]] std::vector<std::string> names() const;
 
-  // Microjoules of a frame, by meter, measured over frames drawn one after the other. Meters are
-  // updated only from time to time: RAPL's every millisecond, NVIDIA's up to ten times a second.
-  // For each meter the frames between two updates that are at least a tenth of a second apart are
-  // used. Frames are drawn until every meter has had such updates, but for at most a second or
-  // three frames, whichever is longer; a meter without such updates is absent. Without meters
-  // nothing is drawn.
+  // Returns the microjoules per frame for each meter, measured while frames are drawn one after the
+  // other. Meters are updated only from time to time: RAPL's every millisecond, NVIDIA's up to ten
+  // times a second. For each meter, the frames between two updates that are at least a tenth of a
+  // second apart are used. Frames are drawn until every meter has had such updates, but for at most
+  // a second or three frames, whichever is longer; a meter without such updates is absent. Without
+  // meters nothing is drawn.
   [[nodiscard]] record::Counts of_a_frame(const std::function<void()>& draw) const;
 
  private:
   struct Meter {
     std::string name;
-    std::function<std::optional<std::uint64_t>()> microjoules;  // since an arbitrary moment
+    std::function<std::optional<std::uint64_t>()> microjoules;  // counted since an arbitrary time
     std::uint64_t range = 0;  // the count restarts after this value; 0: never
   };
   class Span;

@@ -20,9 +20,9 @@ namespace {
 
 constexpr std::array<EnvironmentDefault, 2> defaults{{
     {"POCL_CACHE_DIR", "{cache}",
-     "opencl:", "PoCL processes that share a kernel cache at the same time crash"},
+     "opencl:", "PoCL processes crash if they use the same kernel cache at the same time"},
     {"POCL_PTHREAD_MIN_WGS", "1", "opencl:",
-     "otherwise PoCL runs launches of few work-groups on one thread, at half the speed for "
+     "otherwise PoCL runs launches with few work-groups on one thread, which halves the speed at "
      "256x256"},
 }};
 
@@ -61,7 +61,8 @@ std::string as_file_name(std::string_view device_id) {
   return name;
 }
 
-// Locks the folder's lock file and returns it; empty if another process holds the lock.
+// Locks the folder's lock file and returns its descriptor, which is empty if another process holds
+// the lock.
 FileDescriptor try_lock(const core::PrivateFolder& folder) {
   FileDescriptor lock(
       ::openat(folder.fd(), "lock", O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600));
@@ -114,14 +115,15 @@ CacheFolder::CacheFolder(std::string_view device_id) {
         lock_ = try_lock(folder);
         if (lock_) return;
       }
-      reasons += fmt::format("; {}: {} workers already use a folder there each", root.string(),
+      reasons += fmt::format("; {}: {} workers already use the cache folders there", root.string(),
                              most_at_once);
     } catch (const core::IoError& error) {
       reasons += fmt::format("; {}", error.what());
     }
   }
   throw core::IoError(fmt::format(
-      "no cache folder for {}: set XDG_CACHE_HOME to a folder of your own{}", device_id, reasons));
+      "no cache folder can be used for {}: set XDG_CACHE_HOME to a folder that belongs to you{}",
+      device_id, reasons));
 }
 
 core::PrivateFolder cache_folder(const std::string& name) {

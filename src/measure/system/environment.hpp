@@ -1,6 +1,6 @@
 #pragma once
-// The environment variables of drivers: defaults that they need to work well in a worker process,
-// variables that must not reach a worker, and variables that must not be set while measuring.
+// Environment variables for drivers: defaults that drivers need to work well in a worker process,
+// variables that are not passed on to a worker, and variables that must not be set while measuring.
 
 #include <filesystem>
 #include <optional>
@@ -18,19 +18,20 @@ namespace triptych::measure {
 struct EnvironmentDefault {
   std::string_view name;
   std::string_view value;  // "{cache}" stands for the worker's own cache folder
-  std::string_view api;    // prefix of the ids of the devices that get it
+  std::string_view api;    // prefix of the ids of the affected devices
   std::string_view reason;
 };
 [[nodiscard]] std::span<const EnvironmentDefault> environment_defaults();
 
-// A cache folder that belongs to one worker at a time. It is kept from run to run, so that drivers
-// find what they compiled before: $XDG_CACHE_HOME/triptych (or ~/.cache/triptych, or the folder for
-// temporary files) /<device>-<n>, where n is the first number that no other worker uses. The folder
-// is reserved until this object is destroyed, even if the worker is replaced. Drivers load compiled
-// code from it, so only folders that belong to this user alone are used (core/private_folder.hpp).
+// A cache folder that only one worker at a time uses. It is kept after the run, so that later runs
+// find code that was compiled before. Its path is ROOT/<device>-<n>. ROOT is
+// $XDG_CACHE_HOME/triptych, ~/.cache/triptych or a folder in the system's folder for temporary
+// files, and n is the first number that no other worker uses. The folder is reserved until this
+// object is destroyed, even if the worker is replaced. Drivers load compiled code from the folder,
+// so it must be a folder that only this user can access (core/private_folder.hpp).
 class CacheFolder {
  public:
-  // Throws IoError with the reason if no such folder can be used anywhere.
+  // Throws IoError with the reasons if none of these folders can be used.
   explicit CacheFolder(std::string_view device_id);
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
@@ -39,13 +40,14 @@ class CacheFolder {
   FileDescriptor lock_;
 };
 
-// The folder with that name next to those of the workers, in the first of these places that can be
-// used. Throws IoError as CacheFolder does.
+// Returns a folder with this name next to the cache folders of the workers. Throws IoError in the
+// same cases as CacheFolder.
 [[nodiscard]] core::PrivateFolder cache_folder(const std::string& name);
 
-// The complete environment of a worker for this device, as "NAME=VALUE": the caller's own without
-// variables that change how benchmarks are run (BENCHMARK_*), with the defaults that are missing.
-// `overrides` ("NAME=VALUE") replace both; "{cache}" in a value stands for the folder.
+// Returns the complete environment of a worker for this device, as "NAME=VALUE". It contains the
+// variables of this process, except those that configure Google Benchmark (BENCHMARK_*), and the
+// defaults that are not set. `overrides` ("NAME=VALUE") take precedence over both. "{cache}" in a
+// value stands for the cache folder.
 [[nodiscard]] std::vector<std::string> worker_environment(
     std::string_view device_id, const CacheFolder& cache,
     std::span<const std::string> overrides = {});
@@ -55,10 +57,11 @@ class CacheFolder {
 [[nodiscard]] std::vector<std::string> parse_environment(std::string_view text,
                                                          const std::string& where);
 
-// The reason why nothing may be measured with the environment variables of this process; nullopt if
-// there is none. (LP_PERF makes llvmpipe skip work, so that times and images would be wrong.)
+// Returns the reason why nothing may be measured with the environment variables of this process, or
+// nullopt if there is none. (LP_PERF makes llvmpipe skip work, so that times and images would be
+// wrong.)
 [[nodiscard]] std::optional<std::string> forbids_measuring();
-// The same for the environment of a worker, as "NAME=VALUE".
+// Does the same for the environment of a worker, as "NAME=VALUE".
 [[nodiscard]] std::optional<std::string> forbids_measuring(
     std::span<const std::string> environment);
 

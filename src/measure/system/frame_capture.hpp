@@ -3,8 +3,8 @@
 
 namespace triptych::measure {
 
-// While this object lives, RenderDoc captures the frames of whichever device is used, through its
-// in-application interface (renderdoc_app.h). It does nothing if RenderDoc is not loaded into the
+// While this object exists, RenderDoc captures all frames, on any device. Uses RenderDoc's
+// in-application interface (renderdoc_app.h). Does nothing if RenderDoc is not loaded into the
 // process, and never loads it.
 class FrameCapture {
  public:

@@ -1,6 +1,6 @@
 #pragma once
-// Makes SIGINT and SIGTERM events for which a loop can wait together with its pipes, so that the
-// process does not die in the middle of work.
+// Turns SIGINT and SIGTERM into events for which a loop can wait together with its pipes, so that
+// the process does not end in the middle of its work.
 
 #include <atomic>
 #include <csignal>
@@ -12,8 +12,9 @@
 
 namespace triptych::measure {
 
-// A signal asked the run to stop. Its workers have ended, every record so far is in the store, and
-// `resume` continues from there. Callers that have a store and a --resume print how to continue.
+// Thrown if a signal asked the run to stop. Its workers have ended, and every record so far is in
+// the store, so the run can be resumed. Callers that have a store and an option --resume print how
+// to continue.
 class Interrupted : public core::Error {
  public:
   explicit Interrupted(int signal, const std::string& what = "interrupted")
@@ -24,9 +25,9 @@ class Interrupted : public core::Error {
   int signal_;
 };
 
-// While this object lives, SIGINT, SIGTERM and SIGPIPE are blocked in the calling thread and arrive
-// at fd(). Writing to a pipe without a reader is then an error code. The destructor restores the
-// previous state; an interrupt that nobody has taken is raised again.
+// While this object exists, SIGINT, SIGTERM and SIGPIPE are blocked in the calling thread and
+// arrive at fd(). Writing to a pipe without a reader then returns an error. The destructor restores
+// the previous state, and raises an interrupt again if take() has not returned it.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -34,11 +35,10 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  [[nodiscard]] int fd() const noexcept {
-    return signals_.get();
-  }  // readable if a signal is waiting
-  // The interrupting signal, if one has arrived; SIGPIPE is dropped. Once it has arrived, every
-  // caller on any thread gets it.
+  // The descriptor is readable if a signal has arrived.
+  [[nodiscard]] int fd() const noexcept { return signals_.get(); }
+  // Returns the interrupting signal if one has arrived. SIGPIPE is ignored. Once a signal has
+  // arrived, all further calls on all threads return it.
   [[nodiscard]] std::optional<int> take();
 
  private:

@@ -28,8 +28,8 @@ struct Pipe {
   FileDescriptor write;
 };
 
-// Duplicates a pipe's end to a number above all those that the child uses, so that no dup2 in the
-// child overwrites the source of another dup2.
+// Duplicates a pipe's end to a descriptor number above all numbers that the child uses, so that no
+// dup2 in the child overwrites the source of another dup2.
 FileDescriptor raised(FileDescriptor low) {
   constexpr int above_childs_numbers = 16;
   FileDescriptor high(::fcntl(low.get(), F_DUPFD_CLOEXEC, above_childs_numbers));
@@ -39,7 +39,7 @@ FileDescriptor raised(FileDescriptor low) {
 
 Pipe make_pipe() {
   int ends[2] = {-1, -1};
-  if (::pipe2(ends, O_CLOEXEC) != 0) fail("cannot make a pipe", errno);
+  if (::pipe2(ends, O_CLOEXEC) != 0) fail("cannot create a pipe", errno);
   FileDescriptor read(ends[0]);
   FileDescriptor write(ends[1]);
   return {raised(std::move(read)), raised(std::move(write))};
@@ -52,8 +52,8 @@ void set_non_blocking(const FileDescriptor& fd) {
   }
 }
 
-// Called by its number, because the header of glibc 2.36 declares pidfd_open without C linkage. The
-// descriptor is always close-on-exec.
+// Uses the number of the system call, because the header of glibc 2.36 declares pidfd_open without
+// C linkage. The descriptor is always close-on-exec.
 FileDescriptor open_pid_fd(pid_t pid) {
   return FileDescriptor(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
 }
@@ -112,7 +112,8 @@ class Attributes {
   posix_spawnattr_t attributes_{};
 };
 
-// posix_spawn takes char* for historical reasons and does not write to them.
+// Returns pointers for posix_spawn, which takes char* for historical reasons but does not write to
+// the strings.
 std::vector<char*> pointers(const std::vector<std::string>& texts) {
   std::vector<char*> result;
   result.reserve(texts.size() + 1);
@@ -146,7 +147,7 @@ std::string describe(const Exit& exit) {
 
 Process::Process(const std::vector<std::string>& command,
                  const std::vector<std::string>& environment) {
-  if (command.empty()) throw core::IoError("no command to start a worker with");
+  if (command.empty()) throw core::IoError("the command that starts a worker is empty");
   Pipe request = make_pipe();
   Pipe answer = make_pipe();
   Pipe log = make_pipe();
@@ -186,8 +187,8 @@ Process::Process(const std::vector<std::string>& command,
 Process::~Process() {
   if (exit_) return;
   kill();
-  // A process that sleeps inside a driver cannot be reaped even after SIGKILL. This program must
-  // not hang with it.
+  // A process that is blocked inside a kernel driver cannot be reaped even after SIGKILL. This
+  // program must not wait for it forever.
   constexpr std::chrono::seconds patience{10};
   try {
     if (wait(patience)) return;
@@ -198,7 +199,8 @@ Process::~Process() {
 }
 
 void Process::kill() noexcept {
-  // The group outlives its leader while a grandchild (such as a driver's linker) is running.
+  // The whole group is killed, because it outlives its leader while a grandchild (such as a
+  // driver's linker) is running.
   if (pid_ > 0) ::kill(-pid_, SIGKILL);
 }
 
@@ -214,7 +216,8 @@ std::optional<Exit> Process::wait(std::chrono::milliseconds limit) {
     if (ready == 0) return std::nullopt;
     if (errno != EINTR) fail("cannot wait for a worker", errno);
   }
-  // This kills what the child left behind. Until the child is reaped, no other process gets its id.
+  // This kills processes that the child left behind. It is safe, because no other process gets the
+  // child's id until the child is reaped.
   kill();
   int status = 0;
   if (::waitpid(pid_, &status, 0) != pid_) fail("cannot reap a worker", errno);

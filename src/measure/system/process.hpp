@@ -36,14 +36,14 @@ struct Exit {
   int code = 0;
   int signal = 0;
 };
-// "killed by SIGSEGV (Segmentation fault)", "exited with code 3".
+// Returns, for example, "killed by SIGSEGV (Segmentation fault)" or "exited with code 3".
 [[nodiscard]] std::string describe(const Exit& exit);
 
 // The child reads requests from `child_request_fd` and writes answers to `child_answer_fd`. Its
 // standard input is empty. Its standard output and standard error both go to the log pipe, so that
-// nothing that a driver prints can mix with the answers. It gets no other descriptor of this
-// process. It leads its own process group: the processes that it starts die with it, and those that
-// leave the group die with the last process of this kind (descendants.hpp).
+// nothing that a driver prints can mix with the answers. It inherits no other descriptors. It leads
+// its own process group: processes that it starts are killed when it ends, and processes that leave
+// the group are killed when the last child of this program ends (descendants.hpp).
 class Process {
  public:
   static constexpr int child_request_fd = 3;
@@ -60,13 +60,15 @@ class Process {
   [[nodiscard]] int request_fd() const noexcept { return request_.get(); }  // blocking
   [[nodiscard]] int answer_fd() const noexcept { return answer_.get(); }    // non-blocking
   [[nodiscard]] int log_fd() const noexcept { return log_.get(); }          // non-blocking
-  [[nodiscard]] int pid_fd() const noexcept { return pid_fd_.get(); }  // readable once it has ended
+  // Readable once the child has ended.
+  [[nodiscard]] int pid_fd() const noexcept { return pid_fd_.get(); }
 
-  // Sends SIGKILL to the whole group.
+  // Sends SIGKILL to the whole process group.
   void kill() noexcept;
-  // Closes the requests. A child that waits for one then knows that it may exit.
+  // Closes the request pipe, so that a child that waits for a request exits.
   void close_requests() noexcept { request_.reset(); }
-  // Waits until the child has ended and reaps it; nullopt if it has not ended in time.
+  // Waits until the child has ended and reaps it. Returns nullopt if the child has not ended in
+  // time.
   [[nodiscard]] std::optional<Exit> wait(std::chrono::milliseconds limit);
 
  private:
@@ -78,8 +80,9 @@ class Process {
   FileDescriptor pid_fd_;
 };
 
-// The first 4 KiB of the output of a short program, with the environment of this process and the
-// given variables. nullopt if it cannot be started, fails or takes more than 20 seconds.
+// Runs a short program with the environment of this process and the given variables. Returns the
+// first 4 KiB of its output, or nullopt if it cannot be started, fails or takes more than 20
+// seconds.
 [[nodiscard]] std::optional<std::string> output_of(const std::vector<std::string>& command,
                                                    std::vector<std::string> variables = {});
 

@@ -3,7 +3,7 @@
 
 namespace triptych::measure {
 
-// The wall time since its construction.
+// Measures the wall time since its construction.
 class Stopwatch {
  public:
   [[nodiscard]] std::chrono::steady_clock::duration elapsed() const {

@@ -15,8 +15,8 @@
 namespace triptych::measure {
 namespace {
 
-// The value in the first line "KEY<blanks><separator> VALUE", without quotation marks; empty if
-// there is none.
+// Returns the value in the first line of the form "KEY<blanks><separator> VALUE", without quotation
+// marks, or an empty string if there is no such line.
 std::string value_in(const char* file, std::string_view key, char separator) {
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);) {
@@ -37,8 +37,8 @@ std::string first_line(const char* file) {
   return line;
 }
 
-// The number of cores on which this process may run. It may be smaller than the number of cores of
-// the machine, and drivers use it for the size of their thread pools.
+// Returns the number of cores on which this process may run. It may be smaller than the number of
+// cores of the machine. Drivers use it as the size of their thread pools.
 int usable_cores() {
   cpu_set_t cores;
   CPU_ZERO(&cores);

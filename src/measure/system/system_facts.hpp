@@ -5,9 +5,10 @@
 
 namespace triptych::measure {
 
-// Processor, cores, memory, operating system, kernel, compiler, version of Triptych.
+// Returns facts about this machine: processor, cores, memory, operating system, kernel, compiler,
+// and the version of Triptych.
 [[nodiscard]] std::map<std::string, std::string> system_facts();
-// The name of the machine; empty if it has none.
+// Returns the host name of the machine, or an empty string if it is unknown.
 [[nodiscard]] std::string host_name();
 
 }  // namespace triptych::measure

@@ -24,7 +24,7 @@ std::string text_of(const std::array<std::uint8_t, 32>& hash) {
   return {hash.begin(), hash.end()};
 }
 
-// Empty if there is no key that only this user can read.
+// Returns the key, or an empty string if there is no key that only this user can read.
 std::string read_key(const core::PrivateFolder& folder) {
   const FileDescriptor file(::openat(folder.fd(), "key", O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
   struct stat status{};
@@ -35,8 +35,8 @@ std::string read_key(const core::PrivateFolder& folder) {
   return got == static_cast<ssize_t>(key_bytes) ? key : std::string();
 }
 
-// The key is written to another file, which is then linked under the final name. If several
-// processes create a key at the same time, all of them use the first one.
+// Creates the key. It is written to another file, which is then linked under the final name, so
+// that all processes use the first key if several processes create keys at the same time.
 void make_key(const core::PrivateFolder& folder) {
   std::string key(key_bytes, '\0');
   if (::getrandom(key.data(), key.size(), 0) != static_cast<ssize_t>(key.size())) return;

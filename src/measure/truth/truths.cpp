@@ -12,8 +12,8 @@
 namespace triptych::measure {
 namespace {
 
-// Returns a key with which records share a reference image and bound in memory. It is cheaper than
-// SuiteWithTruth::truth_key, which loads the data to find out whether they have changed.
+// Returns the key of a record's reference image and bound in memory. Computing it is cheaper than
+// computing SuiteWithTruth::truth_key, which loads the data to find out whether they have changed.
 std::string memory_key(const record::Record& record) {
   std::string key = record.suite + " " + record.scene;
   for (const char* factor : {"ert", "adapt", "voxel", "precision", "ray"}) {
@@ -58,7 +58,7 @@ std::string Truths::data_hash_of(const record::Record& record) {
     try {
       return suite_(record.suite).data_hash(record.factors);
     } catch (const core::Error&) {
-      return {};  // the caller that requests the reference image reports why there are none
+      return {};  // the caller also requests the reference image, which throws the reason
     }
   });
 }
@@ -81,8 +81,8 @@ accuracy::TruthPair Truths::kept(const std::string& scene, const std::string& ve
     drawn.own_seal = own_seal(drawn).value_or("");
     store_.set_truth(drawn);
   } catch (const core::IoError&) {
-    // If it cannot be stored, because the store is read-only or the disk is full, the image is
-    // still valid.
+    // The image is valid even if it cannot be stored, because the store is read-only or the disk is
+    // full.
   }
   return rendered;
 }
@@ -102,8 +102,8 @@ const accuracy::LimitPicture* Truths::limit_of(const record::Record& record) {
 accuracy::LimitPicture Truths::find_or_render_limit(const record::Record& record,
                                                     const std::string& key) {
   SuiteWithTruth& suite = suite_(record.suite);
-  // Stored like a reference image, with its own name for the scene, and its uncertainty as the
-  // bound.
+  // A limit is stored like a reference image, with a special scene name and with its uncertainty as
+  // the bound.
   accuracy::TruthPair pair = kept("limit of " + record.suite, key, [&]() -> accuracy::TruthPair {
     Limit limit = suite.limit(record.factors);
     return {std::move(limit.image), std::move(limit.uncertainty)};

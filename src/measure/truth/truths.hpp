@@ -1,5 +1,5 @@
 #pragma once
-// The reference image, bound, limit and expectations of a record, from its suite.
+// The reference image, bound, limit and expectations of a record, which are computed by its suite.
 
 #include <functional>
 #include <map>
@@ -16,16 +16,16 @@ namespace triptych::measure {
 
 using FindSuiteWithTruth = std::function<SuiteWithTruth&(std::string_view)>;  // throws InputError
 
-// Provides the reference images of records. Each one is rendered once, kept in memory as long as
-// this object exists, and also stored for later processes if the store is writable. If data is
-// missing, every function throws the suite's exception.
+// Provides the reference images of records. Each image is rendered only once. It is kept in memory
+// as long as this object exists and, if the store is writable, stored for later processes. If data
+// is missing, every function throws the suite's exception.
 class Truths {
  public:
   Truths(FindSuiteWithTruth suite, record::Store& store)
       : suite_(std::move(suite)), store_(store) {}
 
   [[nodiscard]] const accuracy::TruthPair& of(const record::Record& record);
-  // The expectations of the record in addition to its bound.
+  // Returns the conditions that the record must satisfy in addition to its bound.
   [[nodiscard]] std::vector<record::Expectation> expectations_of(
       const record::Record& record) const {
     return suite_(record.suite).expectations(record.factors);
@@ -34,9 +34,9 @@ class Truths {
   [[nodiscard]] const std::map<std::string, double>& open_counts_of(const record::Record& record);
   // See SuiteWithTruth::data_hash; empty if the data is not available.
   [[nodiscard]] std::string data_hash_of(const record::Record& record);
-  // nullptr if the record's scene has no limit.
+  // Returns nullptr if the record's scene has no limit.
   [[nodiscard]] const accuracy::LimitPicture* limit_of(const record::Record& record);
-  // The image that a record of the store refers to.
+  // Returns the image to which a record of the store refers.
   [[nodiscard]] core::Image picture_of(const record::Record& record) const {
     return store_.picture(record.image);
   }
@@ -45,7 +45,8 @@ class Truths {
   [[nodiscard]] accuracy::TruthPair find_or_render(const record::Record& record);
   [[nodiscard]] accuracy::LimitPicture find_or_render_limit(const record::Record& record,
                                                             const std::string& key);
-  // The pair that is stored under these names. If there is none, `render` makes it.
+  // Returns the pair that is stored under these names. If there is none, calls `render` and stores
+  // the result.
   [[nodiscard]] accuracy::TruthPair kept(const std::string& scene, const std::string& version,
                                          const std::function<accuracy::TruthPair()>& render);
 
