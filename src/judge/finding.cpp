@@ -197,7 +197,7 @@ std::string kind_of(const Observation& what) {
   }
   const bool alone = what.changes.size() == 1;
   for (const Change& each : what.changes) {
-    if (each.unit == Unit::misses && !alone) continue;  // more code also has more cache misses
+    if (each.unit == Unit::misses && !alone) continue;  // more code also causes more misses
     kind += " " + each.name;
   }
   if (what.cause == Cause::device_fault) kind += " " + what.fact("kind");

@@ -23,7 +23,7 @@ using record::name_of;
 enum class Verdict : std::uint8_t {
   pass,
   improved,      // a pass that is significantly better than the baseline
-  advisory,      // information that does not affect the verdict: times, another driver version
+  advisory,      // does not affect the verdict: times, comparison with another driver version
   skipped,       // not checked, for example because the device does not support it; see the cause
   waived,        // a known regression, listed in waivers.json or in a file of expectations
   cannot_judge,  // a baseline or a measurement is missing, or the data changed; never a pass
@@ -188,7 +188,7 @@ struct Observation {
   std::map<std::string, double> numbers = {};  // finite; each name contains the unit
   std::vector<Change> changes = {};
   std::vector<std::string> names = {};            // names of configurations, values or devices
-  std::map<std::string, std::string> facts = {};  // identifiers
+  std::map<std::string, std::string> facts = {};  // identifiers, such as hashes and versions
   std::string detail = {};                        // the message of a library or an exception
   record::Outcome outcome = record::Outcome::measured;
   record::Reason reason = {};
@@ -244,7 +244,8 @@ struct Finding : Observation {
   // For a regression on a driver version that was never accepted: the devices on which the
   // configuration was accepted. These may include the same device with another driver version.
   std::vector<std::string> accepted_on = {};
-  bool measured_before = false;  // for a skip: the device measured it when it was accepted
+  // For a skip: whether the device measured the configuration when its baselines were accepted.
+  bool measured_before = false;
   Excuse excuse = {};
   Again drawn_again = Again::not_drawn;
   // The finding of the second attempt, if its cause differs.

@@ -61,7 +61,7 @@ struct Baselines::Cache {
   std::optional<std::vector<Waiver>> waivers;
   std::optional<std::vector<Absent>> absent;
 
-  // A whole file of the form {configuration: …}.
+  // Returns the content of a file of the form {configuration: …}, which is read only once.
   template <typename Value, typename Read>
   const ByName<Value>& table(std::optional<ByName<Value>>& known, const char* file,
                              const Read& read) {

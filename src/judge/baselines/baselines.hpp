@@ -51,19 +51,19 @@ namespace triptych::judge {
 
 struct Manifest {
   std::string plan_hash;
-  std::uint64_t configurations = 0;                      // in counters.json
+  std::uint64_t configurations = 0;                      // their number in counters.json
   std::map<std::string, std::set<std::string>> devices;  // device id → Device::statistics_key()
-  std::map<std::string, std::string> files;              // name → content hash
+  std::map<std::string, std::string> files;              // file name → content hash
   record::Checks checks;  // the checks of the plan when it was accepted
-  // Drivers that were accepted on one machine, by Device::statistics_key(). If one of them is
-  // found, the others are expected.
+  // Sets of drivers that were accepted together on one machine, by Device::statistics_key(). If one
+  // driver of a set is found, all others in the set are expected.
   std::vector<std::set<std::string>> machines;
 };
 
 struct StoredTiming {
   std::string clock;
   double median_ns = 0;
-  double spread = 0;  // log_spread() of its frames
+  double spread = 0;  // log_spread() of the frame times
   std::string kernel_hash;
 };
 
@@ -80,7 +80,7 @@ struct StoredCost {
 
 // Everything that is stored about the cost of a driver version.
 struct DriverCost {
-  std::string device;          // id
+  std::string device;          // device id
   std::string driver_version;  // as the driver reports it
   std::string counted_by;
   std::map<std::string, StoredCost> configurations;
@@ -88,7 +88,7 @@ struct DriverCost {
 
 // The stored code statistics of one driver version.
 struct DriverCode {
-  std::string device;          // id
+  std::string device;          // device id
   std::string driver_version;  // as the driver reports it
   std::map<std::string, record::Code> configurations;
 };

@@ -28,12 +28,13 @@ Waiver read_waiver(const core::JsonNode& entry) {
   return waiver;
 }
 
-// An entry that excuses everything would also hide all later failures.
+// Rejects an entry that excuses everything, because it would also hide all later failures.
 void refuse_without_limits(const core::JsonNode& entry, const Waiver& waiver) {
   if (matches_every_device(waiver.device) && matches_every_test(waiver.test) &&
       matches_every_configuration(waiver.configuration)) {
     entry.at("test").fail(
-        "excuses every finding on every device: name the device, the test or the configuration");
+        "this entry excuses every finding on every device; name a device, a test or a "
+        "configuration");
   }
 }
 

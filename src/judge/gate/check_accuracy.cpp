@@ -16,7 +16,7 @@
 namespace triptych::judge {
 namespace {
 
-// Converting an image to float rounds each channel once.
+// The largest rounding error of a channel when an image is converted to floats.
 constexpr double float_rounding = 0x1.0p-24;
 
 // Returns the largest allowed error. A part of the accepted error (`arithmetic`) comes from

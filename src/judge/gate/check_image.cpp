@@ -13,7 +13,7 @@
 namespace triptych::judge {
 namespace {
 
-// Two renderings of the same reference image differ only by rounding to float.
+// Tolerance for two renderings of the same reference image, which differ only by rounding to float.
 constexpr double truth_tolerance = 1e-5;
 
 // A correct image of one device, for the comparison with the images of other devices.

@@ -30,7 +30,7 @@ struct DeviceCost {
   std::string id;
   std::string name;        // the id, followed by the driver version if the run lacks the device
   std::string counted_by;  // the emulator; only counts from the same emulator are compared
-  bool measured = false;   // in this run
+  bool measured = false;   // whether the device was measured in this run
   std::map<std::string, ConfigurationCost> configurations;
 
   // Whether at least one configuration has a stored cost with which the current one is compared.

@@ -67,7 +67,9 @@ struct GateRequest {
   // Globs for devices that this machine lacks on purpose, and for APIs whose devices cannot be
   // listed on this machine.
   std::vector<std::string> without_devices = {};
-  std::string program = {};  // the judging program's version; empty: not compared
+  // The version of the judging program, which is compared with the program that measured. If empty,
+  // they are not compared.
+  std::string program = {};
   // Returns the reference image of a record's scene, and the error bound for the record's rendering
   // path. The suite computes both, and the caller caches them.
   FindTruth truth;

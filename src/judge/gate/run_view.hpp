@@ -79,7 +79,7 @@ struct AccuracyFindings {
 // Without baselines, the result contains the errors of the scenes but compares none of them.
 [[nodiscard]] AccuracyFindings check_accuracies(const RunView& view);
 
-// One finding for each record that has a score, including records that failed.
+// Returns one finding for each record that has a score, including records that failed.
 [[nodiscard]] std::vector<Finding> check_stress(const RunView& view);
 
 // Reports checks that the baselines contain but the plan no longer requests, devices that the run

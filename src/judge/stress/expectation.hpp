@@ -31,7 +31,7 @@ class StressRun {
   const record::Store& store_;
   // The records by device and factor levels.
   std::map<std::pair<std::string, Factors>, const record::Record*> index_;
-  std::map<std::string, core::Image> pictures_;  // by hash
+  std::map<std::string, core::Image> pictures_;  // by the hash of the image
 };
 
 // Whether the run contains the second record with which the expectation compares `record`. Returns

@@ -41,7 +41,7 @@ std::string bounds(const Overview& all) {
   if (all.bounds.empty()) return {};
   std::string text =
       "\n<details><summary>How close images come to their bounds</summary>\n\n"
-      "| plan | device | images | largest error over bound | where |\n|---|---|--:|--:|---|\n";
+      "| plan | device | images | largest error / bound | where |\n|---|---|--:|--:|---|\n";
   for (const NearestBound& bound : all.bounds) {
     text += fmt::format("| {} | {} | {} | {:.3g} | {} |\n", markdown_escaped(bound.plan),
                         markdown_escaped(bound.device), bound.pictures, bound.share,

@@ -51,7 +51,7 @@ Columns<RecordSource> what_it_was() {
   return {
       {{"record", "integer", "", "number of the record in this export; other tables refer to it"},
        [](const RecordSource& s) { return s.number; }},
-      {{"run", "text", "", "the run, see runs"}, of(&Record::run)},
+      {{"run", "text", "", "id of the run; see the table runs"}, of(&Record::run)},
       {{"suite", "text", "", "volume or particles"}, of(&Record::suite)},
       {{"plan", "text", "", "the plan that was run"}, of(&Record::plan)},
       {{"configuration", "text", "", "the factors that the plan names: factor=value,…"},
@@ -60,12 +60,13 @@ Columns<RecordSource> what_it_was() {
        [](const RecordSource& s) { return record::short_name(s.record); }},
       {{"scene", "text", "", "the factors that determine the image"}, of(&Record::scene)},
       {{"technique", "text", "", "the technique"}, of(&Record::technique)},
-      {{"device", "text", "", "the device's id, see devices"}, of(&Record::device)},
+      {{"device", "text", "", "id of the device; see the table devices"}, of(&Record::device)},
       {{"outcome", "text", "", "measured, skipped, failed, crashed, hung or lost"},
        [](const RecordSource& s) { return std::string(name_of(s.record.outcome)); }},
-      {{"cause", "text", "", "the reason why it was not measured, see docs/store.md"},
+      {{"cause", "text", "",
+        "the reason why the configuration was not measured; see docs/store.md"},
        [](const RecordSource& s) { return std::string(name_of(s.record.reason.cause)); }},
-      {{"reason", "text", "", "the cause as a sentence"},
+      {{"reason", "text", "", "the same reason, as a sentence"},
        [](const RecordSource& s) {
          return s.record.reason == record::Reason{} ? "" : words::text_of(s.record.reason);
        }},
@@ -152,11 +153,11 @@ std::string cost_unit(const std::string& part) {
 Columns<RunSource> run_columns() {
   return {
       {{"run", "text", "", "id of the run"}, [](const RunSource& s) { return text(s.run.id); }},
-      {{"store", "text", "", "the store that contained it"},
+      {{"store", "text", "", "the store that contains the run"},
        [](const RunSource& s) { return text(s.store); }},
       {{"plan", "text", "", "the plan that was run"},
        [](const RunSource& s) { return text(s.run.plan); }},
-      {{"started_at", "text", "", "ISO 8601, UTC"},
+      {{"started_at", "text", "", "start of the run, ISO 8601, UTC"},
        [](const RunSource& s) { return text(s.run.started_at); }},
       {{"plan_hash", "text", "", "hash of the plan's text"},
        [](const RunSource& s) { return text(s.run.plan_hash); }},
@@ -175,7 +176,8 @@ Columns<DeviceSource> device_columns() {
   };
   using record::Device;
   return {
-      {{"run", "text", "", "the run, see runs"}, [](const DeviceSource& s) { return text(s.run); }},
+      {{"run", "text", "", "id of the run; see the table runs"},
+       [](const DeviceSource& s) { return text(s.run); }},
       {{"device", "text", "", "<api>:<driver>"}, of(&Device::id)},
       {{"api", "text", "", "opencl, vulkan, gl or null"}, of(&Device::api)},
       {{"name", "text", "", "as reported by the driver"}, of(&Device::name)},
@@ -205,10 +207,11 @@ Columns<ClockSource> clock_columns() {
   };
   using record::ClockTrust;
   return {
-      {{"run", "text", "", "the run, see runs"}, [](const ClockSource& s) { return text(s.run); }},
+      {{"run", "text", "", "id of the run; see the table runs"},
+       [](const ClockSource& s) { return text(s.run); }},
       {{"device", "text", "", "the device's id"},
        [](const ClockSource& s) { return text(s.device); }},
-      {{"work", "text", "", "compute or draw"},
+      {{"work", "text", "", "kind of work: compute or draw"},
        [](const ClockSource& s) { return text(s.clock.work); }},
       {{"offered", "integer", "", "1 if the device reports times, otherwise 0"},
        [](const ClockSource& s) { return std::uint64_t{s.clock.offered}; }},
@@ -219,7 +222,7 @@ Columns<ClockSource> clock_columns() {
        ratio(&ClockTrust::ratio)},
       {{"ratio_low", "number", "", "the smallest ratio"}, ratio(&ClockTrust::ratio_low)},
       {{"ratio_high", "number", "", "the largest ratio"}, ratio(&ClockTrust::ratio_high)},
-      {{"verdict", "text", "", "the verdict as a sentence"},
+      {{"verdict", "text", "", "result of the calibration, as a sentence"},
        [](const ClockSource& s) { return text(s.clock.verdict); }},
   };
 }

@@ -72,12 +72,12 @@ struct ValueSource {
   std::uint64_t value;
 };
 
-constexpr const char* numbers = "number of the record, see records";
+constexpr const char* numbers = "number of the record; see the table records";
 
 Columns<SampleSource> sample_columns() {
   return {
       {{"record", "integer", "", numbers}, [](const SampleSource& s) { return s.record; }},
-      {{"clock", "text", "", "wall or device"},
+      {{"clock", "text", "", "the clock: wall or device"},
        [](const SampleSource& s) { return std::string(s.clock); }},
       {{"frame", "integer", "", "number of the frame, from 0"},
        [](const SampleSource& s) { return s.frame; }},
@@ -98,7 +98,7 @@ Columns<ValueSource> value_columns(const std::string& description) {
 Columns<ValueSource> cost_columns() {
   return {
       {{"record", "integer", "", numbers}, [](const ValueSource& s) { return s.record; }},
-      {{"of", "text", "", "frame, or prepare (data, pipelines and upload)"},
+      {{"of", "text", "", "what was counted: frame, or prepare (data, pipelines and upload)"},
        [](const ValueSource& s) { return std::string(s.of); }},
       {{"part", "text", "",
         "group of instructions (device_code, driver, libc, program), or allocations, or misses"},
@@ -176,13 +176,13 @@ class Tables {
         records_(folder, "records", "one configuration on one device in one run per row",
                  record_columns(names)),
         samples_(folder, "samples", "one timed frame on one clock per row", sample_columns()),
-        counters_(folder, "counters", "one counter of Triptych per row",
+        counters_(folder, "counters", "one of Triptych's counters per row",
                   value_columns("count in one frame, by Triptych's device code")),
         statistics_(folder, "statistics", "one pipeline statistic per row",
                     value_columns("count in one frame, by the driver")),
-        cost_(folder, "cost", "one part of a cost per row", cost_columns()),
+        cost_(folder, "cost", "one part of a record's cost per row", cost_columns()),
         code_(folder, "code", "one statistic of one executable per row", code_columns()),
-        energy_(folder, "energy", "one meter of a record per row", energy_columns()),
+        energy_(folder, "energy", "one energy meter of a record per row", energy_columns()),
         errors_of_(request.errors) {
     if (errors_of_) {
       errors_.emplace(folder, "errors", "one error of one record's image per row", error_columns());

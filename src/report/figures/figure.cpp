@@ -132,7 +132,7 @@ class Figure::Drawing {
       if (figure_.across_.names.empty())
         grid += fmt::format("M{:.1f} {:.1f}v{:.0f}", x, top_, figure_.height_);
       const double half = width_of(tick.text) / 2;
-      if (!turned_ && x - half < free_from) continue;  // no space
+      if (!turned_ && x - half < free_from) continue;  // the label does not fit
       free_from = x + half + 4;
       const Html more =
           turned_ ? markup(" transform=\"rotate(-90 {:.1f} {:.1f})\"", x + 4, bottom + 8) : Html();

@@ -9,7 +9,7 @@
 namespace triptych::report {
 namespace {
 
-constexpr double letter = 6.3;  // mean advance of 11 px text
+constexpr double letter = 6.3;  // mean width of a letter in 11 px text
 constexpr double mark_radius = 3.2;
 
 // Returns the number of characters, not of bytes.

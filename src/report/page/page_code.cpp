@@ -49,7 +49,7 @@ Html cell_of(const record::Code& code) {
 }
 
 Html statistics_table(const PlanData& plan) {
-  std::map<std::string, std::map<std::string, Html>> cells;  // configuration → device
+  std::map<std::string, std::map<std::string, Html>> cells;  // by configuration and device
   std::set<std::string> devices;
   for (const record::Record& record : plan.records) {
     if (record.code.empty()) continue;

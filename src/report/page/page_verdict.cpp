@@ -194,7 +194,7 @@ Html kinds(const Overview& all) {
 
 Html bounds(const Overview& all) {
   if (all.bounds.empty()) return {};
-  Rows rows{{"plan", "device", "images", "largest error over bound", "where"}};
+  Rows rows{{"plan", "device", "images", "largest error / bound", "where"}};
   for (const NearestBound& bound : all.bounds) {
     rows.push_back({bound.plan, bound.device, fmt::to_string(bound.pictures),
                     fmt::format("{:.3g}", bound.share), breakable(bound.configuration)});
@@ -329,8 +329,8 @@ Html words_section(const Overview& all) {
                                   : row.check == judge::Check::accuracy    ? "docs/accuracy.md"
                                   : row.check == judge::Check::stress      ? "docs/validate.md"
                                                                            : "docs/gate.md";
-    rows.push_back(
-        {fmt::format("check {}", name), fmt::format("the row {} above", row.kind), page});
+    rows.push_back({fmt::format("check {}", name),
+                    fmt::format("the check in the row {} above", row.kind), page});
   }
   return folded("Meaning of the terms", table(rows));
 }

@@ -91,7 +91,7 @@ std::string clocks_of(const ComparisonResult& result) {
   causes.erase(comparison::WallClockCause::none);
   std::string text;
   for (const auto& [cause, count] : causes) {
-    text += fmt::format("in {} configurations, the wall clock was used: {}\n", count,
+    text += fmt::format("in {} configurations, the wall clock was used, because {}\n", count,
                         words::text_of(cause));
   }
   return text;

@@ -39,7 +39,7 @@ void add_record(Coverage& coverage, const record::Record& record) {
   }
 }
 
-// 12 345 678
+// Formats a number with spaces between groups of digits: "12 345 678".
 std::string grouped_digits(std::uint64_t value) {
   std::string digits = std::to_string(value);
   for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3) {

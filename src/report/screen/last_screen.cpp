@@ -161,9 +161,9 @@ class Screen {
     }
     if (shown < all.open.size()) {
       const std::size_t more = all.open.size() - shown;
-      add(fmt::format(
-          "  {} more {}: {}", more, more == 1 ? "cause" : "causes",
-          files.empty() ? "--out FOLDER writes them" : "on the page and in the files below"));
+      add(fmt::format("  {} more {}: {}", more, more == 1 ? "cause" : "causes",
+                      files.empty() ? "use --out FOLDER to write them to files"
+                                    : "on the page and in the files below"));
     }
   }
 
@@ -177,7 +177,7 @@ class Screen {
     const std::string command = command_of(first, *cause.result);
     // A command is never shortened, because that would turn it into a different command.
     if (width_of(command) > longest_command) {
-      lines.emplace_back("    (its command is on the page, because it is too long for a terminal)");
+      lines.emplace_back("    (the command is on the page, because it is too long for a terminal)");
     } else if (!command.empty()) {
       if (cause.group.configurations > 1 && !first.configuration.empty()) {
         append_wrapped(lines,

@@ -166,10 +166,11 @@ std::vector<std::string> colours_of(const PixelInImage& pixel) {
   std::vector<std::string> lines{
       fmt::format("{:<11}{:>14}{:>14}{:>14}{:>14}", fmt::format("{},{}", pixel.x, pixel.y), "red",
                   "green", "blue", "opacity"),
-      colour_line("image", pixel.image,
-                  error <= pixel.bound
-                      ? fmt::format("error {:.3g}, within the bound of {:.3g}", error, pixel.bound)
-                      : fmt::format("error {:.3g}, the bound is {:.3g}", error, pixel.bound))};
+      colour_line(
+          "image", pixel.image,
+          error <= pixel.bound
+              ? fmt::format("error {:.3g}, within the bound of {:.3g}", error, pixel.bound)
+              : fmt::format("error {:.3g}, beyond the bound of {:.3g}", error, pixel.bound))};
   if (pixel.recorded) {
     lines.push_back(colour_line("recorded", *pixel.recorded,
                                 *pixel.recorded == pixel.image

@@ -12,7 +12,8 @@
 namespace triptych::report {
 namespace {
 
-constexpr int most_failures_each = 3;  // lines for each device of a plan
+// The largest number of failures that a log reports for each device of a plan.
+constexpr int most_failures_each = 3;
 constexpr std::string_view to_start_of_line = "\r\033[K";
 
 std::string time_of(const record::Record& record) {

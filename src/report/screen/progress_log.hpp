@@ -20,7 +20,7 @@ class SignsOfLife {
   using Clock = std::chrono::steady_clock;
   explicit SignsOfLife(std::function<Clock::time_point()> now = Clock::now);
   [[nodiscard]] bool due();
-  // Call this when something else was written.
+  // Restarts the interval. Call this after other output was written.
   void restart();
 
  private:

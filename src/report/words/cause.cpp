@@ -15,7 +15,7 @@ namespace {
 
 using judge::Finding;
 
-// "a, b are", or "a is" for one device.
+// Returns "a, b are", or "a is" for a single device.
 std::string with_verb(const std::vector<std::string>& devices, std::string_view one,
                       std::string_view many) {
   return fmt::format("{} {}", fmt::join(devices, ", "), devices.size() == 1 ? one : many);
@@ -108,7 +108,7 @@ std::vector<std::string> next_steps(const Overview& all, std::string_view store_
   });
   std::string first = "next: see docs/gate.md";
   if (!plans.empty()) {
-    first = fmt::format("next: if the change is intended, triptych accept {}{} --reason TEXT",
+    first = fmt::format("next: to accept an intended change: triptych accept {}{} --reason TEXT",
                         fmt::join(plans, " "), store_option);
   } else if (drawn) {
     first = "next: for a bug report, use the command above with reduce instead of render";

@@ -30,7 +30,7 @@ namespace triptych::report::words {
 [[nodiscard]] std::vector<std::string> next_steps(const Overview& all,
                                                   std::string_view store_option);
 
-// "FAIL", "PASS", "CANNOT JUDGE"
+// Returns "FAIL", "PASS" or "CANNOT JUDGE".
 [[nodiscard]] std::string_view word_of(core::ExitCode code);
 // Explains an exit code: "1: something is wrong or has changed".
 [[nodiscard]] std::string_view meaning_of(core::ExitCode code);

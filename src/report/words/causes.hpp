@@ -10,9 +10,9 @@
 
 namespace triptych::report::words {
 
-// "1 pixel", "16 pixels".
+// Formats a number with its noun: "1 pixel", "16 pixels".
 [[nodiscard]] std::string counted(double n, std::string_view one, std::string_view many);
-// "12 configurations (A; B; C; …)".
+// Formats the number of configurations, with some of their names: "12 configurations (A; B; C; …)".
 [[nodiscard]] std::string examples(const std::vector<std::string>& configurations);
 // Formats a ratio as a change: "+1.4 %".
 [[nodiscard]] std::string percent(double ratio);

@@ -28,7 +28,7 @@ using comparison::TimeReason;
 using comparison::WallClockCause;
 using measure::Side;
 
-// "b crashed: …; a failed: …", with b first, because b is the side under test.
+// Returns "b crashed: …; a failed: …". b comes first, because it is the side under test.
 template <typename T>
 std::string by_side(const BySide<T>& sides, std::string_view between) {
   std::string text;
@@ -189,7 +189,7 @@ std::string joined(const std::vector<KeyPart>& parts) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-// "18 slower, 3 same".
+// Returns the number of configurations with each verdict: "18 slower, 3 same".
 std::string verdicts(const comparison::ComparisonResult& result) {
   std::map<std::string_view, int> numbers;
   for (const auto& compared : result.configurations) ++numbers[compared.verdict_name()];
@@ -215,8 +215,8 @@ std::string text_of(const comparison::DifferenceGroup& group) {
   std::string text = text_of(group.difference);
   if (!group.where.empty()) text = fmt::format("{}: {}", group.where, text);
   if (group.count <= 1) return text;
-  return group.ratios ? fmt::format("{} in {} configurations, most in {}", range_of(*group.ratios),
-                                    group.count, text)
+  return group.ratios ? fmt::format("{} in {} configurations, the most in {}",
+                                    range_of(*group.ratios), group.count, text)
                       : fmt::format("in {} configurations, first in {}", group.count, text);
 }
 

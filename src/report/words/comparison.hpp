@@ -15,16 +15,16 @@
 
 namespace triptych::report::words {
 
-// "1000 → 1001 (+0.1 %), although the driver is the same".
+// Describes one difference: "1000 → 1001 (+0.1 %), although the driver is the same".
 [[nodiscard]] std::string text_of(const comparison::Difference& difference);
-// "in 27 configurations, +1.2 % to +40 %, most in CONFIGURATION: …".
+// Describes a group of differences: "+1.2 % to +40 % in 27 configurations, the most in X: …".
 [[nodiscard]] std::string text_of(const comparison::DifferenceGroup& group);
 // Returns one line for each group: "regression    cost: +1.2 % to +40 % in 27 configurations, …".
 [[nodiscard]] std::string lines_of(const std::vector<comparison::DifferenceGroup>& groups);
 // Returns why there is no verdict on a time, or "" if there is a verdict.
 [[nodiscard]] std::string text_of(const comparison::TimeReason& reason);
 [[nodiscard]] std::string text_of(comparison::WallClockCause cause);
-// "plan volume/quick exists only in a".
+// States what only one side has: "plan volume/quick exists only in a".
 [[nodiscard]] std::string text_of(const comparison::OnlyOne& only);
 // Describes the measurement that is in progress: "fresh process run 2 of 5".
 [[nodiscard]] std::string stage_of(const comparison::ComparisonProgress& progress);
@@ -35,7 +35,8 @@ namespace triptych::report::words {
 // Describes the two sides in two lines. For two drivers or settings of the same device, the second
 // line contains only what differs.
 [[nodiscard]] std::string sides(const record::Device& a, const record::Device& b);
-// "FAIL: 18 slower, 3 same; 2 deterministic regressions, 0 fixed, 1 changed; 64 s"
+// Summarizes a comparison: "FAIL: 18 slower, 3 same; 2 deterministic regressions, 0 fixed, 1
+// changed; 64 s".
 [[nodiscard]] std::string headline(const comparison::ComparisonResult& result);
 
 // Summarizes a table of two or more devices: "gl:x is best in 5 of its 8 techniques; vulkan:y takes

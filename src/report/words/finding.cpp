@@ -1,4 +1,4 @@
-// Sentences about a finding as a whole, its advice, and the headline over all findings.
+// Sentences about whole findings and their advice, and the headline that summarizes all findings.
 
 #include "report/words/finding.hpp"
 
@@ -64,7 +64,8 @@ std::string number_of(std::size_t n, std::string_view one, std::string_view many
   return counted(static_cast<double>(n), one, many);
 }
 
-// " in image, timing on vulkan:lavapipe": the checks and devices with findings of one verdict.
+// Returns the checks and devices that have findings with this verdict: " in image, timing on
+// vulkan:lavapipe".
 std::string places(const GateResult& result, Verdict verdict) {
   std::set<std::string_view> checks;
   std::set<std::string_view> devices;
@@ -77,7 +78,7 @@ std::string places(const GateResult& result, Verdict verdict) {
   return devices.empty() ? where : where + fmt::format(" on {}", fmt::join(devices, ", "));
 }
 
-// "96 checks, 4 devices; 2 improved, 3 waived, 12 advisory"
+// Returns the numbers of findings: "96 checks, 4 devices; 2 improved, 3 waived, 12 advisory".
 std::string tally(const GateResult& result) {
   std::set<std::string_view> devices;
   for (const Finding& finding : result.findings) {

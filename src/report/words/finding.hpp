@@ -13,7 +13,8 @@
 
 namespace triptych::report::words {
 
-// One sentence: "16 of 36864 pixels exceed the error bound of the reference image; …".
+// Describes an observation in one sentence: "16 of 36864 pixels exceed the error bound of the
+// reference image; …".
 [[nodiscard]] std::string text_of(const judge::Observation& what);
 
 // Returns the sentence, together with the waiver that excuses the finding and the result of drawing
@@ -24,12 +25,12 @@ namespace triptych::report::words {
 // Returns found() and advice() in one line.
 [[nodiscard]] std::string text_of(const judge::Finding& finding);
 
-// "instructions of generated code 1000 → 1001 (+0.1 %)".
+// Describes a changed value: "instructions of generated code 1000 → 1001 (+0.1 %)".
 [[nodiscard]] std::string text_of(const judge::Change& change);
 // Returns why a correlation line is refused, or "" if it is not.
 [[nodiscard]] std::string refusal(const judge::CorrelationLine& line);
 
-// "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices".
+// Summarizes a result: "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices".
 [[nodiscard]] std::string headline(const judge::GateResult& result);
 
 }  // namespace triptych::report::words

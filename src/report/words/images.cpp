@@ -92,7 +92,7 @@ std::string devices_compared(const Observation& what) {
 }
 
 std::string score(const Observation& what) {
-  std::string text = fmt::format("its score is {:.0f} of {:.0f} points", what.number("score"),
+  std::string text = fmt::format("the score is {:.0f} of {:.0f} points", what.number("score"),
                                  what.number("best"));
   if (what.numbers.contains("accepted")) {
     text += fmt::format(", but {:.0f} were accepted", what.number("accepted"));

@@ -1,4 +1,4 @@
-// The sentence of each cause.
+// Contains a sentence for each cause.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,7 +18,7 @@ using judge::Against;
 using judge::Cause;
 using judge::Observation;
 
-// "A; B; C; …"
+// Returns at most three of the names: "A; B; C; …".
 std::string first_of(const std::vector<std::string>& names) {
   const auto named = std::min<std::ptrdiff_t>(std::ssize(names), 3);
   const std::vector<std::string> first(names.begin(), names.begin() + named);
@@ -46,8 +46,8 @@ std::string other_plan(const Observation& what) {
 }
 
 std::string no_longer_reported(const Observation& what) {
-  if (what.names.empty()) return "these values are missing, although they are stored";
-  return fmt::format("these values are missing, although they are stored, for {}",
+  if (what.names.empty()) return "these values are missing, although the baselines contain them";
+  return fmt::format("these values are missing, although the baselines contain them, for {}",
                      examples(what.names));
 }
 
@@ -271,13 +271,13 @@ std::string sentence_of(const Observation& what) {
       return no_line(what);
     case Cause::no_partner:
       return fmt::format(
-          "its cost cannot be correlated, because no stored cost of another device was counted by "
-          "{}",
+          "the cost of this device cannot be correlated, because no stored cost of another device "
+          "was counted by {}",
           what.fact("counted_by"));
     case Cause::error:
       return error(what);
     case Cause::unknown_error:
-      return with_detail("its error cannot be measured", what.detail);
+      return with_detail("the error of the image cannot be measured", what.detail);
     case Cause::not_comparable:
       return "the image cannot be compared, because its size differs or it has non-finite values";
     case Cause::no_limit:

@@ -214,7 +214,7 @@ std::string off_the_line(const Observation& what) {
 }
 
 std::string on_the_line(const Observation& what) {
-  return fmt::format("its cost agrees with the prediction from the cost of {}: {}",
+  return fmt::format("the cost of this device agrees with the prediction from the cost of {}: {}",
                      what.fact("other"), fit(what));
 }
 
@@ -228,8 +228,8 @@ std::string no_line(const Observation& what) {
                                  LineRefusal::slope_out_of_range, LineRefusal::large_scatter}) {
     if (judge::name_of(each) == what.fact("refusal")) line.refusal = each;
   }
-  return fmt::format("its cost cannot be correlated with the cost of {}: {}", what.fact("other"),
-                     refusal(line));
+  return fmt::format("the cost of this device cannot be correlated with the cost of {}: {}",
+                     what.fact("other"), refusal(line));
 }
 
 std::string refusal(const judge::CorrelationLine& line) {

@@ -146,7 +146,7 @@ TEST(LastScreen, SaysWhereTheOtherCausesAreToldAndHowToMendThem) {
     result.findings.back().advice = {judge::Advice::accept, "triptych accept PLAN"};
   }
   const std::string text = last_screen(std::vector{result}, 3, {}, {.width = 120});
-  EXPECT_THAT(text, HasSubstr("more causes: --out FOLDER writes them"));
+  EXPECT_THAT(text, HasSubstr("more causes: use --out FOLDER to write them to files"));
   EXPECT_THAT(text, HasSubstr("accept the run with triptych accept PLAN"));
 }
 

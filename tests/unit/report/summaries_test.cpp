@@ -32,7 +32,7 @@ TEST(Markdown, HasALinePerDeviceAndPlanOfHowNearBoundsAre) {
   result.findings.back().verdict = judge::Verdict::pass;
   result.findings.back().numbers["ratio"] = 0.25;
   EXPECT_THAT(markdown(result), HasSubstr("| volume/quick | gl:x | 1 | 0.25 | step=1 |"));
-  EXPECT_THAT(markdown(some_result()), Not(HasSubstr("largest error over bound")));
+  EXPECT_THAT(markdown(some_result()), Not(HasSubstr("largest error / bound")));
 }
 
 TEST(Junit, CountsFailuresAndEscapes) {
