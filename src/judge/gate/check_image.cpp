@@ -161,7 +161,7 @@ class SceneJudge {
   std::optional<ReferenceHash> reference_;  // its hash, if only the hash is stored
   bool truth_checked_ = false;
   std::vector<Picture> pictures_;
-  core::Image bound_;  // error bound of a particle scene; it also states where ids are certain
+  core::Image bound_;  // error bound of a particle scene, including the pixels with certain ids
 };
 
 }  // namespace

@@ -56,7 +56,7 @@ Finding check_exact(const RunView& view, const record::Record& record,
                {.cause = Cause::as_stored, .numbers = {{"values", values}}, .names = unsteady});
 }
 
-// The differences between a device whose driver version has no baselines and all stored drivers.
+// The result of comparing a device whose driver version has no baselines with all stored drivers.
 struct Elsewhere {
   std::size_t configurations = 0;
   std::map<std::string, Change>

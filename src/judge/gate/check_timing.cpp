@@ -21,8 +21,9 @@ struct Ratio {
   double half_width = 0;  // half the width of its 95 % interval
 };
 
-// Returns a clock that timed both runs. This is the clock of the stored time, if it also timed this
-// record. All frames are also timed by the wall clock. Returns nullopt if there is no such clock.
+// Returns the clock by which the current and the stored time are compared: the clock of the stored
+// time if this record was timed by it, too. Every frame is also timed by the wall clock. Returns
+// nullopt if the times cannot be compared.
 std::optional<std::string_view> common_clock(const record::Record& record,
                                              const StoredTiming& stored) {
   if (stored.clock == record.clock()) return record.clock();

@@ -56,7 +56,7 @@ std::string name_of(const Finding& finding) {
   return name.empty() ? finding.configuration : name;
 }
 
-// One document. Remembers the configurations whose time was already written.
+// Writes one JUnit document. Remembers the configurations whose time was already written.
 class Junit {
  public:
   explicit Junit(const JunitFacts& facts) : facts_(facts) {}

@@ -238,7 +238,8 @@ std::string text_of(const TimeReason& reason) {
   };
   const auto interval = [&] {
     if (!reason.numbers.contains("half_width")) return std::string();
-    return fmt::format("; the interval is ± {:.2f} %", 100 * std::expm1(number("half_width")));
+    return fmt::format("; the confidence interval is ± {:.2f} %",
+                       100 * std::expm1(number("half_width")));
   };
   switch (reason.cause) {
     case TimeCause::none:
