@@ -73,7 +73,7 @@ struct SampleRow {
   std::optional<TakenSample> taken;        // nullopt if it was skipped, or the ray had ended
   std::int64_t index = 0;
   bool compared = true;              // false for merged samples
-  std::optional<Operation> differs;  // the first operation whose result is outside of its bound
+  std::optional<Operation> differs;  // the first operation whose result is outside its bound
 };
 
 struct RayHistory {

@@ -12,16 +12,17 @@
 
 namespace triptych::accuracy {
 
-// What a device shows in a pixel. The id is core::Image::no_particle if no particle is visible.
+// The surface that a device shows in a pixel. The id is core::Image::no_particle if no particle is
+// visible.
 struct ShownSurface {
   std::uint32_t id = 0;
   double depth = 0;  // distance along the view axis
   std::array<double, 4> colour{};
 };
 
-// What the reference renderer shows in a pixel, and how much a device may differ from it. If the
-// pixel is not certain, a device may show a different id and depth, and the bound of the colour
-// includes these cases.
+// The surface that the reference renderer shows in a pixel, and the differences that are allowed on
+// a device. If the pixel is not certain, a device may show a different id and depth, and the bound
+// of the colour includes these cases.
 struct ExpectedSurface {
   std::uint32_t id = 0;
   double depth = 0;
@@ -66,7 +67,7 @@ struct SpriteHistory {
 using Particles = std::vector<std::uint32_t>;
 struct Fewest {
   Particles particles;
-  bool stopped_early = false;
+  bool stopped_early = false;  // the limit of calls ended the search
 };
 // Reduces `particles`, for which `wrong` returns true, by leaving out parts as long as `wrong`
 // still returns true. Calls `wrong` at most `most_calls` times. The algorithm is ddmin (Zeller and

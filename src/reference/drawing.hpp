@@ -31,7 +31,9 @@ inline void check(const scene::VolumeScene& scene) {
     throw core::InputError("the volume's data does not match its size and format");
   }
   if (!(scene.step_voxels > 0)) throw core::InputError("the step must be positive");
-  if (scene.width < 0 || scene.height < 0) throw core::InputError("the viewport is negative");
+  if (scene.width < 0 || scene.height < 0) {
+    throw core::InputError("the width and height of the viewport must not be negative");
+  }
 }
 
 // Calls function(Stored{}), where Stored is the type of the grid's voxels.

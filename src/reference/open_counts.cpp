@@ -122,7 +122,7 @@ class Stops {
   double smallest_ = 1;
 };
 
-// What devices may find at a sample. `possible` means that it may have some opacity on a device,
+// The opacity of a sample on devices. `possible` means that it may have some opacity on a device,
 // and `certain` that it has some opacity on every device.
 struct Sight {
   bool possible = false;

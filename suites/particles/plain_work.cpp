@@ -70,7 +70,7 @@ class Claims {
 }  // namespace
 
 bool sprites_are_apart(const scene::ParticleScene& scene) {
-  // How far a sprite reaches, in radii of the sphere. A polygon around a silhouette has at least
+  // The reach of a sprite, in radii of the sphere. A polygon around a silhouette has at least
   // four corners, which are at most √2 times as far from its centre as the silhouette. The factor
   // 1.05 is a margin.
   constexpr double reach = 1.05 * std::numbers::sqrt2;

@@ -232,7 +232,7 @@ std::vector<StressCase> cases_of_transfer() {
       {31,
        "lit_everywhere",
        "each brick has one lit voxel, so nothing can be skipped",
-       "skipping takes at most 1.1 times as many samples as no skipping",
+       "with skipping, a ray takes at most 1.1 times as many samples as without skipping",
        {},
        stress_lit_everywhere},
       {32,

@@ -46,11 +46,12 @@ class Hierarchy {
   [[nodiscard]] std::uint32_t runs() const noexcept;
 
   // The sizes of the buffers in words; at least 4 each, because no API allows an empty buffer.
-  [[nodiscard]] std::size_t box_words() const noexcept;      // two corners of four words per node
-  [[nodiscard]] std::size_t sphere_words() const noexcept;   // spheres in the tree's order
-  [[nodiscard]] std::size_t order_words() const noexcept;    // particles of these spheres
-  [[nodiscard]] std::size_t sorted_words() const noexcept;   // two lists of (position, particle)
-  [[nodiscard]] std::size_t scratch_words() const noexcept;  // counts of 256 digits, and their sums
+  [[nodiscard]] std::size_t box_words() const noexcept;     // two corners of four words per node
+  [[nodiscard]] std::size_t sphere_words() const noexcept;  // spheres in the tree's order
+  [[nodiscard]] std::size_t order_words() const noexcept;   // particles of these spheres
+  [[nodiscard]] std::size_t sorted_words() const noexcept;  // two lists of (position, particle)
+  // For each of the 256 digits, the number of particles in each run; then one total per digit.
+  [[nodiscard]] std::size_t scratch_words() const noexcept;
 
  private:
   HierarchyParameters parameters_;

@@ -2,7 +2,7 @@
 // once. The distance that is reported to the driver depends only on the depth key. Therefore hits with equal depths
 // have equal distances, and the driver does not discard one of them because of another. The reported distance is
 // behind the surface by 2⁻²⁰ of the distance, to allow for the rounding of near/depth.
-TRI_BINDING(13) uniform samplerBuffer candidate_texels;  // spheres in world space, by particle
+TRI_BINDING(13) uniform samplerBuffer candidate_texels;  // spheres in world space, indexed by particle
 
 vec3 ray_direction(vec2 s) { return u.forward.xyz + s.x * u.right.xyz + s.y * u.up.xyz; }
 

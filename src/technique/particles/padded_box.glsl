@@ -5,7 +5,7 @@
 //                           distance), the driver's differences and divisions (a few u more), and the error of
 //                           24u·(|c| + r) in the distance of a hit. That error is along the view axis, so it is
 //                           multiplied by the ray's length per unit of depth.
-//   1/64 pixel              the margin of sprites, which covers hits of single precision outside of the silhouette
+//   1/64 pixel              the margin of sprites, which covers hits of single precision outside the silhouette
 void padded_box(vec4 sphere, out vec3 lo, out vec3 hi) {
   sphere_box(sphere, lo, hi);
   vec3 to = sphere.xyz - u.eye.xyz;

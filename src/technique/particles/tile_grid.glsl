@@ -7,7 +7,7 @@
 #define TRI_BLOCK 4             // tiles along the edge of a block that is drawn together
 #define TRI_PARTICLE_BITS 28    // bits of an entry that contain the particle
 
-TRI_BINDING(13) uniform samplerBuffer camera_texels;  // spheres in camera space, by particle
+TRI_BINDING(13) uniform samplerBuffer camera_texels;  // spheres in camera space, indexed by particle
 TRI_BINDING(14) uniform usamplerBuffer tile_texels;   // a header, then one Tile after the other, with two texels each
 TRI_BINDING(15) uniform usamplerBuffer entry_texels;
 TRI_BINDING(16) uniform usamplerBuffer pixel_texels;  // small spheres: a plane of depth keys, then of particle keys

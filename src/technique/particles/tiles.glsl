@@ -32,7 +32,7 @@ struct Tile {
   uint no_state[2];
 };
 
-layout(std430) TRI_BINDING(7) writeonly buffer CameraSpheres { vec4 camera_spheres[]; };  // by particle
+layout(std430) TRI_BINDING(7) writeonly buffer CameraSpheres { vec4 camera_spheres[]; };  // indexed by particle
 // Indices of particles: small spheres of all rounds from the front, large spheres of this round from the back.
 layout(std430) TRI_BINDING(8) buffer Kept { uint kept[]; };
 layout(std430) TRI_BINDING(9) buffer Tiles {

@@ -1,4 +1,4 @@
-// One work group per cell, one invocation per particle. Draws small spheres and counts the entries of large ones.
+// One work group per cell, one invocation per particle. Draws small spheres and counts the entries of large spheres.
 layout(local_size_x = 64) in;
 TRI_BINDING(17) uniform samplerBuffer sphere_texels;
 layout(std430) TRI_BINDING(12) readonly buffer CellEnds { uint cell_ends[]; };

@@ -3,7 +3,7 @@
 // show.
 layout(local_size_x = 32) in;
 
-struct Column {  // pairs of pixels, as in large_pixels
+struct Column {  // eight pixels; each vector holds two, as a texel of large_pixels does
   uvec4 a;
   uvec4 b;
   uvec4 c;

@@ -11,7 +11,7 @@ struct Cut {
 
 // Composites a piece of the step behind `gathered`, which contains premultiplied colour and opacity. `depth` is the
 // piece's optical depth in powers of two. a0, a1 and a2 are the Legendre coefficients of its colour as a function
-// of the share of that depth.
+// of the share of this depth that has been passed.
 void add_piece(inout vec4 gathered, float depth, vec3 a0, vec3 a1, vec3 a2) {
   float opacity = tri_1m_exp2(-depth);
   float z = 0.3465735903 * depth;

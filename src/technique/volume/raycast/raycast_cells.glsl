@@ -201,7 +201,7 @@ void add_cell(inout Light light, Grid grid, Ray ray, Way way, ivec3 cell, float 
   }
 }
 
-// What the brick map contains for a cell: whether its brick is visible, and the planes through which the ray leaves
+// The content of the brick map for a cell: whether its brick is visible, and the planes through which the ray leaves
 // the region in which all bricks are alike. Planes at the faces of the volume include the half cells there.
 struct Around {
   bool visible;
