@@ -51,7 +51,8 @@ namespace triptych::judge {
 
 struct Manifest {
   std::string plan_hash;
-  std::uint64_t configurations = 0;                      // number of those in counters.json
+  // The number of configurations in counters.json.
+  std::uint64_t configurations = 0;
   std::map<std::string, std::set<std::string>> devices;  // device id → Device::statistics_key()
   std::map<std::string, std::string> files;              // file name → content hash
   record::Checks checks;  // the checks of the plan when it was accepted
