@@ -20,7 +20,7 @@ std::string_view file_name(std::string_view path) {
   return slash == std::string_view::npos ? path : path.substr(slash + 1);
 }
 
-// Compilers of device code report many lines, but what() must be one line.
+// Device-code compilers report many lines, but what() must be one line.
 std::string on_one_line(std::string_view text) {
   std::string line;
   for (const char c : text) {

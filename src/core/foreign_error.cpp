@@ -34,9 +34,10 @@ void rethrow_as_ours(const std::string& about) {
     if (!about.empty()) {
       throw InputError({.file = about}, fmt::format("cannot be used ({})", error.what()));
     }
-    throw Error(fmt::format(
-        "internal error of Triptych ({}): please report it, with the command and its input files",
-        error.what()));
+    throw Error(
+        fmt::format("internal error in Triptych ({}); please report it together with the command "
+                    "and its input files",
+                    error.what()));
   }
 }
 

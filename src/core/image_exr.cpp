@@ -187,7 +187,8 @@ void require_attributes_inside(std::span<const std::byte> bytes) {
     }
     if (channels && place != end) {
       throw std::runtime_error(fmt::format(
-          "its list of channels ends at byte {}, but the header states byte {}", place, end));
+          "its channel list ends at byte {}, but according to the header it ends at byte {}", place,
+          end));
     }
     place = end;
   }
@@ -242,7 +243,7 @@ std::vector<std::byte> encode_exr(const Image& image) {
     Imf::OutputFile file(stream, header, 0);
     file.setFrameBuffer(frame_of(image, 0, 0));
     file.writePixels(image.height);
-  }  // the table of line offsets is written here
+  }  // the destructor writes the table of line offsets
   return stream.take();
 }
 

@@ -24,7 +24,7 @@ void write_exr(const Image& image, const std::filesystem::path& file);
 [[nodiscard]] Image decode_exr(std::span<const std::byte> bytes,
                                const std::string& name = "an image");
 
-// Writes 8-bit sRGB without alpha: the image over a black background, clamped to [0, 1]. NaN is
+// Writes 8-bit sRGB without alpha. The image is composited over black and clamped to [0, 1]. NaN is
 // shown as magenta.
 void write_png(const Image& image, const std::filesystem::path& file);
 [[nodiscard]] std::vector<std::byte> encode_png(const Image& image);

@@ -13,7 +13,7 @@ namespace triptych::core {
 // this before measuring, so that no time is spent on results that cannot be stored.
 void require_writable(const std::filesystem::path& folder);
 
-// A file and the option or argument that named it.
+// A file, and the name of the option or argument that specifies it.
 struct NamedFile {
   std::string_view name;
   std::string file;  // empty if the user named no file

@@ -16,8 +16,8 @@ struct RgbPicture {
   std::vector<std::uint8_t> rgb;  // three values for each pixel
 };
 
-// Converts an image to the pixels that write_png() writes: over a black background, clamped to
-// [0, 1], with NaN as magenta.
+// Converts an image to the pixels that write_png() writes. The image is composited over black and
+// clamped to [0, 1]. NaN becomes magenta.
 [[nodiscard]] RgbPicture to_srgb(const Image& image);
 
 // Throws InputError if the picture is empty or `rgb` does not have three values for each pixel.

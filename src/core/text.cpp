@@ -30,7 +30,7 @@ struct Range {
   char32_t first;
   char32_t last;
 };
-// Sorted ranges of Unicode 15: the general categories Cc, Zl, Zp and Cf without the joiners, the
+// Sorted ranges of Unicode 15: the general categories Cc, Zl, Zp and Cf (except the joiners), the
 // invisible variation selectors, and the noncharacters that XML forbids.
 constexpr std::array<Range, 15> hidden{{
     {0x00, 0x1F},        // C0

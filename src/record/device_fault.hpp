@@ -12,7 +12,7 @@ namespace triptych::record {
 enum class DeviceFaultKind : std::uint8_t {
   clock_reads_zero,      // the device's timer reads 0 for work that takes time
   clock_rate_wrong,      // the duration of a timer tick is not the one that the device reports
-  clock_not_written,     // a time stamp was never written
+  clock_not_written,     // the driver never wrote a time stamp
   statistics_all_zero,   // pipeline statistics of a frame that drew something are all 0
   statistics_crash,      // the driver crashes when it reads pipeline statistics
   statistics_not_ready,  // pipeline statistics never become available

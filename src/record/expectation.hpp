@@ -16,11 +16,11 @@ namespace triptych::record {
 // default value.
 using Changed = std::map<std::string, std::string>;
 
-// The image equals that of another configuration.
+// The image equals the image of another configuration.
 struct SamePicture {
   Changed changed;
-  bool mirrored_x = false;  // with left and right exchanged
-  bool mirrored_y = false;  // with top and bottom exchanged
+  bool mirrored_x = false;  // whether left and right are exchanged
+  bool mirrored_y = false;  // whether top and bottom are exchanged
   // Pixel (0, 0) equals the pixel at this position of the other image, which may be larger.
   std::array<int, 2> at{0, 0};
   bool to_the_bit = true;  // if false: equal within the sum of both images' bounds

@@ -63,7 +63,7 @@ struct ClockTrust {
   double ratio = 0;  // median of device time / wall-clock time; valid only if `offered`
   double ratio_low = 0;
   double ratio_high = 0;
-  std::string verdict;  // one line of text
+  std::string verdict;  // the reason for `trusted`, on one line
   bool operator==(const ClockTrust&) const = default;
 };
 
@@ -77,7 +77,7 @@ using Counts = std::map<std::string, std::uint64_t>;
 struct Record {
   std::string run;  // Run::id of the run to which this record belongs
   std::string suite;
-  std::string plan;  // "volume/quick", or the name of the plan's file
+  std::string plan;  // "volume/quick", or the name of the plan's file without extension
   std::string
       configuration;  // canonical "factor=value,…" of all factors that differ from their defaults
   std::string scene;  // canonical text of the factors that determine the image
@@ -99,10 +99,10 @@ struct Record {
   std::vector<double> device_ns;  // empty if the device reports no time
   bool device_clock_trusted = false;
   int warm_up_frames = 0;
-  int frames_per_100ms = 0;  // estimated during warm-up
+  int frames_per_100ms = 0;  // number of frames in 100 ms, estimated during warm-up
   double loop_wall_ns = 0;   // total wall-clock time of the loop that follows the timed frames
   int loop_frames = 0;
-  double prepare_ns = 0;                // time for data, pipelines and upload
+  double prepare_ns = 0;                // time for loading data, building pipelines and uploading
   double overhead_ns = 0;               // wall-clock time outside device work and warm-up
   std::uint64_t peak_memory_bytes = 0;  // peak memory of the worker process so far
 
@@ -170,7 +170,7 @@ struct Run {
   // version of Triptych.
   std::map<std::string, std::string> system;
   Checks checks = {};                // the checks that the plan lists
-  std::string plan_hash = {};        // hash of the plan's text
+  std::string plan_hash = {};        // hash of the plan's YAML
   std::uint64_t configurations = 0;  // number of configurations to be measured on each device
   // One entry for each command that measured for this run. Empty in a store that was not written by
   // a command.
@@ -190,7 +190,7 @@ struct Summary {
 };
 [[nodiscard]] std::optional<Summary> summarise(const std::vector<double>& samples);
 [[nodiscard]] double percentile(std::vector<double> samples,
-                                double share);  // share in [0, 1]; samples not empty
+                                double share);  // share in [0, 1]; NaN if there are no samples
 
 void to_json(nlohmann::json& json, const Device& device);
 void from_json(const nlohmann::json& json, Device& device);

@@ -24,7 +24,7 @@ std::string_view name_of(Worth worth) {
 }
 
 Worth worth(std::string_view name) {
-  return named_in(worth_names, "worth of a statistic", name);
+  return named_in(worth_names, "statistic worth", name);
 }
 
 }  // namespace triptych::record

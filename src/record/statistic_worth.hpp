@@ -12,13 +12,13 @@ namespace triptych::record {
 enum class Worth : std::uint8_t {
   exact,          // the correct number in every scene
   counts,         // always equal to Triptych's counter `counter`, which is a different quantity
-  proportional,   // always "low" times the correct number
-  inflated,       // between "low" and "high" times the correct number
+  proportional,   // always `low` times the correct number
+  inflated,       // between `low` and `high` times the correct number
   differs,        // not the correct number in at least one scene
   unsteady,       // changes when the same frame is drawn again
   absent,         // never reported
   unknown,        // a scene could not be drawn
-  not_calibrated  // no scene was drawn for it
+  not_calibrated  // no calibration scene was drawn for the statistic
 };
 [[nodiscard]] std::string_view name_of(Worth worth);
 [[nodiscard]] Worth worth(std::string_view name);  // throws InputError
@@ -26,7 +26,7 @@ enum class Worth : std::uint8_t {
 struct StatisticWorth {
   Worth worth = Worth::exact;
   double low = 1;   // smallest ratio of the reported to the correct number
-  double high = 1;  // largest ratio
+  double high = 1;  // largest such ratio
   std::string counter = {};
   std::string detail = {};  // names of the affected scenes
   bool operator==(const StatisticWorth&) const = default;

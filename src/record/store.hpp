@@ -104,7 +104,7 @@ class Store {
   };
   [[nodiscard]] std::vector<DeviceEntry> devices(std::string_view run) const;
   [[nodiscard]] std::vector<Record> records(
-      std::string_view run) const;  // by device, then in the order in which they were added
+      std::string_view run) const;  // sorted by device, then by the order of addition
   // Visits the records in the order in which they were added, with one record in memory at a time,
   // because a store may be larger than the memory. An exception from `visit` stops the iteration.
   void visit_records(std::string_view run, const std::function<void(const Record&)>& visit) const;
@@ -115,7 +115,7 @@ class Store {
   [[nodiscard]] bool has_record(std::string_view run, std::string_view configuration,
                                 std::string_view device) const;
   [[nodiscard]] std::vector<std::byte> image(
-      std::string_view hash) const;  // throws InputError if unknown
+      std::string_view hash) const;  // throws InputError if there is none
   // Returns the decoded image. If it is not a usable EXR file, throws an InputError that names the
   // store and the image.
   [[nodiscard]] core::Image picture(std::string_view hash) const;

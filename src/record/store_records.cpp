@@ -1,4 +1,4 @@
-// Writes records to the tables of docs/store.md and reads them.
+// Writes records to the tables that docs/store.md describes, and reads them.
 
 #include "record/store_records.hpp"
 

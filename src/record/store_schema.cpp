@@ -275,7 +275,8 @@ void require_our_objects(const SQLite::Database& database, const std::filesystem
     throw core::InputError(
         {.file = file.string()},
         fmt::format(
-            "the {} {} is {}; measure again and name another file", object.first, object.second,
+            "the {} {} is {}; measure again and store the results in another file", object.first,
+            object.second,
             known == found.end() ? "missing" : "different from the one that Triptych creates"));
   }
   for (const auto& [object, statement] : found) {

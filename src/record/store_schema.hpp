@@ -1,5 +1,6 @@
 #pragma once
-// The tables of a store. Only store_file.cpp uses this file. All functions throw SQLite::Exception.
+// Creates and checks the tables of a store. Only store_file.cpp uses this file. All functions throw
+// SQLite::Exception.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 

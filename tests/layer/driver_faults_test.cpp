@@ -81,7 +81,7 @@ class DriverFaults : public LayerTest {
       if (each.plan != plan) continue;
       SCOPED_TRACE(each.name);
       const test::Result drawn = layered.draw(each.name, plan);
-      EXPECT_THAT(drawn.output, HasSubstr(each.undrawn ? "got a value" : " 0 failed"));
+      EXPECT_THAT(drawn.output, HasSubstr(each.undrawn ? "pixels was written" : " 0 failed"));
       const test::Result judged = layered.judge(plan);
       EXPECT_EQ(judged.code, 1);
       EXPECT_THAT(judged.output, HasSubstr(fmt::format("\n  ✗ {}", each.told)));

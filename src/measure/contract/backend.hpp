@@ -169,7 +169,7 @@ class Device {
 
 // A loader's report about a platform or device that cannot be used.
 struct Broken {
-  std::string what;                          // "OpenCL platform Clover"
+  std::string what;                          // such as "OpenCL platform Clover"
   std::string reason;                        // the message of the loader or the driver
   std::optional<record::Reason> ended = {};  // how the process that listed it failed
 };

@@ -15,7 +15,7 @@ namespace triptych::measure {
 // A measured configuration that does exactly the same work as another configuration.
 struct Equivalent {
   std::string key;
-  std::string reason;  // for display: "skip: no brick of this scene is empty"
+  std::string reason;  // for display, such as "skip: no brick of this scene is empty"
 };
 
 // The configurations that one device has measured. Two configurations that differ only in the

@@ -14,7 +14,7 @@ enum class FeatureVerdict : std::uint8_t { right, wrong, skipped };
 
 struct ProbedFeature {
   FeatureVerdict verdict = FeatureVerdict::right;
-  std::string size = {};    // the largest size that was used: "100000 draws"
+  std::string size = {};    // the largest size that was used, such as "100000 draws"
   std::string detail = {};  // the error, or the reason for the skip
 };
 

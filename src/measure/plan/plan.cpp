@@ -30,7 +30,7 @@ const Factor& factor_of(const Suite& suite, const PlacedText& name) {
       name.place, fmt::format("unknown factor '{}'{}", name.text, suggestion(name.text, known)));
 }
 
-// The content of a block of a plan.
+// The factors and values in a block of a plan.
 struct BlockText {
   ValuesByFactor values;
   std::set<std::string> automatic;  // factors with "auto" among their values
@@ -137,7 +137,7 @@ std::vector<bool> apply_to_all(const std::vector<PlacedOverride>& overrides, con
 struct PlanSource {
   std::string name;
   std::string file;   // the name in error messages
-  std::string suite;  // for a short name; empty for a file
+  std::string suite;  // the suite in a short name; empty for a file
   std::string yaml;
 };
 
@@ -281,11 +281,11 @@ void require_few(const Combinations& combinations, const std::vector<core::FileP
     if (combinations.most_of(i) / static_cast<std::size_t>(std::max(1, shard.count)) <= most) {
       continue;
     }
-    throw core::InputError(places[i],
-                           fmt::format("more than {} combinations, and this factor has the most "
-                                       "values; shorten its list, measure shards (--shard i/n), "
-                                       "or split the plan",
-                                       most));
+    throw core::InputError(
+        places[i],
+        fmt::format("the plan has more than {} combinations, and this factor has the most values; "
+                    "shorten its list, measure shards (--shard i/n), or split the plan",
+                    most));
   }
 }
 

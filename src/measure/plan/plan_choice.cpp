@@ -65,7 +65,7 @@ std::set<std::string> read_cases(const std::string& file) {
     if (!line.empty() && !line.starts_with('#')) cases.insert(std::move(line));
   }
   if (cases.empty()) {
-    throw core::InputError(fmt::format("--caselist {}: the file lists no configuration", file));
+    throw core::InputError(fmt::format("--caselist {}: the file lists no configurations", file));
   }
   return cases;
 }

@@ -14,7 +14,7 @@ struct PlanChoice {
   // Each of these options selects some of the configurations: those that match one of the globs
   // (record::names_configuration), those that the file lists, and one n-th of the remaining ones.
   std::vector<std::string> filter = {};
-  std::string caselist = {};  // a file with a name or a key in each line
+  std::string caselist = {};  // a file with a configuration's name or key in each line
   std::string fraction = {};  // "1/n"
 
   // Whether the whole plan is loaded, without changes.

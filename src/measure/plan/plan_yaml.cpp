@@ -116,12 +116,12 @@ record::Checks checks_of(const std::vector<PlacedText>& names) {
   if (checks.contains(record::Check::cost) && checks.contains(record::Check::timing)) {
     throw core::InputError(names.front().place,
                            "'checks': cost and timing cannot be combined, because instructions are "
-                           "counted in an emulator; make two plans");
+                           "counted in an emulator; write two separate plans");
   }
   if (checks.contains(record::Check::code) && checks.size() > 1) {
     throw core::InputError(names.front().place,
                            "'checks': code cannot be combined with other checks, because nothing "
-                           "is drawn for it; make two plans");
+                           "is drawn for it; write two separate plans");
   }
   return checks;
 }

@@ -25,7 +25,7 @@ struct PlanText {
   PlacedText suite;
   std::string summary;
   record::Checks checks;           // empty if the plan does not state any
-  std::vector<PlanEntry> entries;  // in the order of the file, no factor twice
+  std::vector<PlanEntry> entries;  // in the order of the file, without duplicate factors
   // The blocks under `also`. Each of them adds combinations, in which its entries replace the
   // entries above.
   std::vector<std::vector<PlanEntry>> also;

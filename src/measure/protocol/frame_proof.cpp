@@ -54,10 +54,10 @@ void FrameProof::start() {
   const core::Image before = prepared_.image();
   const std::size_t kept = before.pixel_count() - count_pixels(before, is_overwritten);
   if (kept > 0) {
-    throw NotDrawn(fmt::format(
-        "the image could not be overwritten before the first frame: {} of {} pixels kept a value "
-        "although the driver reported the commands that fill it as finished",
-        kept, before.pixel_count()));
+    throw NotDrawn(
+        fmt::format("the image could not be overwritten before the first frame: {} of {} pixels "
+                    "kept their values, although the driver reported the fill commands as finished",
+                    kept, before.pixel_count()));
   }
   if (before.pixel_count() > 0) std::copy_n(before.rgba.begin(), filling_.size(), filling_.begin());
 }
@@ -76,7 +76,7 @@ void FrameProof::read(std::string_view what) {
   const std::size_t pixels = last_.pixel_count();
   if (!first_) {
     if (pixels > 0 && without_value_ == pixels) {
-      throw NotDrawn(fmt::format("{} was not drawn: none of {} pixels got a value", what, pixels));
+      throw NotDrawn(fmt::format("{} was not drawn: none of {} pixels was written", what, pixels));
     }
     first_ = last_;
     first_without_value_ = without_value_;
@@ -85,7 +85,7 @@ void FrameProof::read(std::string_view what) {
   if (without_value_ > first_without_value_) {
     throw NotDrawn(
         fmt::format("{}: {} of {} pixels still have the value with which they were filled before "
-                    "the frame, compared with {} in the first frame",
+                    "the frame, compared with {} pixels in the first frame",
                     what, without_value_, pixels, first_without_value_));
   }
 }

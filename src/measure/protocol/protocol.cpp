@@ -161,7 +161,7 @@ Measurement count_instructions(Prepared& prepared, const Protocol& protocol,
   for (int i = 0; i < frames_before; ++i) {
     proof.begin_again();
     static_cast<void>(proof.draw(Purpose::timing));
-    proof.check(fmt::format("frame {} before the counted one", i + 1));
+    proof.check(fmt::format("frame {} before the counted frame", i + 1));
   }
   proof.start();
   counter.wait_until_quiet();

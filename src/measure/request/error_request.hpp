@@ -39,9 +39,9 @@ struct ErrorAnswer {
   std::string device;
   std::string scene;                       // the factors that were not chosen
   const record::Record* record = nullptr;  // null if no candidate meets the error on the device
-  accuracy::PictureErrors errors;   // errors of the record, otherwise of the closest candidate
-  accuracy::PictureErrors nothing;  // errors of an empty image
-  double time_ns = 0;               // time of the record
+  accuracy::PictureErrors errors;          // errors of the record, or of the closest candidate
+  accuracy::PictureErrors nothing;         // errors of an empty image
+  double time_ns = 0;                      // time of the record
 };
 // The records must outlive the result. If a device drew no candidate of a scene although the scene
 // was not skipped, its answer has no numbers.

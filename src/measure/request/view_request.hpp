@@ -24,9 +24,9 @@ struct ViewRequest {
   std::string suite;
   Configuration configuration;
   std::vector<record::Device> devices;  // all devices of this machine
-  std::vector<ViewSide> sides;          // the columns of the window
+  std::vector<ViewSide> sides;          // shown as the columns of the window
   std::vector<std::string> faults = {};
-  int limit_s = 0;  // the time limit of a frame
+  int limit_s = 0;  // time limit for a frame, in seconds
   std::vector<std::string> data_folders = {};
   int width = 1280;
   int height = 720;

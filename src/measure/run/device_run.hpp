@@ -33,7 +33,7 @@ struct RunContext {
 struct Done {
   record::Record record;
   std::vector<std::byte> exr = {};
-  std::map<std::string, std::string> listings = {};  // disassembly by the hash of its content
+  std::map<std::string, std::string> listings = {};  // disassemblies by content hash
   double work_ns = 0;
 };
 

@@ -19,7 +19,7 @@ namespace triptych::measure {
 
 struct TracedPixel {
   PixelPlace place;
-  technique::RayTrace trace;  // for a volume
+  technique::RayTrace trace;  // only for a volume
   core::Image image;          // the image that the tracing build drew
   // For particles, instead of `trace` and `image`.
   std::optional<accuracy::SpriteHistory> sprites = {};

@@ -61,7 +61,7 @@ bool device_clock_holds(std::span<const Block> blocks) {
   return true;
 }
 
-// A side, with the worker that currently serves it.
+// A side, with its current worker.
 class Interleaved::Slot {
  public:
   Slot(Side side, const SideOptions& of, const InterleavedOptions& options,

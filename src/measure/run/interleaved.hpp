@@ -67,8 +67,8 @@ enum class SideClock : std::uint8_t { wall, device };
 struct InterleavedOptions {
   std::string suite;
   std::vector<std::string> kinds;  // kinds of work in the plan, for which the clocks are calibrated
-  std::chrono::seconds limit{60};  // for one answer; a worker that exceeds it is killed
-  std::chrono::seconds start_limit{60};  // for opening a device and calibrating its clocks
+  std::chrono::seconds limit{60};  // time limit for one answer; a worker that exceeds it is killed
+  std::chrono::seconds start_limit{60};  // time limit for opening a device and calibrating
   // Frames that are shorter than this are drawn in batches that last this long. The number of
   // frames in a batch is the same on both sides.
   double least_batch_ns = 1e6;

@@ -40,10 +40,11 @@ void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& 
   }
   for (const record::Record& record : store.records(run.id)) {
     if (keys.contains(record.configuration)) continue;
-    throw core::InputError(fmt::format(
-        "run {} of {} contains {}, which this plan does not contain: the plan has changed, or it "
-        "is another plan with the same name; leave out --resume to start a new run",
-        run.id, plan.name, record.configuration));
+    throw core::InputError(
+        fmt::format("run {} of plan {} contains {}, which this plan does not contain: the plan has "
+                    "changed, or it is another plan with the same name; leave out --resume to "
+                    "start a new run",
+                    run.id, plan.name, record.configuration));
   }
 }
 
@@ -122,7 +123,7 @@ void add(const RunResult& part, RunResult& sum) {
   sum.overhead_ns += part.overhead_ns;
 }
 
-// One device of a run.
+// A part of a run, which is measured on one device.
 struct Part {
   const RunContext* context;
   std::string device;

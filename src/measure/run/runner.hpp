@@ -27,7 +27,7 @@ struct RunOptions {
   Protocol protocol;
   // The time limit of one configuration. A worker that exceeds it is killed and replaced.
   std::chrono::seconds limit = record::standard_limit;
-  std::chrono::seconds start_limit{60};  // for opening a device and calibrating its clocks
+  std::chrono::seconds start_limit{60};  // time limit for opening a device and calibrating
   bool resume = false;                   // continue the plan's latest run and keep its records
   // The device and the configuration of each record that a resumed run contains but measures again.
   std::set<std::pair<std::string, std::string>> again = {};
@@ -55,7 +55,7 @@ struct Progress {
 };
 
 struct RunResult {
-  std::string run;  // id in the store
+  std::string run;  // id of the run in the store
   // The number of records of each outcome, on all devices; with `resume`, including earlier
   // records.
   int measured = 0;
@@ -64,7 +64,7 @@ struct RunResult {
   int taken_over = 0;
   int skipped = 0;
   int failed = 0;        // failed, crashed, hung or lost
-  int there_before = 0;  // of all these, the number that a resumed run already contained
+  int there_before = 0;  // number of these records that a resumed run already contained
   double wall_ns = 0;
   // Sum of the wall-clock times of all devices; more than wall_ns if they ran in parallel.
   double devices_ns = 0;

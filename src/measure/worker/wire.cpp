@@ -95,7 +95,7 @@ auto reading(std::string_view type, Read read) {
   try {
     return read();
   } catch (const Json::exception& error) {
-    throw core::InputError(fmt::format("in the message '{}': {}", type, error.what()));
+    throw core::InputError(fmt::format("the message '{}' is invalid: {}", type, error.what()));
   }
 }
 
@@ -143,14 +143,14 @@ std::optional<Message> receive(int fd) {
   std::array<std::byte, sizeof(Header)> head{};
   const std::size_t got = read_all(fd, head.data(), head.size());
   if (got == 0) return std::nullopt;
-  if (got < head.size()) throw core::IoError("a pipe ended within a message");
+  if (got < head.size()) throw core::IoError("a pipe was closed in the middle of a message");
   const Header header = checked(head);
   std::vector<std::byte> text(header.json_bytes);
   Message message;
   message.binary.resize(header.binary_bytes);
   if (read_all(fd, text.data(), text.size()) < text.size() ||
       read_all(fd, message.binary.data(), message.binary.size()) < message.binary.size()) {
-    throw core::IoError("a pipe ended within a message");
+    throw core::IoError("a pipe was closed in the middle of a message");
   }
   message.json = parse(text);
   return message;

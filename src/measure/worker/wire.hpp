@@ -111,7 +111,7 @@ struct Release {};
 // configuration.
 struct Batch {
   record::Outcome outcome = record::Outcome::measured;
-  record::Reason reason;          // for every outcome except measured
+  record::Reason reason;          // set for every outcome except measured
   std::vector<double> wall_ns;    // one for each frame
   std::vector<double> device_ns;  // empty unless the device reported it for every frame
 };

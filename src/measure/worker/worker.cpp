@@ -356,7 +356,7 @@ class Worker {
   // Created when the first loop needs it, because the constructor loads a library.
   std::optional<EnergyMeters> meters_;
   std::unique_ptr<Prepared> held_;
-  std::optional<FrameProof> proof_;  // for the configuration that is held
+  std::optional<FrameProof> proof_;  // for the configuration in `held_`
   Equivalents equivalents_;
   bool has_statistics_ = true;  // false if reading pipeline statistics revealed a fault
   // The wrong rounding mode that the driver set while the device was opened and calibrated.

@@ -17,7 +17,7 @@ struct WorkerSetup {
   std::string device;
   std::vector<std::string> command;  // the device id is appended to it
   std::vector<std::string> environment;
-  std::chrono::milliseconds limit{};  // for opening the device and calibrating its clocks
+  std::chrono::milliseconds limit{};  // time limit for opening the device and calibrating
 };
 
 class WorkerSlot {

@@ -77,7 +77,7 @@ struct Input {
   std::vector<std::string> runs;
 };
 
-// One merge into one intermediate file on the way to `out`.
+// Merges several inputs into one intermediate file.
 class Writing {
  public:
   Writing(const std::vector<Input>& inputs, const fs::path& file, const fs::path& out)

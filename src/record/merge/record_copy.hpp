@@ -39,7 +39,7 @@ struct RecordCounts {
   // Records that were not copied because another record of the same configuration and device was
   // copied:
   std::uint64_t repeated = 0;       // identical to the other record
-  std::uint64_t injected = 0;       // had an injected fault, and the other record has none
+  std::uint64_t injected = 0;       // has an injected fault, but the other record has none
   std::uint64_t not_chosen = 0;     // different, but with an outcome that is not worse
   std::uint64_t measured_anew = 0;  // failed or was skipped, but the other record was measured
 };

@@ -41,7 +41,7 @@ TEST(ForeignError, AFileSystemErrorNamesItsOwnFile) {
 
 TEST(ForeignError, WithoutAFileItIsTheProgramsOwn) {
   EXPECT_THAT([] { naming("", [] { throw std::logic_error("basic_string::replace"); }); },
-              ThrowsMessage<Error>(HasSubstr("internal error of Triptych (basic_string")));
+              ThrowsMessage<Error>(HasSubstr("internal error in Triptych (basic_string")));
 }
 
 }  // namespace

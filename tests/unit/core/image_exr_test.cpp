@@ -170,7 +170,7 @@ TEST(Exr, ChannelsThatEndElsewhereThanStatedAreRefused) {
   const auto* text = reinterpret_cast<const char*>(bytes.data());
   bytes[std::string_view(text, bytes.size()).find(first) + 1] = std::byte{0x94};
   EXPECT_THAT([&] { (void)decode_exr(bytes, "channels.exr"); },
-              ThrowsMessage<InputError>(HasSubstr("list of channels ends at byte")));
+              ThrowsMessage<InputError>(HasSubstr("channel list ends at byte")));
 }
 
 // For eight million columns, OpenEXR would allocate half a gigabyte for the first rows.

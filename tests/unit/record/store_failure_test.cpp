@@ -101,13 +101,13 @@ TEST_F(StoreTest, ObjectsThatOthersMadeAreRefused) {
       {"CREATE TRIGGER hide AFTER INSERT ON device_fault BEGIN DELETE FROM device_fault; END",
        "has the trigger hide"},
       {"ALTER TABLE record RENAME TO kept; CREATE VIEW record AS SELECT * FROM kept",
-       "measure again and name another file"},
+       "measure again and store the results in another file"},
       {"CREATE VIEW x AS SELECT * FROM record", "has the view x"},
       {"CREATE INDEX x ON record (outcome) WHERE outcome = 'measured'", "has the index x"},
       {"DROP INDEX run_of_plan", "index run_of_plan is missing"},
       {"DROP TABLE device_fault; CREATE TABLE device_fault (seq INTEGER PRIMARY KEY, device, kind "
        "DEFAULT 'x', subject, detail, last_words)",
-       "measure again and name another file"}};
+       "measure again and store the results in another file"}};
   int number = 0;
   for (const auto& [attack, expected] : attacks) {
     const auto file = folder_ / ("s" + std::to_string(number++));
