@@ -106,7 +106,8 @@ TEST_F(AcceptTest, WhatThePlanNoLongerHoldsIsDropped) {
   EXPECT_EQ(std::ranges::distance(std::filesystem::directory_iterator(baseline("images"))), 1);
 }
 
-// Values are dropped only on request, because a skip may be temporary.
+// Values of configurations that are skipped now are dropped only on request, because a skip may be
+// temporary.
 TEST_F(AcceptTest, WhatADeviceSkipsNowIsDropped) {
   accept_first([](record::Record& record, core::Image&) { record.memory = {{"buffers", 9}}; });
   const auto timings = device_file("timings", "opencl");
@@ -129,8 +130,8 @@ TEST_F(AcceptTest, WhatADeviceSkipsNowIsDropped) {
   EXPECT_EQ(counters[plain_]["samples"].size() + 1, counters[bricks_]["samples"].size());
 }
 
-// With `drop`, accepting removes only the values of configurations that are skipped now. It keeps
-// all other values in the same files, and does not restore earlier values.
+// With `drop`, accepting removes only the values of configurations that are skipped now. All other
+// values in these files remain as they were accepted last; they are not reset to an earlier state.
 TEST_F(AcceptTest, DroppingKeepsWhatIsAcceptedBesides) {
   add_run("b", [&](record::Record& record, core::Image&) {
     record.counters["samples"] = 7;
@@ -143,7 +144,7 @@ TEST_F(AcceptTest, DroppingKeepsWhatIsAcceptedBesides) {
     EXPECT_EQ(counters[plain_]["samples"]["gl:llvmpipe-egl"], 7);
     EXPECT_EQ(counters[bricks_]["samples"]["opencl:pocl"], 7);
   };
-  (void)accept_run("b", {.only = "*", .drop = true});  // there was nothing before
+  (void)accept_run("b", {.only = "*", .drop = true});  // no baselines existed before
   expect_accepted();
   std::filesystem::remove_all(baseline("counters.json").parent_path());
   accept_first();
@@ -151,8 +152,8 @@ TEST_F(AcceptTest, DroppingKeepsWhatIsAcceptedBesides) {
   expect_accepted();
 }
 
-// A run on one device replaces the hash for that device's voxel format, and keeps the hashes for
-// other formats.
+// A run of a single device replaces the data hash for that device's voxel format. The hashes for
+// other formats remain.
 TEST_F(AcceptTest, DataOfOtherFormatsKeepsItsHash) {
   const auto with_formats = [](record::Record& record, core::Image&) {
     record.factors["voxel"] = record.device == "vulkan:lavapipe" ? "f32" : "u8";
@@ -212,7 +213,7 @@ TEST_F(AcceptTest, TheTimesAreOfOneRun) {
   EXPECT_NEAR(median("opencl") / opencl, 2, 0.05);
 }
 
-// The plan's checks decide what is stored, not its name.
+// The plan's checks decide whether images and times are stored; its name does not matter.
 TEST_F(AcceptTest, PicturesAndTimesAreKeptOfPlansThatCheckThem) {
   checks_ = {Check::image, Check::timing};
   accept_first();
@@ -330,7 +331,7 @@ TEST_F(AcceptTest, WhatIsNotAsItWasAcceptedIsNotBuiltUpon) {
 
 class WholeAcceptTest : public AcceptTest {
  protected:
-  // Returns the contents of every file below the root of the baselines.
+  // Returns the content of every file below the root folder of the baselines.
   [[nodiscard]] std::map<std::string, std::string> everything() const {
     std::map<std::string, std::string> files;
     for (const auto& entry :

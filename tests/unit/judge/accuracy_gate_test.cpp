@@ -1,4 +1,4 @@
-// Tests comparing images with their limit images: the parts of an error, and errors as baselines.
+// Tests the comparison of images with limit images: the parts of an error, and errors as baselines.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -48,7 +48,8 @@ class AccuracyGateTest : public JudgeTest {
     (void)accept(store_, run, folder_.path() / "baselines", request);
   }
 
-  // Returns a reference image whose error is only 9 % smaller than that of the device's image.
+  // Returns a reference image that is nine hundredths closer to the limit image than the drawn
+  // image is.
   core::Image nearer_truth(const record::Record& record) {
     core::Image image = core::decode_exr(store_.image(record.image));
     const core::Image& limit = limit_of(record)->image;
@@ -58,7 +59,7 @@ class AccuracyGateTest : public JudgeTest {
     return image;
   }
 
-  // Adds an image whose distance from the limit is 0.02·stepᵒʳᵈᵉʳ.
+  // Adds a record whose image differs from the limit image by 0.02·stepᵒʳᵈᵉʳ.
   void add_step(const std::string& run, double step, double order) {
     record::Record record;
     record.run = run;
@@ -78,7 +79,7 @@ class AccuracyGateTest : public JudgeTest {
     store_.add_record(record);
   }
 
-  // Returns a change that shifts the images of one device.
+  // Returns a change that shifts the image of one configuration on one device.
   static Tweak moved(float by) {
     return [by](record::Record& record, core::Image& image) {
       if (record.device == "vulkan:lavapipe" && record.configuration == plain_) {
@@ -113,7 +114,7 @@ TEST_F(AccuracyGateTest, AcceptedErrorsPass) {
   const GateResult result = gate("b");
   EXPECT_EQ(result.exit_code(), core::ExitCode::pass) << text(result);
   EXPECT_EQ(with(result, Verdict::pass, Check::accuracy).size(), 12U);
-  ASSERT_EQ(result.accuracies.size(), 6U);  // two scenes, three devices
+  ASSERT_EQ(result.accuracies.size(), 6U);  // two scenes on three devices
   EXPECT_EQ(result.accuracies[0].cases.size(), 2U);
   const core::Json json = report::to_json(result).at("accuracies").at(0);
   EXPECT_EQ(json.at("device"), result.accuracies[0].device);
@@ -121,7 +122,8 @@ TEST_F(AccuracyGateTest, AcceptedErrorsPass) {
   EXPECT_EQ(json.at("configurations")[1].at("rmse"), result.accuracies[0].cases[1].rmse);
 }
 
-// The device's clock is used only if it is trusted for every kind of work that the device did.
+// Times are those of the device clock only if the clock is trusted for all work that the device
+// did.
 TEST_F(AccuracyGateTest, TimesOfADeviceAreOfOneClock) {
   const auto timed = [](bool all) {
     return [all](record::Record& record, core::Image&) {
@@ -143,8 +145,8 @@ TEST_F(AccuracyGateTest, TimesOfADeviceAreOfOneClock) {
   }
 }
 
-// The distance from the limit exceeds what rounding can explain, although it is within the bound of
-// the image.
+// The image is still within its error bound, but its distance from the limit image grew by more
+// than rounding can explain.
 TEST_F(AccuracyGateTest, ALargerErrorIsARegression) {
   add_run("a");
   accept_with_errors("a");
@@ -170,7 +172,7 @@ TEST_F(AccuracyGateTest, WithoutAStoredErrorNothingIsDecided) {
   EXPECT_EQ(with(gate("a"), Verdict::cannot_judge, Check::accuracy).size(), 12U);
 }
 
-// The error of a device that was never accepted may be as large as the worst accepted error.
+// A device that was never accepted may have as large an error as the worst accepted device.
 TEST_F(AccuracyGateTest, AnotherDeviceIsHeldToTheWorstOfTheAccepted) {
   add_run("a");
   accept_with_errors("a");
@@ -190,8 +192,8 @@ TEST_F(AccuracyGateTest, AnotherDeviceIsHeldToTheWorstOfTheAccepted) {
   EXPECT_TRUE(with(gate("c"), Verdict::regression, Check::accuracy).empty());
 }
 
-// With order 1.95, the error of the finest step is 15 % larger, which the accepted rounding
-// permits.
+// If the order falls to 1.95, the error of the finest step grows by 15 %. That alone would be
+// within the accepted rounding.
 TEST_F(AccuracyGateTest, AnOrderThatFellIsARegression) {
   request_.truth = [this](const record::Record& record) {
     const core::Image truth = nearer_truth(record);
@@ -213,7 +215,7 @@ TEST_F(AccuracyGateTest, AnOrderThatFellIsARegression) {
   ASSERT_EQ(fallen.size(), 1U) << text(gate("c"));
   EXPECT_NEAR(fallen[0].number("order"), 1.95, 5e-3);
   EXPECT_NEAR(fallen[0].number("stored_order"), 2, 5e-3);
-  // This reference image is so far from the images that almost no error comes from the step size.
+  // The reference image is so far from the images that hardly any error comes from the step size.
   request_.truth = [](const record::Record& record) {
     const core::Image truth = truth_of(record.scene);
     return TruthPair{.truth = truth, .bound = truth};
@@ -223,7 +225,7 @@ TEST_F(AccuracyGateTest, AnOrderThatFellIsARegression) {
   EXPECT_EQ(lost[0].cause, Cause::no_order);
 }
 
-// A configuration that cannot be judged must not change the verdicts about other configurations.
+// If one configuration cannot be judged, the verdicts on all others remain.
 TEST_F(AccuracyGateTest, WhatCannotBeLookedAtIsTold) {
   add_run("a");
   accept_with_errors("a");

@@ -31,7 +31,7 @@ class AsBegunTest : public GateTest {
     begun.host = "host1";
     store_.begin(run, begun, configurations_);
   }
-  // Adds a run on a machine with these properties.
+  // Adds a run that began like this.
   void add_begun(const std::string& run, const record::Beginning& begun = {}) {
     add_run(run);
     begin(run, begun);
@@ -67,7 +67,7 @@ TEST_F(AsBegunTest, AWholeRunPasses) {
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::pass) << text(gate("run"));
 }
 
-// The run was cut short after the first device was complete.
+// The run was interrupted after the first device had been completed.
 TEST_F(AsBegunTest, ADeviceThatWasNotReachedIsNamed) {
   accept_begun();
   add_begun("run");
@@ -82,7 +82,7 @@ TEST_F(AsBegunTest, ADeviceThatWasNotReachedIsNamed) {
 TEST_F(AsBegunTest, AConfigurationThatWasNotReachedIsNamedWithoutThePlan) {
   accept_begun();
   add_begun("run");
-  request_.part = true;  // accepted configurations must not count as missing
+  request_.part = true;  // so that accepted configurations do not count as missing
   delete_rows("DELETE FROM record WHERE run = 'run' AND configuration = '" + plain_ + "'");
   EXPECT_THAT(undecided(gate("run")), Contains("opencl:pocl missing " + plain_));
 }
@@ -145,7 +145,7 @@ TEST_F(AsBegunTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::cannot_judge);
   write_absent(R"([{"device": "gl:*", "reason": "no EGL", "expiry": "2026-02-28"}])");
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::cannot_judge);
-  // The fixture's runs began on 2026-02-01, and the clock was set back afterwards.
+  // The fixture's runs began on 2026-02-01. The clock has been set back since then.
   write_absent(R"([{"device": "gl:*", "reason": "no EGL", "expiry": "2026-01-31"}])");
   request_.today = "2025-06-01";
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::cannot_judge);
@@ -153,8 +153,8 @@ TEST_F(AsBegunTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
   EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
 }
 
-// These are different machines: they have none of the accepted driver versions, or their run
-// requested only some devices.
+// Devices do not count as missing if the machine has none of the accepted driver versions, or if
+// the run requested only some devices.
 TEST_F(AsBegunTest, OtherMachinesLackNothing) {
   accept_begun();
   const record::Beginning asked{
@@ -186,10 +186,10 @@ TEST_F(AsBegunTest, AListingThatEndedCannotBeJudgedAndIsShown) {
                        .found = all_devices,
                        .devices = all_devices,
                        .unusable = {crashed}});
-  // The run did not request a Vulkan device.
+  // This run requested no Vulkan devices.
   EXPECT_EQ(gate("others").exit_code(), core::ExitCode::pass);
-  // If the run named a device in full and found it, no other device can be missing. If the run
-  // named a glob, a device may be missing.
+  // A run that names a device in full and finds it is complete. A run that names devices by a glob
+  // may lack some.
   for (const bool whole : {true, false}) {
     const std::string run = whole ? "named" : "glob";
     add_begun(run, {.asked = {whole ? "vulkan:lavapipe" : "vulkan:*"},
@@ -220,7 +220,7 @@ TEST_F(AsBegunTest, InjectedFaultsAreCountedWhateverTheVerdict) {
   EXPECT_EQ(gate("run").injected, (std::map<std::string, std::size_t>{{"slowdown", 4}}));
 }
 
-// The manifest vouches for the other files, so it must agree with their content.
+// The manifest describes the other files, so its statements must agree with their content.
 TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
   accept_begun();
   const std::string whole = folder_.read(baseline("manifest.json"));
@@ -239,7 +239,7 @@ TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
               HasSubstr("is outside the folder"));
   EXPECT_THAT(changed([](core::Json& json) { json["configurations"] = 3; }),
               HasSubstr("states 3 configurations, but counters.json contains 4"));
-  // The history contains a hash of these entries, because no other file contains them.
+  // No other file contains these statements, so the history contains their hash.
   for (const char* name : {"plan_hash", "checks"}) {
     EXPECT_THAT(changed([&](core::Json& json) { json[name] = "memory"; }),
                 HasSubstr("is not the one that was accepted last"))
@@ -250,7 +250,8 @@ TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
   EXPECT_EQ(changed([](core::Json&) {}), "");
 }
 
-// If reading counters.json lost a configuration, nobody would notice that the run lacks it.
+// If a configuration were lost from counters.json, nobody would notice that it is also missing from
+// a run.
 TEST_F(AsBegunTest, ALostConfigurationOfTheBaselinesIsNoticed) {
   accept_begun();
   core::Json counters = core::Json::parse(folder_.read(baseline("counters.json")));
@@ -260,8 +261,8 @@ TEST_F(AsBegunTest, ALostConfigurationOfTheBaselinesIsNoticed) {
               HasSubstr("states 4 configurations, but counters.json contains 3"));
 }
 
-// A later run may have failed before it began, so the latest run in the store is an older one. The
-// fixture's runs began on 2026-02-01.
+// If a later run failed before it began, the latest run in the store is an older one. The fixture's
+// runs began on 2026-02-01.
 TEST_F(AsBegunTest, AnOldRunIsNamedWithItsDay) {
   add_begun("run");
   for (const auto& [today, began] : {std::pair{"2026-02-01", ""},
@@ -274,7 +275,7 @@ TEST_F(AsBegunTest, AnOldRunIsNamedWithItsDay) {
   }
 }
 
-// One build began the run, and another build resumed it.
+// The run was begun by one build of Triptych and resumed by another.
 TEST_F(AsBegunTest, EveryProgramThatMeasuredIsCompared) {
   request_.program = "1, commit b";
   add_begun("run", {.program = "1, commit b", .devices = {"gl:llvmpipe-egl"}});
@@ -294,8 +295,8 @@ TEST_F(AsBegunTest, AWaiverOfEverythingIsRefused) {
   EXPECT_NO_THROW(static_cast<void>(gate("run")));
   write_waivers("2026-12-31", "gl:*", "*", "*");
   EXPECT_NO_THROW(static_cast<void>(gate("run")));
-  // Every device id contains a colon, every test id a dot, and every configuration an equals sign,
-  // so these globs match everything.
+  // These globs match everything: every device id contains a colon, every configuration an equals
+  // sign, and every test id dots.
   write_waivers("2026-12-31", "*:*", "*=*", "*.*.*");
   EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
   write_absent(R"([{"device": "*:*", "reason": "all"}])");

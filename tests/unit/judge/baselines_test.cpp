@@ -1,4 +1,5 @@
-// Tests that missing, edited or unknown baseline files are distinguished from a new device.
+// Tests that missing, edited or unknown baseline files are distinguished from a device without
+// baselines.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -24,7 +25,7 @@ class BaselinesTest : public JudgeTest {
       record.memory = {{"buffers", 4096}};
     });
   }
-  // Returns the problem with the baselines of the whole plan.
+  // Returns the problem that the gate reports for all baselines of the plan.
   std::string verdict() {
     const GateResult result = gate("accepted");
     EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge) << text(result);
@@ -45,7 +46,7 @@ class BaselinesTest : public JudgeTest {
 
 TEST_F(BaselinesTest, AsAcceptedTheyPass) {
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
-  // These are the folders for plans, images, cost, times and statistics.
+  // The plan's files, and the files in the folders for images, cost, times and statistics.
   EXPECT_GE(names().size(), 4U + 2 + 3 + 3 + 2);
 }
 
@@ -85,7 +86,7 @@ TEST_F(BaselinesTest, ABrokenManifestIsNamedWithItsLine) {
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
 }
 
-// A careless merge of two branches can leave such a value, even if somebody corrected the checksum.
+// A careless merge of two branches can leave such a value, with a corrected checksum.
 TEST_F(BaselinesTest, AWrongValueIsAnErrorWithItsLine) {
   rewrite("counters.json", "{\n \"x\": {\n  \"samples\": {\"gl:a\": \"many\"}}}\n");
   try {
@@ -103,7 +104,8 @@ TEST_F(BaselinesTest, APictureIsStillJudgedWithoutThem) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
 }
 
-// These are the baselines in this repository, which a careless merge of two branches could damage.
+// Checks the baselines in Triptych's own repository, which a careless merge of two branches could
+// damage.
 TEST(OurBaselines, AreWhole) {
   const std::filesystem::path root = std::filesystem::path(TRIPTYCH_SOURCE_FOLDER) / "baselines";
   int plans = 0;
@@ -116,7 +118,7 @@ TEST(OurBaselines, AreWhole) {
   EXPECT_GE(plans, 10);
 }
 
-// A bound of NaN or infinity would allow any error.
+// If a stored error were NaN or infinite, any error would be within it.
 TEST_F(BaselinesTest, NumbersThatAreNoneAreRefused) {
   for (const char* number : {"NaN", "nan", "1e999", "-1", "null", "\"0.1\""}) {
     rewrite("accuracy.json", fmt::format(R"({{"{}": {{"gl:x": {{"rmse": {}, "arithmetic": 0}}}}}})",

@@ -1,5 +1,5 @@
-// Tests that the statistics of a new driver version are judged with the calibrations of that
-// version and of the stored versions.
+// Statistics of a new driver version are compared according to the calibrations of that version and
+// of the stored versions.
 
 #include <gmock/gmock.h>
 
@@ -20,8 +20,8 @@ const Calibration doubled{
 
 class CalibrationGateTest : public JudgeTest {
  protected:
-  // Returns the finding about a new version of lavapipe, which has the calibration `own` and counts
-  // 49 instead of 48. Only the numbers of GL are stored.
+  // Returns the finding about a new version of lavapipe that has the calibration `own` and counts
+  // 49 instead of 48. Only the statistics of the OpenGL device are stored.
   Finding advice(const Calibration& stored, const Calibration& own) {
     calibrations_["gl:llvmpipe-egl"] = stored;
     accept_first([](record::Record& record, core::Image&) {
@@ -106,7 +106,7 @@ TEST_F(CalibrationGateTest, ARunThatDidNotLookKeepsTheStoredCalibration) {
       stored.statistics_calibration(device_file("statistics", "vulkan").stem().string()).empty());
 }
 
-// A part of a plan does not need all statistics.
+// A run of a part of a plan need not contain all statistics.
 TEST_F(CalibrationGateTest, ARunThatLookedAtSomeKeepsWhatIsStoredOfTheOthers) {
   calibrations_["gl:llvmpipe-egl"] = {{"compute_invocations", {}}, {"fragment_invocations", {}}};
   add_run("a");

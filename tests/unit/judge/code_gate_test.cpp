@@ -1,4 +1,4 @@
-// Tests how the gate compares compiler reports with stored reports.
+// Tests that the gate compares the compiler statistics of a run with stored ones.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -47,7 +47,7 @@ TEST(CodeChange, EachStatisticHasItsDirection) {
   EXPECT_EQ(direction_of({{"Spilled VGPRs", 1}}), CodeDirection::worse);
 }
 
-// The number of registers matters only if it reduces the occupancy.
+// Using more registers matters only if it reduces the occupancy.
 TEST(CodeChange, RegistersAndUnknownStatisticsDecideNothing) {
   EXPECT_EQ(direction_of({{"VGPRs", 88}}), CodeDirection::other);
   EXPECT_EQ(direction_of({{"Something new", 6}}), CodeDirection::other);
@@ -63,7 +63,7 @@ TEST(CodeChange, TheInverseThroughputNamesTheDirectionOfAMixedChange) {
       compare_code(as_compiled, with_changes({{"Instructions", 700}, {"Latency", 40000}})).mixed());
 }
 
-// OpenGL drivers do not report the number of instructions of a vertex or fragment shader.
+// OpenGL drivers report no instruction counts for vertex and fragment shaders.
 TEST(CodeChange, TheCodeSizeDecidesIfInstructionsAreNotReported) {
   const auto with = [](std::map<std::string, double> statistics) {
     return Code{{"sphere.frag", {.statistics = std::move(statistics)}}};
@@ -126,7 +126,7 @@ class CodeGateTest : public JudgeTest {
       if (change) change(record);
     };
   }
-  // Returns a change of one configuration on one device.
+  // Returns a change of the code of one configuration on one device.
   static Tweak changed(const std::map<std::string, double>& changes) {
     return compiled([=](record::Record& record) {
       if (record.device != "vulkan:lavapipe" || record.configuration != plain_) return;
@@ -175,7 +175,7 @@ TEST_F(CodeGateTest, OtherPartsCannotBeCompared) {
   EXPECT_EQ(with(result, Verdict::cannot_judge, Check::code).at(0).cause, Cause::other_executables);
 }
 
-// The compiler crashes, or no longer accepts what it accepted before.
+// The compiler crashes, or it rejects a shader that it used to accept.
 TEST_F(CodeGateTest, WhatNoLongerCompilesIsARegression) {
   const GateResult result = judge(compiled([](record::Record& record) {
     if (record.device != "vulkan:lavapipe" || record.configuration != plain_) return;
@@ -200,8 +200,8 @@ TEST_F(CodeGateTest, AnotherDriverVersionIsToldInTotals) {
   EXPECT_EQ(with(gate("b"), Verdict::regression).size(), 0U);
 }
 
-// A machine without a certain GPU need not have the compiler for it. But if the driver is installed
-// and does not list the GPU family, the driver has lost it.
+// A machine need not have a compiler for every GPU family. But if the driver is installed and lacks
+// an accepted family, the driver must have lost it.
 TEST_F(CodeGateTest, AFamilyIsMissedOnlyIfItsDriverIsThere) {
   const std::vector<std::string> others{"opencl:pocl", "vulkan:lavapipe"};
   const std::vector<std::string> configurations{

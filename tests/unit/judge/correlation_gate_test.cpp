@@ -1,4 +1,4 @@
-// Tests that the correlation finds injected slowdowns, and does not report other changes.
+// Tests that the correlation finds injected slowdowns, and reports nothing else.
 
 #include <gmock/gmock.h>
 
@@ -17,7 +17,7 @@ constexpr const char* llvmpipe = "gl:llvmpipe-egl";
 constexpr const char* pocl = "opencl:pocl";
 const std::string chosen = "camera=c1,data=d2,step=1,technique=t3";
 
-// Returns the findings without those about other devices and about a device as a whole.
+// Returns the findings about a configuration or a level, without those about a device as a whole.
 std::vector<Finding> named(const CorrelationFindings& result) {
   std::vector<Finding> findings;
   for (const Finding& finding : result.findings) {
@@ -40,7 +40,7 @@ TEST(AcceptedDevices, JitterWithinTheBoundsIsNothing) {
   }
 }
 
-// This proves that the previous test can fail: jitter beyond its bound is reported.
+// Shows that the previous test can fail: jitter beyond its bound must be reported.
 TEST(AcceptedDevices, JitterBeyondTheBoundIsTold) {
   CorrelationWorld world(1);
   world.add_device(lavapipe, true);
@@ -53,7 +53,7 @@ TEST(AcceptedDevices, HalfAPercentOfOneConfigurationIsNamedFirst) {
     for (const char* id : {lavapipe, llvmpipe, pocl}) {
       CorrelationWorld world(trial);
       for (const char* each : {lavapipe, llvmpipe, pocl}) {
-        // The injected slowdown is half a percent of the frame.
+        // The injected slowdown is 0.5 % of the frame's cost.
         const auto injected =
             id == each ? on_configuration(chosen, 1 + 0.005 / 0.7) : CorrelationWorld::Change{};
         world.add_device(each, true, 0.1, injected);
@@ -70,8 +70,8 @@ TEST(AcceptedDevices, HalfAPercentOfOneConfigurationIsNamedFirst) {
   }
 }
 
-// The injected slowdown is half a percent of the frame, in the driver only. It is found because it
-// exceeds the sum of PoCL's bound and the other device's bound.
+// The slowdown of 0.5 % of the frame occurs only in the driver. It exceeds the sum of PoCL's bound
+// and the other device's bound, so it is found.
 TEST(AcceptedDevices, HalfAPercentInTheDriverIsFoundOnPocl) {
   CorrelationWorld world(3);
   world.add_device(lavapipe, true);
@@ -121,8 +121,8 @@ TEST(AcceptedDevices, LessIsAnImprovement) {
   EXPECT_EQ(found[0].verdict, Verdict::improved);
 }
 
-// A change in Triptych that affects both devices equally does not change their residual. The check
-// `cost` finds such a change.
+// If a change of the program affects both devices equally, it does not change their residual. The
+// check of cost finds it instead.
 TEST(AcceptedDevices, WhatBothChangedAlikeLeavesTheResidual) {
   CorrelationWorld world(7);
   world.add_device(lavapipe, true, 0.02, {}, on_configuration(chosen, 1.5));
@@ -130,7 +130,7 @@ TEST(AcceptedDevices, WhatBothChangedAlikeLeavesTheResidual) {
   EXPECT_TRUE(named(world.judge()).empty()) << text(world.judge());
 }
 
-// If a run has only one device, it is compared with the stored costs of other devices.
+// If a run measured only one device, this device is compared with the stored costs of the others.
 TEST(AcceptedDevices, OneAloneIsHeldAgainstWhatIsStored) {
   CorrelationWorld world(8);
   world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.01));
@@ -153,8 +153,7 @@ TEST(AcceptedDevices, CountsByAnotherCounterAreNotCompared) {
   EXPECT_THAT(text(result), HasSubstr("no_partner"));
 }
 
-// The costs of a new device: a factor times the costs of another device, for 96 configurations that
-// scatter around the line.
+// Results of repeated trials with a new device, whose 96 configurations scatter around a line.
 struct Trials {
   int found = 0;
   int wrong = 0;
@@ -179,10 +178,9 @@ Trials new_devices(const CorrelationWorld::Change& injected, const std::string& 
   return trials;
 }
 
-// In 100 trials, q permits one false report on average. Four false reports would show that the
-// actual rate is higher than q. With normally distributed scatter of 2 % and 96 configurations, a
-// slowdown of 10 % is 4.8 standard deviations, and 4 are needed so that only 1 % of the reports are
-// wrong. With a scatter of 1.5 %, almost all slowdowns are found.
+// q permits one false report in 100 trials on average, so four would indicate a fault. With a
+// normal scatter of 2 %, 10 % are 4.8 standard deviations. 4 are required so that only 1 % of the
+// reports are false. With a scatter of 1.5 %, almost all slowdowns are found.
 TEST(NewDevice, TenPercentOfOneConfiguration) {
   const Trials wide = new_devices(on_configuration(chosen, 1.1), chosen, "", 0.02);
   EXPECT_GE(wide.found, 60);
@@ -198,7 +196,7 @@ TEST(NewDevice, ThreePercentOfALevel) {
   EXPECT_LE(trials.wrong, 3);
 }
 
-// The limit of 1 % is 5 of 500. An earlier trial had 14 false reports in 1,500.
+// At 1 %, 5 false reports in 500 trials are expected. An earlier experiment had 14 in 1,500.
 TEST(NewDevice, NothingInjected) {
   const Trials trials = new_devices({}, "none", "none", 0.02, 500);
   EXPECT_LE(trials.wrong, 10);
@@ -214,7 +212,7 @@ TEST(NewDevice, WhatDoesNotCorrelateIsRefused) {
   EXPECT_TRUE(named(result).empty());
 }
 
-// If two devices were accepted, the device whose costs scatter least around the line is used.
+// If two devices were accepted, the one whose costs scatter less around the line is used.
 TEST(NewDevice, TheNearestJudges) {
   CorrelationWorld world(11);
   world.add_device(lavapipe, true, 0.1);

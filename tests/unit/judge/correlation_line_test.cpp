@@ -1,4 +1,4 @@
-// Tests the line that relates the costs of two devices, and the conditions under which it is
+// Tests the line that relates the costs of two devices, and the conditions under which the line is
 // meaningful.
 
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@
 namespace triptych::judge {
 namespace {
 
-// Returns y = 0.7 + slope·x, plus a wave with this amplitude.
+// Returns points on y = 0.7 + slope·x, plus a wave of the given amplitude.
 CorrelationPair pair_of(std::size_t points, double slope = 1, double wave = 0.02) {
   CorrelationPair pair{.device_a = "a", .device_b = "b", .signal = "cost"};
   for (std::size_t i = 0; i < points; ++i) {
@@ -55,9 +55,8 @@ TEST(FitLine, TooFewForALineHaveNone) {
   EXPECT_FALSE(line_of(alike).admitted());
 }
 
-// A level that is off the line by far more than the scatter is reported as one finding. Its
-// configurations are then not outliers by themselves, and all other configurations are still
-// compared with the line.
+// If a level is off the line by far more than the scatter, the level is reported as one finding
+// instead of many outliers. All other configurations are still compared with the line.
 TEST(OffTheLine, ALevelAndOneConfiguration) {
   CorrelationPair pair = pair_of(60);
   std::vector<Factors> factors;

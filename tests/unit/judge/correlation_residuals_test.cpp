@@ -1,4 +1,4 @@
-// Tests the description of how residuals differ from their stored values.
+// Tests how changes of residuals are attributed to levels and configurations.
 
 #include <gmock/gmock.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 using Of = Movement::Of;
 
-// Returns all combinations of three factors a, b and c with 2, 3 and 4 levels.
+// Returns all combinations of the factors a, b and c, which have 2, 3 and 4 levels.
 std::vector<Factors> grid() {
   std::vector<Factors> all;
   for (int i = 0; i < 24; ++i) {

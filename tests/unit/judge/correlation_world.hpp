@@ -1,5 +1,5 @@
 #pragma once
-// Invented costs of one plan on several devices: current costs and accepted costs.
+// Made-up costs of one plan on several devices: both the current and the accepted costs.
 
 #include <fmt/format.h>
 
@@ -15,18 +15,17 @@
 
 namespace triptych::judge {
 
-// A plan with 96 configurations: techniques × data × steps × cameras.
+// The plan has 96 configurations: techniques × data × steps × cameras.
 class CorrelationWorld {
  public:
   explicit CorrelationWorld(std::uint64_t seed) : random_(seed) {}
 
   bool with_times = false;
 
-  // The factor by which the device code and the driver of a configuration changed since they were
-  // accepted.
+  // Returns the factor by which the cost of a configuration changed since it was accepted.
   using Change = std::function<double(const record::Record&)>;
 
-  // Returns a number between −1 and 1, uniformly distributed.
+  // Returns a number that is uniformly distributed between −1 and 1.
   double jitter() { return random_.uniform(-1, 1); }
   double normal() {
     double sum = 0;
@@ -34,8 +33,9 @@ class CorrelationWorld {
     return sum - 6;
   }
 
-  // Adds the current counts: those of `cost_of` after the change, with the driver's jitter within
-  // its bounds. If `accepted` is true, also stores them as accepted counts, with another jitter.
+  // Adds the current counts of a device: its made-up costs, with the given changes and with driver
+  // jitter within the bounds. If `accepted` is true, stores the unchanged costs as accepted, with
+  // different jitter.
   void add_device(const std::string& id, bool accepted, double scatter = 0.02,
                   const Change& device_code = {}, const Change& driver = {}) {
     record::Device device;
@@ -56,7 +56,7 @@ class CorrelationWorld {
       record->outcome = record::Outcome::measured;
       record->counted_by = "emulator";
       const double frame = std::exp(15 + 0.02 * i + scatter * normal());
-      // Each count gets half of a bound, so that two counts differ by at most the bound.
+      // Each count may differ by half of the bound, so that two counts differ by at most the bound.
       const double bound =
           repeatability(id, record->technique, {0.7 * frame, 0.3 * frame}).driver / 2.01;
       stored.configurations[record->configuration].frame =

@@ -16,7 +16,7 @@ class CostGateTest : public JudgeTest {
  protected:
   CostGateTest() { request_.checks = {Check::cost}; }
 
-  // Gives every frame the counts of one emulator, and then applies `change`.
+  // Returns a change that gives every frame counts from one emulator, and then applies `change`.
   static Tweak counted(const std::function<void(record::Record&)>& change = {}) {
     return [change](record::Record& record, core::Image&) {
       record.cost = {{"device_code", device_code},
@@ -29,7 +29,7 @@ class CostGateTest : public JudgeTest {
       if (change) change(record);
     };
   }
-  // Returns a change of one configuration on one device.
+  // Returns a change of one part of the cost of one configuration on one device.
   static Tweak changed(const std::string& device, const std::string& part, std::int64_t by) {
     return counted([=](record::Record& record) {
       if (record.device != device || record.configuration != plain_) return;
@@ -43,7 +43,7 @@ class CostGateTest : public JudgeTest {
       record.cost["misses"] *= 2;
     });
   }
-  // Accepts a run, applies `change` to one configuration of a second run, and judges that run.
+  // Accepts an unchanged run, and judges a second run with `change`.
   GateResult judge(const Tweak& change) {
     accept_first(counted());
     add_run("b", change);
@@ -70,7 +70,7 @@ TEST_F(CostGateTest, OneInstructionOfDeviceCodeIsARegression) {
   EXPECT_EQ(wrong[0].number("instructions"), 2000001);
 }
 
-// A resumed run, or a run merged from shards, may contain counts from two emulators.
+// A resumed or merged run may contain counts from two emulators.
 TEST_F(CostGateTest, CountsOfTwoEmulatorsAreNotJudged) {
   const GateResult result = judge(counted([](record::Record& record) {
     if (record.configuration != plain_) return;
@@ -90,8 +90,8 @@ TEST_F(CostGateTest, OneInstructionLessIsAnImprovement) {
   EXPECT_EQ(with(result, Verdict::improved).size(), 1U) << text(result);
 }
 
-// Fewer instructions in one part do not compensate for more in another part, because each part is
-// judged by itself.
+// Fewer instructions in one part do not compensate for more in another, because each part is judged
+// separately.
 TEST_F(CostGateTest, MoreDeviceCodeIsNotMadeUpForByTheDriver) {
   const GateResult result = judge(counted([](record::Record& record) {
     if (record.configuration != plain_) return;
@@ -104,7 +104,7 @@ TEST_F(CostGateTest, MoreDeviceCodeIsNotMadeUpForByTheDriver) {
   EXPECT_EQ(change_of(wrong[0], "driver").now, 900000);
 }
 
-// The tolerance is 5e-4 of a frame with two million instructions, plus 2,000.
+// The tolerance is 5e-4 of a frame of two million instructions, plus 2,000.
 TEST_F(CostGateTest, TheDriverMayDifferByItsTolerance) {
   EXPECT_EQ(judge(changed("gl:llvmpipe-egl", "driver", 3000)).exit_code(), ExitCode::pass);
 }
@@ -114,8 +114,8 @@ TEST_F(CostGateTest, TheDriverMayNotDifferByMore) {
   EXPECT_EQ(change_of(wrong[0], "driver").now, 1003001);
 }
 
-// The tolerance is 16 plus one hundredth of 20,000, because a buffer may begin at another position
-// within a cache line.
+// The tolerance is 16 plus 1 % of 20,000, because a buffer may begin at a different position within
+// a cache line.
 TEST_F(CostGateTest, CacheMissesMayDifferByTheirTolerance) {
   EXPECT_EQ(judge(changed("gl:llvmpipe-egl", "misses", 216)).exit_code(), ExitCode::pass);
 }
@@ -191,7 +191,7 @@ TEST_F(CostGateTest, PreparingIsShown) {
   EXPECT_EQ(change_of(advice[0], "driver").now, 1200000);
 }
 
-// There is one line for each device whose driver version differs, with the known differences.
+// For a device with a different driver version, a single finding summarizes the known differences.
 TEST_F(CostGateTest, AnotherDriverVersionIsAdvice) {
   accept_first(counted());
   driver_versions_["vulkan:lavapipe"] = "23.0";

@@ -94,7 +94,7 @@ void JudgeTest::add_run(const std::string& run, const Tweak& tweak) {
       for (const std::string variant : {"plain", "bricks"}) {
         record::Record record = make_record(run, device, scene, variant);
         core::Image image = truth_of(scene);
-        // Each device rounds in its own way.
+        // Each device rounds differently.
         for (float& value : image.rgba) value += 1e-6F * static_cast<float>(device.id.size());
         if (tweak) tweak(record, image);
         if (record.outcome == record::Outcome::measured) {

@@ -1,6 +1,6 @@
 #pragma once
-// A small world to judge: three devices with two scenes and two paths each. The store and the
-// folder with the baselines are temporary.
+// A small world to judge: three devices, each with two scenes drawn in two ways. The store and the
+// folder of baselines are temporary.
 
 #include <gtest/gtest.h>
 
@@ -33,13 +33,15 @@ class JudgeTest : public testing::Test {
 
   // Adds twelve measured records. Times have 0.5 % noise around a mean for each configuration.
   void add_run(const std::string& run, const Tweak& tweak = {});
-  // `how` contains all settings except the plan, the reason, the date and the reference image.
+  // Accepts a run. `how` supplies all settings except the plan, the reason, the date and the
+  // reference image.
   std::vector<std::string> accept_run(const std::string& run, AcceptRequest how = {});
-  // Accepts a run with the id "accepted".
+  // Adds and accepts a run with the id "accepted".
   void accept_first(const Tweak& tweak = {});
   [[nodiscard]] GateResult gate(const std::string& run) const { return gate(run, request_); }
   [[nodiscard]] GateResult gate(const std::string& run, const GateRequest& request) const;
-  // Changes an accepted file and its checksum, as if this content had been accepted.
+  // Replaces the content of an accepted file and updates its checksum, as if the content had been
+  // accepted.
   void rewrite(const std::string& name, const std::string& content);
   [[nodiscard]] std::filesystem::path baseline(const std::string& name) const;
   // Returns the only file in a folder of the plan's baselines whose name begins with `start`.
@@ -47,12 +49,12 @@ class JudgeTest : public testing::Test {
                                                   const std::string& start) const;
 
   [[nodiscard]] static core::Image truth_of(const std::string& scene);
-  // Return the findings with this verdict, optionally of one check only, or with this cause.
+  // Returns the findings with one verdict, or only those from one check.
   [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Verdict verdict);
   [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Verdict verdict,
                                                  Check check);
   [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Cause cause);
-  // Returns all findings of a result as text, for messages of failed expectations.
+  // Returns all findings of a result as a string, for failing expectations.
   [[nodiscard]] static std::string text(const GateResult& result);
 
   static inline const std::string plain_ = "camera=front,data=ball,technique=raycast";
@@ -62,11 +64,11 @@ class JudgeTest : public testing::Test {
   TemporaryFolder folder_;
   record::Store store_;
   GateRequest request_;
-  record::Checks checks_;  // checks of the plan, for runs that are added later
+  record::Checks checks_;  // the checks of the plan, for runs that are added later
   std::string plan_hash_;
-  // Driver versions of devices by id, for runs that are added later.
+  // Driver versions by device id, for runs that are added later.
   std::map<std::string, std::string> driver_versions_;
-  std::map<std::string, std::string> settings_;  // settings for all devices
+  std::map<std::string, std::string> settings_;  // settings of all devices
   std::map<std::string, std::map<std::string, record::StatisticWorth>> calibrations_;
 
  private:
@@ -76,9 +78,9 @@ class JudgeTest : public testing::Test {
   core::Random random_{7};
 };
 
-// Returns the change of one number. The test fails if the number did not change.
+// Returns the change of one value. The test fails if the value did not change.
 [[nodiscard]] Change change_of(const Observation& what, const std::string& name);
-// Returns whether this cause is among those that lost points.
+// Returns whether this cause is among the reasons for lost points.
 [[nodiscard]] bool has(const std::vector<Observation>& because, Cause cause);
 
 }  // namespace triptych::judge

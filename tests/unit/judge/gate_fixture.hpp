@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of the gate share in addition to the fixture.
+// Additions to the fixture that all tests of the gate share.
 
 #include "core/file.hpp"
 #include "core/json.hpp"

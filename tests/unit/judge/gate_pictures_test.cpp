@@ -74,7 +74,7 @@ TEST_F(GateTest, ChangedTruthIsNamedAsSuch) {
   EXPECT_EQ(wrong[0].cause, Cause::reference_changed);
 }
 
-// If a plan does not store its images, only the hash of the reference image is stored.
+// If a plan does not store images, its baselines contain only the hash of the reference image.
 TEST_F(GateTest, ATruthWithoutAStoredPictureIsKnownByItsHash) {
   checks_ = {Check::image, Check::counters};
   accept_first();

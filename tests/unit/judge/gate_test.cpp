@@ -1,4 +1,4 @@
-// Tests the gate's findings about counters and statistics, and the verdict about the whole run.
+// Tests the gate's findings about counters and statistics, and the verdict on the whole run.
 
 #include <gmock/gmock.h>
 
@@ -70,7 +70,8 @@ TEST_F(GateTest, AnotherDeviceMayDifferByOneInTenThousand) {
   EXPECT_EQ(change_of(far.findings.front(), "samples").accepted.at("llvmpipe"), 1000000);
 }
 
-// An accepted driver version must repeat its values. Any other version counts as another driver.
+// An accepted driver version must repeat its values exactly. Any other version is treated like a
+// different driver.
 TEST_F(GateTest, AnotherVersionOfADriverMayDifferByOneInTenThousand) {
   accept_first();
   request_.checks = {Check::counters};
@@ -88,8 +89,8 @@ TEST_F(GateTest, AnotherVersionOfADriverMayDifferByOneInTenThousand) {
   EXPECT_EQ(gate("lost").exit_code(), ExitCode::regression);
 }
 
-// The driver determines where the edge of a sprite lies, but not which of its fragments hit the
-// sphere.
+// Where the edges of a sprite lie depends on the driver, but which fragments hit the sphere does
+// not.
 TEST_F(GateTest, AnotherVersionOfADriverMayMoveTheEdgesOfSprites) {
   const auto fragments = [](std::uint64_t discarded, std::uint64_t kept) {
     return [=](record::Record& record, core::Image&) {
@@ -136,7 +137,7 @@ TEST_F(GateTest, AnotherDeviceIsHeldToTheRangeOfTheAccepted) {
   EXPECT_EQ(change.accepted, (std::map<std::string, double>{{"llvmpipe", 1e6}, {"pocl", 9e5}}));
 }
 
-// Only if counters differ, the suite computes how many of them rounding can change in the scene.
+// Only if counters differ does the suite compute how far rounding can change them in the scene.
 TEST_F(GateTest, OfAnotherDriverAsManyCountsAreOpenAsTheSuiteSays) {
   accept_first([](record::Record& record, core::Image&) {
     record.counters["samples"] = 1000;
@@ -214,7 +215,7 @@ TEST_F(GateTest, DevicesWithoutStatisticsAreSkipped) {
   EXPECT_EQ(skipped[0].device, "opencl:pocl");
 }
 
-// The verdict about the whole run
+// The verdict on the whole run
 
 TEST(GateResultTest, Precedence) {
   const auto code = [](std::vector<Verdict> verdicts) {
@@ -235,7 +236,7 @@ TEST(GateResultTest, Precedence) {
   EXPECT_EQ(code({waived}), ExitCode::pass);
 }
 
-// A verdict about one device says nothing about another device.
+// A verdict on one device says nothing about another device.
 TEST(GateResultTest, EveryDeviceNeedsADecision) {
   GateResult result{.devices = {"gl:a", "vulkan:b"}};
   Finding passed;
@@ -251,7 +252,7 @@ TEST(GateResultTest, EveryDeviceNeedsADecision) {
   EXPECT_EQ(result.exit_code(), ExitCode::pass);
 }
 
-// A check without a row in the table would never run, and the gate would pass.
+// If a check were missing from the table, it would never run, and the gate would pass.
 TEST(GateResultTest, EveryCheckIsJudged) {
   EXPECT_EQ(judged_checks(), record::every_check());
 }
@@ -263,8 +264,8 @@ TEST(GateResultTest, NamesReadBack) {
   EXPECT_THROW((void)check("colour"), core::InputError);
 }
 
-// A file was replaced by another one with the same name. This is not a regression of the driver,
-// and it must not pass either.
+// A data file was replaced under the same name. This is neither a regression of the driver nor a
+// pass.
 TEST_F(GateTest, OtherDataUnderTheSameNameIsNamed) {
   const auto with_data = [](const std::string& hash) {
     return [hash](record::Record& record, core::Image&) { record.data_hash = hash; };
@@ -282,7 +283,8 @@ TEST_F(GateTest, OtherDataUnderTheSameNameIsNamed) {
   EXPECT_EQ(findings[0].fact("accepted"), "0a0a");
 }
 
-// The file was replaced after the run, so the reference image would show other data than the image.
+// The data file was replaced after the run, so the reference image would show different data than
+// the image.
 TEST_F(GateTest, DataThatChangedSinceTheRunAreNoRegression) {
   accept_first([](record::Record& record, core::Image&) { record.data_hash = "0a0a"; });
   request_.data_hash = [](const record::Record&) { return "0a0a"; };
@@ -297,7 +299,7 @@ TEST_F(GateTest, DataThatChangedSinceTheRunAreNoRegression) {
   EXPECT_TRUE(with(gate("accepted"), Verdict::regression).empty());
 }
 
-// Devices prefer different voxel formats, in which the same data have different hashes.
+// Devices prefer different voxel formats, and the hash of the same data depends on the format.
 TEST_F(GateTest, DataHasAHashPerVoxelFormat) {
   const auto with_lavapipe_as = [](const std::string& hash) {
     return [hash](record::Record& record, core::Image&) {

@@ -24,7 +24,7 @@ TEST_F(GateTest, NoBaselinesNamesTheCommandThatMakesThem) {
   EXPECT_EQ(finding.advice.command, "triptych accept volume/quick --reason TEXT");
 }
 
-// Commands are quoted for a shell, because users paste them.
+// Commands are quoted for the shell, because users paste them.
 TEST_F(GateTest, CommandsAreQuoted) {
   add_run("a");
   GateRequest request = request_;
@@ -75,8 +75,8 @@ TEST_F(GateTest, RequiredDeviceMustHaveMeasured) {
   EXPECT_EQ(with(result, Verdict::cannot_judge).at(0).fact("glob"), "gl:softpipe");
 }
 
-// The device's driver is new, so there are only advisory findings about it. The exit code is 2, and
-// the reason must be printed.
+// The device has a new driver, so all findings about it are advisory. The exit code is 2, and the
+// reason must be printed.
 TEST_F(GateTest, ADeviceOfWhichNothingIsDecidedIsNamed) {
   accept_first();
   driver_versions_["vulkan:lavapipe"] = "99";
@@ -171,7 +171,8 @@ TEST_F(GateTest, EveryUnhappyOutcomeIsARegressionOnce) {
   }
 }
 
-// A broken data file cannot be judged, whether the device measured it earlier or not.
+// A configuration with a broken data file cannot be judged, whether or not the device measured it
+// before.
 TEST_F(GateTest, BadInputCannotBeJudged) {
   const auto broken = [](record::Record& record, core::Image&) {
     if (record.configuration != bricks_) return;

@@ -22,7 +22,7 @@ class KnownGateTest : public GateTest {
     (void)accept_run("accepted");
   }
 
-  // Returns the known failures of the run, read back from their file.
+  // Returns the known failures after a run, written to a file and read back.
   [[nodiscard]] std::vector<Waiver> written_by(const GateResult& result) const {
     const auto file = folder_.path() / "known.json";
     core::write_file(
@@ -49,8 +49,7 @@ TEST_F(KnownGateTest, AFailureIsWaivedTheNextTime) {
   EXPECT_EQ(second.exit_code(), ExitCode::pass) << text(second);
   ASSERT_THAT(with(second, Verdict::waived), SizeIs(1));
   EXPECT_EQ(with(second, Verdict::waived).at(0).excuse.of, Excuse::Of::known);
-  // A second run that expects these failures writes the same file, because waived failures remain
-  // known.
+  // The next run writes the same file, because waived failures remain known.
   EXPECT_EQ(expected_text(written_by(second)), expected_text(*request_.known));
 }
 
@@ -58,7 +57,7 @@ TEST_F(KnownGateTest, ANewFailureIsRed) {
   request_.known.emplace();
   add_run("b", wrong_image_on(known_device));
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
-  // The failures of another configuration, device or check are new.
+  // Failures of other configurations, devices or checks are new.
   add_run("c", wrong_image_on("opencl:pocl"));
   request_.known = written_by(gate("c"));
   EXPECT_EQ(gate("c").exit_code(), ExitCode::pass);
@@ -88,7 +87,7 @@ TEST_F(KnownGateTest, ASkipThatWasNotExpectedIsNoPass) {
   ASSERT_THAT(*request_.known, SizeIs(1));
   EXPECT_EQ(request_.known->front().known, Known::skip);
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
-  // If a configuration with a known skip is drawn, it counts as improved.
+  // If a known skip is drawn, it counts as improved.
   EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(1));
   request_.known->clear();
   EXPECT_EQ(gate("b").exit_code(), ExitCode::cannot_judge);
@@ -135,13 +134,13 @@ TEST_F(KnownGateTest, WhatIsRightWhenDrawnAgainIsAFlakeAndNoPass) {
   ASSERT_THAT(known, SizeIs(1));
   EXPECT_EQ(known[0].known, Known::flake);
   request_.known = known;
-  EXPECT_EQ(gate("b").exit_code(), ExitCode::pass);  // the flake fails this time
-  // A flake that passes must not count as an unexpected pass.
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::pass);  // the flaky configuration fails this time
+  // If a known flake passes, this is not unexpected.
   EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(0));
 }
 
-// The verdict is neither a failure nor a pass, because a slow driver on a busy machine can end in
-// the same way.
+// The verdict is neither a failure nor a pass, because a slow driver on a busy machine can also
+// time out.
 TEST_F(KnownGateTest, AHangThatIsRightWhenDrawnAgainCannotBeJudged) {
   add_run("b", [](record::Record& record, core::Image&) {
     if (record.device != known_device || record.configuration != plain_) return;
@@ -157,8 +156,8 @@ TEST_F(KnownGateTest, AHangThatIsRightWhenDrawnAgainCannotBeJudged) {
   EXPECT_THAT(written_by(right.result), SizeIs(0));
 }
 
-// A crash is reported under the first check. A configuration that produces no image still has no
-// image when it is drawn again, so there is no such finding then.
+// A crash is reported under the first check. Configurations that only sum samples have no image
+// when they are drawn again, so their second run has no finding under that check.
 TEST_F(KnownGateTest, ACrashOfWhatHasNoPictureIsAFlakeToo) {
   const auto sums = [](record::Record& record, core::Image&) {
     if (record.device != known_device || record.configuration != plain_) return;
@@ -191,7 +190,7 @@ TEST_F(KnownGateTest, WhatIsSkippedWhenDrawnAgainStaysARegression) {
   EXPECT_EQ(wrong[0].again[0].reason.cause, record::Cause::not_supported);
 }
 
-// The counters fail both times, so only the image is a flake.
+// The counters fail both times, so only the image is flaky.
 TEST_F(KnownGateTest, EachCheckIsAFlakeByItself) {
   request_.checks = {Check::image, Check::counters};
   const auto miscounted = [](record::Record& record, core::Image& image) {

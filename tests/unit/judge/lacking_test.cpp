@@ -1,4 +1,4 @@
-// Tests driver versions that lack a feature that another version of the same device has.
+// Tests that a driver version may lack a feature that another version for the same device has.
 
 #include <filesystem>
 
@@ -18,7 +18,7 @@ class LackingTest : public JudgeTest {
     accept_first();
   }
 
-  // Adds a run of this driver version, which skips one configuration for this cause.
+  // Adds a run with this driver version, which skips one configuration for this cause.
   void add_without(const std::string& run, const std::string& version, record::Cause cause) {
     driver_versions_[lavapipe] = version;
     add_run(run, [&](record::Record& record, core::Image&) {
@@ -38,8 +38,8 @@ class LackingTest : public JudgeTest {
   }
 };
 
-// Counters are stored for a device. A driver version that lacks the feature need not have them, but
-// a version that was accepted with the feature must.
+// Counters are stored per device. They are not expected from a driver version that was accepted
+// without the feature, but they are expected from a version that was accepted with it.
 TEST_F(LackingTest, IsNotedForTheDriverVersion) {
   add_without("22", "22", record::Cause::not_supported);
   EXPECT_EQ(verdict_of_skip("22"), Verdict::cannot_judge);
@@ -51,7 +51,7 @@ TEST_F(LackingTest, IsNotedForTheDriverVersion) {
   EXPECT_EQ(verdict_of_skip("22 again"), Verdict::skipped);
   add_without("25", "25", record::Cause::not_supported);
   EXPECT_EQ(verdict_of_skip("25"), Verdict::cannot_judge);
-  // A version that lacked the feature is accepted with it, so nothing is lacking any more.
+  // Version 22 is now accepted with the feature, so no version lacks it any more.
   driver_versions_[lavapipe] = "22";
   add_run("22 with");
   (void)accept_run("22 with");

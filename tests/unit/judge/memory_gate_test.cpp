@@ -1,4 +1,4 @@
-// Tests the gate's findings about the memory that a device allocates.
+// Tests the gate's findings about bytes allocated on a device.
 
 #include <gmock/gmock.h>
 
@@ -37,7 +37,7 @@ TEST_F(MemoryGateTest, OneByteMoreIsARegression) {
   EXPECT_EQ(change_of(wrong[0], "buffers").unit, Unit::bytes);
 }
 
-// The injected slowdown itself allocates memory, which is not a fault of the device.
+// The injected slowdown itself allocates memory, for which the device is not to blame.
 TEST_F(MemoryGateTest, AnInjectedSlowdownIsNotJudged) {
   accept_first(taking(4096));
   add_run("b", [](record::Record& record, core::Image& image) {

@@ -15,8 +15,8 @@ record::Record record_of(std::uint64_t sprites, std::uint64_t fragments, double 
   return record;
 }
 
-// 100 squares of 10 × 10 pixels have 4,000 pixels along their edges, of which 1/128 may change
-// sides.
+// 100 squares of 10 × 10 pixels have edges of 4,000 pixels, of which 1/128 may be drawn on either
+// side.
 TEST(OpenFragments, AreThoseAlongTheEdges) {
   const record::Record record = record_of(100, 10000, 8);
   const double fluctuation = 5 * std::sqrt(4 * 10000 / 128.0);
@@ -38,7 +38,7 @@ TEST(OpenFragments, AreMoreOnACoarseGridAndWhereSpritesLieTogether) {
   const record::Record fine = record_of(100, 10000, 8);
   EXPECT_GT(open_fragments("fragments", record_of(100, 10000, 4)),
             5 * open_fragments("fragments", fine));
-  record::Record points = fine;  // 1/16 pixel, as in NVIDIA's driver
+  record::Record points = fine;  // 1/16 pixel, as with NVIDIA's driver
   points.precision["point_margin"] = 1.0 / 16;
   EXPECT_GT(open_fragments("fragments", points), 4000 / 16.0 + open_fragments("fragments", fine));
   record::Record together = fine;

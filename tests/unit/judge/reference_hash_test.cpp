@@ -17,15 +17,16 @@ core::Image picture(std::uint64_t seed) {
   return image;
 }
 
-// Each colour changes by the last bit of a float, which is 10⁵ times the effect of using another
-// math library.
+// A few values change by one ulp of a float, which is about 10⁵ times as much as a different math
+// library changes them in double precision.
 TEST(ReferenceHash, LastBitsAreTheSamePicture) {
   int same = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const core::Image image = picture(seed);
     core::Image other = image;
     core::Random random(1000 + seed);
-    // Another math library rounds about one in a few thousand values to a different float.
+    // With a different math library, about one of a few thousand values is rounded to a different
+    // float. Here, one of a thousand is.
     for (float& value : other.rgba) {
       if (random.uniform() < 1e-3) value = std::nextafter(value, 2.0F);
     }
@@ -61,7 +62,8 @@ TEST(ReferenceHash, SizeCountsAndStrangeNumbersAreNoTrouble) {
   EXPECT_TRUE(is_same_reference(reference_hash(image), reference_hash(image)));
 }
 
-// No colour of a scene is close to an edge of either rounding grid.
+// The rounding grids are placed so that round numbers, as in the colours of scenes, are not near
+// the edges of a cell.
 TEST(ReferenceHash, RoundNumbersMayMoveByALastBit) {
   for (const float value : {0.0F, 0.25F, 0.5F, 1.0F, 1.0F / 4096, 1.0F / 8192}) {
     core::Image image(1, 1);

@@ -1,5 +1,5 @@
-// Tests stress cases: the reason for each point, scores as baselines, and expectations in addition
-// to the reference image.
+// Tests the scores of stress cases: the reasons for lost points, scores as baselines, and
+// expectations in addition to the reference image.
 
 #include <gmock/gmock.h>
 
@@ -35,14 +35,15 @@ class StressGateTest : public JudgeTest {
     (void)accept(store_, run, folder_.path() / "baselines", request);
   }
 
-  // Returns a change of one device's image of the plain case.
+  // Returns a change of one configuration on one device.
   static Tweak on_lavapipe(const std::function<void(record::Record&, core::Image&)>& change) {
     return [change](record::Record& record, core::Image& image) {
       if (record.device == stress_device && record.configuration == plain_) change(record, image);
     };
   }
 
-  // Accepts a run without the change, and returns the only finding about a second run with it.
+  // Accepts an unchanged run, judges a second run with the change, and returns the only finding
+  // about it.
   Finding found(const Tweak& tweak) {
     add_run("accepted");
     accept_scores("accepted");
@@ -87,8 +88,8 @@ TEST_F(StressGateTest, WithinTheBoundOnlyAgreementIsLost) {
   EXPECT_TRUE(has(finding.because, Cause::farther_device));
 }
 
-// The other devices are closer to the reference image, so they must not lose a point because one
-// device differs.
+// The other devices are closer to the reference image, so they must not lose a point because of the
+// device that differs.
 TEST_F(StressGateTest, TheNearerKeepsItsPoint) {
   (void)found(on_lavapipe([](record::Record&, core::Image& image) {
     for (float& value : image.rgba) value += bound / 2;
@@ -159,15 +160,15 @@ TEST_F(StressGateTest, ARefusalIsRightOnlyWhereItIsAllowed) {
     record.reason = {.cause = record::Cause::not_supported, .detail = "too large"};
   });
   const Finding finding = found(refuse);
-  EXPECT_EQ(finding.verdict, Verdict::cannot_judge);  // the case was drawn when it was accepted
-  EXPECT_TRUE(finding.numbers.empty());               // the case has no score now
+  EXPECT_EQ(finding.verdict, Verdict::cannot_judge);  // drawn when it was accepted
+  EXPECT_TRUE(finding.numbers.empty());               // no score now
   expected_ = [](const record::Record&) {
     return std::vector<record::Expectation>{{"may be refused", record::MayBeRefused{}}};
   };
   EXPECT_EQ(with(gate("judged"), Verdict::pass, Check::stress).size(), 12U);
 }
 
-// Skipping must not change a single bit, even if the bound would permit the change.
+// Skipping must be bit-identical, even if the error bound would permit a difference.
 TEST_F(StressGateTest, OtherBitsThanAnotherConfigurationLoseAPoint) {
   expected_ = [](const record::Record& record) {
     std::vector<record::Expectation> result;
@@ -247,7 +248,7 @@ class ExpectationTest : public JudgeTest {
     return records_.back();
   }
 
-  // Returns an image in which each pixel contains its position.
+  // Returns an image whose values are a function of the position and the channel.
   static core::Image places(int w, int h, const std::function<float(int, int)>& at) {
     core::Image image(w, h);
     for (int y = 0; y < h; ++y) {

@@ -1,4 +1,4 @@
-// Tests that times are shown, and that they affect the verdict only on request.
+// Times are always reported, but they affect the verdict only on request.
 
 #include <gmock/gmock.h>
 
@@ -17,7 +17,7 @@ class TimingGateTest : public JudgeTest {
  protected:
   TimingGateTest() { request_.checks = {Check::timing}; }
 
-  // Returns a change that multiplies every time by a factor, for one configuration or for all.
+  // Returns a change that multiplies all times by a factor, for one configuration or for all.
   static Tweak times(double factor, const std::string& configuration = {}) {
     return [=](record::Record& record, core::Image&) {
       if (!configuration.empty() && record.configuration != configuration) return;
@@ -53,7 +53,7 @@ TEST_F(TimingGateTest, EveryRatioIsAmongTheNumbers) {
   add_run("b", times(1.5));
   for (const Finding& each : with(gate("b"), Verdict::pass, Check::timing)) {
     EXPECT_NEAR(each.numbers.at("ratio"), 1.5, 0.04);
-    // The half width of the interval for two runs, each with a scatter of at least 0.5 %.
+    // The interval for the ratio of two runs, each with a scatter of at least 0.5 %.
     EXPECT_GE(each.numbers.at("half_width"), 1.96 * std::hypot(0.005, 0.005) - 1e-9);
     EXPECT_LT(each.numbers.at("half_width"), 0.06);
     EXPECT_NEAR(each.numbers.at("median_ns") / each.numbers.at("baseline_ns"), 1.5, 0.04);
@@ -76,7 +76,7 @@ TEST_F(TimingGateTest, OnRequestASlowerConfigurationIsARegression) {
   EXPECT_EQ(with(gate("c"), Verdict::improved).size(), 3U);
 }
 
-// The ratio is exactly at the bound: the ratio minus its interval has to exceed 2 %.
+// Tests times close to the limit: the ratio minus its interval has to exceed 2 %.
 TEST_F(TimingGateTest, WhatTheIntervalLeavesOpenIsNoRegression) {
   const auto steady = [](double factor) {
     return
@@ -94,7 +94,7 @@ TEST_F(TimingGateTest, WhatTheIntervalLeavesOpenIsNoRegression) {
 TEST_F(TimingGateTest, SpreadIsOfTheFramesAndOfTheClock) {
   EXPECT_DOUBLE_EQ(log_spread({100, 100, 100}), 0.005);
   EXPECT_NEAR(log_spread({90, 95, 100, 105, 110}), 1.4826 * std::log(105.0 / 100), 1e-2);
-  // The clock is coarse: all frames except one take the same number of clock ticks.
+  // The clock is coarse: all frames but one last the same number of clock steps.
   EXPECT_NEAR(log_spread({10, 10, 10, 10, 11}), std::log(1.1), 1e-12);
 }
 
@@ -110,7 +110,7 @@ TEST_F(TimingGateTest, ClocksAreNotMixed) {
   EXPECT_EQ(gate("wall").exit_code(), ExitCode::cannot_judge);
 }
 
-// All frames are also timed with the wall clock.
+// All frames are also timed by the wall clock, so wall times can be compared.
 TEST_F(TimingGateTest, AStoredWallTimeIsComparedByTheWall) {
   accept_first();
   add_run("b", [](record::Record& record, core::Image& image) {

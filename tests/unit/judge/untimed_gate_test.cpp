@@ -1,5 +1,5 @@
-// Tests that in runs that measure only images and counters, values that were not measured are
-// neither judged nor accepted.
+// In runs that only check images and counters, values that were not measured are neither judged nor
+// accepted.
 
 #include <gmock/gmock.h>
 
@@ -66,12 +66,11 @@ TEST_F(UntimedGateTest, StatisticsThatWereReadAreAccepted) {
   (void)accept_run("a");
   EXPECT_FALSE(std::filesystem::exists(baseline("timings")));
   add_run("b", without_times);
-  const GateResult result = gate("b");  // one of the three devices reports no statistics
+  const GateResult result = gate("b");  // one of three devices reports no statistics
   EXPECT_EQ(with(result, Verdict::pass, Check::statistics).size(), 8U) << text(result);
 }
 
-// The first run is accepted without times, so nothing may be stored that could be mistaken for a
-// time.
+// The first run is accepted without times, so nothing that looks like a time may be stored.
 TEST_F(UntimedGateTest, AcceptsNoMissingTimeAsATime) {
   add_run("a", untimed);
   (void)accept_run("a");
@@ -81,8 +80,8 @@ TEST_F(UntimedGateTest, AcceptsNoMissingTimeAsATime) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
 }
 
-// Times that were never stored are not lost. This applies to a whole device, and to all
-// configurations but one.
+// Times that were never stored cannot be missing. This holds for a device without any stored times,
+// and for a device with times of only one configuration.
 TEST_F(UntimedGateTest, AfterThemTimesAreNewAndOnlyAdvise) {
   add_run("a", untimed);
   (void)accept_run("a");

@@ -1,4 +1,4 @@
-// Tests which findings are excused, and until when.
+// Tests which findings a waiver excuses, and until when.
 
 #include <gmock/gmock.h>
 
@@ -28,7 +28,7 @@ TEST_F(GateTest, AWaiverExcusesUntilItsExpiry) {
   EXPECT_EQ(excuse.expiry, "2026-03-01");
 }
 
-// The fixture's runs began on 2026-02-01.
+// The fixture's runs began on 2026-02-01. Setting the clock back must not revive an expired waiver.
 TEST_F(GateTest, AClockThatWasSetBackBringsNoWaiverBack) {
   add_run("a");
   (void)accept_run("a");
@@ -98,8 +98,7 @@ TEST_F(GateTest, AWaiverNeedsReasonAndDate) {
   }
 }
 
-// A waiver may last at most a year, so that somebody reviews it again. The fixture judges on
-// 2026-03-01.
+// A waiver may last at most a year, so that someone reviews it. The fixture judges on 2026-03-01.
 TEST_F(GateTest, AWaiverThatEndsFarAwayIsRefused) {
   add_run("a");
   (void)accept_run("a");
@@ -119,7 +118,7 @@ TEST_F(GateTest, AWaiverThatEndsFarAwayIsRefused) {
   }
 }
 
-// Without the misspelled key, the waiver would excuse every configuration.
+// If the misspelled key were ignored, the waiver would excuse every configuration.
 TEST_F(GateTest, AWaiverWithAMisspelledKeyIsRefused) {
   accept_first();
   write_waivers("2026-12-31");

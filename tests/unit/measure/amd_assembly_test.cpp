@@ -1,4 +1,4 @@
-// Compares the instruction counts of a disassembly with counts by hand.
+// Compares the instruction counts of a disassembly with manual counts.
 
 #include "measure/code/amd_assembly.hpp"
 
@@ -16,19 +16,19 @@ std::string fixture(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// The expected numbers were counted by hand in the loop of BB94 in
+// The expected numbers were counted by hand in the loop of block BB94 in
 // tests/unit/measure/assembly/raycast_navi21.s.
 TEST(AmdAssembly, TheSamplingLoopOfNavi21AsCountedByHand) {
   const auto counts = count_amd_instructions(fixture("raycast_navi21.s"));
   ASSERT_TRUE(counts && counts->sampling_loop);
   const InstructionCounts& loop = *counts->sampling_loop;
-  // The vector instructions are: v_cmpx; 8 up to the sample; 9 from the value to its table entry;
-  // 3; 8 to interpolate; 5 and 5 to composite; v_cmp and 2 v_cndmask to end the ray.
+  // Vector instructions: v_cmpx; 8 up to the sample; 9 from the value to its table entry; 3 others;
+  // 8 to interpolate; 5 and 5 to composite; v_cmp and 2 v_cndmask to end the ray.
   EXPECT_EQ(loop.vector, 1 + 8 + 9 + 3 + 8 + 5 + 5 + 3);
-  // The scalar instructions are: s_mov; s_and, s_or, s_andn2; s_mov; s_mov; s_and, s_andn2, s_or.
+  // Scalar instructions: s_mov; s_and, s_or, s_andn2; s_mov; s_mov; s_and, s_andn2, s_or.
   EXPECT_EQ(loop.scalar, 1 + 3 + 1 + 1 + 3);
   EXPECT_EQ(loop.memory, 3 + 1 + 2);  // s_load of descriptors, image_sample, image_load
-  EXPECT_EQ(loop.branch, 4);          // execz, scc1, the exit of the loop, the jump back
+  EXPECT_EQ(loop.branch, 4);          // execz, scc1, the loop exit, and the jump back
   EXPECT_EQ(loop.wait, 2 + 3);        // s_clause, s_waitcnt
   EXPECT_EQ(loop.fetches, 3);
   EXPECT_EQ(loop.all(), 66);
@@ -38,8 +38,8 @@ TEST(AmdAssembly, TheSamplingLoopOfVega10AsCountedByHand) {
   const auto counts = count_amd_instructions(fixture("raycast_vega10.s"));
   ASSERT_TRUE(counts && counts->sampling_loop);
   const InstructionCounts& loop = *counts->sampling_loop;
-  // The vector instructions are: v_cmp; 8 up to the sample; v_mov; 3 and 6 from the value to its
-  // table entry; 4 for coordinates; 3; 8 to interpolate; 5 and 5 to composite; v_cmp and 2
+  // Vector instructions: v_cmp; 8 up to the sample; v_mov; 3 and 6 from the value to its table
+  // entry; 4 for coordinates; 3 others; 8 to interpolate; 5 and 5 to composite; v_cmp and 2
   // v_cndmask to end the ray.
   EXPECT_EQ(loop.vector, 1 + 8 + 1 + 3 + 6 + 4 + 3 + 8 + 5 + 5 + 3);
   EXPECT_EQ(loop.scalar, 1 + 3 + 1 + 1 + 2 + 3);
@@ -58,8 +58,8 @@ TEST(AmdAssembly, OneMoreInstructionInTheLoopCounts) {
   EXPECT_EQ(count_amd_instructions(text)->sampling_loop->vector, 43);
 }
 
-// Separate loops read the bricks of the volume from a buffer. They must not be mistaken for the
-// sampling loop.
+// Other loops of the shader read bricks of the volume from a buffer. They must not be mistaken for
+// the sampling loop.
 TEST(AmdAssembly, ALoopWithASamplerIsLikelierThanOneThatReadsMemory) {
   const auto counts = count_amd_instructions(
       "BB0:\n\tv_mov_b32 v0, 0\nBB1:\n\tbuffer_load_dword v1, v0, s[0:3], 0\n"
@@ -79,7 +79,8 @@ TEST(AmdAssembly, TwoLoopsThatSampleAreNotCertain) {
   EXPECT_EQ(counts->sampling_loops, 2);
 }
 
-// The blocks have LLVM's names. There is also an outer loop, which must not be counted.
+// The blocks are named as LLVM does. The loop is nested in an outer loop, which must not be
+// counted.
 TEST(AmdAssembly, TheInnermostLoopCounts) {
   const auto counts = count_amd_instructions(
       "main:\nBB0_1:\n\ts_mov_b32 s0, 1 ; BE800301\nBB0_2:\n"

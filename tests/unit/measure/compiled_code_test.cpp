@@ -1,4 +1,4 @@
-// Tests reading statistics from the lines that drivers print.
+// Tests parsing of the statistics that drivers print.
 
 #include "measure/code/compiled_code.hpp"
 
@@ -43,7 +43,7 @@ TEST(ParseCounts, ReadsLinesOfIntelAndNvidia) {
               AllOf(Contains(Pair("registers", 32)), Contains(Pair("bytes stack frame", 8))));
 }
 
-// Shortened output of rusticl in Mesa 25.0.7.
+// Shortened output of rusticl from Mesa 25.0.7.
 TEST(PrintedKernels, HaveTheNameThatWasPrintedBefore) {
   const auto kernels = parse_printed_kernels(
       "Shader main disassembly:\ns_endpgm\n*** SHADER STATS ***\nVGPRs: 8\n*****\n"
@@ -93,8 +93,8 @@ TEST(CompiledCode, NothingReportedIsNotSupported) {
   EXPECT_THROW(static_cast<void>(code.take()), core::NotSupported);
 }
 
-// There are two drivers for one GPU. One reports the number of instructions. For the other driver,
-// they are counted in the disassembly.
+// Two drivers for the same GPU: the first reports the number of instructions. For the second, the
+// instructions are counted in the disassembly.
 TEST(CompiledCode, CountsInstructionsThatAreNotReported) {
   const std::string assembly = "BB0:\n\tv_mov_b32 v0, 0\n\ts_endpgm\n";
   CompiledCode code;
@@ -114,7 +114,8 @@ TEST(StandardError, IsKeptAndGivenBack) {
   EXPECT_EQ(standard_error_of([] {}), "");
 }
 
-// Rust's runtime writes to the file descriptor, whereas Mesa writes single words to the C stream.
+// Rust's runtime writes to the file descriptor, whereas Mesa writes single words to the C stream
+// stderr.
 TEST(StandardError, KeepsTheOrderOfWritesToTheStreamAndTheDescriptor) {
   const std::string both = standard_error_of([] {
     for (const char* word : {"shader: ", "a ", "kernel\n"}) std::fputs(word, stderr);
@@ -147,7 +148,7 @@ TEST(CompileOnly, WhatIsMissingIsNamedWithItsPackage) {
   }
 }
 
-// The name of a device that only compiles must be the same on every machine.
+// The name of a compile-only device must be the same on every machine.
 TEST(CompileOnly, TheKernelsVersionIsNoPartOfAName) {
   EXPECT_EQ(without_kernel_version(
                 "AMD Radeon RX 6800 (radeonsi, navi21, LLVM 19.1.7, DRM 3.49, 6.12.1-amd64)"),

@@ -1,6 +1,6 @@
 #pragma once
-// A small suite for tests of plans and runs. It has a factor of every kind, and its work can be
-// drawn only by the null backend.
+// A small suite for tests of plans and runs, with factors of every kind. Only the null backend can
+// draw its scenes.
 
 #include <array>
 #include <chrono>
@@ -24,7 +24,7 @@ class FakeSuite final : public Suite {
 
   const std::vector<Factor>& factors() const override { return factors_; }
 
-  // `data` may be any name except "nonsense". `viewport` is an integer.
+  // Accepts any name except "nonsense" for `data`, and integers for `viewport`.
   void check(const Factor& factor, std::string_view value) const override {
     if (factor.name == "data" && value == "nonsense") {
       throw core::InputError("expected a file or generate:NAME:SIZE");
@@ -54,8 +54,8 @@ class FakeSuite final : public Suite {
     return configuration.at("data") == "absent" ? "absent: no such file" : "";
   }
 
-  // Loading "slow" takes long enough to be reported, "huge" needs more memory than the machine has,
-  // and "torn" is a broken file.
+  // Loading the data "slow" takes long enough to be reported, "huge" needs more memory than the
+  // machine has, and "torn" is a broken file.
   Work work(Configuration& configuration, const Device& device) override {
     if (configuration.at("data") == "huge") throw std::bad_alloc();
     if (configuration.at("data") == "torn") {
@@ -77,7 +77,7 @@ class FakeSuite final : public Suite {
     volume.scene.step_voxels = std::strtod(configuration.at("step").c_str(), nullptr);
     volume.scene.width = std::atoi(configuration.at("viewport").c_str());
     volume.scene.height = volume.scene.width;
-    // Another camera draws another image. The exact position does not matter here.
+    // A different camera draws a different image. The exact position does not matter.
     volume.scene.camera.eye.x = static_cast<double>(
         std::stoul(core::content_hash(configuration.at("camera")).substr(0, 4), nullptr, 16));
     volume.options.ert = std::strtod(configuration.at("ert").c_str(), nullptr);
@@ -91,7 +91,7 @@ class FakeSuite final : public Suite {
     return {.technique = configuration.at("technique"), .scene = std::move(volume)};
   }
 
-  // The data "full" have no empty bricks.
+  // The data "full" contain no empty bricks.
   PlainWork plain(const Configuration& configuration, const Work&) const override {
     PlainWork plain{.levels = configuration};
     if (configuration.at("data") == "full" && configuration.at("skip") == "bricks") {

@@ -1,4 +1,4 @@
-// Tests the choice for `auto`, which depends only on records.
+// Tests how technique=auto is resolved. The choice depends only on records.
 
 #include "measure/request/fastest.hpp"
 
@@ -69,12 +69,12 @@ TEST_F(FastestTest, IsChosenOfEachSceneAndDeviceByItself) {
       add("raycast_fragment", {2e6}, device, data);
     }
   }
-  add("raycast", {1e6}, "null:c");  // there is only one technique to choose from
+  // On this device, there is only one candidate.
+  add("raycast", {1e6}, "null:c");
   EXPECT_EQ(answers().size(), 4U);
 }
 
-// A device may have one clock for compute work and another one for drawing, and their times cannot
-// be compared.
+// A device may have separate clocks for dispatches and draws, whose times cannot be compared.
 TEST_F(FastestTest, IsToldByOneClock) {
   record::Record& trusted = add("raycast", {9e6});
   trusted.device_ns = {1e6};
@@ -86,7 +86,8 @@ TEST_F(FastestTest, IsToldByOneClock) {
   EXPECT_THAT(text(), HasSubstr("raycast is the fastest, 1.000 ms (median 1.000, device clock)"));
 }
 
-// The choice must repeat, so instructions are used if they were counted.
+// If instructions were counted, they decide instead of times, because the choice is then
+// repeatable.
 TEST_F(FastestTest, IsThatOfTheFewestInstructionsWhereTheyWereCounted) {
   add("raycast", {}).cost = {{"device_code", 5'000'000}, {"driver", 1'000'000}, {"libc", 9}};
   add("raycast_fragment", {}).cost = {{"device_code", 2'000'000}, {"driver", 2'000'000}};
@@ -115,7 +116,7 @@ TEST_F(FastestTest, WhatMayYetBeTheFastestIsTriedAgain) {
       records_.clear();
       for (const Configuration& each : trial.configurations) {
         const bool first = each.at("technique") == "raycast";
-        // The first trial was disturbed.
+        // In the first trial, this technique was disturbed.
         add(each.at("technique"), {first ? (tried.empty() ? 1.5e6 : 0.9e6) : second}).technique =
             each.at("technique");
       }

@@ -11,7 +11,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-// fake/quick has 16 configurations: two levels each of technique, data, step and camera.
+// fake/quick has 16 configurations, with two levels for each of technique, data, step and camera.
 class Selection : public PlanTest {
  protected:
   Names names(const PlanChoice& choice) {

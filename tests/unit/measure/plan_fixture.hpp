@@ -1,5 +1,5 @@
 #pragma once
-// Plans read from files, for an invented suite.
+// Loads plans from files, for a made-up suite.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,8 @@ class PlanTest : public ::testing::Test {
     return load_plan(file_.string(), overrides, find_, shard);
   }
 
-  // Returns the error for a plan without the file's folder: "FILE:LINE:COLUMN: MESSAGE".
+  // Returns the error message for a plan, without the folder of the file: "FILE:LINE:COLUMN:
+  // MESSAGE".
   std::string refusal(const std::string& yaml, const Overrides& overrides = {}) {
     try {
       static_cast<void>(load(yaml, overrides));

@@ -1,4 +1,4 @@
-// Tests files that are not valid plans, and the errors about them.
+// Tests inputs that are not valid plans, and their error messages.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -117,7 +117,7 @@ TEST_F(PlanTest, WhatIsNoPlan) {
   EXPECT_THAT(refusal("suite: fake\nname: x\n"), HasSubstr("unknown factor 'name'"));
 }
 
-// At such a token in the root, yaml-cpp returns an endless sequence of empty documents.
+// For such a token at the root, yaml-cpp would return empty documents forever.
 TEST_F(PlanTest, WhatStandsWhereNothingCanBeginIsNoPlan) {
   EXPECT_THAT(refusal(",\n"), AllOf(StartsWith(at(1, 1)), HasSubstr("not valid YAML")));
   EXPECT_THAT(refusal("&R, x\n"), HasSubstr("not valid YAML"));
@@ -160,12 +160,11 @@ TEST_F(PlanTest, TooManyCombinations) {
   std::string list = "[1";
   for (int i = 2; i <= 101; ++i) list += ", " + std::to_string(i);
   list += "]\n";
-  // These are 101³ combinations.
+  // 101³ combinations.
   const std::string yaml = "suite: fake\ndata: " + list + "camera: " + list + "viewport: " + list;
   EXPECT_THAT(refusal(yaml), AllOf(StartsWith(at(3, 1)), HasSubstr("1000000 combinations")));
 }
 
-// The option --set
 
 }  // namespace
 }  // namespace triptych::measure

@@ -67,7 +67,7 @@ TEST_F(PlanTest, AutoIsEveryTechniqueThatDraws) {
 TEST_F(PlanTest, AutoIsForgottenWhereALevelIsNamed) {
   const std::string yaml = "suite: fake\ntechnique: auto\n";
   EXPECT_THAT(load(yaml, {{"technique", {"raycast"}}}).automatic, IsEmpty());
-  // If `auto` is the level of another factor, it stands for the device's default path.
+  // A level `auto` that stands for the device's default path does not depend on times.
   EXPECT_THAT(load("suite: fake\nsampler: auto\n").automatic, IsEmpty());
 }
 
@@ -124,7 +124,7 @@ TEST_F(PlanTest, AlsoAddsCombinationsBesideTheirDataAndNoneTwice) {
   EXPECT_THAT(plan.varied, ElementsAre("data", "step", "skip", "ert"));
 }
 
-// Levels that the plan contains select its configurations. Other levels make new configurations.
+// Values that occur in the plan select its configurations. Other values create new configurations.
 TEST_F(PlanTest, AnOverrideOfSeveralBlocksSelectsWhatThePlanHas) {
   const std::string yaml =
       "suite: fake\n"
@@ -153,7 +153,7 @@ TEST_F(PlanTest, AnOverrideOfSeveralBlocksSelectsWhatThePlanHas) {
   }
   EXPECT_THAT(values(load(yaml, {{"step", {"8"}}}), "step"), testing::Each("8"));
   EXPECT_EQ(values(load(yaml, {{"step", {"8"}}}), "data").size(), 5U);
-  // No block has both levels, so they replace the levels of the blocks.
+  // No single block contains both values, so they replace the values of all blocks.
   EXPECT_THAT(values(load(yaml, {{"ert", {"0.5"}}, {"step", {"4"}}}), "step"), testing::Each("4"));
 }
 
@@ -257,8 +257,8 @@ TEST_F(PlanTest, ShardOutOfRange) {
   }
 }
 
-// The plan has five million combinations. A shard stores only its own part, and `list` stores none
-// of them.
+// The plan has five million combinations. A shard must keep only its own part in memory, and a
+// listing must keep none.
 TEST_F(PlanTest, MillionsAreListedAndCutWithoutBeingHeld) {
   std::string cameras;
   for (int i = 0; i < 250; ++i) cameras += "random:" + std::to_string(i) + ", ";
@@ -281,8 +281,8 @@ TEST_F(PlanTest, MillionsAreListedAndCutWithoutBeingHeld) {
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 20 << 10) << "KiB";
 }
 
-// A plan with 10¹² combinations can be neither run nor listed. It is rejected before the first
-// combination is generated.
+// A plan with 10¹² combinations can neither be run nor listed, so it must be rejected before the
+// first combination.
 TEST_F(PlanTest, AListThatWouldNotEndIsRefused) {
   std::string values;
   for (int i = 1; i <= 1000; ++i) values += std::to_string(0.01 * i) + ", ";

@@ -1,4 +1,5 @@
-// Tests that reference images are rendered once and saved, for this command and for later ones.
+// Tests that each reference image is rendered only once, and then reused by the same command and by
+// later commands.
 
 #include "measure/truth/truths.hpp"
 
@@ -91,8 +92,8 @@ TEST_F(TruthsTest, AreRenderedOnceAndKeptForTheNext) {
   EXPECT_EQ(suite_.rendered, 2);
 }
 
-// Anybody can write a valid seal into a store before giving it away. Therefore only reference
-// images that were drawn on this machine are trusted.
+// Anyone can write a valid seal into a store before passing it on. Therefore, only reference images
+// that this user rendered on this machine are trusted.
 TEST_F(TruthsTest, ABoundThatAnybodyWroteIsDrawnAgain) {
   {
     record::Store first = store();
@@ -108,10 +109,11 @@ TEST_F(TruthsTest, ABoundThatAnybodyWroteIsDrawnAgain) {
   EXPECT_EQ(truths(second).of(record_with("1")).bound.rgba[0], 0.25F);
   EXPECT_EQ(suite_.rendered, 2);
   EXPECT_EQ(truths(second).of(record_with("1")).bound.rgba[0], 0.25F);
-  EXPECT_EQ(suite_.rendered, 2);  // this user drew the new image
+  // The image was rendered by this user, so it is trusted.
+  EXPECT_EQ(suite_.rendered, 2);
 }
 
-// RFC 4231, test cases 1, 2 and 6.
+// Test cases 1, 2 and 6 of RFC 4231.
 TEST(OwnSeal, IsThatOfTheStandard) {
   EXPECT_EQ(hmac_sha256(std::string(20, '\x0b'), "Hi There"),
             "b0344c61d8db38535ca8afceaf0bf12b881dc200c9833da726e9376c2e32cff7");

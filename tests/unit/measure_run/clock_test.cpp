@@ -91,7 +91,8 @@ TEST(Calibrate, TakesFewerFramesWhereTheyAreLong) {
 
 TEST(Plausible, NeedsATimePerFrameAboveZeroAndWithinTheWallTime) {
   EXPECT_TRUE(plausible({1 * millisecond, 2 * millisecond}, {1.1 * millisecond, 2 * millisecond}));
-  EXPECT_TRUE(plausible({5e3}, {4e3}));  // the difference is within one clock tick
+  // The device time exceeds the wall time by less than the clock resolution.
+  EXPECT_TRUE(plausible({5e3}, {4e3}));
   EXPECT_FALSE(plausible({}, {}));
   EXPECT_FALSE(plausible({1 * millisecond}, {1 * millisecond, 1 * millisecond}));
   EXPECT_FALSE(plausible({0}, {1 * millisecond}));
@@ -100,9 +101,9 @@ TEST(Plausible, NeedsATimePerFrameAboveZeroAndWithinTheWallTime) {
 
 TEST(Plausible, ExcusesLaunchesAndAFewLateWakeUpsButNotMissingWork) {
   EXPECT_TRUE(
-      plausible({0.05 * millisecond}, {0.3 * millisecond}));  // a short frame on a fast device
+      plausible({0.05 * millisecond}, {0.3 * millisecond}));  // a launch may take this long
   EXPECT_FALSE(plausible({0.05 * millisecond},
-                         // The same difference for a frame that is not short.
+                         // No launch takes this long, so work is missing from the device time.
                          {1.3 * millisecond}));
   const std::vector<double> wall_ns(8, 30 * millisecond);
   std::vector<double> device_ns(8, 29 * millisecond);
@@ -112,7 +113,8 @@ TEST(Plausible, ExcusesLaunchesAndAFewLateWakeUpsButNotMissingWork) {
   EXPECT_FALSE(plausible(device_ns, wall_ns));
 }
 
-// A device whose frames take 0.1 ms per voxel length at step 1, and longer with more samples.
+// A device whose frames last 0.1 ms divided by the step size, so that finer steps make frames
+// longer.
 class GrowingDevice final : public Device {
  public:
   explicit GrowingDevice(double finest_step) : finest_step_(finest_step) {}
@@ -128,7 +130,7 @@ class GrowingDevice final : public Device {
     const double step = std::get<VolumeWork>(work.scene).scene.step_voxels;
     longest_ns = 0.1 * millisecond / step;
     return std::make_unique<ScriptedPrepared>(
-        // The wall time includes 30 µs for the launch, which the device's clock excludes.
+        // The wall time includes 30 µs for the launch, which the device clock does not measure.
         [ns = longest_ns](int) { return frame_of(ns + 3e4, ns); });
   }
   double longest_ns = 0;

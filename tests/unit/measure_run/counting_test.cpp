@@ -1,4 +1,4 @@
-// Tests the emulator, its tool and the worker's part of counting together.
+// Tests the emulator, its instruction counter and the worker's part of counting together.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 namespace triptych::measure {
 namespace {
 
-// Runs the helper under the emulator, and returns its output.
+// Runs the helper program under the emulator, and returns its output.
 std::string counted(const std::string& loops, std::string_view device_files = "/nowhere",
                     const char* how = "count") {
   const auto& emulator = std::get<Emulator>(find_emulator());
@@ -46,7 +46,7 @@ TEST_F(Counting, OneInstructionMoreIsSeen) {
   EXPECT_THAT(counted("1001"), testing::StartsWith("2004 0 1\n"));
 }
 
-// PoCL's kernels are files. They count as device code if they are in its cache.
+// PoCL loads its kernels from files. Files in its kernel cache must count as device code.
 TEST_F(Counting, FilesOfTheKernelCacheAreDeviceCode) {
   const std::string folder = std::string(MEASURE_RUN_HELPER).substr(0, 5);
   EXPECT_THAT(counted("1000", folder), testing::Not(testing::StartsWith("2002 ")));
@@ -56,9 +56,8 @@ TEST_F(Counting, WaitsForWhatAnotherThreadStillDoes) {
   EXPECT_EQ(counted("1000", "/nowhere", "count-busy"), "2002 0 1\n2002 0 1\n2002 0 1\n");
 }
 
-// The misses are the cache lines that the loads touch, plus the stack line with the return address.
-// 1,000 loads touch either 1,000 lines, which is more than the cache holds, or 125 lines, which fit
-// into it.
+// The cache misses are the cache lines of the loads, plus the stack line with the return address.
+// 1,000 loads touch either 1,000 lines, which do not fit into the cache, or 125 lines, which do.
 TEST_F(Counting, AStrideThatMissesTheCacheCostsMissesAndNoInstruction) {
   EXPECT_EQ(counted("64", "/nowhere", "count-stride"), "4002 1001\n4002 1001\n4002 1001\n");
   EXPECT_EQ(counted("8", "/nowhere", "count-stride"), "4002 126\n4002 0\n4002 0\n");

@@ -22,7 +22,7 @@ using ::testing::Pair;
 
 constexpr const char* no_nvml = "no such library";
 
-// Simulates the folders of a Linux system with energy meters.
+// Imitates the folders in which Linux exposes energy meters.
 class EnergyMetersTest : public ::testing::Test {
  protected:
   void write(const std::string& file, const std::string& text) const {
@@ -56,8 +56,8 @@ TEST_F(EnergyMetersTest, WhatIsCountedAlreadyOrNotAtAllIsNoMeter) {
   zone("intel-rapl:0/intel-rapl:0:1", "dram", "1");
   zone("intel-rapl:1", "psys", "1");
   zone("intel-rapl-mmio:0", "package-0", "1");
-  zone("intel-rapl:2", "package-1", "");   // as a file that only root may read
-  zone("intel-rapl:3", "package-2", "0");  // as in a virtual machine
+  zone("intel-rapl:2", "package-1", "");   // like a file that only root may read
+  zone("intel-rapl:3", "package-2", "0");  // like the file in a virtual machine
   write("hwmon/hwmon0/name", "coretemp");
   write("hwmon/hwmon0/energy1_input", "1");
   write("hwmon/hwmon1/name", "xe");
@@ -66,8 +66,8 @@ TEST_F(EnergyMetersTest, WhatIsCountedAlreadyOrNotAtAllIsNoMeter) {
   EXPECT_THAT(meters().names(), ElementsAre("package-0", "package-0/dram", "xe-0"));
 }
 
-// The meter is updated with every third frame. Energy before its first update and after its last
-// update does not count.
+// The meter is updated only every third frame. Energy before its first or after its last update
+// must not be counted.
 TEST_F(EnergyMetersTest, CountsBetweenRenewals) {
   zone("intel-rapl:0", "package-0", "1000");
   int drawn = 0;

@@ -93,8 +93,8 @@ TEST(CacheFolder, FallsBackToTheNextPlaceThatCanBeWritten) {
   EXPECT_THAT(CacheFolder("opencl:pocl").path().string(), StartsWith(scratch.path().string()));
 }
 
-// Another user has put compiled code into a folder with the expected name, in a place where
-// everybody may write.
+// Someone else has planted a folder with the expected name, and with compiled code in it, in a
+// place that everyone can write to.
 class PlantedCache : public testing::Test {
  protected:
   // The folder for temporary files is the only place left for a cache.

@@ -1,4 +1,5 @@
-// Tests which configurations do the same work, and how runs make use of this.
+// Tests which configurations are recognized as doing the same work, and how runs reuse their
+// results.
 
 #include "measure/contract/equivalents.hpp"
 
@@ -28,7 +29,7 @@ core::Image picture(const std::vector<float>& alphas) {
 
 TEST(LeastTransmittance, IsWhatThePictureLeavesOfTheBackground) {
   EXPECT_NEAR(least_transmittance(volume_over(0), picture({0.25F, 0.75F, 0.5F})), 0.25, 1e-6);
-  // The equation 1 − T + T·¼ = 0.85 gives T = 0.2.
+  // The image is 0.85 = 1 − T + T·0.25, so T is 0.2.
   EXPECT_NEAR(least_transmittance(volume_over(0.25F), picture({0.25F, 0.85F})), 0.2, 1e-6);
 }
 
@@ -74,7 +75,7 @@ TEST_F(EquivalentsOf, TheReasonNamesWhatWasReplacedInOneOfThem) {
   EXPECT_EQ(equivalent->reason, "skip: nothing is empty");
 }
 
-// For the data "full" of the fake suite, skip=bricks and skip=none do the same work.
+// With the fake suite's data `full`, skip=bricks and skip=none do the same work.
 class RunTwins : public RunTest {
  protected:
   Plan full(const std::string& data = "full",
@@ -85,8 +86,8 @@ class RunTwins : public RunTest {
                  {"camera", {"random:7"}},
                  {"skip", skip}});
   }
-  // Returns the records by configuration key. Bricks come first, because keys omit the default
-  // level.
+  // Returns the records by configuration key. The record with bricks comes first, because keys omit
+  // default levels.
   [[nodiscard]] std::map<std::string, record::Record> by_key(const RunResult& result) const {
     std::map<std::string, record::Record> all;
     for (const record::Record& record : records(result.run)) all[record.configuration] = record;
@@ -130,7 +131,7 @@ TEST_F(RunTwins, AreMeasuredWhereAFaultIsInjected) {
   EXPECT_EQ(run(full()).taken_over, 0);
 }
 
-// An untimed plan shares equal work too: its records contain the same frames.
+// Untimed runs also reuse the results of equal work: the records contain the same frames.
 TEST_F(RunTwins, TakeOverPicturesOfAnUntimedRunToo) {
   options.protocol.timed = false;
   const RunResult result = run(full());

@@ -1,4 +1,4 @@
-// Simulates libnvidia-ml with two cards, the second of which does not report energy.
+// Imitates libnvidia-ml with two cards, the second of which reports no energy.
 
 namespace {
 unsigned long long millijoules = 5000;
@@ -21,7 +21,7 @@ int nvmlDeviceGetHandleByIndex_v2(unsigned index, void** card) {
 int nvmlDeviceGetTotalEnergyConsumption(void* card, unsigned long long* told) {
   static void* first = nullptr;
   if (first == nullptr) nvmlDeviceGetHandleByIndex_v2(0, &first);
-  if (card != first) return 3;  // the error code for "not supported"
+  if (card != first) return 3;  // the error code NVML_ERROR_NOT_SUPPORTED
   *told = millijoules;
   return 0;
 }

@@ -1,4 +1,4 @@
-// Tests drivers that report frames as finished although they did not draw them.
+// Tests that drivers are found out if they report frames as finished without having drawn them.
 #include "measure/protocol/frame_proof.hpp"
 
 #include <gmock/gmock.h>
@@ -83,8 +83,8 @@ TEST(FrameProof, FindsAnImageThatIsNeverDrawn) {
   }
 }
 
-// An image with computed NaNs was drawn. Comparing it with the reference image reveals that it is
-// wrong.
+// If a frame computes NaNs, it has drawn them. Whether they are correct is decided by the
+// comparison with the reference image.
 TEST(FrameProof, TakesNaNsThatAFrameComputedForItsImage) {
   // The NaN that a processor computes for 0/0.
   static constexpr std::uint32_t computed_nan = 0xFFC00000;

@@ -85,7 +85,7 @@ int supervise(const std::string& program, const std::string& file) {
   return 0;
 }
 
-// Returns machine code in memory, like the code that a driver's compiler generates.
+// Copies machine code to executable memory, as a driver's compiler does.
 template <typename Function>
 Function* in_memory(std::span<const unsigned char> code) {
   void* memory = ::mmap(nullptr, code.size(), PROT_READ | PROT_WRITE | PROT_EXEC,
@@ -101,7 +101,7 @@ void (*loop_in_memory(std::uint32_t loops))() {
   return in_memory<void()>(code);
 }
 
-// Prints the counts of `act` three times, in one line each.
+// Counts `act` three times, and prints the counts on one line each.
 template <typename Act>
 void print_counts(const measure::InstructionCounter& counter, const std::vector<std::string>& names,
                   Act act) {
@@ -129,8 +129,7 @@ int count_stride(unsigned char stride) {
   return 0;
 }
 
-// If `busy` is true, another thread has much work at the beginning, like the thread of a driver
-// that writes a cache.
+// If `busy`, another thread has much to do at first, like a driver thread that writes a cache.
 int count_loop(std::uint32_t loops, bool busy) {
   const auto counter = measure::InstructionCounter::of_this_process();
   if (!counter) return 2;
@@ -142,7 +141,8 @@ int count_loop(std::uint32_t loops, bool busy) {
     loop();
     void* volatile memory = std::malloc(100);
     std::free(memory);
-    if (busy) std::this_thread::sleep_for(std::chrono::milliseconds(1));  // lets other threads run
+    // Lets the other threads run.
+    if (busy) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   });
   return 0;
 }

@@ -34,7 +34,7 @@ class TurnsTest : public RunTest {
     return result;
   }
 
-  // How a side ended when b had a configuration with this fault.
+  // How a side ended while b held a configuration with an injected fault.
   struct Ended {
     Side side;
     Outcome outcome;
@@ -60,7 +60,7 @@ TEST_F(TurnsTest, TheDifferenceIsTheLogarithmOfTheRatio) {
   hold(interleaved);
   const std::vector<Block> all = blocks(interleaved, 6);
   EXPECT_EQ(interleaved.frames_per_batch(), 1);
-  EXPECT_EQ(interleaved.times_per_block(), 4);  // for four batches of 3 ms, at least 40 ms
+  EXPECT_EQ(interleaved.times_per_block(), 4);  // four batches of 3 ms must last at least 40 ms
   EXPECT_THAT(differences(all, SideClock::wall), Each(DoubleNear(std::log(1.1), 1e-9)));
   EXPECT_THAT(differences(all, SideClock::device), Each(DoubleNear(std::log(1.1), 1e-9)));
   EXPECT_TRUE(device_clock_holds(all));
@@ -91,12 +91,13 @@ TEST_F(TurnsTest, ShortFramesAreBatchedAlikeOnBothSides) {
   EXPECT_EQ(interleaved.frames_per_batch(), 10);
   EXPECT_EQ(interleaved.times_per_block(), 10);  // a block of such batches lasts 40 ms
   const Block block = interleaved.block();
-  EXPECT_NEAR(block.a.wall_ns[0], 1e5, 1);  // the times are means over the frames of a batch
+  // Times are means over the frames of a batch.
+  EXPECT_NEAR(block.a.wall_ns[0], 1e5, 1);
   EXPECT_NEAR(block.b.wall_ns[1], 4e5, 1);
 }
 
-// A block is wrong only if all ten first batches or all ten second batches of b are disturbed,
-// which has a probability of 1/85000.
+// The result of a block is wrong only if all ten first or all ten second batches of b are
+// disturbed, which has a probability of 1/85000.
 TEST_F(TurnsTest, WhatDisturbsSomeOfABlocksTurnsDoesNotCount) {
   a.environment = {script_with(R"("base_ns": 1e6, "ns_per_sample": 0)")};
   b.environment = {script_with(
@@ -159,7 +160,7 @@ TEST_F(TurnsTest, ALostDeviceCostsItsWorker) {
 TEST_F(TurnsTest, AnErrorInAFrameEndsTheBlockAndNoWorker) {
   b.environment = {script_with(
       R"("base_ns": 3e6, "failures": [{"kind": "api_error", "at": "frame", "frame": 12, "only": "*data=*"}])")};
-  options_.kinds = {};  // otherwise the frames of the calibration would have the fault too
+  options_.kinds = {};  // otherwise, the frames of the calibration would fail as well
   Interleaved interleaved = open();
   hold(interleaved);
   try {
@@ -205,7 +206,7 @@ TEST_F(TurnsTest, AnEnvironmentThatChangesTheWorkIsRefused) {
 }
 
 TEST(TurnDifferences, ADriftThatIsLinearOverABlockCancels) {
-  // The logarithms of the four batch times are 0, 0.1, 0.2 and 0.3, and b is slower by 0.05.
+  // The four batches have the times ln t = 0, 0.1, 0.2, 0.3, except that b is slower by 0.05.
   const Block abba{.b_first = false,
                    .a = {.wall_ns = {1e6, 1e6 * std::exp(0.3)}, .device_ns = {}},
                    .b = {.wall_ns = {1e6 * std::exp(0.15), 1e6 * std::exp(0.25)}, .device_ns = {}}};

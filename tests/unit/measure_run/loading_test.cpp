@@ -17,11 +17,10 @@ using ::testing::Field;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-// Reports about loading whose steps happen at known times.
+// Reports progress of loading at known times.
 class PacedLoading : public testing::Test {
  protected:
-  // Sends `steps` + 1 reports: the first one (share 0) now, and the last one (share 1) after
-  // `length`.
+  // Sends `steps` + 1 reports: the first (share 0) now, and the last (share 1) after `length`.
   void load(const std::string& what, milliseconds length, int steps) {
     for (int i = 0; i <= steps; ++i) {
       tell_({.what = what, .share = static_cast<double>(i) / steps});

@@ -26,7 +26,7 @@ Process shell(const std::string& text) {
   return Process({"/bin/sh", "-c", text}, {"PATH=/usr/bin:/bin"});
 }
 
-// Reads everything that the child wrote until it closed the pipe.
+// Reads everything that the child writes before it closes the pipe.
 std::string all_from(int fd) {
   std::string text;
   std::array<char, 4096> piece{};
@@ -58,10 +58,10 @@ TEST(Process, ConnectsRequestsAnswersAndBothOutputs) {
 
 TEST(Process, GivesNoOtherDescriptorAndOnlyTheGivenEnvironment) {
   const FileDescriptor opened(::open("/dev/null", O_RDONLY));
-  const FileDescriptor stray(::dup2(opened.get(), 40));  // neither of them is close-on-exec
+  const FileDescriptor stray(::dup2(opened.get(), 40));  // neither descriptor is close-on-exec
   ASSERT_EQ(::setenv("TRIPTYCH_STRAY", "1", 1), 0);
   Process process = shell("for fd in /proc/$$/fd/*; do echo ${fd##*/}; done; echo $TRIPTYCH_STRAY");
-  // The child has no other open descriptors; it uses 5 to read the list.
+  // The child has no other open descriptors. It opened 5 itself to read the list.
   EXPECT_EQ(all_from(process.log_fd()), "0\n1\n2\n3\n4\n5\n\n");
 }
 
@@ -92,7 +92,7 @@ TEST(Process, DestructionTakesTheWholeGroupAndLeavesNoZombie) {
   EXPECT_EQ(errno, ECHILD);
 }
 
-// A shell that starts a daemon in its own session and prints the daemon's process id.
+// Starts a daemon in its own session, and prints the daemon's process id.
 constexpr const char* starts_a_daemon =
     "setsid sh -c 'echo $$ >&4; exec sleep 100 4>&-' & exec 4>&-; ";
 
@@ -119,8 +119,8 @@ TEST(Process, WhatItLeftBehindDiesWhereItEndsByItself) {
   EXPECT_TRUE(dies(daemon));
 }
 
-// While two processes run, it is unknown which of them started a daemon, so the daemon is killed
-// only after the last of them has ended.
+// While two processes run, it is unknown which of them started the daemon, so the daemon is killed
+// only after both have ended.
 TEST(Process, WhatWasLeftBehindDiesWithTheLastAndHarmsNoOther) {
   pid_t daemon = 0;
   {
@@ -136,7 +136,8 @@ TEST(Process, WhatWasLeftBehindDiesWithTheLastAndHarmsNoOther) {
   EXPECT_TRUE(dies(daemon));
 }
 
-// The program that this program replaced may have left children, which must not be killed.
+// If another program replaced itself with this one, its children may still be running and must not
+// be killed.
 TEST(Process, AChildFromBeforeIsLeftAlone) {
   Process process = shell("sleep 100 & exec '" MEASURE_RUN_HELPER "' keeps $!");
   EXPECT_EQ(describe(process.wait(seconds(20)).value()), "exited with code 0");

@@ -62,7 +62,7 @@ TEST(Protocol, ShortFramesWarmUpForATenthOfTheLoop) {
 }
 
 TEST(Protocol, TheFastestWarmUpFramePredictsTheLoop) {
-  // The first frame is cold. 15 frames of 7 ms fill 100 ms.
+  // The first frame is slow, because the device is cold. 15 frames of 7 ms fill 100 ms.
   ScriptedPrepared prepared([](int n) { return frame_of(n == 0 ? 900 * ms : 7 * ms); });
   EXPECT_EQ(measured(prepared).record.frames_per_100ms, 15);
 }
@@ -137,7 +137,7 @@ TEST(Protocol, AClockIsTrustedOnlyForTheKindItWasCalibratedFor) {
   ScriptedPrepared prepared = steady(50 * ms, 49 * ms);
   const record::Record record = measured(prepared, {}, trusting(technique::Work::draw)).record;
   EXPECT_FALSE(record.device_clock_trusted);
-  EXPECT_THAT(record.device_ns, Each(49 * ms));  // stored nevertheless
+  EXPECT_THAT(record.device_ns, Each(49 * ms));  // recorded nevertheless
 }
 
 TEST(Protocol, ATrustedClockThatLiesInThisConfigurationIsNotBelieved) {
@@ -198,7 +198,7 @@ TEST(Protocol, BenchmarkEntriesCarrySamplesStatisticsAndCountsAsFlatKeys) {
       EXPECT_NEAR(entry.at("real_time").get<double>(), 54 * ms, 1);
     }
   }
-  // These are the wall times from the fifth frame on.
+  // The wall times from the fifth frame on.
   ASSERT_EQ(samples.size(), 8U);
   for (std::size_t i = 0; i < 8; ++i) {
     EXPECT_NEAR(samples[i], (54.0 + static_cast<double>(i)) * ms, 1);

@@ -1,5 +1,5 @@
 #pragma once
-// Runs of the fake suite on the null backend, in real worker processes.
+// Runs the fake suite on the null backend, in real worker processes.
 
 #include <gmock/gmock.h>
 #include <signal.h>
@@ -17,8 +17,8 @@
 
 namespace triptych::measure {
 
-// The time limit in tests in which a worker hangs. All other workers have to answer within this
-// time.
+// The time limit for tests in which a worker hangs. Workers that do not hang must answer within
+// this time.
 inline constexpr std::chrono::seconds hang_limit{MEASURE_RUN_PATIENCE};
 
 class RunTest : public testing::Test {
@@ -32,12 +32,12 @@ class RunTest : public testing::Test {
     return {scratch.path() / "store.sqlite", record::Store::Mode::append};
   }
 
-  // Returns the configurations of one block of factors. All other factors have the suite's
-  // defaults.
+  // Returns the plan fake/quick with these levels. All other factors keep the plan's levels.
   [[nodiscard]] Plan plan(const Overrides& overrides) {
     return load_plan("fake/quick", overrides, find());
   }
-  // Returns four configurations: step 0.5 and 1, two cameras, technique raycast, data cube.
+  // Returns four configurations: step 0.5 and 1, each with two cameras, with technique raycast and
+  // data cube.
   [[nodiscard]] Plan small_plan() { return plan({{"technique", {"raycast"}}, {"data", {"cube"}}}); }
 
   RunResult run(const Plan& what, std::vector<std::string> devices = {"null:scripted"}) {
@@ -51,7 +51,7 @@ class RunTest : public testing::Test {
     });
   }
 
-  // Returns the records of the latest run, ordered by configuration and device.
+  // Returns the records of a run, sorted by device and configuration.
   [[nodiscard]] std::vector<record::Record> records(const std::string& run) const {
     return open_store().records(run);
   }

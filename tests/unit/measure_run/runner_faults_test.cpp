@@ -1,4 +1,4 @@
-// Tests that whatever happens to a worker affects only one configuration and leaves nothing behind.
+// Tests that any failure of a worker costs only one configuration and leaves nothing behind.
 
 #include <sys/wait.h>
 
@@ -20,8 +20,8 @@ using ::testing::HasSubstr;
 
 class RunFaults : public RunTest {
  protected:
-  // Runs four configurations, the second of which has the fault. Returns the record of the second
-  // one, and checks that the others were measured.
+  // Runs four configurations, of which the second has the fault, and returns its record. Expects
+  // that the other three are measured.
   record::Record outcome_of(const std::string& fault) {
     const Plan what = small_plan();
     options.faults = {{fault, configuration_key(suite, what.configurations.at(1))}};

@@ -1,4 +1,4 @@
-// Tests runs that are stopped from outside and continued by a later run.
+// Tests runs that are stopped from outside and resumed by a later run.
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,10 +19,10 @@ using std::chrono::seconds;
 
 class RunResume : public RunTest {
  protected:
-  // Frames really take 4 ms, so a configuration takes about 0.15 s.
+  // Frames really take 4 ms, so that a configuration takes about 0.15 s.
   Variable slow{"TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 4e6, "sleep": true})"};
 
-  // Starts a supervisor in its own process, which the test can kill.
+  // Starts a supervisor in a child process, which a test can kill.
   [[nodiscard]] Process supervise() const {
     std::vector<std::string> environment;
     for (char** entry = environ; *entry != nullptr; ++entry) environment.emplace_back(*entry);
@@ -30,7 +30,7 @@ class RunResume : public RunTest {
                    environment);
   }
 
-  // Waits until the supervisor has stored this many records.
+  // Waits until the supervisor has stored `count` records.
   void wait_for_records(std::size_t count) const {
     const record::Store store = open_store();
     for (int i = 0; i < 2000; ++i) {
@@ -41,8 +41,8 @@ class RunResume : public RunTest {
     FAIL() << "the supervisor stores nothing";
   }
 
-  // Runs or resumes until a worker is started for the first configuration. This worker never
-  // answers.
+  // Starts or resumes the run until a worker has been started for the first configuration, and then
+  // kills the supervisor. The worker never answers.
   void end_at_the_first(int signal) const {
     const Variable stuck("TRIPTYCH_NULL_SCRIPT",
                          R"({"failures": [{"kind": "hang", "at": "open"}]})");
@@ -90,7 +90,7 @@ TEST_F(RunResume, AKilledSupervisorLosesAtMostTheConfigurationInFlight) {
   EXPECT_EQ(store.records(result.run).size(), whole.configurations.size());
 }
 
-// This simulates a driver that crashes the machine, after which no process is left to report it.
+// Imitates a driver that crashes the machine, so that no process is left to report the crash.
 TEST_F(RunResume, WhatTwiceEndedAllIsPassedBy) {
   end_at_the_first(SIGKILL);
   end_at_the_first(SIGKILL);
@@ -133,7 +133,7 @@ TEST_F(RunResume, AWorkerStuckInItsDriverDoesNotOutliveItsSupervisor) {
   for (int i = 0; i < 500 && started_workers().empty(); ++i) {
     std::this_thread::sleep_for(milliseconds(10));
   }
-  std::this_thread::sleep_for(milliseconds(200));  // the worker hangs by then
+  std::this_thread::sleep_for(milliseconds(200));  // by then, the worker hangs
   ::kill(supervisor.pid(), SIGKILL);
   ASSERT_TRUE(supervisor.wait(seconds(5)));
   ASSERT_EQ(started_workers().size(), 1U);
@@ -185,7 +185,7 @@ TEST_F(RunAgain, AResumedRunKeepsItsClocksAndRefusesAnotherDriver) {
   static_cast<void>(run(plan({{"technique", {"raycast"}}, {"data", {"cube"}}, {"step", {"1"}}})));
   options.resume = true;
   {
-    // The clock would not be trusted if it were calibrated again.
+    // If the clock were calibrated again, it would not be trusted.
     const Variable lying("TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 3e6, "device_over_wall": 0.5})");
     const RunResult more = run(small_plan());
     EXPECT_EQ(more.measured, 4);
@@ -196,7 +196,7 @@ TEST_F(RunAgain, AResumedRunKeepsItsClocksAndRefusesAnotherDriver) {
   EXPECT_THROW(run(plan({{"technique", {"raycast"}}, {"data", {"ball"}}})), core::InputError);
 }
 
-// Sharing a plan among workers is allowed if nothing is timed.
+// Several workers may share a device only if nothing is timed.
 TEST_F(RunTest, WorkersOfOneDeviceShareAPlan) {
   options.jobs = 3;
   options.protocol.timed = false;

@@ -24,7 +24,8 @@ TEST_F(RunTest, MeasuresEveryConfigurationOnEveryDeviceAndTellsOfEach) {
   EXPECT_EQ(result.measured, 8);
   EXPECT_EQ(result.skipped + result.failed, 0);
   EXPECT_EQ(told.size(), 8U);
-  EXPECT_EQ(started_workers().size(), 2U);  // one worker serves a device for the whole run
+  // One worker serves a device for the whole run.
+  EXPECT_EQ(started_workers().size(), 2U);
   EXPECT_GT(result.wall_ns, result.overhead_ns);
   std::set<std::pair<std::string, std::string>> cells;
   for (const record::Record& record : records(result.run)) {
@@ -90,7 +91,7 @@ TEST_F(RunTest, TheRunKnowsItsSystemItsDevicesAndTheirClocks) {
   }
   const auto devices = store.devices(result.run);
   ASSERT_EQ(devices.size(), 1U);
-  // The plan draws nothing, so it needs no clock for drawing.
+  // The plan contains no drawing technique, so no clock for draws is calibrated.
   ASSERT_EQ(devices[0].clocks.size(), 1U);
   EXPECT_EQ(devices[0].clocks[0].work, "compute");
   EXPECT_TRUE(devices[0].clocks[0].trusted) << devices[0].clocks[0].verdict;

@@ -56,8 +56,8 @@ TEST(SameFailure, WhereNothingIsSharedNothingIsNamed) {
   EXPECT_EQ(reason.shared_levels, "");
 }
 
-// If a factor does not matter in one case, it is assumed not to matter in the next case, so it is
-// tried only once.
+// If a factor turned out not to matter for one failure, it is assumed not to matter for the next
+// failure, which then has to be tried only once.
 TEST(SameFailure, WhatDoesNotMatterIsRemembered) {
   SameFailure failures({"data", "step"});
   for (const char* step : {"1", "2", "3"}) {
@@ -101,8 +101,7 @@ TEST(SameFailure, WhatWasNotTriedIsNoWitness) {
 
 class SameFailureRun : public RunTest {};
 
-// There are six configurations with two data sets. Every configuration with the cube ends its
-// worker.
+// Of six configurations with two data sets, the three with the cube crash their worker.
 TEST_F(SameFailureRun, IsPaidForTwice) {
   const Plan what = plan({{"technique", {"raycast"}},
                           {"data", {"ball", "cube"}},

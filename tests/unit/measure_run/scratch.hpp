@@ -1,5 +1,5 @@
 #pragma once
-// A folder and environment variables for tests of processes. Both are restored afterwards.
+// Temporary folders and environment variables that are restored at the end of a test.
 
 #include <stdlib.h>
 #include <unistd.h>
@@ -14,7 +14,8 @@ namespace triptych::measure {
 
 using ScratchFolder = core::TemporaryFolder;
 
-// Sets a variable, or unsets it if there is no value. The destructor restores the previous value.
+// Sets an environment variable, or unsets it if no value is given. The destructor restores the
+// previous value.
 class Variable {
  public:
   explicit Variable(std::string name, const std::optional<std::string>& value = std::nullopt)

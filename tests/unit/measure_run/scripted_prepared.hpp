@@ -1,5 +1,5 @@
 #pragma once
-// A prepared technique that returns scripted times immediately and records the calls to it.
+// A prepared technique that returns scripted times without waiting, and logs all calls.
 
 #include <algorithm>
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace triptych::measure {
 
-inline constexpr double ms = 1e6;  // in nanoseconds
+inline constexpr double ms = 1e6;  // one millisecond in nanoseconds
 
 class ScriptedPrepared final : public Prepared {
  public:
@@ -38,8 +38,9 @@ class ScriptedPrepared final : public Prepared {
   }
   std::string kernel_hash() const override { return "kernel"; }
 
-  std::vector<std::string> calls;  // except poison(), which frame_proof_test.cpp tests
-  // Returns whether the n-th frame, counted from 1, leaves an image.
+  // All calls except those of poison(), which frame_proof_test.cpp tests.
+  std::vector<std::string> calls;
+  // Whether the n-th frame, counted from 1, writes an image, and the value of that image's pixels.
   std::function<bool(int n)> draws = [](int) { return true; };
   std::function<float(int n)> picture = [](int) { return 1.0F; };
 
@@ -59,7 +60,7 @@ inline Frame frame_of(double wall_ns, std::optional<double> device_ns = std::nul
   return {.wall_ns = wall_ns, .device_ns = device_ns, .counts = {}};
 }
 
-// Returns a technique with the same times for every frame.
+// Returns a prepared technique with the same times for every frame.
 inline ScriptedPrepared steady(double wall_ns, std::optional<double> device_ns = std::nullopt) {
   return ScriptedPrepared([=](int) { return frame_of(wall_ns, device_ns); });
 }

@@ -1,6 +1,7 @@
 #pragma once
-// Whether posix_spawn reports a missing program. Under QEMU's emulation of a processor, it does
-// not: the child of a vfork does not share memory with its parent there, and exits with code 127.
+// Tells whether posix_spawn reports a missing program. Under QEMU's user-mode emulation it does
+// not, because a vforked child does not share memory with its parent there, and exits with code 127
+// instead.
 
 #include <spawn.h>
 #include <sys/types.h>

@@ -1,4 +1,4 @@
-// Tests the verdicts about pipeline statistics, for a device that reports scripted numbers.
+// Tests the verdicts on pipeline statistics, with a device that reports scripted numbers.
 
 #include "measure/protocol/statistics_calibration.hpp"
 
@@ -28,12 +28,12 @@ using Calibration = std::map<std::string, StatisticWorth>;
 
 const StatisticWorth exact;
 
-// Matches a statistic with this worth.
+// Matches statistics whose worth is `worth`.
 MATCHER_P(Is, worth, "") {
   return arg.worth == worth;
 }
 
-// The fragments of the many small sprites, as counted by Triptych.
+// The fragments of the scene with many small sprites, as counted by Triptych.
 constexpr std::uint64_t true_fragments = 2500;
 constexpr std::uint64_t kept_fragments = 2090;
 
@@ -61,7 +61,7 @@ record::Counts exact_counts(const Work& work) {
   throw std::logic_error("a work that is no calibration scene");
 }
 
-// Changes the exact statistics of the n-th statistics frame of a work, counted from 0.
+// Modifies the exact statistics of the n-th statistics frame of a piece of work, counted from 0.
 using Script = std::function<void(const Work&, int n, record::Counts&)>;
 
 class CountingPrepared final : public Prepared {

@@ -152,11 +152,11 @@ TEST(NullScript, MistakesAreNamed) {
   }
 }
 
-// Time
+// Times
 
 TEST(NullTime, IsComputedFromTheWork) {
   const Script script{.devices = {1, 2}, .base_ns = 100, .ns_per_sample = 1};
-  // The image has 16·8 pixels, the longest edge has 8 voxels, and there are two samples per voxel.
+  // The image has 16 × 8 pixels, the longest edge has 8 voxels, and each voxel is sampled twice.
   EXPECT_THAT(times(script, 3), Each(100 + 16 * 8 * 8 * 2));
   EXPECT_THAT(times(script, 3, work(), "null:scripted#2"), Each(2 * (100 + 16 * 8 * 8 * 2)));
   measure::VolumeWork slowed = volume();
@@ -352,7 +352,7 @@ TEST(NullFailureDeathTest, EndsTheProcess) {
       ::testing::KilledBySignal(SIGALRM), "");
 }
 
-// The log
+// The call log
 
 TEST(NullLog, HoldsTheCallsInOrder) {
   const Script script{.log = std::make_shared<CallLog>()};

@@ -19,7 +19,7 @@ TEST(BinTable, SomeParticlesShareAChunkWhateverTheDevice) {
   EXPECT_EQ(bin_table(2048, 2048, 1000000).chunks, 512U);
 }
 
-// With 512 chunks, the counts for an image of 8192² pixels would need half a gigabyte.
+// With 512 chunks, the counts for 8192×8192 pixels would need half a gigabyte.
 TEST(BinTable, StaysSmallerThanTheLargestPictures) {
   for (const int edge : {4096, 8192, 16384, 32768}) {
     const BinTable table = bin_table(edge, edge, 1000000);

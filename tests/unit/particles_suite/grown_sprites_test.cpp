@@ -1,5 +1,5 @@
-// Compares the number of fragments by which ray-aligned sprites grow with the areas of the sprites
-// on the image.
+// Compares the computed number of fragments that growing ray-aligned sprites adds with their areas
+// in the image.
 
 #include "suites/particles/grown_sprites.hpp"
 
@@ -11,7 +11,7 @@
 namespace triptych::particles_suite {
 namespace {
 
-// Returns a sphere seen from the origin along −z, in a square image of 200² pixels.
+// Returns a scene with one sphere, seen from the origin along −z in an image of 200×200 pixels.
 scene::ParticleScene one(double x, double z, double radius, double fov_y_deg) {
   auto set = std::make_shared<scene::ParticleSet>();
   set->spheres = {{static_cast<float>(x), 0, static_cast<float>(-z), static_cast<float>(radius)}};
@@ -23,9 +23,10 @@ scene::ParticleScene one(double x, double z, double radius, double fov_y_deg) {
   return scene;
 }
 
-// On the axis, a square of half size h (in pixels) grows by g on each side, which adds 8·h·g + 4·g²
-// fragments. At most one row of pixels along each side may be off. With a field of view of 90°, the
-// size of a pixel is 1/100 at distance 1. The plane of the sprite is 1 % in front of the centre.
+// A square on the axis, whose half edge is h pixels, grows by g pixels on each side. This adds
+// 8·h·g + 4·g² fragments, give or take at most one pixel along each border. With a field of view of
+// 90°, a pixel has a size of 1/100 at distance 1. The plane of the sprite is in front of the centre
+// of the sphere.
 TEST(GrownSprites, OnTheAxisAnEdgeMovesByTheGrowth) {
   const double growth = 3;
   const double plane = 10 - 0.5;
@@ -35,8 +36,8 @@ TEST(GrownSprites, OnTheAxisAnEdgeMovesByTheGrowth) {
   EXPECT_NEAR(fragments_of_growth(one(0, 10, 0.5, 90), growth), expected, 8 * grown);
 }
 
-// At 70° from the axis, a length in the radial direction covers 1/cos 70° times as many pixels.
-// Here, this affects two edges.
+// At 70° from the axis, lengths in the radial direction cover 1/cos 70° times as many pixels. This
+// makes two edges of the square longer.
 TEST(GrownSprites, AwayFromTheAxisMuchMore) {
   const double sideways = 10 * std::tan(70 * std::acos(-1.0) / 180);
   const double near_axis = fragments_of_growth(one(0, 10, 1, 150), 1);

@@ -1,4 +1,4 @@
-// Tests the keys that show whether a reference image belongs to the current scene.
+// Tests the keys that identify which scene a reference image belongs to.
 
 #include <gtest/gtest.h>
 
@@ -24,13 +24,14 @@ TEST(Keys, ChangeWithTheTransferFunctionsFile) {
   measure::Configuration configuration = configuration_of(*suite, "generate:uniform:10");
   configuration["colour"] = "intensity";
   const std::string preset = suite->truth_key(configuration, {});
-  // The key must not change without a reason, so that reference images in stores remain usable.
+  // The key must not change without need, so that reference images that are already stored remain
+  // usable.
   EXPECT_EQ(preset.find("table"), std::string::npos);
   configuration["transfer_function"] = "a.rgba";
   test::expect_keys_to_follow_the_table(*suite, configuration, folder);
 }
 
-// The key of a stress case contains its camera, which is not one of the factors.
+// The key of a stress case must contain the case's own camera, which is not among the factors.
 TEST(Keys, HoldTheFrameOfAStressCase) {
   const auto suite = make_suite({});
   measure::Configuration configuration = configuration_of(*suite, "stress:widest");

@@ -1,5 +1,5 @@
-// Tests how many counts are uncertain because quads replace large points, with spheres of known
-// size on the image.
+// If a sphere is larger than the largest point of a device, it may be drawn as a quad, so some of
+// its counts are open. Compares these counts with spheres of known size in the image.
 
 #include "suites/particles/large_points.hpp"
 
@@ -12,9 +12,9 @@
 namespace triptych::particles_suite {
 namespace {
 
-// Returns spheres of radius 1 at these distances, seen from the origin along −z, in a square image
-// of 200² pixels and 90°. At distance z, a sphere on the axis is 200/√(z² − 1) pixels wide, plus a
-// margin of 1/32.
+// Returns spheres of radius 1, seen from the origin along −z in an image of 200×200 pixels with a
+// field of view of 90°. At distance z, a sphere on the axis is 200/√(z² − 1) pixels wide, with a
+// margin of 1/32 pixel.
 scene::ParticleScene at_distances(const std::vector<float>& distances) {
   auto set = std::make_shared<scene::ParticleSet>();
   for (const float z : distances) set->spheres.push_back({0, 0, -z, 1});
@@ -27,7 +27,7 @@ scene::ParticleScene at_distances(const std::vector<float>& distances) {
 }
 
 TEST(OpenByQuads, OnlySpheresThatAreLargerThanThePoints) {
-  // The sizes are 70.7, 40.9 and 22.4 pixels.
+  // The spheres are 70.7, 40.9 and 22.4 pixels wide.
   const scene::ParticleScene scene = at_distances({3, 5, 9});
   EXPECT_TRUE(open_by_quads(scene, 71, true).empty());
   EXPECT_EQ(open_by_quads(scene, 70, false).at("vertices"), 3);
@@ -39,8 +39,7 @@ TEST(OpenByQuads, OnlySpheresThatAreLargerThanThePoints) {
 TEST(OpenByQuads, FragmentsInTheCornersOfSquares) {
   const scene::ParticleScene round = at_distances({3});
   EXPECT_EQ(open_by_quads(round, 10, false).at("fragments"), 72 * 72 - 70 * 70);
-  // Half of the sphere is outside the image. The open fragments are 72² minus 70 rows of 35.5
-  // pixels.
+  // Half of the sphere is outside the image, so 72² − 70 · 35.5 fragments are open.
   scene::ParticleScene cut = round;
   auto set = std::make_shared<scene::ParticleSet>();
   set->spheres = {{3, 0, -3, 1}};
@@ -65,8 +64,8 @@ TEST(OpenByQuads, BehindQuadsOcclusionCullsMore) {
   EXPECT_FALSE(open.contains("cells"));
 }
 
-// A device whose points can be as large as an image draws no quads, so none of its counters is
-// uncertain.
+// If the points of a device can be as large as the image, the device draws no quads, so no counts
+// are open.
 TEST(OpenByQuads, AsADeviceTells) {
   const auto suite = make_suite({});
   measure::Configuration configuration;

@@ -1,4 +1,4 @@
-// Tests finding configurations that do the same work in a scene of particles.
+// Tests which configurations are recognized as doing the same work in a particle scene.
 
 #include "suites/particles/plain_work.hpp"
 
@@ -37,7 +37,7 @@ TEST(SpritesApart, OnlyWhereNoTwoShareAPixel) {
   EXPECT_TRUE(sprites_are_apart(work_of(apart).scene));
   EXPECT_TRUE(sprites_are_apart(work_of({}).scene));
   auto touching = apart;
-  touching.push_back({2.5, 1, -3, 0.4});  // behind the second sphere, but next to it in the image
+  touching.push_back({2.5, 1, -3, 0.4});  // behind the second sphere, but beside it in the image
   EXPECT_FALSE(sprites_are_apart(work_of(touching).scene));
 }
 

@@ -1,5 +1,5 @@
-// Tests that the hostile scenes show what they are meant to test. Compares their reference images
-// with closed-form solutions, and with the data from which the scenes were made.
+// Tests that the stress scenes show what they are meant to test, by comparing their reference
+// images with closed-form solutions and with the data from which the scenes were created.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -48,15 +48,15 @@ Seen see(const std::string& data, bool before = false) {
   return seen;
 }
 
-// An image that is mostly uncertain would test nothing. The borders of surfaces are uncertain
-// within 1/256 pixel on each side. If every pixel contains two and a half times its edge length of
-// borders, a fiftieth of the image is uncertain. The same amount is added for chance, in an image
-// of 221 pixels.
+// If most pixels of an image were uncertain, it would test nothing. Surface edges are uncertain
+// within 1/256 pixel on either side. If every pixel contained edges 2.5 times as long as itself,
+// this would be a fiftieth of the image. The tolerance is twice that, because small images have
+// large random variations.
 TEST(StressScenes, AreCertainNearlyEverywhere) {
   for (const StressCase& each : stress_cases()) {
     for (std::size_t i = 0; i < std::max<std::size_t>(each.variants.size(), 1); ++i) {
       const StressData data{&each, each.variants.empty() ? std::string_view() : each.variants[i]};
-      if (data.variant == "10000000") continue;  // the same as 200000, only larger
+      if (data.variant == "10000000") continue;  // the same scene as 200000, only larger
       SCOPED_TRACE(name_of(data));
       const Seen seen = see(name_of(data));
       const auto pixels = static_cast<double>(seen.truth.ids.size());
@@ -80,15 +80,15 @@ TEST(StressScenes, OfAnyScaleAreOnePicture) {
   }
 }
 
-// From so far away, both silhouettes are discs, and one unit of length is 32 pixels. A disc of
-// radius R covers πR² pixels, up to a few times √R (Gauss' lattice problem).
+// From this distance, both silhouettes are discs, and a unit of length is 32 pixels. A disc of
+// radius R covers πR² pixels, give or take a few times √R (Gauss's circle problem).
 TEST(StressScenes, FarSilhouettesAreDiscs) {
   for (const char* distance : {"1e3", "1e4", "1e5", "2e5"}) {
     SCOPED_TRACE(distance);
     const Seen seen = see(fmt::format("stress:far:{}", distance));
     const auto area = [](double radius) { return std::numbers::pi * radius * radius; };
     EXPECT_NEAR(static_cast<double>(seen.covered()), area(32) + area(0.6 * 32), 25);
-    // Uncertain pixels lie in a ring of 1/256 pixel on each side of both rims.
+    // Uncertain pixels lie within 1/256 pixel of either rim.
     EXPECT_LE(seen.uncertain(), 10);
   }
 }
@@ -134,7 +134,7 @@ TEST(StressScenes, EqualSpheresShowTheLowestId) {
   EXPECT_EQ(seen.ids(), (std::set<std::uint32_t>{0, 1, 2, 3, 4}));
 }
 
-// S4: the visible part of each sphere lies on its own side of every bisecting plane.
+// S4: the visible part of each sphere is on that sphere's side of every bisecting plane.
 TEST(StressScenes, InterpenetratingSpheresMeetInBisectingPlanes) {
   const Seen seen = see("stress:interpenetrating");
   const scene::ParticleSet& set = *seen.scene.particles;
@@ -178,7 +178,7 @@ TEST(StressScenes, ThePileShowsItsLastAlone) {
   EXPECT_EQ(seen.truth.certain[16 * 33 + 16], 1);
 }
 
-// Only the wall is visible from both sides.
+// Only the wall is visible both before and after the jump.
 TEST(StressScenes, AfterTheJumpOtherSpheresAreSeen) {
   const Seen after = see("stress:jump");
   const Seen before = see("stress:jump", true);

@@ -1,4 +1,4 @@
-// Tests the catalogue of hostile scenes, and how plans use it.
+// Tests the catalogue of stress cases, and its use by plans.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ TEST(StressCases, WhatIsNoCaseIsToldWithWhatThereIs) {
   EXPECT_NE(message("stress:giant:huge").find("no variants"), std::string::npos);
 }
 
-// The plan must contain all cases except the pile, which takes too long to test on every device.
+// The plan contains all cases except the largest pile, which would take too long on every device.
 TEST(StressCases, ThePlanHasThemAll) {
   const auto suite = make_suite({});
   const measure::Plan plan = measure::load_plan(
@@ -86,7 +86,7 @@ TEST(StressSuite, OwnIsTheCameraAndTheViewportOfTheCase) {
   const core::Image limit = suite->limit(configuration).image;
   EXPECT_EQ(limit.width, 16384);
   EXPECT_EQ(limit.height, 8);
-  // Another field of view draws another image.
+  // A different field of view produces a different image.
   configuration["fov"] = "1";
   EXPECT_NE(suite->limit(configuration).image.ids, limit.ids);
 }
