@@ -20,7 +20,7 @@ void write_exr(const Image& image, const std::filesystem::path& file);
 // Throws IoError if the file is missing or unreadable, and InputError if it is not an EXR file with
 // the full-resolution channels R, G, B and A.
 [[nodiscard]] Image read_exr(const std::filesystem::path& file);
-// Decodes the content of an EXR file. Error messages call the image `name`.
+// Decodes the content of an EXR file. Error messages use `name` as the name of the image.
 [[nodiscard]] Image decode_exr(std::span<const std::byte> bytes,
                                const std::string& name = "an image");
 

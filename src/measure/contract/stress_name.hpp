@@ -21,7 +21,7 @@ inline constexpr std::string_view stress_prefix = "stress:";
 // A case from a suite's catalogue, with one of its variants.
 template <typename Case>
 struct StressChoice {
-  const Case* of = nullptr;  // in the catalogue
+  const Case* of = nullptr;  // a case in the suite's catalogue
   std::string_view variant;  // one of its variants; empty if it has none
 };
 

@@ -14,8 +14,8 @@
 
 namespace triptych::measure {
 
-// The values of the factors in a plan, in their canonical spelling. A factor that is not contained
-// has its default.
+// The values of the factors in a plan, in their canonical spelling. A factor that is absent has its
+// default.
 using ValuesByFactor = std::map<std::string, std::vector<std::string>>;
 
 // Returns the factors of the suite. Factors that are slow to change come first, because they vary

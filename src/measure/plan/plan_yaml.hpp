@@ -31,9 +31,9 @@ struct PlanText {
   std::vector<std::vector<PlanEntry>> also;
 };
 
-// Error messages call the text `file`. Throws InputError if the text is not YAML or not one
-// mapping, or for a missing `suite`, a duplicate key, an empty list, a value that is missing or not
-// a scalar, or an `also` that is not a list of mappings.
+// Parses the YAML of a plan. Error messages use `file` as its name. Throws InputError if the text
+// is not YAML or not one mapping, or for a missing `suite`, a duplicate key, an empty list, a value
+// that is missing or not a scalar, or an `also` that is not a list of mappings.
 [[nodiscard]] PlanText parse_plan(std::string_view yaml, const std::string& file);
 
 }  // namespace triptych::measure

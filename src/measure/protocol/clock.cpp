@@ -119,13 +119,13 @@ std::unique_ptr<Prepared> prepare_long_enough(Device& device, Work work) {
 record::ClockTrust calibrate(Prepared& prepared, technique::Work work_kind) {
   FrameProof proof(prepared);
   const int frames = frames_within_budget(proof.draw(Purpose::timing).wall_ns);
-  proof.check("the first frame of the clock's calibration");
+  proof.check("the first frame of the clock calibration");
   std::vector<double> ratios;
   std::vector<double> wall_ns;
   for (int i = 0; i < frames; ++i) {
     const bool last = i + 1 == frames;
     const Frame frame = last ? proof.draw(Purpose::timing) : prepared.frame(Purpose::timing);
-    if (last) proof.check("the last frame of the clock's calibration");
+    if (last) proof.check("the last frame of the clock calibration");
     if (!frame.device_ns) return without_time(work_kind, "not trusted: the device reports no time");
     if (std::isnan(*frame.device_ns)) {
       record::ClockTrust trust =

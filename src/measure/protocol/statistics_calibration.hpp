@@ -17,7 +17,7 @@ namespace triptych::measure {
 
 // A calibration scene, and the numbers that a driver reports if it counts exactly.
 struct CalibrationScene {
-  std::string name;  // for display: "one quad over 66×50 pixels"
+  std::string name;  // for display, such as "one quad over 66×50 pixels"
   Work work;
   record::Counts expected;
   // Whether the expected number of fragments is taken from Triptych's counter `fragments`.

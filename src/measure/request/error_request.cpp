@@ -105,7 +105,7 @@ class Search {
     if (result.plan.configurations.size() > before) return;
     result.out_of_reach.push_back(
         fmt::format("{}: no step has an error of at most {:.3g}, the step's share of {}; the "
-                    "smallest error is {:.3g}, on {} pixels",
+                    "smallest error is {:.3g}, in an image of {} pixels",
                     name, step_error_, text_of(request_), least->error, least->viewport));
   }
 

@@ -51,7 +51,7 @@ struct Progress {
   int total = 0;
   std::chrono::seconds left{0};
   const record::Record* record = nullptr;  // the record that was just completed
-  std::optional<Loading> loading;          // otherwise, for the current configuration
+  std::optional<Loading> loading;  // if `record` is null: loading for the current configuration
 };
 
 struct RunResult {

@@ -18,7 +18,7 @@ inline constexpr std::string_view only_compiles =
 
 struct CompileOnly {
   std::string driver;  // "radv", "radeonsi", "rusticl" or "nvk"
-  std::string family;  // "navi31"
+  std::string family;  // such as "navi31"
 };
 
 // Parses the id of a compile-only device. Returns nullopt for any other id. Every GPU family is

@@ -53,7 +53,7 @@ class Truths {
   FindSuiteWithTruth suite_;
   record::Store& store_;
   std::map<std::string, accuracy::TruthPair> known_;
-  std::map<std::string, accuracy::LimitPicture> limits_;  // by key
+  std::map<std::string, accuracy::LimitPicture> limits_;  // by limit key
   std::map<std::string, std::map<std::string, double>> open_counts_;
   std::map<std::string, std::string> data_hashes_;
 };

@@ -67,7 +67,7 @@ void write_all(int fd, const void* data, std::size_t size) {
   }
 }
 
-// Reads this many bytes, or fewer if the pipe is closed before. Returns the number of bytes.
+// Reads this many bytes, or fewer if the pipe is closed first. Returns the number of bytes.
 std::size_t read_all(int fd, void* data, std::size_t size) {
   auto* next = static_cast<std::byte*>(data);
   std::size_t done = 0;
