@@ -1,6 +1,6 @@
-"""Measures on scripted devices, exports and analyses. Every figure must exist and be well-formed, and one number of
-each figure is compared with a separate computation, in plain Python from the raw tables. The program is
-$TRIPTYCH_PROGRAM."""
+"""Measures plans on scripted devices, exports the results and analyses them. Every figure must exist and be well-formed.
+One number of each figure is compared with an independent computation from the raw tables in plain Python.
+$TRIPTYCH_PROGRAM is the path of the program."""
 
 import csv
 import glob
@@ -27,7 +27,7 @@ VOLUME = {"suite": "volume", "technique": ["raycast"],
 PARTICLES = {"suite": "particles", "technique": ["quad_ray", "quad_screen", "tiles"], "culling": ["none"],
              "data": ["generate:uniform:10", "generate:uniform:20", "generate:droplets:20"],
              "camera": CAMERAS + ["random:1"], "viewport": [8]}
-# Measured for the notebook, which draws every figure twice.
+# A smaller plan for the notebook, because the notebook draws every figure twice.
 FEW = [{"suite": "volume", "technique": ["raycast"], "data": ["generate:gaussian_blob:8"], "camera": CAMERAS, "viewport": [8, 12]},
        {"suite": "particles", "technique": ["quad_ray", "tiles"], "culling": ["none"], "data": ["generate:uniform:10", "generate:uniform:20"],
         "camera": CAMERAS[:4], "viewport": [8]}]
@@ -67,7 +67,7 @@ class EndToEnd(unittest.TestCase):
 
     @classmethod
     def raw_times(cls):
-        """Returns {suite: [({factor: level}, ms)]}: the medians of the raw samples, on the clock that the analysis uses."""
+        """Returns {suite: [({factor: level}, ms)]}: the medians of the raw samples by the clock that the analysis uses."""
         samples = {}
         for row in read(cls.folder, "tables", "samples.csv"):
             samples.setdefault((row["record"], row["clock"]), []).append(float(row["time_ns"]))
@@ -80,7 +80,7 @@ class EndToEnd(unittest.TestCase):
         return times
 
     def pairs(self, suite, factor, a, b, change=lambda factors: factors):
-        """Returns the times of levels a and b for configurations that agree in all other factors."""
+        """Returns the times of levels a and b, paired for configurations that agree in all other factors."""
         by_rest = {}
         for factors, ms in self.times[suite]:
             factors = change(dict(factors))
@@ -132,7 +132,7 @@ class EndToEnd(unittest.TestCase):
         base, level = self.pairs("volume", "device", "null:scripted", "null:scripted#2")
         row = self.row("volume", "speed_ups", factor="device", level="null:scripted#2")
         self.assertAlmostEqual(float(row["speed_up"]), statistics.linear_regression(level, base).slope, places=9)
-        self.assertAlmostEqual(float(row["speed_up"]), 1 / 1.7, delta=0.05)  # the factor in the device's script
+        self.assertAlmostEqual(float(row["speed_up"]), 1 / 1.7, delta=0.05)  # 1.7 is the factor in SCRIPT
 
     def test_a_reference_of_one_suite(self):
         self.row("particles", "speed_ups", factor="data", level="generate:uniform:20", reference="generate:uniform:10")
@@ -182,8 +182,8 @@ class EndToEnd(unittest.TestCase):
         self.assertAlmostEqual(float(row["d"]), d, places=9)
 
     def test_forest_against_lines(self):
-        """Time is a product of pixels, voxels and samples. The forest must predict that, and the numbers of
-        observations that were held out must add up."""
+        """Times are products of pixels, voxels and samples, which the random forest must be able to predict. The numbers
+        of training and held-out observations must add up."""
         rows = {each["data"]: each for each in read(self.out, "volume", "time", "predictions.csv")}
         whole = rows["every held-out observation"]
         self.assertEqual(int(whole["trained"]) + int(float(whole["held_out"])), len(self.times["volume"]))
@@ -200,8 +200,7 @@ class EndToEnd(unittest.TestCase):
 
     def test_the_store_itself_says_the_same(self):
         again = os.path.join(self.folder, "again")
-        # The figures are drawn from the tables alone, and publish.py compares their bytes, so this test does not draw
-        # them.
+        # Figures are not drawn, because they depend only on the tables, and because publish.py compares them byte by byte.
         with unittest.mock.patch.object(output.figures, "every", return_value=[]):
             self.assertEqual(analyze.main([os.path.join(self.folder, "s.sqlite"), "--out", again, *REFERENCE]), 0)
         files = sorted(glob.glob(os.path.join(self.out, "*", "time", "*.csv")))
@@ -211,7 +210,7 @@ class EndToEnd(unittest.TestCase):
                 self.assertEqual(one.read(), other.read(), file)
 
     def test_frames_taken_over_are_no_observation(self):
-        """A full box has no empty bricks, so two skip modes do the same work."""
+        """A uniform box has no empty bricks, so skip=none and skip=distance do the same work."""
         with open(os.path.join(self.folder, "copies.yaml"), "w", encoding="utf-8") as file:
             json.dump({"suite": "volume", "technique": ["raycast"], "data": ["generate:uniform_box:8"], "viewport": [8],
                        "skip": ["none", "distance"]}, file)

@@ -1,5 +1,5 @@
-"""Makes a result set of two small plans on scripted devices. It must be complete, agree with its checksums, and be the
-same when it is made again. The program is $TRIPTYCH_PROGRAM."""
+"""Publishes the results of two small plans on scripted devices. The result set must be complete, agree with its checksums,
+and be identical when it is created again. $TRIPTYCH_PROGRAM is the path of the program."""
 
 import csv
 import hashlib
@@ -36,7 +36,7 @@ class Publish(unittest.TestCase):
         return (self.folder / "out/triptych-results.tar.xz").read_bytes()
 
     def test_a_result_set_is_begun_kept_completed_and_repeated(self):
-        """One scenario, because each call analyses and draws everything."""
+        """Tests everything in one scenario, because each call analyses all data and draws all figures, which takes long."""
         with self.subTest("begun within the time"):
             done = self.publish("--hours", "0.00001")
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -57,7 +57,7 @@ class Publish(unittest.TestCase):
         return (self.folder / "out/triptych-results/README.md").read_text()
 
     def expect_kept(self, first):
-        # The script is interrupted in the middle: the tables exist, but the analysis does not.
+        # The script fails halfway: it has exported the tables, but cannot analyse them.
         stand_in = self.folder / "triptych"
         stand_in.write_text('#!/bin/sh\n"$TRIPTYCH_PROGRAM" "$@" || exit\n'
                             '[ "$1" != export ] || rm "$4/dictionary.json"\n', encoding="utf-8")
@@ -68,7 +68,7 @@ class Publish(unittest.TestCase):
         self.assertEqual({each.name for each in (self.folder / "out").iterdir()}, {"work", "triptych-results", "triptych-results.tar.xz"})
 
     def expect_complete(self):
-        # Does not use tar, because tar needs xz, which a minimal Debian system does not have.
+        # Unpacks with Python, because the program tar needs xz, which a minimal Debian system lacks.
         with tarfile.open(self.folder / "out/triptych-results.tar.xz") as tar:
             tar.extractall(self.folder / "user")
         found = self.folder / "user/triptych-results"

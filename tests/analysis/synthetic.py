@@ -9,7 +9,7 @@ from triptych_analysis import dataset
 
 
 def factorial(plan, value, signal="time", suite="volume", without=lambda at: False):
-    """Returns all combinations of the levels except the excluded ones, with values computed by `value`."""
+    """Returns a data set of all combinations of levels for which `without` is false. `value` computes their values."""
     combinations = [dict(zip(plan, each)) for each in itertools.product(*plan.values())]
     combinations = [each for each in combinations if not without(each)]
     values = np.array([value(each) for each in combinations], dtype=float)
@@ -20,7 +20,7 @@ def factorial(plan, value, signal="time", suite="volume", without=lambda at: Fal
 
 
 def records(*changes):
-    """Returns rows in the form of tables.read(). Each argument contains only the columns that differ from an ordinary row."""
+    """Returns rows like those of tables.read(). Each argument contains the columns in which one row differs from the ordinary."""
     ordinary = {"run": "r1", "suite": "volume", "plan": "volume/study", "technique": "raycast", "device": "a",
                 "configuration": "camera=orbit_y:0/2,data=ball,technique=raycast", "outcome": "measured",
                 "injected": None, "median_wall_ns": 11e6, "median_device_ns": 9e6, "device_clock_trusted": 1.0,
@@ -35,6 +35,6 @@ ANSCOMBE_Y = [8.04, 6.95, 7.58, 8.81, 8.33, 9.96, 7.24, 4.26, 10.84, 4.82, 5.68]
 
 
 def anscombe(**more):
-    """The first data set of Anscombe (1973): r = 0.81642, with the regression line 3.0001 + 0.50009 x."""
+    """Returns the first data set of Anscombe (1973), with r = 0.81642 and the regression line 3.0001 + 0.50009 x."""
     return factorial({"device": ["x", "y"], "data": [str(i) for i in range(11)]},
                      lambda at: (ANSCOMBE_X if at["device"] == "x" else ANSCOMBE_Y)[int(at["data"])], **more)

@@ -9,8 +9,8 @@ from triptych_analysis import analysis, choice, correlation, tables
 
 
 def spheres(**more):
-    """quad takes 1 + N/1000 ms and tiles take 3 + N/4000 ms, so quad is cheaper below 2667 spheres and tiles are
-    cheaper above."""
+    """Returns times of two techniques: quad takes 1 + N/1000 ms, and tiles takes 3 + N/4000 ms for N spheres. Therefore,
+    quad is faster below 2667 spheres, and tiles is faster above."""
     def value(at):
         count = int(at["data"].split(":")[2])
         return 1 + count / 1e3 if at["technique"] == "quad" else 3 + count / 4e3
@@ -32,7 +32,7 @@ class Techniques(unittest.TestCase):
         of = choice.technique_for(choice.by_count(spheres()), "gl:y", 4000)
         self.assertEqual(set(of["from"]), {"1000 and 16000"})
         quad = of.set_index("technique").loc["quad", "mean_ms"]
-        self.assertAlmostEqual(quad, np.sqrt(2 * 17))  # 4000 is halfway on a logarithmic axis
+        self.assertAlmostEqual(quad, np.sqrt(2 * 17))  # 4000 is halfway between 1000 and 16000 on a logarithmic axis
 
     def test_nothing_far_from_what_was_measured(self):
         counts = choice.by_count(spheres())
@@ -42,7 +42,7 @@ class Techniques(unittest.TestCase):
         self.assertEqual(len(choice.technique_for(None, "gl:*", 2000)), 0)
 
     def test_a_technique_without_a_count_is_not_compared(self):
-        """Otherwise, its mean would cover other configurations than the means of the other techniques."""
+        """Otherwise, the means of the techniques would cover different configurations."""
         data = spheres(without=lambda at: at["technique"] == "tiles" and at["camera"] == "orbit_y:1/2"
                        and at["data"] == "generate:uniform:16000" and at["device"] == "gl:x")
         counts = choice.by_count(data)
@@ -54,7 +54,7 @@ class Techniques(unittest.TestCase):
                                    lambda at: float(at["step"]),
                                    without=lambda at: at == {"device": "b", "data": "y", "step": "2"})
         means = choice.mean_values(data, "data", "device")
-        # with step 2, the cells of the other techniques would have longer times
+        # Device b lacks a measurement with step 2, so only step 1 may be used. Otherwise, the other means would be larger.
         self.assertEqual(list(means["mean_ms"]), [1] * 4)
         self.assertEqual(set(means["held"]), {"step=1"})
         self.assertTrue(choice.mean_values(data, "data", "technique").empty)
@@ -62,8 +62,8 @@ class Techniques(unittest.TestCase):
 
 class Effects(unittest.TestCase):
     def test_shares_of_a_product(self):
-        """ln value is i·ln 2 + j·ln 3 for i of 0, 1 and j of 0, 1, 2, which has the variances (ln 2)²/4 and (ln
-        3)²·2/3."""
+        """The logarithm of the value is i·ln 2 + j·ln 3 with i = 0, 1 and j = 0, 1, 2. The variances of the two terms are
+        (ln 2)²/4 and (ln 3)²·2/3."""
         data = synthetic.factorial({"device": ["0", "1"], "step": ["0", "1", "2"], "data": list("abcd")},
                                    lambda at: 2.0 ** int(at["device"]) * 3.0 ** int(at["step"]))
         effects = choice.effects(data, ["data", "device", "step"]).set_index("factor")

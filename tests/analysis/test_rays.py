@@ -1,4 +1,4 @@
-"""Tests the study of ray tracing with times that have known ratios, without a device."""
+"""Tests the ray-tracing study with made-up times whose ratios are known. No device is needed."""
 
 import io
 import tempfile

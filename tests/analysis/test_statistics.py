@@ -1,4 +1,4 @@
-"""Compares statistics with hand computations and textbook values."""
+"""Compares statistics with values from textbooks and from manual computation."""
 
 import itertools
 import unittest
@@ -14,7 +14,7 @@ class KolmogorovSmirnov(unittest.TestCase):
         a, b = [1, 2, 3, 4], [2.5, 3.5, 5, 6]
         d, p = views.ks_two_samples(a, b)
         self.assertAlmostEqual(d, 0.5)  # at 2, the distribution functions are 2/4 and 0/4
-        # p is the fraction of all orders of the eight values for which the distance is at least as large.
+        # p is the share of all orders of the eight values whose distance is at least as large.
         as_far = 0
         orders = list(itertools.combinations(range(8), 4))
         for first in orders:
@@ -34,13 +34,13 @@ class KolmogorovSmirnov(unittest.TestCase):
         self.assertGreater(p, 0.01)
 
     def test_one_sample_by_hand(self):
-        # The fitted deviation of ln x = −1, 0, 1 is √(2/3); Φ(−1.2247) = 0.11034.
+        # The fitted standard deviation of ln x = −1, 0, 1 is √(2/3), and Φ(−1/√(2/3)) = Φ(−1.2247) = 0.11034.
         d, _ = distribution.ks_log_normal(np.exp([-1.0, 0.0, 1.0]))
         self.assertAlmostEqual(d, 1 / 3 - 0.11034, places=5)
 
     def test_lilliefors_has_its_textbook_value(self):
-        # In Lilliefors' table (1967), the critical value at 5 % for n = 20 is 0.190. This implementation divides by n,
-        # not by n − 1.
+        # Lilliefors (1967) tabulates a critical value of 0.190 for n = 20 at 5 %. The tolerance is needed because this
+        # implementation divides the variance by n instead of n − 1.
         self.assertAlmostEqual(distribution.lilliefors_p(0.190, 20, 4000, 1), 0.05, delta=0.015)
 
     def test_log_normal_samples_are_rejected_as_often_as_the_level_says(self):
@@ -52,7 +52,7 @@ class KolmogorovSmirnov(unittest.TestCase):
             p = distribution.lilliefors_p(d, 60, 199, seed)
             rejected += p < 0.05
             self.assertGreater(naive, p - 0.01)  # the naive test ignores that the parameters were fitted
-        self.assertLessEqual(rejected, 9)  # 3 are expected; more than 9 have a probability of 1 in 500
+        self.assertLessEqual(rejected, 9)  # 3 are expected; the probability of more than 9 is 1/500
 
     def test_gamma_samples_are_rejected(self):
         values = np.random.default_rng(3).gamma(2.0, 1.0, 1500)
@@ -149,15 +149,14 @@ class Splits(unittest.TestCase):
             {"camera": ["orbit_y:0/2", "orbit_y:1/2", "path_z:0/2", "path_z:1/2", "random:1"], "data": list("12345")},
             lambda at: float(at["data"]))
         paths = correlation.correlations(data, splits.split(data, "camera_path"))
-        self.assertEqual(len(paths), 1)  # random views have no counterpart in another set
+        self.assertEqual(len(paths), 1)  # random views have no counterparts on another path
         self.assertEqual(paths.iloc[0].pairs, 10)  # paired by position and data
         self.assertEqual(correlation.correlations(data, splits.split(data, "camera_rotation")).iloc[0].pairs, 5)
         self.assertEqual(splits.split(data, "camera_distance").levels, ["0/2", "1/2"])
         self.assertEqual(splits.factors_of(data), ["camera_distance", "camera_path", "camera_rotation", "data"])
 
     def test_the_fullest_block_holds_one_set_of_combinations(self):
-        """The two techniques were measured with different data, so no pair of observations differs only in the
-        technique."""
+        """The two techniques were measured with different data, so no two observations differ only in the technique."""
         plan = {"device": ["x", "y"], "data": list("abcd"), "step": ["1", "2"],
                 "technique": ["raycast", "raycast_fragment"]}
         data = synthetic.factorial(plan, lambda at: 1.0, without=lambda at: (at["technique"] == "raycast") != (
@@ -187,8 +186,8 @@ class Views(unittest.TestCase):
         self.assertLess(orbit.p, 1e-6)
         self.assertEqual(orbit.subsets, 100)
         self.assertLess(orbit.rejected, 10)
-        # Of the 15 pairs of views that can be chosen from six, one consists of both views on the orbit, and its
-        # distance is as large.
+        # Of the 15 pairs that can be chosen from the six views, one consists of the two views on the orbit, which increases
+        # the mean distance.
         self.assertGreater(tests.loc[("orbit_y", "views"), "d_mean"], orbit.d_mean)
 
     def test_one_path_is_compared_with_nothing(self):

@@ -1,6 +1,6 @@
 # Adds a technique to a copy of the sources, following docs/adding-a-technique.md. As long as a file is missing, CMake must fail
 # and name the file. When all files exist, the generated table of the backend's techniques must compile.
-# Variables set by the caller: SOURCE, FOLDER (its contents are deleted), COMPILER.
+# The caller sets the variables SOURCE, COMPILER, and FOLDER (whose contents are deleted).
 set(copy ${FOLDER}/source)
 file(REMOVE_RECURSE ${FOLDER})
 file(COPY ${SOURCE}/CMakeLists.txt ${SOURCE}/cmake ${SOURCE}/src ${SOURCE}/backends ${SOURCE}/suites

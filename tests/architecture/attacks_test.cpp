@@ -11,14 +11,14 @@
 namespace triptych::architecture {
 namespace {
 
-// The source file of a test program, such as "`gate_test`", and the cases in it that the row names.
-// If the row names no case, it refers to all cases of the file.
+// The source file of a test, such as "gate_test", and the test cases that a row names in it. If a
+// row names no cases, it refers to all cases in the file.
 struct NamedTest {
   std::string file;
   std::vector<std::string> cases;
 };
 
-// Finds the tests in a table cell.
+// Returns the tests that a table cell names.
 std::vector<NamedTest> tests_of(const std::string& cell) {
   static const std::regex word(R"(`([a-z0-9_]+)`|([A-Z][A-Za-z0-9]+))");
   std::vector<NamedTest> tests;
@@ -32,7 +32,7 @@ std::vector<NamedTest> tests_of(const std::string& cell) {
   return tests;
 }
 
-// Returns the last cell of each row, without the header.
+// Returns the last cell of each table row, without the header row.
 std::vector<std::string> rows_of(const std::string& page) {
   std::vector<std::string> rows;
   std::istringstream lines(page);

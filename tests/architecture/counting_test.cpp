@@ -1,4 +1,4 @@
-// Tests that the counting build has the same control flow as the timed build: in device code,
+// Tests that device code that counts has the same control flow as device code that is timed:
 // TRI_COUNT may only affect counting.
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& file) {
   return lines;
 }
 
-// Returns whether a line contains a statement that leaves a loop or function, or begins a loop.
+// Returns whether a line contains a statement that begins or leaves a loop, or leaves a function.
 bool steers(const std::string& line) {
   static const std::regex word(R"(\b(return|break|continue|discard|for|while|do|goto)\b)");
   return std::regex_search(line, word);

@@ -1,5 +1,5 @@
-// Tests that includes point only to lower floors, that backends and suites do not depend on each
-// other, and that each API is used only by its backend.
+// Tests that rooms include only headers from lower floors, that backends and suites do not depend
+// on each other, and that only the backend for an API includes that API's headers.
 
 #include <gtest/gtest.h>
 
@@ -26,8 +26,8 @@ std::map<std::string, int> floors() {
   return found;
 }
 
-// Returns the room that an include names: "scene", or "backend" for backends/…, or "suite" for
-// suites/….
+// Returns the room to which an included header belongs, such as "scene". Returns "backend" for
+// backends/…, and "suite" for suites/….
 std::optional<std::string> room_of_include(const std::string& include,
                                            const std::map<std::string, int>& known) {
   const std::string first = include.substr(0, include.find('/'));

@@ -15,7 +15,8 @@ namespace {
 
 const std::vector<std::string> apis = apis_of_backends();
 
-// Reads the lines "technique: reason" in a backend's unsupported.txt; # begins a comment.
+// Reads the lines "technique: reason" from a backend's unsupported.txt, in which # begins a
+// comment.
 std::map<std::string, std::string> unsupported(const std::string& api) {
   std::map<std::string, std::string> reasons;
   std::istringstream text(read(source_folder / "backends" / api / "unsupported.txt"));
@@ -61,7 +62,7 @@ TEST(Matrix, EveryCellIsImplementedOrExplained) {
   }
 }
 
-// Returns the contents of the suite's plans that have this check.
+// Returns the contents of all plans of the suite that contain this check.
 std::string judged_plans(const std::string& suite, const std::string& check) {
   const std::filesystem::path plans = source_folder / "suites" / suite / "plans";
   std::string all;
@@ -74,7 +75,7 @@ std::string judged_plans(const std::string& suite, const std::string& check) {
   return all;
 }
 
-// The gate would never judge a technique that none of its plans draws.
+// The gate would never check a technique that none of its plans draws.
 TEST(Matrix, EveryTechniqueIsInAGatePlan) {
   for (const technique::Technique& each : technique::catalogue()) {
     for (const char* check : {"image", "cost", "code"}) {
@@ -94,7 +95,7 @@ TEST(Matrix, UnsupportedListsOnlyExistingTechniques) {
   }
 }
 
-// Finds the technique ids with which the code compares.
+// Returns all technique ids with which the source code compares a technique.
 std::set<std::string> compared_ids(const std::string& text) {
   static const std::regex comparison(R"re(technique(?:\.id|"\))?\s*[=!]=\s*"([a-z_]+)")re");
   std::set<std::string> ids;
@@ -107,14 +108,14 @@ std::set<std::string> compared_ids(const std::string& text) {
   return ids;
 }
 
-// Code that handles one technique specially would be forgotten when the next technique is added.
-// Therefore differences between techniques are columns of the catalogue.
+// Nobody would remember to update such special cases when a technique is added. Therefore,
+// differences between techniques must be columns of the catalogue.
 TEST(Matrix, SharedCodeComparesNoTechniqueIds) {
   EXPECT_EQ(compared_ids("if (work.technique == \"point\" && at(\"technique\") != \"raycast\" && "
                          "technique.id == \"mesh\" && api == \"gl\")"),
             (std::set<std::string>{"mesh", "point", "raycast"}));
-  // Records know techniques only by name, so this file may compare ids. has_picture_test checks it
-  // against the catalogue.
+  // Records know techniques only by name, so has_picture.hpp may compare ids. has_picture_test
+  // checks that it agrees with the catalogue.
   static const std::set<std::string> tested_against_the_catalogue{"has_picture.hpp"};
   for (const std::string folder : {"src", "backends", "suites"}) {
     for (const auto& file : files_below(folder, {".hpp", ".cpp"})) {

@@ -1,5 +1,5 @@
-// Tests that a device that only compiles executes nothing. In each backend, all calls that submit,
-// draw or read back are in a single place, which rejects them for such a device.
+// Tests that compile-only devices execute nothing. In each backend, all calls that submit, draw or
+// read back are in a single place, which rejects them for such devices.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace triptych::architecture {
 namespace {
 
-// Returns the files of a backend that contain a matching line outside of comments.
+// Returns the files of a backend in which a line matches, ignoring comments.
 std::set<std::string> files_with(const std::string& folder, const std::regex& pattern) {
   std::set<std::string> found;
   for (const auto& file : files_below(folder, {".cpp", ".hpp"})) {
@@ -35,8 +35,8 @@ TEST(OnlyCompile, OpenclHasOneQueue) {
             (std::set<std::string>{"device.cpp", "objects.hpp"}));
 }
 
-// Every GL function that this backend calls must be replaced if it executes work, reads results or
-// waits.
+// Every GL function that this backend calls to execute work, read results or wait must be replaced
+// on compile-only devices.
 TEST(OnlyCompile, GlReplacesAllExecutingCalls) {
   const std::string guard = read(source_folder / "backends/gl/only_compile.cpp");
   static const std::regex call(

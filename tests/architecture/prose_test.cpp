@@ -1,4 +1,4 @@
-// Tests that no code parses text that is written for people.
+// Tests that no code parses messages that are written for people.
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 namespace triptych::architecture {
 namespace {
 
-// Matches a search in text that is written for people, or a comparison with such text. Only the
-// folder `words` produces such text, and core quotes it.
+// Matches code that searches in a message, or compares a message with a string. Only the folder
+// `words` creates messages, and `core` quotes them.
 const std::regex reads_prose(
     R"(\b(detail|last_words|message|what\(\)|text_of\([^()]*\)|headline\([^()]*\)|advice\([^()]*\)))"
     R"(\s*(\.\s*(find|rfind|starts_with|ends_with|contains|substr|compare)\b|[=!]=\s*"[^"]))");

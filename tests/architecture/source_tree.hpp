@@ -35,8 +35,8 @@ inline std::string read(const std::filesystem::path& file) {
   return text.str();
 }
 
-// Returns the names of the backends that draw through an API: all folders in backends/ except that
-// of the simulated backend.
+// Returns the names of the backends that draw with a real API: all folders in backends/ except the
+// folder of the null backend.
 inline std::vector<std::string> apis_of_backends() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(source_folder / "backends")) {

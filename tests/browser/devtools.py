@@ -1,4 +1,4 @@
-"""Controls a headless Chromium over two pipes by its DevTools protocol. It needs nothing but Python.
+"""Controls a headless Chromium with the DevTools protocol over two pipes. It needs only the Python standard library.
 
   with Browser() as browser, browser.open(path, 1400, 900, dark=False) as page:
       page.value("document.title")
@@ -20,7 +20,7 @@ def program():
 
 
 class Failed(Exception):
-    """The browser rejected a command, or a script of the page threw an exception."""
+    """Raised if the browser rejects a command, or if a script in the page throws an exception."""
 
 
 class Browser:
@@ -32,9 +32,8 @@ class Browser:
         self.rest = b""
         to_browser, self.commands = os.pipe()
         self.answers, from_browser = os.pipe()
-        # The DevTools protocol uses the file descriptors 3 and 4. Chromium runs without its sandbox, because the
-        # sandbox needs privileges that a container does not have. The tests create all pages themselves, so this is
-        # safe.
+        # The DevTools protocol uses the file descriptors 3 and 4. Chromium's sandbox is disabled, because it needs
+        # privileges that a container lacks. This is safe, because the tests create all pages themselves.
         launch = f'exec 3<&{to_browser} 4>&{from_browser}; exec "$@"'
         self.process = subprocess.Popen(
             ["bash", "-c", launch, "browser", program(), "--headless", "--no-sandbox", "--remote-debugging-pipe",
@@ -83,7 +82,7 @@ class Browser:
 
 
 class Page:
-    """Opens a file in a new tab. `complaints` collects the error messages and warnings of its console."""
+    """Opens a file in a new tab. `complaints` collects the errors and warnings from the console."""
 
     def __init__(self, browser, path, width, height, dark):
         self.browser = browser
@@ -138,8 +137,8 @@ class Page:
         return base64.b64decode(self.call("Page.captureScreenshot", format="png", **more)["data"])
 
     def names(self):
-        """Returns (role, name) of everything that a screen reader reads, in its order. Names have no white space at
-        their ends, because browsers differ in it."""
+        """Returns (role, name) of everything that a screen reader reads, in reading order. White space around names is
+        removed, because browsers differ in it."""
         nodes = self.call("Accessibility.getFullAXTree")["nodes"]
         return [(node["role"]["value"], node.get("name", {}).get("value", "").strip())
                 for node in nodes if not node.get("ignored") and "role" in node]

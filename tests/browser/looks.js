@@ -1,4 +1,4 @@
-// Checks how a page looks when it is drawn. Each function returns a list of complaints.
+// Checks the layout of a rendered page. Each function returns a list of complaints.
 'use strict';
 const looks = (() => {
   const all = (selector, within = document) => [...within.querySelectorAll(selector)];
@@ -88,7 +88,7 @@ const looks = (() => {
           .filter(Boolean);
       });
     },
-    // Finds texts of the same chart that overlap.
+    // Finds labels that overlap within a chart.
     overlaps() {
       return all('svg.figure').filter(seen).flatMap(svg => {
         const texts = all('text', svg).map(element => ({ element, box: element.getBoundingClientRect() }));

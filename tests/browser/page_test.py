@@ -16,13 +16,13 @@ import devtools
 import pages
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-WIDE, NARROW, SMALL = (1400, 900), (390, 900), (700, 500)  # smaller windows are drawn faster
+WIDE, NARROW, SMALL = (1400, 900), (390, 900), (700, 500)  # kept small, because smaller windows are drawn faster
 WAYS = [(size, dark) for size in (WIDE, NARROW) for dark in (False, True)]
 made = {}
 
 
 def setUpModule():
-    # shared by all tests, because it takes a second to start
+    # Shared by all tests, because starting a browser takes a second.
     PageTest.browser = unittest.enterModuleContext(devtools.Browser())
     folder = tempfile.TemporaryDirectory(prefix="triptych-page-")
     unittest.addModuleCleanup(folder.cleanup)
@@ -64,7 +64,7 @@ class Everywhere(PageTest):
             if name != "history":
                 self.assertEqual([text for role, text in told if role == "combobox"], ["Device", "Suite", "Check"])
                 page.value("document.querySelector('[data-scene] button').click()")
-                told += page.names()  # the browser does not report what is behind a dialog
+                told += page.names()  # while a dialog is open, the browser does not report what is behind it
                 self.assertEqual([text for role, text in told if role == "combobox"][3:], ["Left", "Right"])
                 self.assertIn(("slider", "Border between the left and the right image"), told)
             named = {"button", "link", "image", "img", "search", "dialog", "DisclosureTriangle"}
@@ -222,7 +222,7 @@ class Comparison(PageTest):
     def names_of(self, page):
         return page.value("[...document.querySelector('#compare select').options].map(each => each.value)")
 
-    # Returns the visible parts of two images with the border at `place`, without the border itself.
+    # Returns the visible parts of two images whose border is at `place`, without the border itself.
     def shown(self, page, left, right, place):
         page.value(f"""(() => {{
             const [a, b] = document.querySelectorAll('#compare select');

@@ -25,7 +25,7 @@ ert: [0]
 camera: ['orbit_y:1/9']
 viewport: [24]
 """
-# Small scenes from the stress and accuracy plans of both suites. A data file is missing, because TRIPTYCH_DATA is
+# Small scenes from the stress and accuracy plans of both suites. One data file is missing on purpose: TRIPTYCH_DATA is
 # empty.
 HOSTILE = ["volume/stress", "particles/stress", "volume/accuracy"]
 PLANS = {
@@ -35,7 +35,7 @@ PLANS = {
                         "camera=orbit_y:1/8"],
     "cost.yaml": [],
 }
-# Counting instructions takes seconds per device, so only two devices count, and only one of them counts again.
+# Counting instructions takes seconds per device, so only two devices are counted, and only one of them twice.
 COUNTING = {"pass": ["gl:llvmpipe-egl", "vulkan:lavapipe"], "fail": ["vulkan:lavapipe"]}
 FAULTS = {
     "volume/quick": ["half_voxel_shift@vulkan:*", "lost_counter@opencl:*"],
@@ -45,7 +45,7 @@ FAULTS = {
 
 
 class Triptych:
-    """Runs the program in its own folder."""
+    """Runs Triptych in a folder of its own."""
 
     def __init__(self, program, folder):
         self.program = program
@@ -62,8 +62,8 @@ class Triptych:
         return done.stdout
 
     def devices(self):
-        """Returns those of DEVICES that are available. Requesting a device that exists nowhere prints all devices without
-        opening them, whereas the command `devices` measures their clocks, which takes seconds."""
+        """Returns which of DEVICES are available. Requests a device that does not exist, because the error message lists
+        all devices at once. The command `devices` would also calibrate their clocks, which takes seconds."""
         listed = self.run("run", "volume/quick", "--device", "no:device").stderr.split()
         return [device for device in DEVICES if device in [word.rstrip(";") for word in listed]]
 
@@ -77,8 +77,8 @@ def chosen(devices):
 
 
 def measure(triptych, name, faults):
-    """`faults` contains the faults to inject for each plan. Only one run is timed, because checking the devices' clocks
-    takes seconds."""
+    """Runs the plans with the faults that `faults` lists for each plan. Only one run is timed, because calibrating the
+    clocks takes seconds."""
     for plan in PLANS:
         devices = COUNTING[name] if plan == "cost.yaml" else DEVICES
         injected = [word for fault in faults.get(plan, []) for word in ("--inject", fault)]
@@ -88,7 +88,7 @@ def measure(triptych, name, faults):
 
 
 def make(triptych):
-    """Returns {name of the page: its file}. The files are in the program's folder."""
+    """Returns {name of a page: its file}. The files are in the program's folder."""
     for name, text in {"cost.yaml": COST, "accuracy.yaml": ACCURACY}.items():
         with open(os.path.join(triptych.folder, name), "w", encoding="utf-8") as file:
             file.write(text)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""killed_jobs.py TRIPTYCH SOURCES: runs the shards of a plan as jobs of a real Slurm on scripted devices, and kills a
-tenth of them.
+"""killed_jobs.py TRIPTYCH SOURCES: runs the shards of a plan on scripted devices, as jobs of a real Slurm, and kills a
+tenth of the jobs.
 
-Half of these jobs are ended as by a scheduler that needs the node, and the scheduler requeues them. The others are
-killed at once with all their processes, as by a node that fails, and `submit --again` submits them again. At the end,
-the merged store must contain every configuration exactly once on each device. TRIPTYCH_FARM=paper uses 46,656
-configurations on three devices.
+Half of the killed jobs are requeued, as if the scheduler needed the node for something else. The other half are killed
+together with all their processes, as if the node had failed, and `submit --again` submits them again. At the end, the
+merged store must contain every configuration exactly once for each device. With TRIPTYCH_FARM=paper, the test uses
+46,656 configurations on three devices.
 """
 import contextlib
 import os
@@ -23,7 +23,7 @@ CLUSTER = SOURCES / "ci/cluster"
 LARGE = os.environ.get("TRIPTYCH_FARM") == "paper"
 SHARDS = 200 if LARGE else 30
 DEVICES = 3
-# Frames are slow enough for the test to find a job while it is running.
+# Frames are slow enough for the test to catch jobs while they are running.
 SCRIPT = '{"devices": [1, 1.7, 0.6], "base_ns": %d, "ns_per_sample": 0, "sleep": true}' % (1e4 if LARGE else 4e7)
 PLAN = """suite: volume
 technique: [raycast]
@@ -77,13 +77,13 @@ def records_in(store):
     with contextlib.closing(sqlite3.connect(f"file:{store}?mode=ro", uri=True)) as database:
         try:
             return database.execute("SELECT count(*) FROM record").fetchone()[0]
-        except sqlite3.OperationalError:  # the store's tables are being created
+        except sqlite3.OperationalError:  # the tables of the store do not exist yet
             return 0
 
 
 def kill_some(farm, generator):
-    """Kills a tenth of the jobs while they measure. Returns the indices of those that Slurm requeues, and of the
-    others."""
+    """Kills a tenth of the jobs while they measure. Returns the indices of the jobs that Slurm requeues, and the indices
+    of the jobs that are lost."""
     pool = generator.sample(range(1, SHARDS + 1), SHARDS)
     wanted = max(2, SHARDS // 10)
     again, lost = set(), set()
@@ -93,7 +93,7 @@ def kill_some(farm, generator):
         jobs = running()
         for index in targets:
             if (farm / "1" / f"shard-{index}.ended").exists():
-                pool.remove(index)  # this job has already ended, so another one is killed
+                pool.remove(index)  # this job has already ended, so another job is killed instead
             elif index in jobs and records_in(farm / "1" / f"shard-{index}.sqlite") > index % 5:
                 how, killed = (("scontrol", "requeue"), again) if len(again) <= len(lost) else (
                     ("scancel", "--signal=KILL", "--full"), lost)
@@ -127,7 +127,7 @@ def check_merged(store, configurations):
 
 
 def check_sizes(folder, plan, store, configurations):
-    """Submits jobs of about a minute each, according to the times of an earlier run. The test does not wait for them."""
+    """Submits jobs that should take about a minute each, based on the times of an earlier run, and cancels them."""
     with contextlib.closing(sqlite3.connect(store)) as database:
         count, seconds = database.execute(
             "SELECT count(*), total(prepare_ns + overhead_ns + loop_wall_ns) / 1e9 FROM record").fetchone()
@@ -169,7 +169,7 @@ def test(folder, generator):
 
 
 def ranges(indices):
-    """Formats indices as ci/cluster does: 1-3,7."""
+    """Formats indices as ci/cluster does, for example as 1-3,7."""
     parts, numbers = [], sorted(indices)
     while numbers:
         end = 1

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Tests how ci/cluster/submit calls Slurm, with replacements for Slurm's commands: the number of jobs, and the files
-that remain if Slurm refuses a job."""
+"""Tests how ci/cluster/submit calls Slurm: the number of jobs that it submits, and what remains if Slurm rejects a job.
+Slurm's commands are replaced by scripts."""
 
 import os
 import pathlib
@@ -9,12 +9,12 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# Each program appends its arguments to $CALLS. sbatch rejects the job with the number $REFUSED.
+# sbatch and scancel append their arguments to $CALLS. sbatch rejects job number $REFUSED.
 STAND_INS = {
     "sbatch": 'echo "sbatch $*" >>"$CALLS"; n=$(grep -c ^sbatch "$CALLS"); [ "$n" != "${REFUSED:-}" ] || exit 1; echo "$n"',
     "scancel": 'echo "scancel $*" >>"$CALLS"',
     "squeue": "",
-    "triptych": '[ "$1" = list ] && seq "${2#plan}"',  # plan340 has 340 configurations; no store is complete
+    "triptych": '[ "$1" = list ] && seq "${2#plan}"',  # planN has N configurations; no store is complete
 }
 
 
@@ -46,11 +46,10 @@ class Submit(unittest.TestCase):
     def test_a_job_gets_200_configurations_of_all_plans(self):
         self.assertEqual(self.shards_of("plan340"), 2)
         self.assertEqual(self.shards_of("plan340", "plan340"), 4)
-        # Half of the configurations of these plans are 51 and 150. If both plans have an odd number, one job may get
-        # the additional configuration of both.
+        # Halves of these plans have up to 51 and 150 configurations. Because both plans have an odd number of
+        # configurations, one job might get the additional configuration of both plans.
         self.assertEqual(self.shards_of("plan101", "plan299"), 3)
-        # There are never more jobs than the largest plan has configurations, because additional jobs would have nothing
-        # to do.
+        # There are at most as many jobs as the largest plan has configurations, because more jobs would be empty.
         self.assertEqual(self.shards_of(*["plan2"] * 500), 2)
 
     def test_what_slurm_refuses_leaves_nothing(self):

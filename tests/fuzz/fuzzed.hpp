@@ -1,6 +1,6 @@
 #pragma once
-// What all fuzz targets share: storing an input as a file, and the exceptions that a reader may
-// throw.
+// Shared by all fuzz targets: storing an input as a file, and checking which exceptions a reader
+// throws.
 
 #include <array>
 #include <cstddef>
@@ -19,7 +19,8 @@
 
 namespace triptych::fuzz {
 
-// Return values for libFuzzer: keep the input if it reaches new code, or never keep it.
+// Return values for libFuzzer: `judged` lets it keep the input if the input reaches new code, and
+// `rejected` makes it discard the input.
 inline constexpr int judged = 0;
 inline constexpr int rejected = -1;
 
@@ -27,7 +28,8 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-// An input. Its first line names the kind of file, such as "pdb.gz". The bytes of the file follow.
+// A fuzzer input. Its first line is the kind of file, such as "pdb.gz", followed by the content of
+// the file.
 struct Input {
   std::string kind;
   std::string_view content;
@@ -44,7 +46,7 @@ std::optional<Input> split(const std::uint8_t* data, std::size_t size, const Kin
   return std::nullopt;
 }
 
-// Returns the file-name extensions in a table of formats, without their dots, and those of
+// Returns the file-name extensions in a table of formats, without dots, each also with ".gz" for
 // compressed files.
 template <typename Format>
 std::vector<std::string> kinds_of(std::span<const Format> formats) {
@@ -59,7 +61,7 @@ std::vector<std::string> kinds_of(std::span<const Format> formats) {
   return kinds;
 }
 
-// Returns a folder that exists until the process ends.
+// Returns a temporary folder that is deleted when the process ends.
 inline const std::filesystem::path& folder() {
   static const core::TemporaryFolder made;
   return made.path();
@@ -72,7 +74,8 @@ inline std::filesystem::path write(const std::string& name, std::string_view con
   return file;
 }
 
-// A reader may throw Triptych's own error types. Any other exception ends the process.
+// Lets a reader throw Triptych's own error types. Any other exception terminates the process, which
+// libFuzzer reports as a crash.
 template <typename Read>
 void expect_ours(const Read& read) {
   try {

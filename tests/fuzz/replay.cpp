@@ -1,4 +1,4 @@
-// Replaces libFuzzer: passes every file in the given folders to a fuzz target.
+// A replacement for libFuzzer that passes every file in the given folders to the fuzz target.
 
 #include <cstdio>
 #include <iterator>

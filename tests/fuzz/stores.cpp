@@ -7,7 +7,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::filesystem::path file = fuzz::write("s.sqlite", fuzz::text_of(data, size));
   fuzz::expect_ours([&] {
     const record::Store store(file, record::Store::Mode::read);
-    // This does not call require_whole(), which would reject most damaged files before they are
+    // Does not call require_whole(), because that would reject most damaged files before they are
     // read.
     for (const record::Run& run : store.runs()) {
       fuzz::expect_ours([&] { static_cast<void>(store.devices(run.id)); });
@@ -17,7 +17,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       }
     }
   });
-  // A merge copies values without examining them.
+  // A merge copies values without reading them as records, so it is tested separately.
   const std::filesystem::path out = fuzz::folder() / "out.sqlite";
   fuzz::expect_ours([&] { static_cast<void>(record::merge_stores({file}, out)); });
   std::filesystem::remove(out);

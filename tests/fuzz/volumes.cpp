@@ -6,12 +6,13 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace triptych;
   static const std::vector<std::string> kinds = [] {
     auto all = fuzz::kinds_of(scene::volume_formats());
-    all.emplace_back("spec");  // voxels without a header; the second line states their size
+    all.emplace_back("spec");  // raw voxels without a header, whose size is in the second line
     return all;
   }();
   const auto input = fuzz::split(data, size, kinds);
   if (!input) return fuzz::rejected;
-  // The data files to which a header may refer: "v.raw", and "v.img" for a pair of files.
+  // Data files to which a detached header may refer: "v.raw", or "v.img" in a NIfTI or Analyze
+  // pair.
   static const std::filesystem::path raw = fuzz::write("v.raw", std::string(64, 'v'));
   static const std::filesystem::path image = fuzz::write("v.img", std::string(64, 'v'));
   if (input->kind == "spec") {

@@ -1,4 +1,4 @@
-"""Makes small files of every format and variant, and contains simple readers for formats that no library reads."""
+"""Writes small files of every format and variant, and contains simple readers for formats that no library can read."""
 
 import bz2
 import gzip
@@ -136,7 +136,7 @@ def write_mmpld(folder):
 
 
 def parse_mmpld(data):
-    """Returns the positions and radii of the single list that write_mmpld writes; None for any other file."""
+    """Returns the positions and radii in a file from write_mmpld, which contains one list. Returns None for other files."""
     version, frames = struct.unpack_from("<HI", data, 6)
     if version != 100 or frames != 1:
         return None
@@ -245,7 +245,7 @@ def write_metaimage(folder):
 
 
 def write_vtk(folder):
-    """Writes files with VTK's own writers if VTK is installed; otherwise does nothing."""
+    """Writes files with VTK's own writers, or nothing if VTK is not installed."""
     try:
         import vtk
         from vtk.util.numpy_support import numpy_to_vtk
@@ -305,7 +305,7 @@ def parse_dat(path, refused):
 
 
 def parse_nrrd(path, refused):
-    """Uses Teem's unu to decode the values if it is installed. Writes the header itself."""
+    """Parses the header by hand. Decodes the values with Teem's program unu if it is installed, and otherwise by hand."""
     if path.suffix == ".gz":
         raise refused("Teem does not read compressed files")
     head = {}

@@ -1,6 +1,6 @@
-"""Makes files with properties that readers often handle wrongly: line ends, wrapped numbers, optional columns, unusual
-headers. Each function makes the files of one format. A file passes if Triptych and the second reader agree on it, or
-if either of them refuses it.
+"""Writes files with features that readers often handle wrongly: line ends, wrapped numbers, optional columns, unusual
+headers. Each function writes the files of one format. A file passes if Triptych and the second reader agree on its
+contents, or if either of them rejects it.
 """
 
 import bz2

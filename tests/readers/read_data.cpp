@@ -1,7 +1,7 @@
-// read_data FILE [COMPONENT [OUT]]: prints what Triptych reads from a particle or volume file as
-// one line of JSON, for comparison with other programs. If OUT is given, also writes the particles
-// (x, y, z, radius as float32) or the voxel values (float64) to that file. If Triptych rejects the
-// file, prints a message and exits with code 3.
+// read_data particles|volume FILE [COMPONENT [OUT]]: prints what Triptych reads from a particle or
+// volume file as one line of JSON, for comparison with other programs. If OUT is given, also writes
+// the particles (x, y, z, radius as float32) or the voxel values (float64) to that file. If
+// Triptych rejects the file, prints a message and exits with code 3.
 
 #include <cstdio>
 #include <fstream>

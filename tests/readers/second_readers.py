@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Reads files with Triptych and with programs of the field, and compares.
+"""Reads files with Triptych and with a second, established program, and compares the results.
 
 usage: second_readers.py --program READ_DATA [--generate FOLDER] [--list] [FILE|FOLDER ...]
 
-For particles, it compares the number, the elements and the positions; for volumes, the sizes, the
-spacing and every value. --generate writes one file of each format and variant into FOLDER and
-compares those, and the seeds of tests/fuzz. Files that either reader refuses are counted, with the
-reasons under --list. Exit code 1 if anything differs, 77 if no second reader is installed.
+For particles, it compares their number, elements and positions. For volumes, it compares the size,
+the spacing and every value. With --generate, it writes one file of each format and variant into
+FOLDER, and compares these files and the seeds of tests/fuzz. Files that either reader rejects are
+counted. With --list, it also prints the reasons. The exit code is 1 if anything differs, and 77 if
+no second reader is installed.
 """
 
 import argparse
@@ -33,7 +34,7 @@ import generated_variants
 
 
 class Refused(Exception):
-    """The second reader cannot read the file, or reads other data than Triptych does."""
+    """Raised if the second reader cannot read the file, or by design reads different data than Triptych."""
 
 
 class Particles:
@@ -45,12 +46,12 @@ class Particles:
 
 class Volume:
     def __init__(self, values, spacing):
-        self.values = np.asarray(values, float)  # x fastest: shape (z, y, x)
+        self.values = np.asarray(values, float)  # x varies fastest, so the shape is (z, y, x)
         self.spacing = np.abs(np.asarray(spacing, float))
 
 
-# There is one function for each format, which reads a path and returns Particles or Volume. It raises ImportError if
-# the other program is not installed.
+# Each of these functions reads a file of one format with a second reader, and returns Particles or a Volume. It raises
+# ImportError if that reader is not installed.
 
 
 def by_gemmi_pdb(path):
@@ -70,7 +71,7 @@ def by_gemmi_pdb(path):
 
 
 def states_elements(path):
-    """Whether all atoms have an element in columns 77 and 78. If not, both readers guess."""
+    """Returns whether all atoms have an element in columns 77 and 78. If not, both readers guess elements."""
     import gemmi
 
     for line in text_of(path).splitlines():
@@ -166,7 +167,7 @@ def by_ase_data(path):
 
 
 def by_hand_mmpld(path):
-    """Reads the MMPLD files that generated_files writes: one list with float positions and radii."""
+    """Reads only MMPLD files from generated_files, which contain one list with float positions and radii."""
     data = path.read_bytes()
     if data[:6] != b"MMPLD\0" or len(data) < 120:
         raise Refused("not a kind of MMPLD that the simple reader supports")
@@ -240,8 +241,7 @@ def by_hand_dat(path):
     return Volume(*generated_files.parse_dat(path, Refused))
 
 
-# The key is the file-name extension in Triptych's tables. The value consists of the kind of data, the second reader,
-# and its Debian package.
+# For each file-name extension in Triptych's tables: the kind of data, the second reader, and its Debian package.
 READERS = {
     ".pdb": ("particles", by_gemmi_pdb, "python3-gemmi"),
     ".cif": ("particles", by_gemmi_cif, "python3-gemmi"),
@@ -284,7 +284,7 @@ def decompressed(data):
 
 
 class unpacked:
-    """Creates an uncompressed copy of a file, for readers that need one."""
+    """Creates an uncompressed copy of a file, for readers that cannot read compressed files."""
 
     def __init__(self, path):
         self.path = path
@@ -325,7 +325,7 @@ def difference_of_particles(facts, out, second):
     elements = second.elements or [""] * len(spheres)
     ours, colours, radii = sorted_rows(spheres[:, :3].astype(float), colours, spheres[:, 3])
     theirs, elements = sorted_rows(second.places, elements)
-    # MDAnalysis stores single precision, so an error of one unit in the last place is allowed on either side.
+    # MDAnalysis stores positions in single precision, so each of the two readers may be off by one ulp.
     if not np.allclose(ours, theirs, rtol=3e-7, atol=2e-6):
         return f"places differ by up to {np.abs(ours - theirs).max():.3g}"
     if second.radii is not None:
@@ -351,7 +351,7 @@ def difference_of_volumes(facts, out, second):
         return f"spacing {facts['spacing']}, expected {list(second.spacing)}"
     ours = np.fromfile(out, float)
     theirs = second.values.ravel()
-    # A scaled value is rounded to single precision. Colours in a text file have six digits.
+    # Scaled values are rounded to single precision. Colours in text files have only six digits.
     coarse = any("255·stored" in note for note in facts["notes"])
     if not np.allclose(ours, theirs, rtol=1e-6, atol=1e-3 if coarse else 0, equal_nan=True):
         return f"values differ by up to {np.nanmax(np.abs(ours - theirs)):.3g}"
@@ -417,10 +417,10 @@ def compare(program, path, tally, out):
 
 
 def seeds_as_files(folder):
-    """Writes the fuzzers' inputs, whose first line is the file-name extension, as files."""
+    """Converts fuzzer inputs, whose first line is the file-name extension, to files with that extension."""
     root = pathlib.Path(__file__).resolve().parents[1] / "fuzz" / "seeds"
     folders = [root / "particles", root / "volumes"]
-    # Inputs that fuzzers in this checkout have saved.
+    # Includes the inputs that fuzzers have saved in this checkout.
     corpus = root.parents[2] / "build" / "fuzz" / "corpus"
     folders += [corpus / "particles", corpus / "volumes"]
     for source in folders:
