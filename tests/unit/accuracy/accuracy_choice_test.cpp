@@ -27,7 +27,7 @@ TEST(LongestStep, OfASecondOrderErrorIsWithinAQuarterOctave) {
   }
 }
 
-TEST(LongestStep, IsNotOneThatHitsByChance) {
+TEST(LongestStep, IsNotAnAccidentalMinimum) {
   // The error has a dip at a step of 4 voxels, and follows its asymptotic order below 1.
   const auto found =
       longest_step(1e-3, {}, [](double step) { return step == 4 ? 1e-4 : 2e-3 * step * step; });
@@ -40,7 +40,7 @@ TEST(LongestStep, OfAnExactRuleIsTheLongestOfAll) {
   EXPECT_EQ(found.step, 64);
 }
 
-TEST(LongestStep, IsNoneWhereTheShortestIsNotEnough) {
+TEST(LongestStep, IsAbsentIfTheShortestIsNotEnough) {
   const auto found = longest_step(1e-9, {}, [](double step) { return step; });
   EXPECT_EQ(found.step, 1.0 / 64);
   EXPECT_EQ(found.error, 1.0 / 64);
@@ -48,7 +48,7 @@ TEST(LongestStep, IsNoneWhereTheShortestIsNotEnough) {
 }
 
 // A step that was found with few pixels can be too long for all pixels, so it has to be shortened.
-TEST(ShortenedStep, KeepsTheErrorAndLosesLittle) {
+TEST(ShortenedStep, MeetsTheErrorAndIsOnlySlightlyShorter) {
   for (const double order : {1.0, 2.0, 4.0}) {
     int calls = 0;
     const auto found = shortened_step(1, 1e-3, {}, [&](double step) {
@@ -61,7 +61,7 @@ TEST(ShortenedStep, KeepsTheErrorAndLosesLittle) {
   }
 }
 
-TEST(ShortenedStep, IsLeftWhereItKeepsTheErrorAndEndsAtTheShortest) {
+TEST(ShortenedStep, IsUnchangedIfItMeetsTheErrorAndEndsAtTheShortest) {
   EXPECT_EQ(shortened_step(3, 1e-3, {}, [](double) { return 9e-4; }).step, 3);
   const auto hopeless = shortened_step(3, 1e-3, {}, [](double) { return std::nan(""); });
   EXPECT_EQ(hopeless.step, 1.0 / 64);
@@ -83,7 +83,7 @@ TEST(SearchSize, KeepsRaysOnBothAxes) {
   EXPECT_EQ(size(1, 1), std::pair(1, 1));
 }
 
-TEST(Cheapest, IsTheFastestThatKeepsTheError) {
+TEST(Cheapest, IsTheFastestThatMeetsTheError) {
   const std::vector<TimedError> cases{{1, 1e-2}, {5, 1e-3}, {4, 9e-4}, {9, 1e-6}, {{}, 1e-9}};
   EXPECT_EQ(cheapest(cases, 1e-2), 0U);
   EXPECT_EQ(cheapest(cases, 1e-3), 2U);
@@ -91,7 +91,7 @@ TEST(Cheapest, IsTheFastestThatKeepsTheError) {
   EXPECT_EQ(cheapest(cases, 1e-9), std::nullopt);
 }
 
-TEST(RequestedError, SaysWhichErrorIsMeant) {
+TEST(RequestedError, IsParsedWithItsMetric) {
   EXPECT_EQ(parse_requested_error("1e-3").metric, Metric::rms);
   EXPECT_EQ(text_of(parse_requested_error("1e-3:max")), "0.001:max");
   EXPECT_EQ(parse_requested_error("0.25:p99.9").metric, Metric::p99_9);
@@ -101,7 +101,7 @@ TEST(RequestedError, SaysWhichErrorIsMeant) {
   }
 }
 
-TEST(PictureErrors, AreOfEveryMetric) {
+TEST(PictureErrors, ContainEveryMetric) {
   core::Image limit(100, 20);
   core::Image picture = limit;
   for (std::size_t i = 0; i < 20; ++i) limit.rgba[4 * i] = 0.5F;  // 1 % of the pixels

@@ -33,7 +33,7 @@ AccuracyCase at(double time, double rmse, double step = 1, const std::string& er
           .rmse = rmse};
 }
 
-TEST(FitOrder, FindsThePowerAndItsCertainty) {
+TEST(FitOrder, FindsTheOrderAndItsInterval) {
   const auto exact = fit_order(errors_by(halvings, [](double h) { return 0.3 * h * h; }));
   ASSERT_TRUE(exact);
   EXPECT_NEAR(exact->order, 2, 1e-12);
@@ -44,7 +44,7 @@ TEST(FitOrder, FindsThePowerAndItsCertainty) {
 
 // Computed by hand: ln e = 2·ln h ± 0.1, with alternating signs over four halvings. The deviation
 // of the slope is Σ(x − x̄)d/Σ(x − x̄)², and the interval is t₀.₉₇₅(2) = 4.3027 standard errors.
-TEST(FitOrder, TheIntervalIsStudents) {
+TEST(FitOrder, TheIntervalUsesStudentsT) {
   const std::vector<double> steps{1, 0.5, 0.25, 0.125};
   double sign = 0.1;
   const auto order = fit_order(errors_by(steps, [&](double h) {
@@ -61,7 +61,7 @@ TEST(FitOrder, TheIntervalIsStudents) {
   EXPECT_NEAR(order->half_width, 4.302653 * error, 1e-5);
 }
 
-TEST(FitOrder, StepsBeyondAVoxelAreNoRefinement) {
+TEST(FitOrder, StepsLongerThanAVoxelAreIgnored) {
   auto points = errors_by(halvings, [](double h) { return h * h; });
   points.front().error = 1e3;
   const auto order = fit_order(points);
@@ -71,7 +71,7 @@ TEST(FitOrder, StepsBeyondAVoxelAreNoRefinement) {
 }
 
 // If a rounding error f is added to the step-size error s, the measured error is √(s² + f²).
-TEST(FitOrder, RoundingDoesNotFlattenIt) {
+TEST(FitOrder, RoundingDoesNotReduceTheOrder) {
   const double floor = 1e-4;
   const auto order = fit_order(errors_by(
       halvings, [&](double h) { return std::hypot(0.1 * h * h, floor); }, floor));
@@ -82,12 +82,12 @@ TEST(FitOrder, RoundingDoesNotFlattenIt) {
       halvings, [&](double) { return floor; }, floor)));
 }
 
-TEST(FitOrder, TwoPointsAreNoOrder) {
+TEST(FitOrder, TwoPointsAreNotEnough) {
   EXPECT_FALSE(fit_order(errors_by({1, 0.5}, [](double h) { return h * h; })));
   EXPECT_FALSE(fit_order(errors_by(halvings, [](double) { return 0.0; })));
 }
 
-TEST(Front, IsWhatNothingBeats) {
+TEST(Front, ContainsTheCasesThatAreNotDominated) {
   const std::vector<AccuracyCase> cases{at(1, 8), at(2, 4), at(3, 5), at(4, 2), at(4, 2), at(2, 6)};
   const auto front = pareto_front(cases);
   EXPECT_EQ(front, (std::vector<std::size_t>{0, 1, 3}));
@@ -99,7 +99,7 @@ TEST(Front, IsWhatNothingBeats) {
   EXPECT_EQ(beaten[1].by, 1U);
 }
 
-TEST(Families, DifferByTheStepAlone) {
+TEST(Families, DifferOnlyInTheStep) {
   const std::vector<AccuracyCase> cases{at(1, 1, 0.5, "0"), at(1, 1, 1, "0"), at(1, 1, 1, "0.1")};
   const auto families = accuracy_families(cases);
   ASSERT_EQ(families.size(), 2U);
@@ -117,7 +117,7 @@ TEST(TimeToError, IsStraightOnLogarithmicAxes) {
   EXPECT_FALSE(time_to_error(cases, families, 1e-4));
 }
 
-TEST(TimeToError, DoesNotReadBetweenFamilies) {
+TEST(TimeToError, DoesNotInterpolateBetweenFamilies) {
   const std::vector<AccuracyCase> cases{at(1, 1e-2, 1, "0"), at(4, 1e-4, 1, "0.1")};
   EXPECT_EQ(*time_to_error(cases, accuracy_families(cases), 1e-3), 4);
 }
@@ -138,7 +138,7 @@ TEST(SwitchedAlone, ChangesOneFactor) {
 
 // A setting that was tried with a single step size is compared with the best case of that step
 // size.
-TEST(SwitchedAlone, IsToldOfTheBestThatHasALikeOne) {
+TEST(SwitchedAlone, UsesTheBestCaseWithACounterpart) {
   const std::vector<AccuracyCase> cases{at(9, 1, 0.5, "0"), at(5, 2, 1, "0"), at(5, 4, 1, "0.1")};
   const auto switched = switched_alone(cases);
   ASSERT_EQ(switched.size(), 2U);
@@ -147,7 +147,7 @@ TEST(SwitchedAlone, IsToldOfTheBestThatHasALikeOne) {
   EXPECT_EQ(switched[0].to, 2U);
 }
 
-TEST(SwitchedPicture, FindsTheLikeOneElsewhere) {
+TEST(SwitchedPicture, FindsTheCounterpartInAnotherScene) {
   std::vector<AccuracyCase> cases{at(9, 1, 0.5), at(5, 2, 1)};
   std::vector<AccuracyCase> others{at(5, 3, 1), at(9, 4, 0.25)};
   for (AccuracyCase& each : cases) each.factors["viewport"] = "48";

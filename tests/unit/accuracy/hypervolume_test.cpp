@@ -37,7 +37,7 @@ TEST(Hypervolume, IsTheSumOfRectangles) {
   EXPECT_NEAR(area_of({case_at(1e6, 1e-2), case_at(1e7, 1e-4)}, 0.1), 7, 1e-12);
 }
 
-TEST(Hypervolume, IsOfTheFrontAlone) {
+TEST(Hypervolume, DependsOnlyOnTheFront) {
   const double alone = area_of({case_at(1e6, 1e-2), case_at(1e7, 1e-4)});
   EXPECT_EQ(
       area_of({case_at(1e7, 1e-4), case_at(2e6, 2e-2), case_at(1e6, 1e-2), case_at(1e7, 1e-3)}),
@@ -45,7 +45,7 @@ TEST(Hypervolume, IsOfTheFrontAlone) {
   EXPECT_GT(area_of({case_at(1e6, 1e-2), case_at(5e6, 1e-3), case_at(1e7, 1e-4)}), alone);
 }
 
-TEST(Hypervolume, EndsAtTheCorner) {
+TEST(Hypervolume, IgnoresCasesBeyondTheReferencePoint) {
   EXPECT_EQ(area_of({}), 0);
   EXPECT_EQ(area_of({case_at(1e6, 1)}), 0);     // no better than an empty image
   EXPECT_EQ(area_of({case_at(2e9, 1e-4)}), 0);  // later than the limit of one second
@@ -56,14 +56,14 @@ TEST(Hypervolume, EndsAtTheCorner) {
 }
 
 // The smallest possible error is the rounding to floats, so an error of 0 counts as 2⁻²⁴.
-TEST(Hypervolume, AnExactPictureHasAFiniteArea) {
+TEST(Hypervolume, AnExactImageHasAFiniteArea) {
   EXPECT_NEAR(area_of({case_at(1e6, 0)}), 3 * 24 * std::log10(2.0), 1e-12);
   EXPECT_EQ(area_of({case_at(1e6, 1e-9)}), area_of({case_at(1e6, 0)}));
 }
 
 // If all times are 2.5 times as long, the area over four decades of error becomes smaller by ln 2.5
 // per decade, and the factor 2.5 is reported.
-TEST(Hypervolume, TellsHowManyTimesAsLongADeviceTakes) {
+TEST(Hypervolume, ReportsHowManyTimesAsLongADeviceTakes) {
   const auto area_at = [](double factor) {
     const std::vector<AccuracyCase> cases{case_at(1e6 * factor, 1e-2), case_at(1e7 * factor, 1e-4)};
     return front_area(cases, pareto_front(cases), 1);
@@ -76,7 +76,7 @@ TEST(Hypervolume, TellsHowManyTimesAsLongADeviceTakes) {
   EXPECT_EQ(equal_slowdown(*best, *best), 1);
 }
 
-TEST(Hypervolume, IsNotToldWhereNothingWasTimed) {
+TEST(Hypervolume, IsAbsentIfNothingWasTimed) {
   AccuracyCase untimed = case_at(0, 1e-3);
   untimed.time_ns.reset();
   const std::vector<AccuracyCase> cases{untimed};

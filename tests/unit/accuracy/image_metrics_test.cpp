@@ -20,7 +20,7 @@ float& channel(core::Image& image, int x, int y, int c) {
   return image.rgba[static_cast<std::size_t>(4 * (y * image.width + x) + c)];
 }
 
-TEST(ImageMetrics, EqualPicturesHaveNoError) {
+TEST(ImageMetrics, EqualImagesHaveNoError) {
   const core::Image image = filled(4, 3, 0.5F);
   const ImageComparison result = compare(image, image, 0.0);
   EXPECT_TRUE(result.within_bound());
@@ -30,7 +30,7 @@ TEST(ImageMetrics, EqualPicturesHaveNoError) {
 }
 
 // The pixel with the largest error is not the pixel with the largest ratio of error to bound.
-TEST(ImageMetrics, FindsWorstAgainstItsOwnBound) {
+TEST(ImageMetrics, FindsTheWorstPixelRelativeToItsBound) {
   const core::Image truth = filled(4, 3, 0.0F);
   core::Image image = truth;
   core::Image bound = filled(4, 3, 0.5F);
@@ -50,7 +50,7 @@ TEST(ImageMetrics, FindsWorstAgainstItsOwnBound) {
   EXPECT_TRUE(compare(image, truth, bound, 0.0625).within_bound()) << "slack widens every bound";
 }
 
-TEST(ImageMetrics, CountsWhatIsNotFinite) {
+TEST(ImageMetrics, CountsNonFinitePixels) {
   core::Image image = filled(2, 2, 0.0F);
   channel(image, 0, 1, 3) = std::numeric_limits<float>::quiet_NaN();
   channel(image, 1, 1, 0) = std::numeric_limits<float>::infinity();
@@ -122,7 +122,7 @@ TEST(ImageMetrics, DepthThatIsNotANumberIsWrong) {
   EXPECT_EQ(compare(image, particles(), particle_bound()).wrong_depths, 1U);
 }
 
-TEST(ImageMetrics, AnUncertainPixelMayShowWhatItsColourAllows) {
+TEST(ImageMetrics, AnUncertainPixelIsJudgedByItsColour) {
   core::Image image = particles();
   image.ids[3] = 7;
   image.depth[3] = 1;
@@ -133,11 +133,11 @@ TEST(ImageMetrics, AnUncertainPixelMayShowWhatItsColourAllows) {
   EXPECT_EQ(root_mean_square(image, particles(), particle_bound()), 0);
 }
 
-TEST(ImageMetrics, APictureWithoutIdsIsNoParticlePicture) {
+TEST(ImageMetrics, AnImageWithoutIdsIsNotAParticleImage) {
   EXPECT_TRUE(compare(filled(4, 1, 0.5F), particles(), particle_bound()).size_mismatch);
 }
 
-TEST(ImageMetrics, EmptyPicturesPassNothing) {
+TEST(ImageMetrics, EmptyImagesDoNotPass) {
   EXPECT_FALSE(compare(core::Image(), core::Image(), 1.0).within_bound());
 }
 

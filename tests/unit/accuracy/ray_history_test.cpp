@@ -82,7 +82,7 @@ TEST(RayHistory, NamesTheFirstOperationThatDiffers) {
   EXPECT_EQ(changed([&](TakenSample& s) { s.gathered[0] += 1e-5; }), Operation::compositing);
 }
 
-TEST(RayHistory, TellsALeftOutSampleFromOneWithoutOpacity) {
+TEST(RayHistory, DistinguishesMissingFromTransparentSamples) {
   ExpectedRay ray = four_samples();
   std::vector<TakenSample> taken = taken_from(ray);
   taken.erase(taken.begin() + 1);
@@ -110,7 +110,7 @@ TEST(RayHistory, FindsSamplesBeyondTheEndAndTakenTwice) {
 }
 
 // A ray may end early only if hardly any light is left.
-TEST(RayHistory, AllowsARayToEndInTheDarkOnly) {
+TEST(RayHistory, AllowsARayToEndOnlyWithLittleLightLeft) {
   ExpectedRay ray = four_samples();
   std::vector<TakenSample> taken = taken_from(ray);
   taken.resize(2);

@@ -22,7 +22,7 @@ ShownSurface shown(std::uint32_t id, double depth, double red) {
   return {.id = id, .depth = depth, .colour = {red, 0.5, 0.5, 1}};
 }
 
-TEST(SpriteHistory, NamesWhatDiffers) {
+TEST(SpriteHistory, ReportsDifferences) {
   EXPECT_EQ(compare(expected, shown(7, 2.005, 0.5005)), SurfaceDifference::none);
   EXPECT_EQ(compare(expected, shown(nothing, 2, 0.5)), SurfaceDifference::missing);
   EXPECT_EQ(compare(expected, shown(8, 2, 0.5)), SurfaceDifference::particle);
@@ -34,7 +34,7 @@ TEST(SpriteHistory, NamesWhatDiffers) {
   EXPECT_EQ(compare(none, shown(nothing, 1e30, 0.5)), SurfaceDifference::none);
 }
 
-TEST(SpriteHistory, AllowsAnotherParticleWhereThePixelIsNotCertain) {
+TEST(SpriteHistory, AllowsAnotherParticleInUncertainPixels) {
   ExpectedSurface edge = expected;
   edge.certain = false;
   edge.colour_bound = 0.5;
@@ -43,7 +43,7 @@ TEST(SpriteHistory, AllowsAnotherParticleWhereThePixelIsNotCertain) {
 }
 
 // Of 100 particles, the pixel is wrong only if both particle 3 and particle 61 are drawn.
-TEST(SpriteHistory, FindsTheFewestParticles) {
+TEST(SpriteHistory, FindsTheSmallestSetOfParticles) {
   Particles all(100);
   for (std::uint32_t i = 0; i < 100; ++i) all[i] = i;
   int calls = 0;

@@ -41,7 +41,7 @@ std::string sides_of(const record::Device& a, const record::Device& b) {
   return screen_of(result, {.plan = "volume/quick", .sides = "", .varied = {}});
 }
 
-TEST(ComparisonScreen, PrintsOnceWhatBothSidesHave) {
+TEST(ComparisonScreen, PrintsCommonInformationOnce) {
   const record::Device plain = device("vulkan:x");
   EXPECT_THAT(sides_of(plain, plain),
               HasSubstr("a: vulkan:x; driver Mesa 1; API 1.3\nb: the same\n"));
@@ -52,7 +52,7 @@ TEST(ComparisonScreen, PrintsOnceWhatBothSidesHave) {
               HasSubstr("API 1.3; CPU avx avx2\nb: the same, but CPU avx\n"));
 }
 
-TEST(ComparisonScreen, NamesTheVariablesOfASide) {
+TEST(ComparisonScreen, ShowsTheVariablesOfASide) {
   const record::Device plain = device("vulkan:x");
   const record::Device one = device("vulkan:x", {{"WIDTH", "128"}});
   EXPECT_THAT(sides_of(plain, one), HasSubstr("b: the same, but WIDTH=128\n"));

@@ -67,7 +67,7 @@ TEST_F(Differences, EqualRecordsHaveNone) {
   EXPECT_TRUE(find().no_time.empty());
 }
 
-TEST_F(Differences, AcrossDriversAsManyCountsAreOpenAsRoundingDecides) {
+TEST_F(Differences, AcrossDriversCountsMayDifferByRounding) {
   use_another_driver();
   open_counts = [](const record::Record&) {
     return std::map<std::string, double>{{"samples", 1000}};
@@ -192,7 +192,7 @@ TEST_F(Differences, OneMoreInstructionIsARegressionOnlyOnTheSameDevice) {
   EXPECT_EQ(only().kind, DifferenceKind::changed);
 }
 
-TEST_F(Differences, AnotherVersionMayTakeOnePercentMore) {
+TEST_F(Differences, AnotherVersionMayNeedOnePercentMore) {
   count(1000000, 1000);
   device_b.driver_version = "2";
   record_b.cost["device_code"] += 10000;
@@ -202,7 +202,7 @@ TEST_F(Differences, AnotherVersionMayTakeOnePercentMore) {
   EXPECT_NEAR(only().ratio.value(), 1.0101, 1e-4);
 }
 
-TEST_F(Differences, CountsOfTwoCountersAreNotCompared) {
+TEST_F(Differences, CountsFromDifferentCountersAreNotCompared) {
   count(1000000, 1000);
   record_b.counted_by = "another";
   record_b.cost["device_code"] *= 2;

@@ -62,7 +62,7 @@ TEST(SignedRank, IsTheEnumeratedNullDistributionWithAndWithoutTies) {
   }
 }
 
-TEST(SignedRank, ZerosSayNothing) {
+TEST(SignedRank, ZerosAreIgnored) {
   const SignedRank test = wilcoxon_signed_rank(std::vector<double>{0, 0, 1, 2});
   EXPECT_EQ(test.n, 2U);
   EXPECT_EQ(test.statistic, 3);
@@ -135,7 +135,7 @@ TEST(Shift, TheIntervalIsWhatTheTestDoesNotReject) {
   }
 }
 
-TEST(Shift, TooFewDifferencesHaveAnEndlessInterval) {
+TEST(Shift, TooFewDifferencesHaveAnInfiniteInterval) {
   const Shift shift = estimate_shift(std::vector<double>{1, 2}, 0.01);
   EXPECT_EQ(shift.estimate, 1.5);
   EXPECT_TRUE(std::isinf(shift.interval.high));
@@ -204,20 +204,20 @@ Outcomes repeat(const Machine& machine, double shift, int times, std::uint64_t s
 constexpr int repetitions = 300;
 constexpr int most_errors = 8;
 
-TEST(Sequential, NothingIsSlowerThanItself) {
+TEST(Sequential, NothingIsReportedSlowerThanItself) {
   const Outcomes outcomes = repeat({}, 0, repetitions, 1);
   EXPECT_EQ(outcomes.slower + outcomes.faster, 0);
   EXPECT_GE(outcomes.same, repetitions * 9 / 10);
   EXPECT_GE(outcomes.covered, repetitions - 2 * most_errors);
 }
 
-TEST(Sequential, WhatIsToleratedIsSeldomCalledSlower) {
+TEST(Sequential, TolerableSlowdownsAreRarelyReported) {
   const Outcomes outcomes = repeat({}, std::log(1.01), repetitions, 2);
   EXPECT_LE(outcomes.slower, most_errors);
   EXPECT_GE(outcomes.covered, repetitions - 2 * most_errors);
 }
 
-TEST(Sequential, WhatMustBeCaughtIsSeldomPassed) {
+TEST(Sequential, ImportantSlowdownsAreRarelyMissed) {
   const Outcomes outcomes = repeat({}, std::log(1.03), repetitions, 3);
   EXPECT_LE(outcomes.same, most_errors);
   EXPECT_GE(outcomes.slower, repetitions * 9 / 10);
@@ -227,7 +227,7 @@ TEST(Sequential, WhatMustBeCaughtIsSeldomPassed) {
   EXPECT_GE(mirrored.faster, repetitions * 9 / 10);
 }
 
-TEST(Sequential, NoiseMakesItGoOnAndNotErr) {
+TEST(Sequential, NoiseProlongsButDoesNotMislead) {
   const Machine noisy{.noise = 0.1, .drift = 0.05};
   const Outcomes same = repeat(noisy, 0, 100, 5);
   EXPECT_EQ(same.slower + same.faster, 0);
@@ -251,7 +251,7 @@ std::vector<double> process_runs(double shift, double between, core::Random& ran
   return result;
 }
 
-TEST(Confirm, WhatFreshProcessRunsRepeatIsBelieved) {
+TEST(Confirm, ARepeatedSlowdownIsConfirmed) {
   core::Random random(11);
   const std::vector<Suspect> suspects{{process_runs(std::log(1.05), 0.003, random), true},
                                       {process_runs(-std::log(1.05), 0.003, random), false}};
@@ -261,7 +261,7 @@ TEST(Confirm, WhatFreshProcessRunsRepeatIsBelieved) {
   EXPECT_NEAR(confirmed[0].shift.estimate, std::log(1.05), 0.005);
 }
 
-TEST(Confirm, WhatOneProcessRunAloneSaidIsTakenBack) {
+TEST(Confirm, ASlowdownInOneProcessRunIsNotConfirmed) {
   const std::vector<Suspect> suspects{{{0.001, -0.002, 0.0, 0.002, -0.001}, true}};
   const auto confirmed = confirm(suspects, 0.05, SequentialDesign::standard());
   EXPECT_EQ(confirmed[0].verdict, PairVerdict::same);
@@ -278,7 +278,7 @@ TEST(Confirm, CountsTheSuspectsAsHypotheses) {
   EXPECT_NE(confirm(suspects, 0.05, SequentialDesign::standard())[0].verdict, PairVerdict::slower);
 }
 
-TEST(Confirm, ProcessRunsOfAnotherSuspectLendTheirVariance) {
+TEST(Confirm, VariancesOfSuspectsArePooled) {
   core::Random random(12);
   std::vector<Suspect> suspects{{{0.0301, 0.0302, 0.0301, 0.0302, 0.0301}, true}};
   const double alone = confirm(suspects, 0.05, SequentialDesign::standard())[0].p;
@@ -286,7 +286,7 @@ TEST(Confirm, ProcessRunsOfAnotherSuspectLendTheirVariance) {
   EXPECT_GT(confirm(suspects, 0.05, SequentialDesign::standard())[0].p, alone);
 }
 
-TEST(Confirm, EqualProcessRunsAreNoZeroOverZero) {
+TEST(Confirm, EqualProcessRunsDoNotDivideByZero) {
   const std::vector<Suspect> suspects{{std::vector<double>(5, std::log(1.05)), true}};
   EXPECT_EQ(confirm(suspects, 0.05, SequentialDesign::standard())[0].verdict, PairVerdict::slower);
 }
@@ -322,7 +322,7 @@ struct ProcessRuns {
 };
 
 // Five process runs decide the obvious cases. The undecided cases are run five more times.
-TEST(ConfirmInLooks, GoesOnWithWhatIsOpen) {
+TEST(ConfirmInLooks, RepeatsOnlyUndecidedConfigurations) {
   core::Random random(21);
   std::vector<double> scattered{0.05, 0.01, 0.06, 0.012, 0.05, 0.035, 0.03, 0.04, 0.036, 0.03};
   ProcessRuns given{.process_runs = {std::vector(10, 0.05), scattered, std::vector(10, 0.0)},
@@ -338,7 +338,7 @@ TEST(ConfirmInLooks, GoesOnWithWhatIsOpen) {
   EXPECT_THAT(given.asked[5], testing::ElementsAre(1));
 }
 
-TEST(ConfirmInLooks, EndsWithTheProcessRunsThatThereAre) {
+TEST(ConfirmInLooks, StopsAtTheLastProcessRun) {
   ProcessRuns few{.process_runs = {{0.05, 0.051, 0.049}}, .asked = {}};
   EXPECT_EQ(few.confirm_all()[0].verdict, PairVerdict::slower);
   EXPECT_EQ(few.asked.size(), 4U);
@@ -352,7 +352,7 @@ TEST(ConfirmInLooks, EndsWithTheProcessRunsThatThereAre) {
 // configurations, none of which is slower by more than the tolerance. At most a share q of the
 // families may have false discoveries: with q = .02, more than 10 occur with a probability below
 // .003.
-TEST(ConfirmInLooks, ProcessRunEffectsAreSeldomBelieved) {
+TEST(ConfirmInLooks, ProcessRunEffectsRarelyCauseFalseDiscoveries) {
   const SequentialDesign design = SequentialDesign::standard();
   const double between = 0.01;
   core::Random random(13);

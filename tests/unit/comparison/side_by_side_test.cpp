@@ -47,7 +47,7 @@ TEST(SideBySide, IsTheGeometricMeanOverWhatAllMeasured) {
   EXPECT_EQ(report::to_json(*table)["rows"][1]["best"], "vulkan:y");
 }
 
-TEST(SideBySide, TakesTimesWhereNothingWasCountedAndSaysWhatIsMissing) {
+TEST(SideBySide, UsesTimesIfNothingWasCountedAndReportsOmissions) {
   std::vector<record::Record> records{
       measured("gl:x", "a", "1", 10), measured("gl:y", "a", "1", 20),
       measured("gl:z", "b", "1", 20), measured("gl:x", "b", "1", 10)};
@@ -80,7 +80,7 @@ TEST(SideBySide, ComparesTimesOnOneClock) {
   EXPECT_EQ(report::to_json(*side_by_side(records))["clock"], "device");
 }
 
-TEST(SideBySide, OneDeviceIsNoTable) {
+TEST(SideBySide, OneDeviceGivesNoTable) {
   const std::vector<record::Record> records{measured("gl:x", "a", "1", 10)};
   EXPECT_FALSE(side_by_side(records));
 }

@@ -13,7 +13,7 @@ TEST(InputError, NamesFileLineAndColumn) {
   EXPECT_EQ(error.place().line, 3);
 }
 
-TEST(InputError, LeavesOutWhatIsNotKnown) {
+TEST(InputError, OmitsUnknownParts) {
   EXPECT_STREQ(InputError({.file = "a.nrrd"}, "empty").what(), "a.nrrd: empty");
   EXPECT_STREQ(InputError({.file = "a.nrrd", .line = 2}, "bad").what(), "a.nrrd:2: bad");
   EXPECT_STREQ(InputError("no place").what(), "no place");
@@ -32,7 +32,7 @@ TEST(ApiError, NamesCallCodeAndPlace) {
 
 // Errors are caught in one place for each configuration. Therefore all of them must derive from
 // Error, and a lost device must derive from API errors.
-TEST(Errors, FormOneFamily) {
+TEST(Errors, AllDeriveFromError) {
   static_assert(std::is_base_of_v<Error, InputError>);
   static_assert(std::is_base_of_v<Error, IoError>);
   static_assert(std::is_base_of_v<Error, NotSupported>);

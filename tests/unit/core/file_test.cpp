@@ -43,7 +43,7 @@ TEST(File, ReadsFilesThatStateNoSize) {
   EXPECT_THAT(text_of("/proc/self/status"), HasSubstr("Name:"));
 }
 
-TEST(File, SaysWhyItCannotBeRead) {
+TEST(File, ReportsWhyItCannotBeRead) {
   const TemporaryFolder folder;
   EXPECT_THAT([&] { (void)read_file(folder.path() / "none"); },
               ThrowsMessage<IoError>(HasSubstr("none: cannot read: No such file")));
@@ -51,7 +51,7 @@ TEST(File, SaysWhyItCannotBeRead) {
               ThrowsMessage<IoError>(HasSubstr("Is a directory")));
 }
 
-TEST(File, APipeOrADeviceIsNotWaitedFor) {
+TEST(File, PipesAndDevicesAreNotWaitedFor) {
   const TemporaryFolder folder;
   const auto pipe = folder.path() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -72,7 +72,7 @@ TEST(File, TextsHaveALargestSize) {
               ThrowsMessage<InputError>(HasSubstr("is too large")));
 }
 
-TEST(File, SaysWhyItCannotBeWritten) {
+TEST(File, ReportsWhyItCannotBeWritten) {
   const TemporaryFolder folder;
   EXPECT_THAT([&] { write_file("x", folder.path() / "no" / "where"); },
               ThrowsMessage<IoError>(HasSubstr("No such file or directory")));

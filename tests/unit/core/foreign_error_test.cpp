@@ -17,13 +17,13 @@ using testing::HasSubstr;
 using testing::StartsWith;
 using testing::ThrowsMessage;
 
-TEST(ForeignError, OursGoOnAsTheyAre) {
+TEST(ForeignError, OurErrorsAreUnchanged) {
   EXPECT_EQ(naming("a.txt", [] { return 7; }), 7);
   EXPECT_THAT([] { naming("a.txt", [] { throw NotSupported("no device"); }); },
               ThrowsMessage<NotSupported>("no device"));
 }
 
-TEST(ForeignError, OthersBecomeOursAndNameTheFile) {
+TEST(ForeignError, OtherExceptionsAreConvertedAndNameTheFile) {
   const std::map<int, int> none;
   EXPECT_THAT([&] { (void)naming("a.txt", [&] { return none.at(1); }); },
               ThrowsMessage<InputError>(StartsWith("a.txt: cannot be used (map::at")));
@@ -39,7 +39,7 @@ TEST(ForeignError, AFileSystemErrorNamesItsOwnFile) {
   EXPECT_THAT([&] { naming("", fails); }, ThrowsMessage<IoError>("b.txt: Permission denied"));
 }
 
-TEST(ForeignError, WithoutAFileItIsTheProgramsOwn) {
+TEST(ForeignError, WithoutAFileItIsAnInternalError) {
   EXPECT_THAT([] { naming("", [] { throw std::logic_error("basic_string::replace"); }); },
               ThrowsMessage<Error>(HasSubstr("internal error in Triptych (basic_string")));
 }

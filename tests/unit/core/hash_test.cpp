@@ -20,7 +20,7 @@ TEST(ContentHash, MatchesTheSpecification) {
   EXPECT_EQ(content_hash(std::string_view{}), "99aa06d3014798d86001c324468d497f");
 }
 
-TEST(ContentHash, TellsContentsApart) {
+TEST(ContentHash, DistinguishesContents) {
   const std::string_view text = "the same";
   EXPECT_EQ(content_hash(text), content_hash(std::as_bytes(std::span(text))));
   EXPECT_NE(content_hash("abc"), content_hash("abd"));
@@ -45,7 +45,7 @@ TEST(HashBuilder, IsTheSameEverywhere) {
             "29adb5fd749cbee7e7abf92d5dbcf0bb");
 }
 
-TEST(HashBuilder, TakesTheBytesThatItDocuments) {
+TEST(HashBuilder, HashesTheDocumentedBytes) {
   std::string bytes("\4\0\0\0\0\0\0\0kind", 12);
   bytes += std::string("\x04\x03\x02\x01\0\0\0\0", 8);          // 0x01020304
   bytes += std::string("\xFE\xFF\xFF\xFF\xFF\xFF\xFF\xFF", 8);  // −2
@@ -53,7 +53,7 @@ TEST(HashBuilder, TakesTheBytesThatItDocuments) {
   EXPECT_EQ(HashBuilder("kind").add(0x01020304).add(-2).add(1.5F).hash(), content_hash(bytes));
 }
 
-TEST(HashBuilder, TellsPartsApart) {
+TEST(HashBuilder, DistinguishesParts) {
   EXPECT_NE(HashBuilder("a").add("bc").hash(), HashBuilder("ab").add("c").hash());
   EXPECT_NE(HashBuilder("a").add(0.0).hash(), HashBuilder("a").add(-0.0).hash());
   EXPECT_NE(HashBuilder("a").add(1).hash(), HashBuilder("a").add(1.0).hash());

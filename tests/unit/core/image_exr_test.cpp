@@ -77,7 +77,7 @@ TEST(Exr, FileAndMemoryAgree) {
 }
 
 // The file is read with OpenEXR's own reader, as other programs would do.
-TEST(Exr, IsWhatOtherProgramsExpect) {
+TEST(Exr, CanBeReadByOtherPrograms) {
   const TemporaryFolder folder;
   Image image(3, 2);
   image.rgba[4 * 2 + 1] = 0.25F;  // green in the top right corner
@@ -116,7 +116,7 @@ TEST(Exr, ReadsHalfFloatsAndShiftedWindows) {
   EXPECT_EQ(image.pixel(2, 1), (std::array<float, 4>{0, 0, 0.5F, 0.5F}));
 }
 
-TEST(Exr, SaysWhichChannelIsMissing) {
+TEST(Exr, ReportsTheMissingChannel) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "rgb.exr";
   {
@@ -129,7 +129,7 @@ TEST(Exr, SaysWhichChannelIsMissing) {
               ThrowsMessage<InputError>(AllOf(HasSubstr("rgb.exr: "), HasSubstr("no channel A"))));
 }
 
-TEST(Exr, EveryTruncationIsOneLineOfBadInput) {
+TEST(Exr, EveryTruncationIsReportedInOneLine) {
   const std::vector<std::byte> bytes = encode_exr(noise(19, 40, true));
   for (std::size_t length = 0; length < bytes.size(); length += 1 + length / 50) {
     EXPECT_THAT([&] { (void)decode_exr(std::span(bytes).first(length)); },
@@ -140,7 +140,7 @@ TEST(Exr, EveryTruncationIsOneLineOfBadInput) {
 
 // Whichever byte is wrong, the result must be an image or a typed error, never a crash or an
 // infinite loop.
-TEST(Exr, DamagedBytesNeverEscape) {
+TEST(Exr, DamagedBytesLeadToAnImageOrATypedError) {
   const std::vector<std::byte> bytes = encode_exr(noise(8, 20, false));
   for (std::size_t i = 0; i < std::min<std::size_t>(bytes.size(), 600); ++i) {
     std::vector<std::byte> damaged = bytes;
@@ -153,7 +153,7 @@ TEST(Exr, DamagedBytesNeverEscape) {
 }
 
 // OpenEXR would allocate two gigabytes for a header of some hundred bytes.
-TEST(Exr, AnAttributeBeyondTheFileIsRefusedBeforeMemoryIsAskedFor) {
+TEST(Exr, AnAttributeBeyondTheFileIsRejectedBeforeAllocating) {
   std::vector<std::byte> bytes = encode_exr(noise(8, 20, false));
   const std::string_view name("channels\0chlist", 15);
   const auto* text = reinterpret_cast<const char*>(bytes.data());
@@ -164,7 +164,7 @@ TEST(Exr, AnAttributeBeyondTheFileIsRefusedBeforeMemoryIsAskedFor) {
                                               HasSubstr(fmt::format("at byte {}", size + 4)))));
 }
 
-TEST(Exr, ChannelsThatEndElsewhereThanStatedAreRefused) {
+TEST(Exr, ChannelsWithAWrongEndAreRejected) {
   std::vector<std::byte> bytes = encode_exr(noise(8, 20, false));
   const std::string_view first("A\0\2\0\0\0", 6);
   const auto* text = reinterpret_cast<const char*>(bytes.data());
@@ -174,7 +174,7 @@ TEST(Exr, ChannelsThatEndElsewhereThanStatedAreRefused) {
 }
 
 // For eight million columns, OpenEXR would allocate half a gigabyte for the first rows.
-TEST(Exr, AWindowThatIsTooWideIsRefusedBeforeMemoryIsAskedFor) {
+TEST(Exr, AWindowThatIsTooWideIsRejectedBeforeAllocating) {
   std::vector<std::byte> bytes = encode_exr(noise(8, 20, false));
   const std::string_view name("dataWindow\0box2i", 16);
   const auto* text = reinterpret_cast<const char*>(bytes.data());
@@ -186,7 +186,7 @@ TEST(Exr, AWindowThatIsTooWideIsRefusedBeforeMemoryIsAskedFor) {
               ThrowsMessage<InputError>(AllOf(HasSubstr("wide.exr: "), HasSubstr("65536"))));
 }
 
-TEST(Exr, TellsAbsentFromBroken) {
+TEST(Exr, DistinguishesMissingFromBrokenFiles) {
   const TemporaryFolder folder;
   EXPECT_THROW((void)read_exr(folder.path() / "none.exr"), IoError);
   const auto text = folder.write("text.exr", "this is no image");

@@ -36,7 +36,7 @@ class JsonFileTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(JsonFileTest, MissingFileIsNoError) {
+TEST_F(JsonFileTest, MissingFileIsNotAnError) {
   EXPECT_FALSE(JsonFile::read(folder_.path() / "absent.json").has_value());
 }
 
@@ -103,7 +103,7 @@ TEST(JsonLines, OneValuePerLine) {
   EXPECT_EQ(core::Json::parse(to_lines(value, 1)), value);
 }
 
-TEST(JsonLines, BytesThatAreNoTextDoNotStopTheWriter) {
+TEST(JsonLines, InvalidUtf8DoesNotStopTheWriter) {
   EXPECT_NO_THROW((void)to_lines(core::Json("driver \xff"), 1));
 }
 

@@ -9,7 +9,7 @@
 namespace triptych::core {
 namespace {
 
-TEST(OutputFiles, AreNoneOfThoseThatAreRead) {
+TEST(OutputFiles, MustDifferFromInputFiles) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "a").string();
   const std::string same = (folder.path() / "." / "a").string();
@@ -21,7 +21,7 @@ TEST(OutputFiles, AreNoneOfThoseThatAreRead) {
   EXPECT_NO_THROW(refuse_overwriting({}, {{"--out", "/dev/null"}, {"--json", "/dev/null"}}));
 }
 
-TEST(OutputFiles, MakeTheirFolder) {
+TEST(OutputFiles, CreateTheirFolder) {
   const TemporaryFolder folder;
   write_text(folder.path() / "b/c/d", "text");
   EXPECT_EQ(read_text(folder.path() / "b/c/d"), "text");

@@ -14,7 +14,7 @@
 namespace triptych::core {
 namespace {
 
-TEST(ShellQuoted, LeavesAloneWhatNeedsNoQuotes) {
+TEST(ShellQuoted, LeavesPlainWordsUnchanged) {
   EXPECT_EQ(shell_quoted("data=generate:mandelbulb:96"), "data=generate:mandelbulb:96");
   EXPECT_EQ(shell_quoted(""), "''");
   EXPECT_EQ(shell_quoted("a b"), "'a b'");
@@ -79,7 +79,7 @@ TEST(ShellQuoted, EveryShellReadsTheWordAndRunsNothing) {
 
 // The quoted word must not contain characters that a terminal hides, except line ends at the end of
 // a word.
-TEST(ShellQuoted, HoldsNoHiddenCharacter) {
+TEST(ShellQuoted, ContainsNoHiddenCharacters) {
   for (const std::string& word : hostile_words) {
     if (word.ends_with('\n')) continue;
     EXPECT_TRUE(is_line(shell_quoted(word))) << word;
@@ -101,26 +101,26 @@ TEST(ShellEnvironment, IsReadByEveryShellWhateverTheNames) {
   }
 }
 
-TEST(ShellEnvironment, IsPlainWhereNamesAre) {
+TEST(ShellEnvironment, IsPlainForPlainNames) {
   EXPECT_EQ(shell_environment({}), "");
   EXPECT_EQ(shell_environment({{"A", "1"}, {"B_2", "x y"}}), "A=1 B_2='x y' ");
   EXPECT_EQ(shell_environment({{"A", "1"}, {"B;id", "2"}}), "env A=1 'B;id=2' ");
 }
 
-TEST(Printable, ShowsWhatATerminalWouldObey) {
+TEST(Printable, EscapesControlCharacters) {
   EXPECT_EQ(printable("\x1b[31m\n\t"), "\\x1b[31m\\n\\x09");
   EXPECT_EQ(printable("µ\xff\u0085"), "µ\uFFFD\\u{0085}");
 }
 
 // These characters make a name look like another one: some change the text direction, and others
 // are invisible.
-TEST(Printable, ShowsWhatChangesTheDirectionOfText) {
+TEST(Printable, EscapesDirectionMarks) {
   EXPECT_EQ(printable("\u202Egnp.exe\u2069\u200F"), "\\u{202e}gnp.exe\\u{2069}\\u{200f}");
   EXPECT_EQ(printable("a\u200Bb\uFEFF\U000E0041"), "a\\u{200b}b\\u{feff}\\u{e0041}");
   EXPECT_EQ(printable("\u0645\u200C\u0627"), "\u0645\u200C\u0627");  // joins letters
 }
 
-TEST(Printable, LinesStayLines) {
+TEST(Printable, KeepsLineEnds) {
   EXPECT_EQ(printable_lines("a\nb\x1b\u202E\n"), "a\nb\\x1b\\u{202e}\n");
 }
 

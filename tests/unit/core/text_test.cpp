@@ -9,7 +9,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-TEST(Text, NumbersAreTakenOutByTheWord) {
+TEST(Text, WordsWithDigitsAreReplaced) {
   EXPECT_EQ(without_numbers("3 of 256 pixels: 0x1f, 4ms"), "# of # pixels: #, #");
   EXPECT_EQ(without_numbers(""), "");
   EXPECT_EQ(without_numbers("SIGSEGV in thread llvmpipe-0;"), "SIGSEGV in thread #;");
@@ -25,7 +25,7 @@ TEST(Text, ALineIsUtf8WithoutControlCharacters) {
   }
 }
 
-TEST(Text, WhatIsNoUtf8IsNoLine) {
+TEST(Text, InvalidUtf8IsNotALine) {
   constexpr auto alone = "\x80"sv;
   constexpr auto cut = "a\xe9\xab"sv;
   constexpr auto overlong = "\xc0\xaf"sv;
@@ -36,13 +36,13 @@ TEST(Text, WhatIsNoUtf8IsNoLine) {
   }
 }
 
-TEST(JsonText, HasALetterWhereUtf8IsBroken) {
+TEST(JsonText, ReplacesInvalidUtf8) {
   EXPECT_EQ(json_text(Json{{"a", "x\xff"}}), "{\"a\":\"x\uFFFD\"}");
   EXPECT_EQ(mended_utf8("größe"), "größe");
   EXPECT_EQ(mended_utf8("x\xff"), "x\uFFFD");
 }
 
-TEST(JsonText, ShowsNoHiddenCharacterAndKeepsIt) {
+TEST(JsonText, EscapesHiddenCharacters) {
   const Json json{{"a\u202E", "\x7f\u0085\U000E0041 größe\n"}};
   const std::string text = json_text(json);
   EXPECT_EQ(text, "{\"a\\u202e\":\"\\u007f\\u0085\\udb40\\udc41 größe\\n\"}");

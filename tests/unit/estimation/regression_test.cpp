@@ -47,7 +47,7 @@ Values call_years() {
   return years;
 }
 
-TEST(LeastSquares, GivesAnscombesFourSetsTheSameLine) {
+TEST(LeastSquares, FitsTheSameLineToAnscombesFourSets) {
   for (std::size_t set = 0; set < anscombe_y.size(); ++set) {
     const auto& x = set == 3 ? anscombe_x4 : anscombe_x;
     const LeastSquares fit = least_squares(x, anscombe_y[set]);
@@ -58,7 +58,7 @@ TEST(LeastSquares, GivesAnscombesFourSetsTheSameLine) {
   }
 }
 
-TEST(LeastSquares, FollowsTheGiantsAndTheMinutes) {
+TEST(LeastSquares, IsAffectedByOutliers) {
   // Rousseeuw & Leroy, chapter 2: −0.413 and 6.793 for the stars, 0.504 and −26.01 for the calls.
   const Line stars = least_squares(star_temperature, star_light).line;
   EXPECT_NEAR(stars.slope, -0.413, 0.0005);
@@ -68,7 +68,7 @@ TEST(LeastSquares, FollowsTheGiantsAndTheMinutes) {
   EXPECT_NEAR(phone.intercept, -26.01, 0.005);
 }
 
-TEST(RobustLine, SeesTheMainSequenceOfTheStars) {
+TEST(RobustLine, FollowsTheMainSequenceOfTheStars) {
   // The MM-estimate with the same two bisquare functions, from R's package robustbase for the data
   // set starsCYG.
   const RobustLine fit = robust_line(star_temperature, star_light);
@@ -81,7 +81,7 @@ TEST(RobustLine, SeesTheMainSequenceOfTheStars) {
   }
 }
 
-TEST(RobustLine, SeesTheCallsAndNotTheMinutes) {
+TEST(RobustLine, IgnoresTheYearsInMinutes) {
   // Venables & Ripley (2002), "Modern Applied Statistics with S", section 6.5: the MM-estimates
   // 1.1009 and −52.42 in millions.
   const RobustLine fit = robust_line(call_years(), calls);
@@ -90,7 +90,7 @@ TEST(RobustLine, SeesTheCallsAndNotTheMinutes) {
   for (std::size_t i = 14; i < 20; ++i) EXPECT_EQ(fit.weights[i], 0) << i;
 }
 
-TEST(RobustLine, IsLeastSquaresWhereNothingIsWild) {
+TEST(RobustLine, IsLeastSquaresWithoutOutliers) {
   // Points without a trend.
   Values x;
   Values y;
@@ -119,7 +119,7 @@ TEST(RobustLine, AnExactLineHasNoScale) {
   EXPECT_EQ(fit.weights[0], 1);
 }
 
-TEST(RobustLine, WithstandsWildPointsOfAlmostHalf) {
+TEST(RobustLine, WithstandsAlmostHalfOutliers) {
   Values x;
   Values y;
   for (int i = 0; i < 100; ++i) {
@@ -149,7 +149,7 @@ TEST(Lines, PearsonOfOppositesIsMinusOne) {
   EXPECT_TRUE(std::isnan(pearson_r(x, Values{1, 1, 1, 1})));
 }
 
-TEST(Lines, RefuseWhatHasNoLine) {
+TEST(Lines, RejectDataWithoutALine) {
   EXPECT_THROW((void)robust_line(Values{1, 2, 3}, Values{1, 2, 3}), core::InputError);
   EXPECT_THROW((void)robust_line(Values{1, 1, 1, 1}, Values{1, 2, 3, 4}), core::InputError);
   EXPECT_THROW((void)robust_line(Values{1, 2, 3, NAN}, Values{1, 2, 3, 4}), core::InputError);

@@ -83,7 +83,7 @@ TEST(Statistics, VariancePriorByMoments) {
   EXPECT_NEAR(moderated_variance(prior, variances[0], 7), 0.00038410981263290626, 1e-13);
 }
 
-TEST(Statistics, AlikeVariancesPoolEntirely) {
+TEST(Statistics, EqualVariancesArePooledCompletely) {
   const VariancePrior prior =
       fit_variance_prior(std::array{1.0, 1.1, 0.9, 1.05}, std::array{7.0, 7.0, 7.0, 7.0});
   EXPECT_TRUE(std::isinf(prior.degrees));
@@ -91,12 +91,12 @@ TEST(Statistics, AlikeVariancesPoolEntirely) {
   EXPECT_EQ(moderated_variance(prior, 9, 7), prior.variance);
 }
 
-TEST(Statistics, OneVarianceStandsForItself) {
+TEST(Statistics, OneVarianceIsUnchanged) {
   const VariancePrior prior = fit_variance_prior(std::array{4.0}, std::array{7.0});
   EXPECT_EQ(moderated_variance(prior, 4, 7), 4);
 }
 
-TEST(Statistics, AdjustedPValuesDecideAsTheProcedureDoes) {
+TEST(Statistics, AdjustedPValuesAgreeWithTheProcedure) {
   const std::vector<double> p{0.001, 0.8, 0.012, 0.02, 0.04, 0.5};
   const auto adjusted = benjamini_hochberg_adjusted(p);
   for (const double q : {0.005, 0.01, 0.03, 0.05, 0.07, 0.9}) {

@@ -30,7 +30,7 @@ std::string version_of(const Strings& strings) {
   return driver_version(strings.version, strings.renderer);
 }
 
-TEST(DeviceNames, LayeredDriversAreNamedForThemselves) {
+TEST(DeviceNames, LayeredDriversHaveTheirOwnNames) {
   EXPECT_EQ(name_of(llvmpipe), "llvmpipe");
   EXPECT_EQ(name_of(zink), "zink");
   EXPECT_EQ(name_of(virgl), "virgl");
@@ -38,7 +38,7 @@ TEST(DeviceNames, LayeredDriversAreNamedForThemselves) {
   EXPECT_EQ(driver_name("NVIDIA Corporation", "NVIDIA H200/PCIe/SSE2"), "nvidia");
 }
 
-TEST(DeviceNames, WhatTheyRunOnIsAPartOfTheVersion) {
+TEST(DeviceNames, VersionsIncludeTheDriverBelow) {
   EXPECT_EQ(version_of(llvmpipe), "Mesa 22.3.6 (LLVM 15.0.6)");
   EXPECT_EQ(version_of(zink), "Mesa 25.0.7 on llvmpipe (LLVM 19.1.7, 256 bits) (MESA_LLVMPIPE)");
   EXPECT_EQ(version_of(virgl), "Mesa 22.3.6 on LLVMPIPE (LLVM 15.0.6, 256 bits)");
@@ -46,7 +46,7 @@ TEST(DeviceNames, WhatTheyRunOnIsAPartOfTheVersion) {
             "ANGLE 2.1.1 on NVIDIA, Vulkan 1.3.277 (NVIDIA H200), NVIDIA-580.159");
 }
 
-TEST(DeviceNames, TheProcessorIsFoundBehindALayeredDriver) {
+TEST(DeviceNames, SoftwareRenderersBelowLayeredDriversAreDetected) {
   record::Device device;
   device.driver = "zink";
   device.driver_version = version_of(zink);

@@ -14,18 +14,18 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-TEST(AskInChild, HandsBackWhatTheChildSays) {
+TEST(AskInChild, ReturnsTheAnswerOfTheChild) {
   const std::string long_text(1'000'000, 'x');  // more than fits into a pipe
   const Answer answer = ask_in_child([&] { return long_text; }, 10s);
   EXPECT_EQ(answer.text, long_text);
   EXPECT_EQ(answer.failure, "");
 }
 
-TEST(AskInChild, AnEmptyAnswerIsAnAnswer) {
+TEST(AskInChild, ReturnsAnEmptyAnswer) {
   EXPECT_EQ(ask_in_child([] { return std::string(); }, 10s).failure, "");
 }
 
-TEST(AskInChild, TellsACrashByItsSignal) {
+TEST(AskInChild, ReportsTheSignalOfACrash) {
   const Answer answer = ask_in_child(
       []() -> std::string {
         raise(SIGSEGV);
@@ -36,7 +36,7 @@ TEST(AskInChild, TellsACrashByItsSignal) {
   EXPECT_EQ(answer.text, "");
 }
 
-TEST(AskInChild, EndsAChildThatHangs) {
+TEST(AskInChild, KillsAChildThatHangs) {
   const auto started = std::chrono::steady_clock::now();
   const Answer answer = ask_in_child(
       [] {
@@ -48,13 +48,13 @@ TEST(AskInChild, EndsAChildThatHangs) {
   EXPECT_LT(std::chrono::steady_clock::now() - started, 5s);
 }
 
-TEST(AskInChild, PassesOnWhatWasThrown) {
+TEST(AskInChild, ReportsTheMessageOfAnException) {
   const Answer answer =
       ask_in_child([]() -> std::string { throw std::runtime_error("no such library"); }, 10s);
   EXPECT_EQ(answer.failure, "no such library");
 }
 
-TEST(AskInChild, TellsAChildThatLeaves) {
+TEST(AskInChild, ReportsAChildThatExits) {
   const Answer answer = ask_in_child([]() -> std::string { _exit(7); }, 10s);
   EXPECT_EQ(answer.failure, "ended without an answer");
 }

@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(Library, AMissingOneIsNotSupportedWithTheLoadersReason) {
+TEST(Library, AMissingLibraryIsReportedWithTheLoadersReason) {
   try {
     const Library library{"libtriptych-no-such.so.1", "libtriptych-no-such.so"};
     ADD_FAILURE() << "opened";
@@ -20,12 +20,12 @@ TEST(Library, AMissingOneIsNotSupportedWithTheLoadersReason) {
   }
 }
 
-TEST(Library, TheFirstThatIsThereIsTaken) {
+TEST(Library, TheFirstExistingLibraryIsOpened) {
   const Library library{"libtriptych-no-such.so.1", "libc.so.6"};
   EXPECT_NE(library.find<void (*)()>("malloc"), nullptr);
 }
 
-TEST(Library, AMissingFunctionIsNullOrAReason) {
+TEST(Library, AMissingFunctionIsNullOrAnError) {
   const Library library{"libc.so.6"};
   EXPECT_EQ(library.find<void (*)()>("triptych_no_such_function"), nullptr);
   try {

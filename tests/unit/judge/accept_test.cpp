@@ -79,7 +79,7 @@ TEST_F(AcceptTest, AcceptingTheSameRunAgainChangesNothing) {
   EXPECT_THAT(accept_run("a"), IsEmpty());
 }
 
-TEST_F(AcceptTest, OnlyWhatIsAskedForIsReplaced) {
+TEST_F(AcceptTest, OnlySelectedValuesAreReplaced) {
   add_run("a");
   (void)accept_run("a");
   add_run("b", [](record::Record& record, core::Image&) { record.counters["samples"] = 7; });
@@ -89,7 +89,7 @@ TEST_F(AcceptTest, OnlyWhatIsAskedForIsReplaced) {
   EXPECT_EQ(counters[plain_]["samples"]["opencl:pocl"], 1000000);
 }
 
-TEST_F(AcceptTest, WhatThePlanNoLongerHoldsIsDropped) {
+TEST_F(AcceptTest, ConfigurationsRemovedFromThePlanAreDropped) {
   add_run("a");
   (void)accept_run("a");
   store_.add_run({"b", plan, "2026-02-02T00:00:00Z", {}});
@@ -108,7 +108,7 @@ TEST_F(AcceptTest, WhatThePlanNoLongerHoldsIsDropped) {
 
 // Values of configurations that are skipped now are dropped only on request, because a skip may be
 // temporary.
-TEST_F(AcceptTest, WhatADeviceSkipsNowIsDropped) {
+TEST_F(AcceptTest, SkippedConfigurationsAreDroppedOnRequest) {
   accept_first([](record::Record& record, core::Image&) { record.memory = {{"buffers", 9}}; });
   const auto timings = device_file("timings", "opencl");
   add_run("b", [&](record::Record& record, core::Image&) {
@@ -132,7 +132,7 @@ TEST_F(AcceptTest, WhatADeviceSkipsNowIsDropped) {
 
 // With `drop`, accepting removes only the values of configurations that are skipped now. All other
 // values in these files remain as they were accepted last; they are not reset to an earlier state.
-TEST_F(AcceptTest, DroppingKeepsWhatIsAcceptedBesides) {
+TEST_F(AcceptTest, DroppingKeepsOtherAcceptedValues) {
   add_run("b", [&](record::Record& record, core::Image&) {
     record.counters["samples"] = 7;
     const bool skips = record.device == "opencl:pocl" && record.configuration == plain_;
@@ -154,7 +154,7 @@ TEST_F(AcceptTest, DroppingKeepsWhatIsAcceptedBesides) {
 
 // A run of a single device replaces the data hash for that device's voxel format. The hashes for
 // other formats remain.
-TEST_F(AcceptTest, DataOfOtherFormatsKeepsItsHash) {
+TEST_F(AcceptTest, HashesForOtherVoxelFormatsAreKept) {
   const auto with_formats = [](record::Record& record, core::Image&) {
     record.factors["voxel"] = record.device == "vulkan:lavapipe" ? "f32" : "u8";
     record.data_hash = record.factors["voxel"];
@@ -170,7 +170,7 @@ TEST_F(AcceptTest, DataOfOtherFormatsKeepsItsHash) {
   EXPECT_EQ(read(baseline("images.json")), before);
 }
 
-TEST_F(AcceptTest, OtherDevicesKeepWhatTheyHad) {
+TEST_F(AcceptTest, ValuesOfOtherDevicesAreKept) {
   add_run("a");
   (void)accept_run("a");
   add_run("b", [](record::Record& record, core::Image&) {
@@ -183,7 +183,7 @@ TEST_F(AcceptTest, OtherDevicesKeepWhatTheyHad) {
   EXPECT_EQ(samples["gl:llvmpipe-egl"], 1000000);
 }
 
-TEST_F(AcceptTest, ACounterThatIsNoLongerToldIsDropped) {
+TEST_F(AcceptTest, ACounterThatIsNoLongerReportedIsDropped) {
   add_run("a");
   (void)accept_run("a");
   add_run("b", [](record::Record& record, core::Image&) {
@@ -197,7 +197,7 @@ TEST_F(AcceptTest, ACounterThatIsNoLongerToldIsDropped) {
   EXPECT_TRUE(counters["rays"].contains("vulkan:lavapipe"));
 }
 
-TEST_F(AcceptTest, TheTimesAreOfOneRun) {
+TEST_F(AcceptTest, TimesComeFromOneRun) {
   accept_first();
   const auto median = [&](const char* api) {
     return read(device_file("timings", api))["configurations"][plain_]["median_ns"].get<double>();
@@ -214,7 +214,7 @@ TEST_F(AcceptTest, TheTimesAreOfOneRun) {
 }
 
 // The plan's checks decide whether images and times are stored; its name does not matter.
-TEST_F(AcceptTest, PicturesAndTimesAreKeptOfPlansThatCheckThem) {
+TEST_F(AcceptTest, ImagesAndTimesAreStoredIfThePlanChecksThem) {
   checks_ = {Check::image, Check::timing};
   accept_first();
   EXPECT_TRUE(std::filesystem::exists(baseline("images")));
@@ -232,7 +232,7 @@ TEST_F(AcceptTest, PicturesAndTimesAreKeptOfPlansThatCheckThem) {
   EXPECT_EQ(read(baseline("images.json"))[front_]["reference"].size(), 2U);
 }
 
-TEST_F(AcceptTest, CostIsOfOneEmulator) {
+TEST_F(AcceptTest, CostsFromTwoEmulatorsAreRejected) {
   const auto counted_by = [](const std::string& emulator) {
     return [emulator](record::Record& record, core::Image&) {
       record.cost = {{"device_code", 700}, {"driver", 300}, {"libc", 55}, {"allocations", 4}};
@@ -260,7 +260,7 @@ TEST_F(AcceptTest, CostIsOfOneEmulator) {
   EXPECT_THROW((void)accept_run("mixed"), core::InputError);
 }
 
-TEST_F(AcceptTest, MemoryIsKeptByDevice) {
+TEST_F(AcceptTest, MemoryIsStoredPerDevice) {
   accept_first([](record::Record& record, core::Image&) {
     if (record.device != "opencl:pocl") record.memory = {{"buffers", 4096}};
   });
@@ -273,7 +273,7 @@ TEST_F(AcceptTest, MemoryIsKeptByDevice) {
   EXPECT_EQ(read(baseline("memory.json"))[plain_].size(), 1U) << "one device no longer reports it";
 }
 
-TEST_F(AcceptTest, DataThatChangedSinceTheRunAreRefused) {
+TEST_F(AcceptTest, DataThatChangedSinceTheRunAreRejected) {
   add_run("a", [](record::Record& record, core::Image&) { record.data_hash = "0a0a"; });
   const auto now = [](const std::string& hash) {
     return AcceptRequest{.data_hash = [hash](const record::Record&) { return hash; }};
@@ -289,7 +289,7 @@ TEST_F(AcceptTest, DataThatChangedSinceTheRunAreRefused) {
   EXPECT_EQ(read(baseline("images.json"))[front_]["data"], "0a0a");
 }
 
-TEST_F(AcceptTest, RefusesWhatIsNoBaseline) {
+TEST_F(AcceptTest, RejectsUnsuitableRuns) {
   add_run("injected", [](record::Record& record, core::Image&) {
     if (record.configuration == bricks_) record.injected = "slowdown:20";
   });
@@ -308,7 +308,7 @@ TEST_F(AcceptTest, RefusesWhatIsNoBaseline) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "baselines"));
 }
 
-TEST_F(AcceptTest, WhatIsNotAsItWasAcceptedIsNotBuiltUpon) {
+TEST_F(AcceptTest, DamagedBaselinesAreNotExtended) {
   accept_first();
   const auto file = device_file("timings", "vulkan");
   core::write_file(std::string_view("<<<<<<< ours\n"), file);
@@ -388,7 +388,7 @@ TEST_F(WholeAcceptTest, AnErrorWhileWritingChangesNothing) {
   EXPECT_EQ(everything(), before);
 }
 
-TEST_F(WholeAcceptTest, OneAtATime) {
+TEST_F(WholeAcceptTest, OnlyOneAcceptRunsAtATime) {
   accept_first();
   add_changed_run();
   const auto meanwhile = [&](const std::string& file) {

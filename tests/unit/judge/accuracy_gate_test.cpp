@@ -94,7 +94,7 @@ class AccuracyGateTest : public JudgeTest {
   std::map<std::string, accuracy::LimitPicture> limits_;
 };
 
-TEST_F(AccuracyGateTest, SplitsTheErrorByTheTruthOnTheLattice) {
+TEST_F(AccuracyGateTest, SplitsTheErrorWithTheReferenceImage) {
   const core::Image truth = truth_of(front_);
   const auto error = accuracy::picture_error(shifted(truth, 0.25F), truth, shifted(truth, 0.75F));
   ASSERT_TRUE(error);
@@ -124,7 +124,7 @@ TEST_F(AccuracyGateTest, AcceptedErrorsPass) {
 
 // Times are those of the device clock only if the clock is trusted for all work that the device
 // did.
-TEST_F(AccuracyGateTest, TimesOfADeviceAreOfOneClock) {
+TEST_F(AccuracyGateTest, TimesOfADeviceComeFromOneClock) {
   const auto timed = [](bool all) {
     return [all](record::Record& record, core::Image&) {
       record.wall_ns = {5e6};
@@ -166,14 +166,14 @@ TEST_F(AccuracyGateTest, ASmallerErrorPasses) {
   EXPECT_TRUE(with(gate("b"), Verdict::regression, Check::accuracy).empty());
 }
 
-TEST_F(AccuracyGateTest, WithoutAStoredErrorNothingIsDecided) {
+TEST_F(AccuracyGateTest, WithoutAStoredErrorThereIsNoVerdict) {
   add_run("a");
   (void)accept_run("a");
   EXPECT_EQ(with(gate("a"), Verdict::cannot_judge, Check::accuracy).size(), 12U);
 }
 
 // A device that was never accepted may have as large an error as the worst accepted device.
-TEST_F(AccuracyGateTest, AnotherDeviceIsHeldToTheWorstOfTheAccepted) {
+TEST_F(AccuracyGateTest, ANewDeviceIsComparedWithTheWorstAcceptedError) {
   add_run("a");
   accept_with_errors("a");
   std::string stored;
@@ -194,7 +194,7 @@ TEST_F(AccuracyGateTest, AnotherDeviceIsHeldToTheWorstOfTheAccepted) {
 
 // If the order falls to 1.95, the error of the finest step grows by 15 %. That alone would be
 // within the accepted rounding.
-TEST_F(AccuracyGateTest, AnOrderThatFellIsARegression) {
+TEST_F(AccuracyGateTest, ALowerOrderIsARegression) {
   request_.truth = [this](const record::Record& record) {
     const core::Image truth = nearer_truth(record);
     return TruthPair{.truth = truth, .bound = truth};
@@ -226,7 +226,7 @@ TEST_F(AccuracyGateTest, AnOrderThatFellIsARegression) {
 }
 
 // If one configuration cannot be judged, the verdicts on all others remain.
-TEST_F(AccuracyGateTest, WhatCannotBeLookedAtIsTold) {
+TEST_F(AccuracyGateTest, ConfigurationsThatCannotBeJudgedAreReported) {
   add_run("a");
   accept_with_errors("a");
   const std::size_t all = with(gate("a"), Verdict::pass).size();
@@ -259,7 +259,7 @@ TEST_F(AccuracyGateTest, WhatCannotBeLookedAtIsTold) {
   EXPECT_EQ(undecided("a"), Cause::no_limit_any_more);
 }
 
-TEST_F(AccuracyGateTest, APlanWithoutLimitsIsNotPassed) {
+TEST_F(AccuracyGateTest, APlanWithoutLimitsDoesNotPass) {
   add_run("a");
   (void)accept_run("a");
   request_.limit = nullptr;
@@ -267,7 +267,7 @@ TEST_F(AccuracyGateTest, APlanWithoutLimitsIsNotPassed) {
   EXPECT_EQ(gate("a").exit_code(), core::ExitCode::cannot_judge) << text(gate("a"));
 }
 
-TEST_F(AccuracyGateTest, OnlyAnAccuracyPlanIsJudgedUnasked) {
+TEST_F(AccuracyGateTest, OnlyAccuracyPlansAreJudgedByDefault) {
   add_run("a");
   accept_with_errors("a");
   GateRequest unasked = request_;

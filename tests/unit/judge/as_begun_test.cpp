@@ -61,14 +61,14 @@ class AsBegunTest : public GateTest {
                                            "camera=side,data=ball,skip=bricks,technique=raycast"};
 };
 
-TEST_F(AsBegunTest, AWholeRunPasses) {
+TEST_F(AsBegunTest, ACompleteRunPasses) {
   accept_begun();
   add_begun("run");
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::pass) << text(gate("run"));
 }
 
 // The run was interrupted after the first device had been completed.
-TEST_F(AsBegunTest, ADeviceThatWasNotReachedIsNamed) {
+TEST_F(AsBegunTest, ADeviceThatWasNotReachedIsReported) {
   accept_begun();
   add_begun("run");
   delete_rows("DELETE FROM record WHERE run = 'run' AND device <> 'gl:llvmpipe-egl'");
@@ -79,7 +79,7 @@ TEST_F(AsBegunTest, ADeviceThatWasNotReachedIsNamed) {
                                                StartsWith("vulkan:lavapipe missing " + bricks_)}));
 }
 
-TEST_F(AsBegunTest, AConfigurationThatWasNotReachedIsNamedWithoutThePlan) {
+TEST_F(AsBegunTest, AConfigurationThatWasNotReachedIsReportedWithoutThePlan) {
   accept_begun();
   add_begun("run");
   request_.part = true;  // so that accepted configurations do not count as missing
@@ -87,14 +87,14 @@ TEST_F(AsBegunTest, AConfigurationThatWasNotReachedIsNamedWithoutThePlan) {
   EXPECT_THAT(undecided(gate("run")), Contains("opencl:pocl missing " + plain_));
 }
 
-TEST_F(AsBegunTest, ALostDescriptionOfADeviceIsNamed) {
+TEST_F(AsBegunTest, ALostDeviceDescriptionIsReported) {
   accept_begun();
   add_begun("run");
   delete_rows("DELETE FROM device WHERE run = 'run' AND id = 'opencl:pocl'");
   EXPECT_THAT(undecided(gate("run")), Contains(StartsWith("opencl:pocl no_description")));
 }
 
-TEST_F(AsBegunTest, WhatARunSetOutToDoCannotBeMadeLess) {
+TEST_F(AsBegunTest, ShorteningTheListOfPlannedConfigurationsIsDetected) {
   add_begun("run");
   delete_rows("DELETE FROM planned WHERE run = 'run' AND configuration = '" + plain_ + "'");
   EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
@@ -109,7 +109,7 @@ TEST_F(AsBegunTest, ARunThatWasCutShortIsNotAccepted) {
   EXPECT_NO_THROW(static_cast<void>(accept_run("run", {.drop = true})));
 }
 
-TEST_F(AsBegunTest, TheReasonIsGivenWhyARequiredDeviceWasNotMeasured) {
+TEST_F(AsBegunTest, TheReasonForAnUnmeasuredRequiredDeviceIsReported) {
   accept_begun();
   const std::string package = "install the package mesa-drm-shim";
   const record::Reason aborted{.cause = record::Cause::signal, .numbers = {{"signal", 6}}};
@@ -155,7 +155,7 @@ TEST_F(AsBegunTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
 
 // Devices do not count as missing if the machine has none of the accepted driver versions, or if
 // the run requested only some devices.
-TEST_F(AsBegunTest, OtherMachinesLackNothing) {
+TEST_F(AsBegunTest, OtherMachinesNeedNotHaveTheDevice) {
   accept_begun();
   const record::Beginning asked{
       .asked = {"vulkan:*"}, .found = {all_devices[2]}, .devices = {all_devices[2]}};
@@ -171,7 +171,7 @@ TEST_F(AsBegunTest, OtherMachinesLackNothing) {
   EXPECT_THAT(undecided(gate("newer")), testing::Not(Contains(HasSubstr("device_missing"))));
 }
 
-TEST_F(AsBegunTest, AListingThatEndedCannotBeJudgedAndIsShown) {
+TEST_F(AsBegunTest, AFailedListingCannotBeJudgedAndIsShown) {
   accept_begun();
   const record::Unusable crashed{"vulkan", "", record::Reason{.cause = record::Cause::signal}};
   const record::Unusable refused{"OpenCL platform X", "it lists no device", {}};
@@ -252,7 +252,7 @@ TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
 
 // If a configuration were lost from counters.json, nobody would notice that it is also missing from
 // a run.
-TEST_F(AsBegunTest, ALostConfigurationOfTheBaselinesIsNoticed) {
+TEST_F(AsBegunTest, AConfigurationLostFromTheBaselinesIsReported) {
   accept_begun();
   core::Json counters = core::Json::parse(folder_.read(baseline("counters.json")));
   counters.erase(plain_);
@@ -263,7 +263,7 @@ TEST_F(AsBegunTest, ALostConfigurationOfTheBaselinesIsNoticed) {
 
 // If a later run failed before it began, the latest run in the store is an older one. The fixture's
 // runs began on 2026-02-01.
-TEST_F(AsBegunTest, AnOldRunIsNamedWithItsDay) {
+TEST_F(AsBegunTest, AnOldRunIsReportedWithItsDate) {
   add_begun("run");
   for (const auto& [today, began] : {std::pair{"2026-02-01", ""},
                                      {"2026-02-02", ""},
@@ -284,7 +284,7 @@ TEST_F(AsBegunTest, EveryProgramThatMeasuredIsCompared) {
   EXPECT_EQ(gate("run").measured_by, "1, commit a; judged by 1, commit b");
 }
 
-TEST_F(AsBegunTest, AWaiverOfEverythingIsRefused) {
+TEST_F(AsBegunTest, AWaiverThatMatchesEverythingIsRejected) {
   accept_begun();
   add_begun("run");
   for (const char* glob : {"*", "**", "?*"}) {

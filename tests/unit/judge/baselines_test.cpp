@@ -44,13 +44,13 @@ class BaselinesTest : public JudgeTest {
   }
 };
 
-TEST_F(BaselinesTest, AsAcceptedTheyPass) {
+TEST_F(BaselinesTest, UnchangedFilesPass) {
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
   // The plan's files, and the files in the folders for images, cost, times and statistics.
   EXPECT_GE(names().size(), 4U + 2 + 3 + 3 + 2);
 }
 
-TEST_F(BaselinesTest, EveryFileThatIsGoneIsNamed) {
+TEST_F(BaselinesTest, EveryMissingFileIsReported) {
   for (const std::string& name : names()) {
     const std::string kept = folder_.read(baseline(name));
     std::filesystem::remove(baseline(name));
@@ -59,7 +59,7 @@ TEST_F(BaselinesTest, EveryFileThatIsGoneIsNamed) {
   }
 }
 
-TEST_F(BaselinesTest, EveryFileThatIsEmptiedIsNamed) {
+TEST_F(BaselinesTest, EveryEmptiedFileIsReported) {
   for (const std::string& name : names()) {
     const std::string kept = folder_.read(baseline(name));
     core::write_file(std::string_view("{}"), baseline(name));
@@ -68,7 +68,7 @@ TEST_F(BaselinesTest, EveryFileThatIsEmptiedIsNamed) {
   }
 }
 
-TEST_F(BaselinesTest, AFileThatWasNotAcceptedIsNamed) {
+TEST_F(BaselinesTest, AFileThatWasNotAcceptedIsReported) {
   core::write_file(std::string_view("{}"), baseline("timings/other.json"));
   EXPECT_THAT(verdict(), HasSubstr("timings/other.json does not belong to the baselines"));
 }
@@ -78,7 +78,7 @@ TEST_F(BaselinesTest, WithoutAManifestNothingIsJudged) {
   EXPECT_THAT(verdict(), HasSubstr("manifest.json is missing"));
 }
 
-TEST_F(BaselinesTest, ABrokenManifestIsNamedWithItsLine) {
+TEST_F(BaselinesTest, ABrokenManifestIsReportedWithItsLine) {
   core::write_file(std::string_view("{\n \"files\": {},\n \"files\": {}\n}\n"),
                    baseline("manifest.json"));
   EXPECT_THAT(verdict(), HasSubstr("manifest.json:3:"));
@@ -98,7 +98,7 @@ TEST_F(BaselinesTest, AWrongValueIsAnErrorWithItsLine) {
   }
 }
 
-TEST_F(BaselinesTest, APictureIsStillJudgedWithoutThem) {
+TEST_F(BaselinesTest, ImagesAreStillJudgedWithoutBaselines) {
   std::filesystem::remove(baseline("counters.json"));
   add_run("b", [](record::Record&, core::Image& image) { image.rgba[5] += 0.5F; });
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
@@ -106,7 +106,7 @@ TEST_F(BaselinesTest, APictureIsStillJudgedWithoutThem) {
 
 // Checks the baselines in Triptych's own repository, which a careless merge of two branches could
 // damage.
-TEST(OurBaselines, AreWhole) {
+TEST(OurBaselines, AreComplete) {
   const std::filesystem::path root = std::filesystem::path(TRIPTYCH_SOURCE_FOLDER) / "baselines";
   int plans = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
@@ -119,7 +119,7 @@ TEST(OurBaselines, AreWhole) {
 }
 
 // If a stored error were NaN or infinite, any error would be within it.
-TEST_F(BaselinesTest, NumbersThatAreNoneAreRefused) {
+TEST_F(BaselinesTest, NumbersThatAreNotFiniteAreRejected) {
   for (const char* number : {"NaN", "nan", "1e999", "-1", "null", "\"0.1\""}) {
     rewrite("accuracy.json", fmt::format(R"({{"{}": {{"gl:x": {{"rmse": {}, "arithmetic": 0}}}}}})",
                                          plain_, number));

@@ -41,7 +41,7 @@ class CalibrationGateTest : public JudgeTest {
 
 // The driver reports a different number for the same image each time, so the number is not compared
 // with a stored one.
-TEST_F(CalibrationGateTest, WhatIsUnsteadyIsNotHeldToWhatIsStored) {
+TEST_F(CalibrationGateTest, UnsteadyStatisticsAreNotCompared) {
   const auto verdict_of = [&](const std::string& run, Worth worth) {
     calibrations_["vulkan:lavapipe"] = {{"fragment_invocations", {.worth = worth}}};
     add_run(run, [](record::Record& record, core::Image&) {
@@ -58,7 +58,7 @@ TEST_F(CalibrationGateTest, WhatIsUnsteadyIsNotHeldToWhatIsStored) {
   EXPECT_EQ(verdict_of("c", Worth::exact), core::ExitCode::regression);
 }
 
-TEST_F(CalibrationGateTest, WhatBothCountExactlyIsCompared) {
+TEST_F(CalibrationGateTest, ExactStatisticsAreCompared) {
   const Finding finding = advice(exact, exact);
   const Change change = change_of(finding, "compute_invocations");
   EXPECT_EQ(change.now, 49);
@@ -66,34 +66,34 @@ TEST_F(CalibrationGateTest, WhatBothCountExactlyIsCompared) {
   EXPECT_THAT(finding.names, testing::IsEmpty());
 }
 
-TEST_F(CalibrationGateTest, WhatThisDriverCountsOtherwiseIsNotCompared) {
+TEST_F(CalibrationGateTest, StatisticsThatThisDriverCountsDifferentlyAreNotCompared) {
   const Finding finding = advice(exact, doubled);
   EXPECT_THAT(finding.changes, testing::IsEmpty());
   EXPECT_EQ(finding.number("compared"), 0);
   EXPECT_THAT(finding.names, testing::ElementsAre("compute_invocations: proportional"));
 }
 
-TEST_F(CalibrationGateTest, WhatTheStoredDriverCountsOtherwiseIsNotCompared) {
+TEST_F(CalibrationGateTest, StatisticsThatTheStoredDriverCountsDifferentlyAreNotCompared) {
   const Finding finding = advice(doubled, exact);
   EXPECT_THAT(finding.changes, testing::IsEmpty());
   EXPECT_THAT(finding.names,
               testing::ElementsAre(testing::StartsWith("compute_invocations on gl-llvmpipe-egl")));
 }
 
-TEST_F(CalibrationGateTest, WhatNoSceneShowedIsNotCompared) {
+TEST_F(CalibrationGateTest, UncalibratedStatisticsAreNotCompared) {
   EXPECT_THAT(advice(exact, {{"vertex_invocations", {}}}).names,
               testing::ElementsAre("compute_invocations: not_calibrated"));
 }
 
-TEST_F(CalibrationGateTest, ADriverWithoutACalibrationIsComparedAsItIs) {
+TEST_F(CalibrationGateTest, ADriverWithoutACalibrationIsComparedDirectly) {
   EXPECT_EQ(change_of(advice({}, exact), "compute_invocations").now, 49);
 }
 
-TEST_F(CalibrationGateTest, ARunWithoutACalibrationStillHeedsTheStoredOne) {
+TEST_F(CalibrationGateTest, ARunWithoutACalibrationUsesTheStoredOne) {
   EXPECT_THAT(advice(doubled, {}).names, testing::SizeIs(1));
 }
 
-TEST_F(CalibrationGateTest, ARunThatDidNotLookKeepsTheStoredCalibration) {
+TEST_F(CalibrationGateTest, ARunWithoutCalibrationKeepsTheStoredOne) {
   calibrations_["gl:llvmpipe-egl"] = exact;
   add_run("a");
   (void)accept_run("a");
@@ -107,7 +107,7 @@ TEST_F(CalibrationGateTest, ARunThatDidNotLookKeepsTheStoredCalibration) {
 }
 
 // A run of a part of a plan need not contain all statistics.
-TEST_F(CalibrationGateTest, ARunThatLookedAtSomeKeepsWhatIsStoredOfTheOthers) {
+TEST_F(CalibrationGateTest, APartialCalibrationKeepsTheOtherStatistics) {
   calibrations_["gl:llvmpipe-egl"] = {{"compute_invocations", {}}, {"fragment_invocations", {}}};
   add_run("a");
   (void)accept_run("a");

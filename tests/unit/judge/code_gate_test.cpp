@@ -39,7 +39,7 @@ TEST(CodeChange, NothingChanged) {
   EXPECT_EQ(direction_of({}), CodeDirection::same);
 }
 
-TEST(CodeChange, EachStatisticHasItsDirection) {
+TEST(CodeChange, TheStatisticDeterminesWhatIsWorse) {
   EXPECT_EQ(direction_of({{"Instructions", 658}}), CodeDirection::worse);
   EXPECT_EQ(direction_of({{"Instructions", 656}}), CodeDirection::better);
   EXPECT_EQ(direction_of({{"Subgroups per SIMD", 12}}), CodeDirection::worse);
@@ -48,12 +48,12 @@ TEST(CodeChange, EachStatisticHasItsDirection) {
 }
 
 // Using more registers matters only if it reduces the occupancy.
-TEST(CodeChange, RegistersAndUnknownStatisticsDecideNothing) {
+TEST(CodeChange, RegistersAndUnknownStatisticsDoNotAffectTheVerdict) {
   EXPECT_EQ(direction_of({{"VGPRs", 88}}), CodeDirection::other);
   EXPECT_EQ(direction_of({{"Something new", 6}}), CodeDirection::other);
 }
 
-TEST(CodeChange, TheInverseThroughputNamesTheDirectionOfAMixedChange) {
+TEST(CodeChange, TheInverseThroughputDecidesAMixedChange) {
   EXPECT_EQ(direction_of({{"Instructions", 700}, {"Inverse Throughput", 6000}}),
             CodeDirection::better);
   EXPECT_EQ(direction_of({{"Instructions", 600}, {"Inverse Throughput", 7000}}),
@@ -80,14 +80,14 @@ TEST(CodeChange, TheCodeSizeDecidesIfInstructionsAreNotReported) {
             CodeDirection::other);
 }
 
-TEST(CodeChange, WhatOnlyOneReportsIsMissingAndNotZero) {
+TEST(CodeChange, AMissingStatisticIsNotZero) {
   Code without = as_compiled;
   without.at("raycast.comp").statistics.erase("Instructions");
   EXPECT_TRUE(compare_code(as_compiled, without).changes.empty());
   EXPECT_TRUE(compare_code(without, as_compiled).changes.empty());
 }
 
-TEST(CodeTotals, AreThoseThatMesasDevelopersQuote) {
+TEST(CodeTotals, MatchTheTotalsThatMesaDevelopersUse) {
   CodeTotals totals;
   totals.add("a", as_compiled, with_changes({{"Instructions", 647}}));
   totals.add("b", as_compiled, with_changes({{"Instructions", 660}}));
@@ -103,7 +103,7 @@ TEST(CodeTotals, AreThoseThatMesasDevelopersQuote) {
   EXPECT_EQ(totals.changed(), 2U);
 }
 
-TEST(CodeTotals, FewerWavesHurt) {
+TEST(CodeTotals, FewerWavesAreWorse) {
   CodeTotals totals;
   totals.add("a", as_compiled, with_changes({{"Subgroups per SIMD", 12}}));
   const CodeTotal& waves = totals.totals().at("MaxWaves");
@@ -176,7 +176,7 @@ TEST_F(CodeGateTest, OtherPartsCannotBeCompared) {
 }
 
 // The compiler crashes, or it rejects a shader that it used to accept.
-TEST_F(CodeGateTest, WhatNoLongerCompilesIsARegression) {
+TEST_F(CodeGateTest, AFailureToCompileIsARegression) {
   const GateResult result = judge(compiled([](record::Record& record) {
     if (record.device != "vulkan:lavapipe" || record.configuration != plain_) return;
     record.code.clear();
@@ -185,7 +185,7 @@ TEST_F(CodeGateTest, WhatNoLongerCompilesIsARegression) {
   EXPECT_EQ(result.exit_code(), ExitCode::regression) << text(result);
 }
 
-TEST_F(CodeGateTest, AnotherDriverVersionIsToldInTotals) {
+TEST_F(CodeGateTest, AnotherDriverVersionIsReportedInTotals) {
   accept_first(compiled());
   for (const char* id : {"gl:llvmpipe-egl", "opencl:pocl", "vulkan:lavapipe"}) {
     driver_versions_[id] = "25.0.7";
@@ -202,7 +202,7 @@ TEST_F(CodeGateTest, AnotherDriverVersionIsToldInTotals) {
 
 // A machine need not have a compiler for every GPU family. But if the driver is installed and lacks
 // an accepted family, the driver must have lost it.
-TEST_F(CodeGateTest, AFamilyIsMissedOnlyIfItsDriverIsThere) {
+TEST_F(CodeGateTest, AMissingFamilyIsReportedOnlyIfItsDriverExists) {
   const std::vector<std::string> others{"opencl:pocl", "vulkan:lavapipe"};
   const std::vector<std::string> configurations{
       plain_, bricks_, "camera=side,data=ball,technique=raycast",

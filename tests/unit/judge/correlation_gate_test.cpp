@@ -30,7 +30,7 @@ std::size_t count(const CorrelationFindings& result, Verdict verdict) {
   return static_cast<std::size_t>(std::ranges::count(result.findings, verdict, &Finding::verdict));
 }
 
-TEST(AcceptedDevices, JitterWithinTheBoundsIsNothing) {
+TEST(AcceptedDevices, JitterWithinTheBoundsIsIgnored) {
   for (std::uint64_t trial = 0; trial < 300; ++trial) {
     CorrelationWorld world(trial);
     for (const char* id : {lavapipe, llvmpipe, pocl}) world.add_device(id, true);
@@ -41,14 +41,14 @@ TEST(AcceptedDevices, JitterWithinTheBoundsIsNothing) {
 }
 
 // Shows that the previous test can fail: jitter beyond its bound must be reported.
-TEST(AcceptedDevices, JitterBeyondTheBoundIsTold) {
+TEST(AcceptedDevices, JitterBeyondTheBoundIsReported) {
   CorrelationWorld world(1);
   world.add_device(lavapipe, true);
   world.add_device(llvmpipe, true, 0.02, {}, on_configuration(chosen, 1.01));
   EXPECT_EQ(named(world.judge()).size(), 1U) << text(world.judge());
 }
 
-TEST(AcceptedDevices, HalfAPercentOfOneConfigurationIsNamedFirst) {
+TEST(AcceptedDevices, HalfAPercentOfOneConfigurationIsReportedFirst) {
   for (std::uint64_t trial = 0; trial < 34; ++trial) {
     for (const char* id : {lavapipe, llvmpipe, pocl}) {
       CorrelationWorld world(trial);
@@ -96,7 +96,7 @@ TEST(AcceptedDevices, AQuarterPercentOfALevelIsOneFinding) {
   }
 }
 
-TEST(AcceptedDevices, EverythingIsSaidOnceAndWhatStandsOutBeside) {
+TEST(AcceptedDevices, AGeneralChangeIsReportedOnceBesideOutliers) {
   CorrelationWorld world(5);
   const auto injected = [](const record::Record& r) {
     return r.configuration == chosen ? 1.2 : 1.02;
@@ -123,7 +123,7 @@ TEST(AcceptedDevices, LessIsAnImprovement) {
 
 // If a change of the program affects both devices equally, it does not change their residual. The
 // check of cost finds it instead.
-TEST(AcceptedDevices, WhatBothChangedAlikeLeavesTheResidual) {
+TEST(AcceptedDevices, EqualChangesLeaveTheResidualUnchanged) {
   CorrelationWorld world(7);
   world.add_device(lavapipe, true, 0.02, {}, on_configuration(chosen, 1.5));
   world.add_device(llvmpipe, true, 0.02, {}, on_configuration(chosen, 1.5));
@@ -131,7 +131,7 @@ TEST(AcceptedDevices, WhatBothChangedAlikeLeavesTheResidual) {
 }
 
 // If a run measured only one device, this device is compared with the stored costs of the others.
-TEST(AcceptedDevices, OneAloneIsHeldAgainstWhatIsStored) {
+TEST(AcceptedDevices, ASingleDeviceIsComparedWithStoredCosts) {
   CorrelationWorld world(8);
   world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.01));
   world.add_device(llvmpipe, true);
@@ -202,7 +202,7 @@ TEST(NewDevice, NothingInjected) {
   EXPECT_LE(trials.wrong, 10);
 }
 
-TEST(NewDevice, WhatDoesNotCorrelateIsRefused) {
+TEST(NewDevice, UncorrelatedCostsAreRejected) {
   CorrelationWorld world(10);
   world.add_device(lavapipe, true, 0);
   world.add_device(llvmpipe, false, 1);
@@ -213,7 +213,7 @@ TEST(NewDevice, WhatDoesNotCorrelateIsRefused) {
 }
 
 // If two devices were accepted, the one whose costs scatter less around the line is used.
-TEST(NewDevice, TheNearestJudges) {
+TEST(NewDevice, IsComparedWithTheDeviceOfLeastScatter) {
   CorrelationWorld world(11);
   world.add_device(lavapipe, true, 0.1);
   world.add_device(pocl, true, 0.01);
@@ -263,7 +263,7 @@ TEST(Pairs, ByCostAndByTimeWithTheirOutliers) {
   EXPECT_EQ(json.at("points").size(), 96U);
 }
 
-TEST(Pairs, WithoutCostADeviceIsLeftOut) {
+TEST(Pairs, ADeviceWithoutCostIsOmitted) {
   CorrelationWorld world(14);
   world.with_times = true;
   world.add_device(lavapipe, true);

@@ -26,7 +26,7 @@ CorrelationLine line_of(CorrelationPair pair) {
   return pair.line;
 }
 
-TEST(FitLine, IsWhatItIsFittedTo) {
+TEST(FitLine, RecoversAKnownLine) {
   CorrelationPair pair = pair_of(40, 1.1, 0);
   pair.points[3].y += 5;
   fit_line(pair);
@@ -35,7 +35,7 @@ TEST(FitLine, IsWhatItIsFittedTo) {
   EXPECT_NEAR(pair.points[3].residual, 5, 1e-7);
 }
 
-TEST(FitLine, Admission) {
+TEST(FitLine, RequiresEnoughPointsAndLittleScatter) {
   EXPECT_TRUE(line_of(pair_of(20)).admitted()) << name_of(line_of(pair_of(20)).refusal);
   EXPECT_EQ(line_of(pair_of(19)).refusal, LineRefusal::too_few_configurations);
   EXPECT_EQ(line_of(pair_of(40, 1.4)).refusal, LineRefusal::slope_out_of_range);
@@ -44,7 +44,7 @@ TEST(FitLine, Admission) {
   EXPECT_EQ(line_of(pair_of(80, 1, 0.5)).refusal, LineRefusal::large_scatter);
 }
 
-TEST(FitLine, TooFewForALineHaveNone) {
+TEST(FitLine, TooFewPointsHaveNoLine) {
   for (const std::size_t points : {0U, 1U, 3U}) {
     const CorrelationLine line = line_of(pair_of(points));
     EXPECT_FALSE(line.admitted());
@@ -75,7 +75,7 @@ TEST(OffTheLine, ALevelAndOneConfiguration) {
   EXPECT_NEAR(off[1].effect, 0.3, 0.03);
 }
 
-TEST(OffTheLine, AnExactLineTellsWhatIsOffIt) {
+TEST(OffTheLine, AnExactLineFindsOutliers) {
   CorrelationPair pair = pair_of(40, 1, 0);
   pair.points[7].y += 0.11;
   const auto off = off_the_line(pair.points, std::vector<Factors>(40));

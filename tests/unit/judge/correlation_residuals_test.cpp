@@ -32,7 +32,7 @@ TEST(Explain, NothingMoved) {
   EXPECT_TRUE(explain(std::vector<double>(24, 0.0), grid()).empty());
 }
 
-TEST(Explain, ALevelWhoseConfigurationsMovedUnlike) {
+TEST(Explain, ALevelWhoseConfigurationsMovedDifferently) {
   int i = 0;
   const auto by =
       moved([&](const Factors& f) { return f.at("b") == "1" ? 0.01 + 0.001 * ++i : 0; });
@@ -54,7 +54,7 @@ TEST(Explain, TwoLevels) {
   EXPECT_EQ(found[1].level, "b=0");
 }
 
-TEST(Explain, OneThatMovedMoreThanItsLevelAndOneElsewhere) {
+TEST(Explain, OutliersInsideAndOutsideOfALevel) {
   const auto factors = grid();
   auto by = moved([](const Factors& f) { return f.at("c") == "3" ? 0.01 : 0; });
   by[20] = 0.2;
@@ -66,7 +66,7 @@ TEST(Explain, OneThatMovedMoreThanItsLevelAndOneElsewhere) {
   EXPECT_EQ(found[2].members, std::vector<std::size_t>{0});
 }
 
-TEST(Explain, OneConfigurationIsNoLevel) {
+TEST(Explain, OneConfigurationIsNotALevel) {
   std::vector<double> by(24, 0.0);
   by[7] = 0.5;
   const auto found = explain(by, grid());
@@ -74,7 +74,7 @@ TEST(Explain, OneConfigurationIsNoLevel) {
   EXPECT_EQ(found[0].of, Of::configuration);
 }
 
-TEST(Explain, LevelsOfTheSameConfigurationsAreOne) {
+TEST(Explain, LevelsWithTheSameConfigurationsCountOnce) {
   auto factors = grid();
   for (Factors& each : factors) each["d"] = each.at("b");
   const auto by = moved([](const Factors& f) { return f.at("b") == "2" ? 0.01 : 0; });
@@ -83,7 +83,7 @@ TEST(Explain, LevelsOfTheSameConfigurationsAreOne) {
   EXPECT_EQ(found[0].level, "b=2 (= d=2)");
 }
 
-TEST(Repeatability, EachPartByItself) {
+TEST(Repeatability, BoundsApplyToEachPart) {
   const Repeatability bound = repeatability("opencl:pocl", "raycast", {1e7, 0});
   EXPECT_EQ(moved_by({0, 3.6e-3}, bound), 0);
   EXPECT_NEAR(moved_by({0, 3.8e-3}, bound), 3.8e-3, 1e-5);
@@ -95,7 +95,7 @@ TEST(Repeatability, EachPartByItself) {
   EXPECT_NE(moved_by({0, 7.1e-4}, repeatability("vulkan:lavapipe", "raycast", {1e7, 0})), 0);
 }
 
-TEST(Repeatability, AResidualMovesByTheSumOfBoth) {
+TEST(Repeatability, TheBoundOfAResidualIsTheSumOfBoth) {
   const Repeatability mesa = repeatability("vulkan:lavapipe", "raycast", {1e7, 0});
   EXPECT_FALSE(residual_moved({0, -4e-4}, mesa, {0, 4e-4}, mesa));
   EXPECT_TRUE(residual_moved({0, -8e-4}, mesa, {0, 8e-4}, mesa));

@@ -28,7 +28,7 @@ TEST_F(GateTest, WrongPixelIsARegressionThatVoidsItsTime) {
   EXPECT_NEAR(wrong[0].number("bound"), 0.001, 1e-6);
 }
 
-TEST_F(GateTest, AWrongPictureVoidsItsTimeEvenWhenOnlyTimesAreAsked) {
+TEST_F(GateTest, AWrongImageVoidsItsTimeEvenIfOnlyTimesAreJudged) {
   accept_first();
   add_run("b", wrong_image_on("vulkan:lavapipe"));
   request_.checks = {Check::timing};
@@ -49,7 +49,7 @@ TEST_F(GateTest, PixelsThatAreNotFiniteAreARegression) {
   EXPECT_EQ(wrong[0].number("pixels_not_finite"), 1);
 }
 
-TEST_F(GateTest, OtherSizeIsARegression) {
+TEST_F(GateTest, ADifferentImageSizeIsARegression) {
   add_run("a");
   (void)accept_run("a");
   add_run("b", [](record::Record&, core::Image& image) { image = core::Image(4, 4); });
@@ -59,7 +59,7 @@ TEST_F(GateTest, OtherSizeIsARegression) {
   EXPECT_EQ(wrong[0].number("expected_width"), 8);
 }
 
-TEST_F(GateTest, ChangedTruthIsNamedAsSuch) {
+TEST_F(GateTest, AChangedReferenceImageIsReported) {
   add_run("a");
   (void)accept_run("a");
   request_.truth = [old = request_.truth](const record::Record& record) {
@@ -75,7 +75,7 @@ TEST_F(GateTest, ChangedTruthIsNamedAsSuch) {
 }
 
 // If a plan does not store images, its baselines contain only the hash of the reference image.
-TEST_F(GateTest, ATruthWithoutAStoredPictureIsKnownByItsHash) {
+TEST_F(GateTest, AReferenceImageIsIdentifiedByItsHash) {
   checks_ = {Check::image, Check::counters};
   accept_first();
   EXPECT_FALSE(std::filesystem::exists(baseline("images")));
@@ -94,7 +94,7 @@ TEST_F(GateTest, ATruthWithoutAStoredPictureIsKnownByItsHash) {
   EXPECT_EQ(wrong[0].cause, Cause::reference_changed);
 }
 
-TEST_F(GateTest, DevicesMustAgreeAndTheFartherOneIsNamed) {
+TEST_F(GateTest, DevicesMustAgreeAndTheWorseOneIsReported) {
   const auto tilt = [](float by) {
     return [by](record::Record& record, core::Image& image) {
       if (record.device != "gl:llvmpipe-egl") return;
@@ -115,7 +115,7 @@ TEST_F(GateTest, DevicesMustAgreeAndTheFartherOneIsNamed) {
   EXPECT_GT(wrong[0].number("rmse"), wrong[0].number("rmse_of_other"));
 }
 
-TEST_F(GateTest, OtherPathsNeedNotAgree) {
+TEST_F(GateTest, DifferentPathsNeedNotAgree) {
   add_run("a");
   (void)accept_run("a");
   add_run("b", [](record::Record& record, core::Image& image) {
@@ -126,7 +126,7 @@ TEST_F(GateTest, OtherPathsNeedNotAgree) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
 }
 
-TEST_F(GateTest, NoTruthIsNoPass) {
+TEST_F(GateTest, AMissingReferenceImageDoesNotPass) {
   add_run("a");
   (void)accept_run("a");
   request_.truth = [](const record::Record&) -> TruthPair { throw core::IoError("data is gone"); };

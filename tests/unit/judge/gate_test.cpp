@@ -17,7 +17,7 @@ TEST_F(GateTest, AcceptedRunPassesItsGate) {
   EXPECT_EQ(result.devices.size(), 3U);
 }
 
-TEST_F(GateTest, SameStoreJudgedTwiceGivesTheSameBytes) {
+TEST_F(GateTest, JudgingAStoreTwiceGivesTheSameBytes) {
   accept_first();
   add_run("b", wrong_image_on("gl:llvmpipe-egl"));
   EXPECT_EQ(text(gate("b")), text(gate("b")));
@@ -25,7 +25,7 @@ TEST_F(GateTest, SameStoreJudgedTwiceGivesTheSameBytes) {
 
 // Counters
 
-TEST_F(GateTest, OneSampleMoreOnTheSameDeviceIsARegression) {
+TEST_F(GateTest, OneMoreSampleOnTheSameDeviceIsARegression) {
   add_run("a");
   (void)accept_run("a");
   add_run("b", [](record::Record& record, core::Image&) {
@@ -40,7 +40,7 @@ TEST_F(GateTest, OneSampleMoreOnTheSameDeviceIsARegression) {
   EXPECT_EQ(change_of(wrong[0], "samples").now, 1000001);
 }
 
-TEST_F(GateTest, LostAndNewCountersAreNoPass) {
+TEST_F(GateTest, LostAndNewCountersDoNotPass) {
   add_run("a");
   (void)accept_run("a");
   add_run("lost", [](record::Record& record, core::Image&) { record.counters.erase("samples"); });
@@ -117,7 +117,7 @@ TEST_F(GateTest, AnotherVersionOfADriverMayMoveTheEdgesOfSprites) {
 }
 
 // Two drivers were accepted with different values, and both are correct.
-TEST_F(GateTest, AnotherDeviceIsHeldToTheRangeOfTheAccepted) {
+TEST_F(GateTest, AnotherDeviceMustBeWithinTheAcceptedRange) {
   const auto count = [](std::uint64_t pocl, std::uint64_t mesa) {
     return [=](record::Record& record, core::Image&) {
       record.counters["samples"] = record.device == "opencl:pocl" ? pocl : mesa;
@@ -138,7 +138,7 @@ TEST_F(GateTest, AnotherDeviceIsHeldToTheRangeOfTheAccepted) {
 }
 
 // Only if counters differ does the suite compute how far rounding can change them in the scene.
-TEST_F(GateTest, OfAnotherDriverAsManyCountsAreOpenAsTheSuiteSays) {
+TEST_F(GateTest, TheSuiteStatesHowManyCountsMayDifferOnAnotherDriver) {
   accept_first([](record::Record& record, core::Image&) {
     record.counters["samples"] = 1000;
     if (record.device == "gl:llvmpipe-egl") record.outcome = record::Outcome::skipped;
@@ -164,7 +164,7 @@ TEST_F(GateTest, OfAnotherDriverAsManyCountsAreOpenAsTheSuiteSays) {
   EXPECT_EQ(change_of(gate("open").findings.front(), "samples").allowed, 0);
 }
 
-TEST_F(GateTest, WhatHasNoStoredCountersIsOneLineADevice) {
+TEST_F(GateTest, MissingCountersAreOneFindingPerDevice) {
   add_run("a");
   (void)accept_run("a", {.only = plain_});
   request_.checks = {Check::counters};
@@ -237,7 +237,7 @@ TEST(GateResultTest, Precedence) {
 }
 
 // A verdict on one device says nothing about another device.
-TEST(GateResultTest, EveryDeviceNeedsADecision) {
+TEST(GateResultTest, EveryDeviceNeedsAVerdict) {
   GateResult result{.devices = {"gl:a", "vulkan:b"}};
   Finding passed;
   passed.verdict = Verdict::pass;
@@ -257,7 +257,7 @@ TEST(GateResultTest, EveryCheckIsJudged) {
   EXPECT_EQ(judged_checks(), record::every_check());
 }
 
-TEST(GateResultTest, NamesReadBack) {
+TEST(GateResultTest, NamesRoundTrip) {
   for (const Check check_ : {Check::image, Check::counters, Check::statistics, Check::timing}) {
     EXPECT_EQ(check(name_of(check_)), check_);
   }
@@ -266,7 +266,7 @@ TEST(GateResultTest, NamesReadBack) {
 
 // A data file was replaced under the same name. This is neither a regression of the driver nor a
 // pass.
-TEST_F(GateTest, OtherDataUnderTheSameNameIsNamed) {
+TEST_F(GateTest, ReplacedDataIsReported) {
   const auto with_data = [](const std::string& hash) {
     return [hash](record::Record& record, core::Image&) { record.data_hash = hash; };
   };
@@ -285,7 +285,7 @@ TEST_F(GateTest, OtherDataUnderTheSameNameIsNamed) {
 
 // The data file was replaced after the run, so the reference image would show different data than
 // the image.
-TEST_F(GateTest, DataThatChangedSinceTheRunAreNoRegression) {
+TEST_F(GateTest, DataThatChangedSinceTheRunAreNotARegression) {
   accept_first([](record::Record& record, core::Image&) { record.data_hash = "0a0a"; });
   request_.data_hash = [](const record::Record&) { return "0a0a"; };
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));

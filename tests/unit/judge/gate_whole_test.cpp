@@ -14,7 +14,7 @@ namespace {
 using core::ExitCode;
 using testing::HasSubstr;
 
-TEST_F(GateTest, NoBaselinesNamesTheCommandThatMakesThem) {
+TEST_F(GateTest, WithoutBaselinesTheCommandToAcceptIsPrinted) {
   add_run("a");
   const GateResult result = gate("a");
   EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
@@ -36,7 +36,7 @@ TEST_F(GateTest, CommandsAreQuoted) {
               HasSubstr("triptych accept 'my/ev$(touch x).yaml' --reason"));
 }
 
-TEST_F(GateTest, AWrongPictureIsSeenWithoutBaselines) {
+TEST_F(GateTest, AWrongImageIsFoundWithoutBaselines) {
   add_run("a", wrong_image_on("vulkan:lavapipe"));
   EXPECT_EQ(gate("a").exit_code(), ExitCode::regression);
 }
@@ -55,7 +55,7 @@ TEST_F(GateTest, ARunOfAnotherPlanCannotBeJudged) {
   EXPECT_EQ(gate("a").exit_code(), ExitCode::cannot_judge);
 }
 
-TEST_F(GateTest, DeviceThatIsNotAskedForIsLeftOut) {
+TEST_F(GateTest, OnlySelectedDevicesAreJudged) {
   add_run("a");
   (void)accept_run("a");
   add_run("b", wrong_image_on("vulkan:lavapipe"));
@@ -65,7 +65,7 @@ TEST_F(GateTest, DeviceThatIsNotAskedForIsLeftOut) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::cannot_judge);
 }
 
-TEST_F(GateTest, RequiredDeviceMustHaveMeasured) {
+TEST_F(GateTest, ARequiredDeviceMustHaveMeasured) {
   add_run("a");
   (void)accept_run("a");
   request_.required_devices = {"vulkan:*", "gl:softpipe"};
@@ -77,7 +77,7 @@ TEST_F(GateTest, RequiredDeviceMustHaveMeasured) {
 
 // The device has a new driver, so all findings about it are advisory. The exit code is 2, and the
 // reason must be printed.
-TEST_F(GateTest, ADeviceOfWhichNothingIsDecidedIsNamed) {
+TEST_F(GateTest, ADeviceWithoutAVerdictIsReported) {
   accept_first();
   driver_versions_["vulkan:lavapipe"] = "99";
   add_run("b");
@@ -92,7 +92,7 @@ TEST_F(GateTest, ADeviceOfWhichNothingIsDecidedIsNamed) {
   EXPECT_EQ(open[0].advice.command, "triptych accept volume/quick --reason TEXT");
 }
 
-TEST_F(GateTest, MissingRowsAreNamed) {
+TEST_F(GateTest, MissingRecordsAreReported) {
   add_run("a");
   (void)accept_run("a");
   store_.add_run({"part", plan, "2026-02-02T00:00:00Z", {}});
@@ -113,7 +113,7 @@ TEST_F(GateTest, MissingRowsAreNamed) {
   EXPECT_EQ(missing[0].names, std::vector{bricks_});
 }
 
-TEST_F(GateTest, ARunOfAnotherPlanTextCannotBeJudged) {
+TEST_F(GateTest, ARunOfAChangedPlanCannotBeJudged) {
   accept_first();
   plan_hash_ = "0a0a";
   add_run("b");
@@ -128,7 +128,7 @@ TEST_F(GateTest, ARunOfAnotherPlanTextCannotBeJudged) {
 }
 
 // The run must contain exactly the configurations of the plan.
-TEST_F(GateTest, TheRunHoldsWhatThePlanHas) {
+TEST_F(GateTest, TheRunMustContainThePlansConfigurations) {
   accept_first();
   for (const auto& configuration : Baselines(folder_.path() / "baselines", plan).configurations()) {
     request_.expected.push_back(configuration);
@@ -144,7 +144,7 @@ TEST_F(GateTest, TheRunHoldsWhatThePlanHas) {
   EXPECT_EQ(with(gate("accepted"), Cause::extra).at(0).names.size(), 3U);
 }
 
-TEST_F(GateTest, TheRunsPlanSaysWhatIsChecked) {
+TEST_F(GateTest, ThePlanOfTheRunDeterminesTheChecks) {
   checks_ = {Check::counters};
   accept_first();
   for (const Finding& finding : gate("accepted").findings) {
@@ -152,7 +152,7 @@ TEST_F(GateTest, TheRunsPlanSaysWhatIsChecked) {
   }
 }
 
-TEST_F(GateTest, EveryUnhappyOutcomeIsARegressionOnce) {
+TEST_F(GateTest, EveryFailedOutcomeIsReportedOnce) {
   add_run("a");
   (void)accept_run("a");
   using record::Outcome;
@@ -190,7 +190,7 @@ TEST_F(GateTest, BadInputCannotBeJudged) {
   EXPECT_TRUE(with(result, Verdict::regression).empty());
 }
 
-TEST_F(GateTest, SkippedIsSkippedUnlessTheSameDeviceDidItBefore) {
+TEST_F(GateTest, ASkipIsAllowedUnlessTheDeviceMeasuredItBefore) {
   const auto skip = [](record::Record& record, core::Image&) {
     if (record.configuration != bricks_) return;
     record.outcome = record::Outcome::skipped;
@@ -215,7 +215,7 @@ TEST_F(GateTest, SkippedIsSkippedUnlessTheSameDeviceDidItBefore) {
   EXPECT_EQ(gate("less").exit_code(), ExitCode::pass) << text(gate("less"));
 }
 
-TEST_F(GateTest, InjectedFaultIsNamed) {
+TEST_F(GateTest, AnInjectedFaultIsReported) {
   add_run("a");
   (void)accept_run("a");
   add_run("b", [](record::Record& record, core::Image& image) {

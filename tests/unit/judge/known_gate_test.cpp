@@ -53,7 +53,7 @@ TEST_F(KnownGateTest, AFailureIsWaivedTheNextTime) {
   EXPECT_EQ(expected_text(written_by(second)), expected_text(*request_.known));
 }
 
-TEST_F(KnownGateTest, ANewFailureIsRed) {
+TEST_F(KnownGateTest, ANewFailureIsARegression) {
   request_.known.emplace();
   add_run("b", wrong_image_on(known_device));
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
@@ -64,7 +64,7 @@ TEST_F(KnownGateTest, ANewFailureIsRed) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
 }
 
-TEST_F(KnownGateTest, APassThatWasNotExpectedIsTold) {
+TEST_F(KnownGateTest, AnUnexpectedPassIsReported) {
   add_run("b", wrong_image_on(known_device));
   request_.known = written_by(gate("b"));
   const GateResult mended = gate("accepted");
@@ -76,7 +76,7 @@ TEST_F(KnownGateTest, APassThatWasNotExpectedIsTold) {
   EXPECT_EQ(finding.advice.advice, Advice::remove_entry);
 }
 
-TEST_F(KnownGateTest, ASkipThatWasNotExpectedIsNoPass) {
+TEST_F(KnownGateTest, AnUnexpectedSkipDoesNotPass) {
   add_run("b", skipped_on(known_device));
   AcceptRequest only_it;
   only_it.only = plain_;
@@ -101,7 +101,7 @@ TEST_F(KnownGateTest, AnExpiredEntryExcusesNothing) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
 }
 
-TEST_F(KnownGateTest, AFileWithAMistakeIsRefused) {
+TEST_F(KnownGateTest, AFileWithAMistakeIsRejected) {
   const auto file = folder_.path() / "known.json";
   EXPECT_THROW((void)read_expected(file), core::InputError);
   for (
@@ -118,7 +118,7 @@ TEST_F(KnownGateTest, AFileWithAMistakeIsRefused) {
 
 // Drawing failed configurations again
 
-TEST_F(KnownGateTest, WhatIsRightWhenDrawnAgainIsAFlakeAndNoPass) {
+TEST_F(KnownGateTest, AFailureThatDoesNotRepeatIsAFlakeAndDoesNotPass) {
   add_run("b", wrong_image_on(known_device));
   const GateResult first = gate("b");
   const Places places = failing(first);
@@ -141,7 +141,7 @@ TEST_F(KnownGateTest, WhatIsRightWhenDrawnAgainIsAFlakeAndNoPass) {
 
 // The verdict is neither a failure nor a pass, because a slow driver on a busy machine can also
 // time out.
-TEST_F(KnownGateTest, AHangThatIsRightWhenDrawnAgainCannotBeJudged) {
+TEST_F(KnownGateTest, AHangThatDoesNotRepeatCannotBeJudged) {
   add_run("b", [](record::Record& record, core::Image&) {
     if (record.device != known_device || record.configuration != plain_) return;
     record.outcome = record::Outcome::hung;
@@ -158,7 +158,7 @@ TEST_F(KnownGateTest, AHangThatIsRightWhenDrawnAgainCannotBeJudged) {
 
 // A crash is reported under the first check. Configurations that only sum samples have no image
 // when they are drawn again, so their second run has no finding under that check.
-TEST_F(KnownGateTest, ACrashOfWhatHasNoPictureIsAFlakeToo) {
+TEST_F(KnownGateTest, ACrashWithoutAnImageCanBeAFlake) {
   const auto sums = [](record::Record& record, core::Image&) {
     if (record.device != known_device || record.configuration != plain_) return;
     record.technique = "speed_of_light";
@@ -177,7 +177,7 @@ TEST_F(KnownGateTest, ACrashOfWhatHasNoPictureIsAFlakeToo) {
   EXPECT_EQ(flakes[0].reason.number("signal"), 6);
 }
 
-TEST_F(KnownGateTest, WhatIsSkippedWhenDrawnAgainStaysARegression) {
+TEST_F(KnownGateTest, AFailureThatIsSkippedWhenRepeatedStaysARegression) {
   add_run("b", wrong_image_on(known_device));
   add_run("c", skipped_on(known_device));
   const GateResult first = gate("b");
@@ -191,7 +191,7 @@ TEST_F(KnownGateTest, WhatIsSkippedWhenDrawnAgainStaysARegression) {
 }
 
 // The counters fail both times, so only the image is flaky.
-TEST_F(KnownGateTest, EachCheckIsAFlakeByItself) {
+TEST_F(KnownGateTest, EachCheckCanBeAFlakeByItself) {
   request_.checks = {Check::image, Check::counters};
   const auto miscounted = [](record::Record& record, core::Image& image) {
     if (record.device != known_device || record.configuration != plain_) return;
@@ -211,7 +211,7 @@ TEST_F(KnownGateTest, EachCheckIsAFlakeByItself) {
   EXPECT_EQ(counters[0].drawn_again, Again::not_drawn);
 }
 
-TEST_F(KnownGateTest, WhatFailsTwiceIsNoFlake) {
+TEST_F(KnownGateTest, ARepeatedFailureIsNotAFlake) {
   add_run("b", wrong_image_on(known_device));
   const GateResult first = gate("b");
   const Redrawn same = tell_flakes(first, gate("b"), failing(first));

@@ -27,7 +27,7 @@ TEST_F(MemoryGateTest, TheSameBytesPass) {
   EXPECT_EQ(with(result, Verdict::pass, Check::memory).size(), 12U);
 }
 
-TEST_F(MemoryGateTest, OneByteMoreIsARegression) {
+TEST_F(MemoryGateTest, OneMoreByteIsARegression) {
   accept_first(taking(4096));
   add_run("b", taking(4097));
   const auto wrong = with(gate("b"), Verdict::regression);
@@ -47,7 +47,7 @@ TEST_F(MemoryGateTest, AnInjectedSlowdownIsNotJudged) {
   EXPECT_EQ(with(gate("b"), Verdict::regression).size(), 0U);
 }
 
-TEST_F(MemoryGateTest, ANewKindIsMore) {
+TEST_F(MemoryGateTest, ANewKindOfMemoryIsARegression) {
   accept_first(taking(4096));
   add_run("b", [](record::Record& record, core::Image& image) {
     taking(4096)(record, image);
@@ -56,7 +56,7 @@ TEST_F(MemoryGateTest, ANewKindIsMore) {
   EXPECT_EQ(change_of(with(gate("b"), Verdict::regression).at(0), "staging").now, 1);
 }
 
-TEST_F(MemoryGateTest, OneByteLessIsAnImprovement) {
+TEST_F(MemoryGateTest, OneLessByteIsAnImprovement) {
   accept_first(taking(4096));
   add_run("b", taking(4095));
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass);
@@ -73,7 +73,7 @@ TEST_F(MemoryGateTest, ANewDeviceIsOneLineOfAdvice) {
   EXPECT_EQ(with(gate("accepted"), Verdict::skipped).size(), 1U);
 }
 
-TEST_F(MemoryGateTest, WhatAnAcceptedDeviceLacksCannotBeJudged) {
+TEST_F(MemoryGateTest, MissingMemoryOfAnAcceptedDeviceCannotBeJudged) {
   add_run("a", taking(4096));
   (void)accept_run("a", {.only = plain_});
   const auto missing = with(gate("a"), Verdict::cannot_judge, Check::memory);

@@ -19,7 +19,7 @@ core::Image picture(std::uint64_t seed) {
 
 // A few values change by one ulp of a float, which is about 10⁵ times as much as a different math
 // library changes them in double precision.
-TEST(ReferenceHash, LastBitsAreTheSamePicture) {
+TEST(ReferenceHash, LastBitsDoNotChangeTheHash) {
   int same = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const core::Image image = picture(seed);
@@ -35,7 +35,7 @@ TEST(ReferenceHash, LastBitsAreTheSamePicture) {
   EXPECT_EQ(same, 100);
 }
 
-TEST(ReferenceHash, OnePixelThatAnyoneCouldSeeIsAnother) {
+TEST(ReferenceHash, OneVisiblyDifferentPixelChangesTheHash) {
   const core::Image image = picture(1);
   for (const std::size_t at : {0UL, 77UL, image.rgba.size() - 1}) {
     core::Image other = image;
@@ -44,14 +44,14 @@ TEST(ReferenceHash, OnePixelThatAnyoneCouldSeeIsAnother) {
   }
 }
 
-TEST(ReferenceHash, AllOfAPictureALittleOffIsAnother) {
+TEST(ReferenceHash, ASmallChangeOfAllPixelsChangesTheHash) {
   const core::Image image = picture(1);
   core::Image other = image;
   for (float& value : other.rgba) value += 1e-6F;
   EXPECT_FALSE(is_same_reference(reference_hash(image), reference_hash(other)));
 }
 
-TEST(ReferenceHash, SizeCountsAndStrangeNumbersAreNoTrouble) {
+TEST(ReferenceHash, SizesChangeTheHashAndNonFiniteNumbersAreHandled) {
   core::Image image(2, 3);
   EXPECT_FALSE(is_same_reference(reference_hash(image), reference_hash(core::Image(3, 2))));
   const ReferenceHash plain = reference_hash(image);

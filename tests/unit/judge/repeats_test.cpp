@@ -35,7 +35,7 @@ const std::vector<Repetition>& three() {
   return repetitions;
 }
 
-TEST(Repeats, OfACaseAreTheWorstVerdictsOfEachRepetition) {
+TEST(Repeats, ContainTheWorstVerdictOfEachRepetition) {
   const std::vector<RepeatedCase> cases = repeated_cases(three());
   ASSERT_EQ(cases.size(), 2U);
   EXPECT_EQ(cases[0].key.configuration, "a");
@@ -46,7 +46,7 @@ TEST(Repeats, OfACaseAreTheWorstVerdictsOfEachRepetition) {
   EXPECT_FALSE(cases[1].flakes()) << "it always fails";
 }
 
-TEST(Repeats, AFlakeOfALaterRepetitionIsARegressionOfTheFirst) {
+TEST(Repeats, AFlakeInALaterRepetitionIsReported) {
   std::vector<GateResult> first = three().front().results;
   EXPECT_EQ(first.front().findings.front().verdict, Verdict::pass);
   add_flakes(repeated_cases(three()), first);

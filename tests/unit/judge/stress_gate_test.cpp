@@ -70,7 +70,7 @@ TEST_F(StressGateTest, AllPointsPass) {
   EXPECT_EQ(passed[0].numbers.at("score"), 3);
 }
 
-TEST_F(StressGateTest, APictureOverItsBoundLosesTwoPoints) {
+TEST_F(StressGateTest, AnImageBeyondItsBoundLosesTwoPoints) {
   const Finding finding =
       found(on_lavapipe([](record::Record&, core::Image& image) { image.rgba[17] += 2 * bound; }));
   EXPECT_EQ(finding.verdict, Verdict::regression);
@@ -90,21 +90,21 @@ TEST_F(StressGateTest, WithinTheBoundOnlyAgreementIsLost) {
 
 // The other devices are closer to the reference image, so they must not lose a point because of the
 // device that differs.
-TEST_F(StressGateTest, TheNearerKeepsItsPoint) {
+TEST_F(StressGateTest, TheDeviceCloserToTheReferenceKeepsItsPoint) {
   (void)found(on_lavapipe([](record::Record&, core::Image& image) {
     for (float& value : image.rgba) value += bound / 2;
   }));
   EXPECT_EQ(with(gate("judged"), Verdict::regression).size(), 1U);
 }
 
-TEST_F(StressGateTest, WhatIsNotFiniteHasNoPoint) {
+TEST_F(StressGateTest, NonFinitePixelsScoreZero) {
   const Finding finding = found(
       on_lavapipe([](record::Record&, core::Image& image) { image.rgba[3] = std::nanf(""); }));
   EXPECT_EQ(finding.verdict, Verdict::regression);
   EXPECT_EQ(finding.numbers.at("score"), 0);
 }
 
-TEST_F(StressGateTest, ACrashHasNoPointAndIsToldOnce) {
+TEST_F(StressGateTest, ACrashScoresZeroAndIsReportedOnce) {
   const Finding finding = found(on_lavapipe([](record::Record& record, core::Image&) {
     record.outcome = record::Outcome::crashed;
     record.reason = {.cause = record::Cause::signal, .numbers = {{"signal", 11}}};
@@ -115,7 +115,7 @@ TEST_F(StressGateTest, ACrashHasNoPointAndIsToldOnce) {
   EXPECT_EQ(with(gate("judged"), Verdict::regression).size(), 1U);
 }
 
-TEST_F(StressGateTest, AnAcceptedLossStaysInSight) {
+TEST_F(StressGateTest, AnAcceptedLossIsStillShown) {
   const Tweak wrong =
       on_lavapipe([](record::Record&, core::Image& image) { image.rgba[17] += 2 * bound; });
   add_run("a", wrong);
@@ -128,7 +128,7 @@ TEST_F(StressGateTest, AnAcceptedLossStaysInSight) {
   EXPECT_EQ(with(gate("c"), Verdict::improved, Check::stress).size(), 1U);
 }
 
-TEST_F(StressGateTest, ADeviceThatWasNeverAcceptedIsHeldToTheOthers) {
+TEST_F(StressGateTest, ANewDeviceIsComparedWithAcceptedDevices) {
   add_run("a", [](record::Record& record, core::Image&) {
     if (record.device == stress_device) record.outcome = record::Outcome::skipped;
   });
@@ -137,13 +137,13 @@ TEST_F(StressGateTest, ADeviceThatWasNeverAcceptedIsHeldToTheOthers) {
   EXPECT_EQ(with(gate("b"), Verdict::regression, Check::stress).size(), 1U);
 }
 
-TEST_F(StressGateTest, WithoutAStoredScoreNothingIsDecided) {
+TEST_F(StressGateTest, WithoutAStoredScoreThereIsNoVerdict) {
   add_run("a");
   (void)accept_run("a");
   EXPECT_EQ(with(gate("a"), Verdict::cannot_judge, Check::stress).size(), 12U);
 }
 
-TEST_F(StressGateTest, OneDeviceAskedForIsHeldAgainstTheOthersOfTheRun) {
+TEST_F(StressGateTest, ASelectedDeviceIsComparedWithTheOthersOfTheRun) {
   (void)found(on_lavapipe([](record::Record&, core::Image& image) {
     for (float& value : image.rgba) value += bound / 2;
   }));
@@ -154,7 +154,7 @@ TEST_F(StressGateTest, OneDeviceAskedForIsHeldAgainstTheOthersOfTheRun) {
   EXPECT_EQ(lost[0].device, stress_device);
 }
 
-TEST_F(StressGateTest, ARefusalIsRightOnlyWhereItIsAllowed) {
+TEST_F(StressGateTest, ARefusalIsCorrectOnlyIfItIsAllowed) {
   const Tweak refuse = on_lavapipe([](record::Record& record, core::Image&) {
     record.outcome = record::Outcome::skipped;
     record.reason = {.cause = record::Cause::not_supported, .detail = "too large"};
@@ -169,7 +169,7 @@ TEST_F(StressGateTest, ARefusalIsRightOnlyWhereItIsAllowed) {
 }
 
 // Skipping must be bit-identical, even if the error bound would permit a difference.
-TEST_F(StressGateTest, OtherBitsThanAnotherConfigurationLoseAPoint) {
+TEST_F(StressGateTest, DifferentBitsLoseAPoint) {
   expected_ = [](const record::Record& record) {
     std::vector<record::Expectation> result;
     if (record.configuration.find("skip=") == std::string::npos) {
@@ -191,7 +191,7 @@ TEST_F(StressGateTest, OtherBitsThanAnotherConfigurationLoseAPoint) {
 }
 
 // A shard may contain only one of two configurations that are to be compared.
-TEST_F(StressGateTest, OfAPartOfAPlanThePicturesThatAreNotInItAreNotMissed) {
+TEST_F(StressGateTest, APartOfAPlanNeedsNoOtherImages) {
   add_run("a");
   accept_scores("a");
   expected_ = [](const record::Record&) {
@@ -218,7 +218,7 @@ TEST_F(StressGateTest, MoreSamplesThanAllowedLoseAPoint) {
   EXPECT_EQ(with(gate("judged"), Verdict::regression).size(), 1U);
 }
 
-TEST_F(StressGateTest, OnlyAStressPlanIsJudgedUnasked) {
+TEST_F(StressGateTest, OnlyStressPlansAreJudgedByDefault) {
   add_run("a");
   accept_scores("a");
   GateRequest unasked = request_;
@@ -284,7 +284,7 @@ float place(int x, int y) {
   return static_cast<float>(x + 10 * y);
 }
 
-TEST_F(ExpectationTest, AMirrorImageIsOneOnlyAlongItsAxis) {
+TEST_F(ExpectationTest, AMirrorImageMatchesOnlyAlongItsAxis) {
   add("data=a", places(width, height, place));
   add("data=b", places(width, height, [](int x, int y) { return place(width - 1 - x, y); }));
   add("data=c",
@@ -295,7 +295,7 @@ TEST_F(ExpectationTest, AMirrorImageIsOneOnlyAlongItsAxis) {
   EXPECT_EQ(differing({.changed = {{"data", "c"}}, .mirrored_x = true}), 6);
 }
 
-TEST_F(ExpectationTest, APartIsHeldAgainstItsPlace) {
+TEST_F(ExpectationTest, APartIsComparedAtItsPosition) {
   add("data=a", places(width, height, [](int x, int y) { return place(x + 2, y + 1); }));
   add("data=b", places(6, 5, place));
   EXPECT_EQ(judge({.changed = {{"data", "b"}}, .at = {2, 1}}).cause, Cause::none);
@@ -312,7 +312,7 @@ TEST_F(ExpectationTest, BoundsOfBothAddUp) {
   EXPECT_EQ(judge({.changed = {{"data", "c"}}, .to_the_bit = false}).fact("by"), "bounds");
 }
 
-TEST_F(ExpectationTest, ParticlesMayBeNumberedOtherwise) {
+TEST_F(ExpectationTest, ParticlesMayHaveOtherNumbers) {
   core::Image one = places(width, height, place);
   one.depth.assign(6, 2.0F);
   one.ids = {0, 1, 2, 3, 4, 5};
@@ -324,7 +324,7 @@ TEST_F(ExpectationTest, ParticlesMayBeNumberedOtherwise) {
   EXPECT_EQ(differing({.changed = {{"data", "b"}}}), 6);
 }
 
-TEST_F(ExpectationTest, OneColourIsMeantToTheBit) {
+TEST_F(ExpectationTest, OneColourMustMatchExactly) {
   core::Image image(width, height);
   for (std::size_t i = 0; i < image.rgba.size(); ++i) image.rgba[i] = i % 4 == 3 ? 1.0F : 0.25F;
   add("data=a", image);

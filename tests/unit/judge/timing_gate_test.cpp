@@ -33,7 +33,7 @@ class TimingGateTest : public JudgeTest {
   }
 };
 
-TEST_F(TimingGateTest, TwiceAsSlowIsShownAndDecidesNothing) {
+TEST_F(TimingGateTest, TwiceAsSlowIsShownWithoutAVerdict) {
   accept_first();
   add_run("b", times(2, bricks_));
   const GateResult result = gate("b");
@@ -48,7 +48,7 @@ TEST_F(TimingGateTest, TwiceAsSlowIsShownAndDecidesNothing) {
   EXPECT_NEAR(advice[0].numbers.at("worst_ratio"), 2, 0.05);
 }
 
-TEST_F(TimingGateTest, EveryRatioIsAmongTheNumbers) {
+TEST_F(TimingGateTest, EveryRatioIsReported) {
   accept_first();
   add_run("b", times(1.5));
   for (const Finding& each : with(gate("b"), Verdict::pass, Check::timing)) {
@@ -77,7 +77,7 @@ TEST_F(TimingGateTest, OnRequestASlowerConfigurationIsARegression) {
 }
 
 // Tests times close to the limit: the ratio minus its interval has to exceed 2 %.
-TEST_F(TimingGateTest, WhatTheIntervalLeavesOpenIsNoRegression) {
+TEST_F(TimingGateTest, AnUncertainSlowdownIsNotARegression) {
   const auto steady = [](double factor) {
     return
         [factor](record::Record& record, core::Image&) { record.wall_ns.assign(9, 1e6 * factor); };
@@ -91,7 +91,7 @@ TEST_F(TimingGateTest, WhatTheIntervalLeavesOpenIsNoRegression) {
   EXPECT_EQ(gate("beyond").exit_code(), ExitCode::regression);
 }
 
-TEST_F(TimingGateTest, SpreadIsOfTheFramesAndOfTheClock) {
+TEST_F(TimingGateTest, SpreadIncludesFramesAndClock) {
   EXPECT_DOUBLE_EQ(log_spread({100, 100, 100}), 0.005);
   EXPECT_NEAR(log_spread({90, 95, 100, 105, 110}), 1.4826 * std::log(105.0 / 100), 1e-2);
   // The clock is coarse: all frames but one last the same number of clock steps.
@@ -111,7 +111,7 @@ TEST_F(TimingGateTest, ClocksAreNotMixed) {
 }
 
 // All frames are also timed by the wall clock, so wall times can be compared.
-TEST_F(TimingGateTest, AStoredWallTimeIsComparedByTheWall) {
+TEST_F(TimingGateTest, AStoredWallTimeIsComparedWithWallTime) {
   accept_first();
   add_run("b", [](record::Record& record, core::Image& image) {
     by_the_device(times(1))(record, image);
@@ -123,7 +123,7 @@ TEST_F(TimingGateTest, AStoredWallTimeIsComparedByTheWall) {
   EXPECT_EQ(with(gate("b"), Verdict::pass, Check::timing).size(), 12U);
 }
 
-TEST_F(TimingGateTest, ADeviceWithoutStoredTimesIsOneLine) {
+TEST_F(TimingGateTest, ADeviceWithoutStoredTimesIsOneFinding) {
   accept_first();
   driver_versions_["vulkan:lavapipe"] = "23.0";
   add_run("b");
@@ -136,13 +136,13 @@ TEST_F(TimingGateTest, ADeviceWithoutStoredTimesIsOneLine) {
   EXPECT_EQ(unknown(with(gate("b"), Verdict::cannot_judge)), 1) << text(gate("b"));
 }
 
-TEST_F(TimingGateTest, NewDeviceCodeIsNamed) {
+TEST_F(TimingGateTest, NewDeviceCodeIsReported) {
   accept_first();
   add_run("b", [](record::Record& record, core::Image&) { record.kernel_hash = "new"; });
   EXPECT_EQ(with(gate("b"), Verdict::pass, Check::timing).at(0).fact("kernel_hash"), "new");
 }
 
-TEST_F(TimingGateTest, NoTimeIsNoPass) {
+TEST_F(TimingGateTest, AMissingTimeDoesNotPass) {
   accept_first();
   add_run("b", [](record::Record& record, core::Image&) { record.wall_ns.clear(); });
   EXPECT_EQ(gate("b").exit_code(), ExitCode::cannot_judge);

@@ -37,7 +37,7 @@ TEST_F(UntimedGateTest, TimesAndStatisticsAreSkippedWithTheReason) {
   EXPECT_EQ(with(result, Verdict::pass, Check::counters).size(), 12U);
 }
 
-TEST_F(UntimedGateTest, ThePictureIsJudgedAllTheSame) {
+TEST_F(UntimedGateTest, ImagesAreStillJudged) {
   accept_first();
   add_run("b", [](record::Record& record, core::Image& image) {
     untimed(record, image);
@@ -46,7 +46,7 @@ TEST_F(UntimedGateTest, ThePictureIsJudgedAllTheSame) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
 }
 
-TEST_F(UntimedGateTest, WhatIsStoredOfTimesAndStatisticsStays) {
+TEST_F(UntimedGateTest, StoredTimesAndStatisticsAreKept) {
   accept_first();
   const std::string timings = contents(device_file("timings", "vulkan"));
   const std::string statistics = contents(device_file("statistics", "vulkan"));
@@ -71,7 +71,7 @@ TEST_F(UntimedGateTest, StatisticsThatWereReadAreAccepted) {
 }
 
 // The first run is accepted without times, so nothing that looks like a time may be stored.
-TEST_F(UntimedGateTest, AcceptsNoMissingTimeAsATime) {
+TEST_F(UntimedGateTest, MissingTimesAreNotAccepted) {
   add_run("a", untimed);
   (void)accept_run("a");
   EXPECT_FALSE(std::filesystem::exists(baseline("timings")));
@@ -82,7 +82,7 @@ TEST_F(UntimedGateTest, AcceptsNoMissingTimeAsATime) {
 
 // Times that were never stored cannot be missing. This holds for a device without any stored times,
 // and for a device with times of only one configuration.
-TEST_F(UntimedGateTest, AfterThemTimesAreNewAndOnlyAdvise) {
+TEST_F(UntimedGateTest, LaterTimesAreNewAndOnlyAdvisory) {
   add_run("a", untimed);
   (void)accept_run("a");
   add_run("b");

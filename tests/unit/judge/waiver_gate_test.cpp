@@ -29,7 +29,7 @@ TEST_F(GateTest, AWaiverExcusesUntilItsExpiry) {
 }
 
 // The fixture's runs began on 2026-02-01. Setting the clock back must not revive an expired waiver.
-TEST_F(GateTest, AClockThatWasSetBackBringsNoWaiverBack) {
+TEST_F(GateTest, AClockThatWasSetBackRevivesNoWaiver) {
   add_run("a");
   (void)accept_run("a");
   add_run("b", wrong_image_on("vulkan:lavapipe"));
@@ -41,14 +41,14 @@ TEST_F(GateTest, AClockThatWasSetBackBringsNoWaiverBack) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass);
 }
 
-TEST_F(GateTest, AWaivedPicturePassesWithAllChecks) {
+TEST_F(GateTest, AWaivedImagePassesWithAllChecks) {
   accept_first();
   add_run("b", wrong_image_on("vulkan:lavapipe"));
   write_waivers("2027-01-01");
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
 }
 
-TEST_F(GateTest, AWaiverOfAnotherDeviceExcusesNothing) {
+TEST_F(GateTest, AWaiverForAnotherDeviceExcusesNothing) {
   add_run("a");
   (void)accept_run("a");
   add_run("b", wrong_image_on("vulkan:lavapipe"));
@@ -56,7 +56,7 @@ TEST_F(GateTest, AWaiverOfAnotherDeviceExcusesNothing) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
 }
 
-TEST_F(GateTest, AWaiverOfSomePicturesExcusesNoOthers) {
+TEST_F(GateTest, AWaiverForSomeImagesExcusesNoOthers) {
   add_run("a");
   (void)accept_run("a");
   add_run("b", wrong_image_on("vulkan:lavapipe"));
@@ -68,7 +68,7 @@ TEST_F(GateTest, AWaiverOfSomePicturesExcusesNoOthers) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
 }
 
-TEST_F(GateTest, AWaiverThatMatchesNoTestIsTold) {
+TEST_F(GateTest, AWaiverThatMatchesNothingIsReported) {
   add_run("a");
   (void)accept_run("a");
   write_waivers("2027-01-01", "*", "*", "volume.quick.image.*raycast*");
@@ -99,7 +99,7 @@ TEST_F(GateTest, AWaiverNeedsReasonAndDate) {
 }
 
 // A waiver may last at most a year, so that someone reviews it. The fixture judges on 2026-03-01.
-TEST_F(GateTest, AWaiverThatEndsFarAwayIsRefused) {
+TEST_F(GateTest, AWaiverThatLastsTooLongIsRejected) {
   add_run("a");
   (void)accept_run("a");
   write_waivers("2027-03-02");
@@ -119,7 +119,7 @@ TEST_F(GateTest, AWaiverThatEndsFarAwayIsRefused) {
 }
 
 // If the misspelled key were ignored, the waiver would excuse every configuration.
-TEST_F(GateTest, AWaiverWithAMisspelledKeyIsRefused) {
+TEST_F(GateTest, AWaiverWithAMisspelledKeyIsRejected) {
   accept_first();
   write_waivers("2026-12-31");
   const auto file = folder_.path() / "baselines" / "waivers.json";

@@ -11,7 +11,7 @@ std::optional<WorkChange> change(const record::Counts& now, const record::Counts
   return work_change(now, then);
 }
 
-TEST(Work, IsOfTheFirstUnitThatBothHave) {
+TEST(Work, UsesTheFirstUnitThatBothHave) {
   const auto samples = change({{"samples", 110}, {"fragments", 5}}, {{"samples", 100}});
   ASSERT_TRUE(samples);
   EXPECT_EQ(samples->unit, "samples");
@@ -19,7 +19,7 @@ TEST(Work, IsOfTheFirstUnitThatBothHave) {
   EXPECT_EQ(change({{"samples", 1}, {"fragments", 2}}, {{"fragments", 2}})->unit, "fragments");
 }
 
-TEST(Work, OfWhatIsMissingOrNothingIsUnknown) {
+TEST(Work, IsUnknownIfMissingOrZero) {
   EXPECT_FALSE(change({}, {{"samples", 1}}));
   EXPECT_FALSE(change({{"samples", 1}}, {}));
   EXPECT_FALSE(change({{"samples", 0}}, {{"samples", 1}}));

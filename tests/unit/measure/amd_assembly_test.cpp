@@ -18,7 +18,7 @@ std::string fixture(const std::string& name) {
 
 // The expected numbers were counted by hand in the loop of block BB94 in
 // tests/unit/measure/assembly/raycast_navi21.s.
-TEST(AmdAssembly, TheSamplingLoopOfNavi21AsCountedByHand) {
+TEST(AmdAssembly, TheSamplingLoopOfNavi21MatchesACountByHand) {
   const auto counts = count_amd_instructions(fixture("raycast_navi21.s"));
   ASSERT_TRUE(counts && counts->sampling_loop);
   const InstructionCounts& loop = *counts->sampling_loop;
@@ -34,7 +34,7 @@ TEST(AmdAssembly, TheSamplingLoopOfNavi21AsCountedByHand) {
   EXPECT_EQ(loop.all(), 66);
 }
 
-TEST(AmdAssembly, TheSamplingLoopOfVega10AsCountedByHand) {
+TEST(AmdAssembly, TheSamplingLoopOfVega10MatchesACountByHand) {
   const auto counts = count_amd_instructions(fixture("raycast_vega10.s"));
   ASSERT_TRUE(counts && counts->sampling_loop);
   const InstructionCounts& loop = *counts->sampling_loop;
@@ -60,7 +60,7 @@ TEST(AmdAssembly, OneMoreInstructionInTheLoopCounts) {
 
 // Other loops of the shader read bricks of the volume from a buffer. They must not be mistaken for
 // the sampling loop.
-TEST(AmdAssembly, ALoopWithASamplerIsLikelierThanOneThatReadsMemory) {
+TEST(AmdAssembly, ALoopWithASamplerIsPreferred) {
   const auto counts = count_amd_instructions(
       "BB0:\n\tv_mov_b32 v0, 0\nBB1:\n\tbuffer_load_dword v1, v0, s[0:3], 0\n"
       "\ts_cbranch_scc1 BB1\nBB2:\n\timage_sample v1, v[0:2], s[0:7], s[8:11]\n"
@@ -69,7 +69,7 @@ TEST(AmdAssembly, ALoopWithASamplerIsLikelierThanOneThatReadsMemory) {
   EXPECT_EQ(counts->sampling_loop->all(), 2);
 }
 
-TEST(AmdAssembly, TwoLoopsThatSampleAreNotCertain) {
+TEST(AmdAssembly, TwoSamplingLoopsAreAmbiguous) {
   const std::string loop =
       "\timage_sample v1, v[0:2], s[0:7], s[8:11]\n\ts_cbranch_scc1 ";
   const auto counts = count_amd_instructions("BB1:\n" + loop + "BB1\nBB2:\n" + loop +
@@ -90,7 +90,7 @@ TEST(AmdAssembly, TheInnermostLoopCounts) {
   EXPECT_EQ(counts->all.all(), 5);
 }
 
-TEST(AmdAssembly, AnotherLanguageIsNone) {
+TEST(AmdAssembly, OtherLanguagesAreNotParsed) {
   EXPECT_FALSE(count_amd_instructions("MOV R1, c[0x0][0x28] ;\nEXIT ;\n"));
   EXPECT_FALSE(count_amd_instructions(""));
 }

@@ -36,7 +36,7 @@ TEST(ParseStatistics, ReadsRadeonsisLine) {
   EXPECT_THAT(parse_statistics("Shader Disassembly Begin"), IsEmpty());
 }
 
-TEST(ParseCounts, ReadsLinesOfIntelAndNvidia) {
+TEST(ParseCounts, ReadsLinesFromIntelAndNvidia) {
   EXPECT_THAT(parse_counts("shader: 55 inst, 0 loops, 328 cycles, 4 sends"),
               AllOf(Contains(Pair("inst", 55)), Contains(Pair("cycles", 328))));
   EXPECT_THAT(parse_counts("ptxas info : Used 32 registers, 8 bytes stack frame"),
@@ -68,12 +68,12 @@ TEST(PrintedKernels, HaveTheNameThatWasPrintedBefore) {
   EXPECT_THAT(kernels[2].statistics, testing::ElementsAre(Pair("VGPRS", 20)));
 }
 
-TEST(PrintedKernels, NothingPrintedIsNoKernel) {
+TEST(PrintedKernels, EmptyOutputContainsNoKernels) {
   EXPECT_THAT(parse_printed_kernels(""), IsEmpty());
   EXPECT_THAT(parse_printed_kernels("DRM_IOCTL_GET_CAP: unhandled 0x10\n"), IsEmpty());
 }
 
-TEST(CompiledCode, HashesAreNoStatistics) {
+TEST(CompiledCode, HashesAreNotStatistics) {
   CompiledCode code;
   code.add("a", {{"VGPRs", 24}, {"Driver pipeline hash", 1e18}, {"Hash", 7}}, "");
   const Compiled compiled = code.take();
@@ -106,7 +106,7 @@ TEST(CompiledCode, CountsInstructionsThatAreNotReported) {
   EXPECT_EQ(compiled.listings.at(compiled.code.at("counted").assembly), assembly);
 }
 
-TEST(StandardError, IsKeptAndGivenBack) {
+TEST(StandardError, IsCapturedAndReturned) {
   const auto write = [](const std::string& text) {
     ASSERT_EQ(::write(STDERR_FILENO, text.data(), text.size()), static_cast<ssize_t>(text.size()));
   };
@@ -138,7 +138,7 @@ TEST(CompileOnly, AnotherDeviceNeedsNoVariables) {
   EXPECT_THAT(compile_only_environment("vulkan:radv"), IsEmpty());
 }
 
-TEST(CompileOnly, WhatIsMissingIsNamedWithItsPackage) {
+TEST(CompileOnly, AMissingDriverIsReportedWithItsPackage) {
   const std::vector<std::string> nowhere{"LD_LIBRARY_PATH=/nowhere"};
   try {
     static_cast<void>(compile_only_environment("vulkan:nvk-pascal", nowhere));
@@ -149,7 +149,7 @@ TEST(CompileOnly, WhatIsMissingIsNamedWithItsPackage) {
 }
 
 // The name of a compile-only device must be the same on every machine.
-TEST(CompileOnly, TheKernelsVersionIsNoPartOfAName) {
+TEST(CompileOnly, NamesDoNotContainTheKernelVersion) {
   EXPECT_EQ(without_kernel_version(
                 "AMD Radeon RX 6800 (radeonsi, navi21, LLVM 19.1.7, DRM 3.49, 6.12.1-amd64)"),
             "AMD Radeon RX 6800 (radeonsi, navi21, LLVM 19.1.7)");

@@ -36,7 +36,7 @@ class FastestTest : public testing::Test {
   std::vector<record::Record> records_;
 };
 
-TEST_F(FastestTest, IsThatOfTheFastestFrame) {
+TEST_F(FastestTest, HasTheFastestFrame) {
   add("raycast", {4e6, 4.1e6, 90e6});
   add("raycast_fragment", {80e6, 2e6, 2.1e6});
   ASSERT_EQ(answers().size(), 1U);
@@ -45,13 +45,13 @@ TEST_F(FastestTest, IsThatOfTheFastestFrame) {
             "(median 2.100, wall clock); raycast takes 2.00 times that");
 }
 
-TEST_F(FastestTest, TellsWhatIsAsFast) {
+TEST_F(FastestTest, ReportsEquallyFastTechniques) {
   add("raycast", {1.0e6, 1.1e6, 1.2e6});
   add("raycast_fragment", {1.05e6, 1.15e6, 1.3e6});
   EXPECT_THAT(text(), HasSubstr("raycast_fragment takes 1.05 times that (equally fast)"));
 }
 
-TEST_F(FastestTest, OfATechniqueMeasuredTwiceTheFasterTimeCounts) {
+TEST_F(FastestTest, TheFasterOfTwoMeasurementsCounts) {
   add("raycast", {3e6});
   EXPECT_TRUE(answers().empty());
   add("raycast_fragment", {2e6});
@@ -62,7 +62,7 @@ TEST_F(FastestTest, OfATechniqueMeasuredTwiceTheFasterTimeCounts) {
   EXPECT_EQ(answers().at(0).contestants.size(), 2U);
 }
 
-TEST_F(FastestTest, IsChosenOfEachSceneAndDeviceByItself) {
+TEST_F(FastestTest, IsChosenForEachSceneAndDevice) {
   for (const char* device : {"null:a", "null:b"}) {
     for (const char* data : {"cube", "ball"}) {
       add("raycast", {1e6}, device, data);
@@ -75,7 +75,7 @@ TEST_F(FastestTest, IsChosenOfEachSceneAndDeviceByItself) {
 }
 
 // A device may have separate clocks for dispatches and draws, whose times cannot be compared.
-TEST_F(FastestTest, IsToldByOneClock) {
+TEST_F(FastestTest, IsFoundWithOneClock) {
   record::Record& trusted = add("raycast", {9e6});
   trusted.device_ns = {1e6};
   trusted.device_clock_trusted = true;
@@ -88,14 +88,14 @@ TEST_F(FastestTest, IsToldByOneClock) {
 
 // If instructions were counted, they decide instead of times, because the choice is then
 // repeatable.
-TEST_F(FastestTest, IsThatOfTheFewestInstructionsWhereTheyWereCounted) {
+TEST_F(FastestTest, HasTheFewestInstructionsIfTheyWereCounted) {
   add("raycast", {}).cost = {{"device_code", 5'000'000}, {"driver", 1'000'000}, {"libc", 9}};
   add("raycast_fragment", {}).cost = {{"device_code", 2'000'000}, {"driver", 2'000'000}};
   EXPECT_THAT(text(), HasSubstr("raycast_fragment takes the fewest instructions, 4.0 million; "
                                 "raycast takes 1.50 times that"));
 }
 
-TEST_F(FastestTest, NamesWhatTheDeviceCannotDraw) {
+TEST_F(FastestTest, ReportsUnsupportedTechniques) {
   add("raycast", {1e6});
   record::Record& skipped = add("raycast_fragment", {});
   skipped.outcome = record::Outcome::skipped;
@@ -106,7 +106,7 @@ TEST_F(FastestTest, NamesWhatTheDeviceCannotDraw) {
                         "raycast_fragment"));
 }
 
-TEST_F(FastestTest, WhatMayYetBeTheFastestIsTriedAgain) {
+TEST_F(FastestTest, CandidatesForTheFastestAreMeasuredAgain) {
   const Plan plan = default_plan(suite_, {{"technique", {"auto"}}});
   ASSERT_EQ(plan.configurations.size(), 2U);
   std::vector<std::size_t> tried;

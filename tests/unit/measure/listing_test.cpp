@@ -28,7 +28,7 @@ std::string refusal(const Listing& listing, const std::string& glob) {
   return "none";
 }
 
-TEST(ApisOf, OpensOnlyThoseThatAGlobMayMatch) {
+TEST(ApisOf, ContainsOnlyApisThatAGlobMayMatch) {
   const std::vector<std::string> all{"gl", "opencl", "vulkan"};
   EXPECT_EQ(apis_of({}, all), all);
   EXPECT_EQ(apis_of({"*"}, all), all);
@@ -46,14 +46,14 @@ TEST(ChooseDevices, InTheOrderOfTheListing) {
               ElementsAre("opencl:pocl", "gl:softpipe"));
 }
 
-TEST(ChooseDevices, EachGlobHasToMeanOne) {
+TEST(ChooseDevices, EachGlobMustMatchADevice) {
   EXPECT_EQ(refusal(some_listing(), "vulkan:*"),
             "no device matches vulkan:*; available devices: opencl:pocl gl:llvmpipe gl:softpipe; "
             "Vulkan: no loader");
   EXPECT_THAT(refusal({}, "*"), HasSubstr("no installed driver provides"));
 }
 
-TEST(ChooseDevice, IsOne) {
+TEST(ChooseDevice, RequiresExactlyOneDevice) {
   EXPECT_EQ(choose_device(some_listing(), "--against", "gl:s*"), "gl:softpipe");
   EXPECT_THROW(static_cast<void>(choose_device(some_listing(), "--against", "gl:*")),
                core::InputError);

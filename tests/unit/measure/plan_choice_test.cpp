@@ -61,7 +61,7 @@ TEST_F(Selection, AFractionIsTheSameEveryTime) {
   }
 }
 
-TEST(PlanChoice, ACommaBetweenValuesIsNoneWithin) {
+TEST(PlanChoice, CommasSeparateLevelsUnlessEscaped) {
   const Overrides overrides = PlanChoice{.set = {"step=0.5,1", "data=a%2Cb"}}.overrides();
   ASSERT_EQ(overrides.size(), 2U);
   EXPECT_EQ(overrides[0], (Overrides::value_type{"step", {"0.5", "1"}}));
@@ -72,7 +72,7 @@ TEST(PlanChoice, ACommaBetweenValuesIsNoneWithin) {
   }
 }
 
-TEST(PlanChoice, APartIsOneOfThoseThereAre) {
+TEST(PlanChoice, APartNumberMustExist) {
   EXPECT_EQ(PlanChoice{}.part().count, 1);
   EXPECT_EQ(PlanChoice{.shard = "2/3"}.part().index, 2);
   for (const char* text : {"0/3", "4/3", "1", "1/", "1/2x", "x/2", "-1/2"}) {

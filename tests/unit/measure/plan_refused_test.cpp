@@ -63,7 +63,7 @@ TEST_F(PlanTest, UnknownLevel) {
       AllOf(StartsWith(at(4, 5)), HasSubstr("'brick'"), HasSubstr("did you mean 'bricks'")));
 }
 
-TEST_F(PlanTest, ValueThatTheSuiteRefuses) {
+TEST_F(PlanTest, ValueThatTheSuiteRejects) {
   EXPECT_THAT(refusal("suite: fake\ndata: [cube, nonsense]\n"),
               AllOf(StartsWith(at(2, 14)), HasSubstr("'data': expected a file")));
 }
@@ -88,7 +88,7 @@ TEST_F(PlanTest, NestedListsAndMappings) {
               AllOf(StartsWith(at(2, 7)), HasSubstr("mapping")));
 }
 
-TEST_F(PlanTest, ValueThatIsNoText) {
+TEST_F(PlanTest, InvalidUtf8) {
   for (const char* const value : {"a\xff", "\xc0\xaf", "\xed\xa0\x80", "\"a\\x00b\"", "\"a\\tb\"",
                                   "\"a\\x7f\"", "\"\\x1b[2J\""}) {
     EXPECT_THAT(refusal(std::string("suite: fake\ndata: [ball, ") + value + "]\n"),
@@ -108,7 +108,7 @@ TEST_F(PlanTest, Suite) {
   EXPECT_THAT(refusal("suite: [fake]\n"), StartsWith(at(1, 8)));
 }
 
-TEST_F(PlanTest, WhatIsNoPlan) {
+TEST_F(PlanTest, FilesThatAreNotPlans) {
   EXPECT_THAT(refusal(""), HasSubstr("empty"));
   EXPECT_THAT(refusal("# nothing\n"), HasSubstr("empty"));
   EXPECT_THAT(refusal("- suite\n"), StartsWith(at(1, 1)));
@@ -118,7 +118,7 @@ TEST_F(PlanTest, WhatIsNoPlan) {
 }
 
 // For such a token at the root, yaml-cpp would return empty documents forever.
-TEST_F(PlanTest, WhatStandsWhereNothingCanBeginIsNoPlan) {
+TEST_F(PlanTest, TokensThatCannotBeginADocument) {
   EXPECT_THAT(refusal(",\n"), AllOf(StartsWith(at(1, 1)), HasSubstr("not valid YAML")));
   EXPECT_THAT(refusal("&R, x\n"), HasSubstr("not valid YAML"));
   EXPECT_THAT(refusal("!x y, z\n"), StartsWith(at(1, 1)));
@@ -127,7 +127,7 @@ TEST_F(PlanTest, WhatStandsWhereNothingCanBeginIsNoPlan) {
   EXPECT_THAT(refusal("{suite: fake} ,\n"), HasSubstr("not valid YAML"));
 }
 
-TEST_F(PlanTest, APipeIsNotWaitedForAndNothingEndlessIsRead) {
+TEST_F(PlanTest, PipesAndEndlessFilesAreRejected) {
   ASSERT_EQ(::mkfifo(file_.c_str(), 0600), 0);
   EXPECT_THAT([&] { static_cast<void>(load_plan(file_.string(), {}, find_)); },
               ThrowsMessage<core::InputError>(HasSubstr("is a pipe or a device")));

@@ -38,7 +38,7 @@ TEST_F(PlanTest, FileIsNamedWithoutItsEnding) {
   EXPECT_EQ(load("suite: fake\n").name, "FileIsNamedWithoutItsEnding");
 }
 
-TEST_F(PlanTest, EveryFactorIsThereWithItsDefault) {
+TEST_F(PlanTest, MissingFactorsHaveTheirDefaults) {
   const Plan plan = load("summary: one of each\nsuite: fake\n");
   ASSERT_THAT(plan.configurations, SizeIs(1));
   const Configuration expected{
@@ -64,7 +64,7 @@ TEST_F(PlanTest, AutoIsEveryTechniqueThatDraws) {
   EXPECT_THAT(default_plan(suite_, {{"technique", {"auto"}}}).automatic, ElementsAre("technique"));
 }
 
-TEST_F(PlanTest, AutoIsForgottenWhereALevelIsNamed) {
+TEST_F(PlanTest, AutoIsReplacedByANamedLevel) {
   const std::string yaml = "suite: fake\ntechnique: auto\n";
   EXPECT_THAT(load(yaml, {{"technique", {"raycast"}}}).automatic, IsEmpty());
   // A level `auto` that stands for the device's default path does not depend on times.
@@ -102,12 +102,12 @@ TEST_F(PlanTest, NumbersHaveOneSpelling) {
   EXPECT_THAT(values(load("suite: fake\nert: -0.0\n"), "ert"), ElementsAre("0"));
 }
 
-TEST_F(PlanTest, DefaultMayBeSaidAloud) {
+TEST_F(PlanTest, DefaultsMayBeStatedExplicitly) {
   EXPECT_THAT(values(load("suite: fake\nsampler: [auto, manual]\n"), "sampler"),
               ElementsAre("auto", "manual"));
 }
 
-TEST_F(PlanTest, AlsoAddsCombinationsBesideTheirDataAndNoneTwice) {
+TEST_F(PlanTest, AlsoAddsCombinationsWithoutDuplicates) {
   const std::string yaml =
       "suite: fake\n"
       "data: [x, y]\n"
@@ -125,7 +125,7 @@ TEST_F(PlanTest, AlsoAddsCombinationsBesideTheirDataAndNoneTwice) {
 }
 
 // Values that occur in the plan select its configurations. Other values create new configurations.
-TEST_F(PlanTest, AnOverrideOfSeveralBlocksSelectsWhatThePlanHas) {
+TEST_F(PlanTest, OverridesSelectLevelsOfThePlan) {
   const std::string yaml =
       "suite: fake\n"
       "data: [x, y]\n"
@@ -169,7 +169,7 @@ TEST_F(PlanTest, AlsoIsAListOfBlocks) {
               AllOf(StartsWith(at(4, 5)), HasSubstr("twice")));
 }
 
-TEST_F(PlanTest, TextOfAnotherPlanHasAnotherHash) {
+TEST_F(PlanTest, DifferentPlansHaveDifferentHashes) {
   const std::string hash = load("suite: fake\nstep: [1, 2]\n").hash;
   EXPECT_FALSE(hash.empty());
   EXPECT_EQ(load("suite: fake\nstep: [1, 2]\n", {{"step", {"2"}}}).hash, hash);
@@ -196,7 +196,7 @@ TEST_F(PlanTest, OverridesAreCheckedLikeThePlan) {
 
 // Keys and shards
 
-TEST_F(PlanTest, KeyNamesWhatIsNotDefault) {
+TEST_F(PlanTest, KeysContainOnlyNonDefaultLevels) {
   Configuration configuration = load("suite: fake\n").configurations.front();
   EXPECT_EQ(configuration_key(suite_, configuration),
             "camera=orbit_y:0/8,data=cube,technique=raycast");
@@ -259,7 +259,7 @@ TEST_F(PlanTest, ShardOutOfRange) {
 
 // The plan has five million combinations. A shard must keep only its own part in memory, and a
 // listing must keep none.
-TEST_F(PlanTest, MillionsAreListedAndCutWithoutBeingHeld) {
+TEST_F(PlanTest, LargePlansAreListedAndShardedWithoutStoringThem) {
   std::string cameras;
   for (int i = 0; i < 250; ++i) cameras += "random:" + std::to_string(i) + ", ";
   std::string steps;
@@ -283,7 +283,7 @@ TEST_F(PlanTest, MillionsAreListedAndCutWithoutBeingHeld) {
 
 // A plan with 10¹² combinations can neither be run nor listed, so it must be rejected before the
 // first combination.
-TEST_F(PlanTest, AListThatWouldNotEndIsRefused) {
+TEST_F(PlanTest, TooManyCombinationsAreRejectedBeforeListing) {
   std::string values;
   for (int i = 1; i <= 1000; ++i) values += std::to_string(0.01 * i) + ", ";
   std::string cameras;
@@ -300,7 +300,7 @@ TEST_F(PlanTest, AListThatWouldNotEndIsRefused) {
   EXPECT_EQ(listed, 0);
 }
 
-TEST_F(PlanTest, ChecksSayWhatIsMeasured) {
+TEST_F(PlanTest, ChecksDetermineWhatIsMeasured) {
   const Plan standard = load("suite: fake\n");
   EXPECT_TRUE(standard.timed());
   EXPECT_FALSE(standard.counted());
@@ -313,7 +313,7 @@ TEST_F(PlanTest, ChecksSayWhatIsMeasured) {
   EXPECT_FALSE(counted.judges_pictures());
 }
 
-TEST_F(PlanTest, ChecksThatAreNoneOrExcludeEachOther) {
+TEST_F(PlanTest, InvalidAndMutuallyExclusiveChecks) {
   EXPECT_THAT(
       refusal("suite: fake\nchecks: [image, colour]\n"),
       testing::StartsWith(at(2, 17) + "'checks': unknown check 'colour'; expected one of image"));

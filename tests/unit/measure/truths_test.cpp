@@ -79,7 +79,7 @@ class TruthsTest : public testing::Test {
   TruthfulSuite suite_;
 };
 
-TEST_F(TruthsTest, AreRenderedOnceAndKeptForTheNext) {
+TEST_F(TruthsTest, AreRenderedOnceAndReused) {
   record::Store first = store();
   Truths fresh = truths(first);
   const accuracy::TruthPair* pair = &fresh.of(record_with("1"));
@@ -94,7 +94,7 @@ TEST_F(TruthsTest, AreRenderedOnceAndKeptForTheNext) {
 
 // Anyone can write a valid seal into a store before passing it on. Therefore, only reference images
 // that this user rendered on this machine are trusted.
-TEST_F(TruthsTest, ABoundThatAnybodyWroteIsDrawnAgain) {
+TEST_F(TruthsTest, ABoundFromAnotherUserIsComputedAgain) {
   {
     record::Store first = store();
     static_cast<void>(truths(first).of(record_with("1")));
@@ -114,7 +114,7 @@ TEST_F(TruthsTest, ABoundThatAnybodyWroteIsDrawnAgain) {
 }
 
 // Test cases 1, 2 and 6 of RFC 4231.
-TEST(OwnSeal, IsThatOfTheStandard) {
+TEST(OwnSeal, MatchesTheStandard) {
   EXPECT_EQ(hmac_sha256(std::string(20, '\x0b'), "Hi There"),
             "b0344c61d8db38535ca8afceaf0bf12b881dc200c9833da726e9376c2e32cff7");
   EXPECT_EQ(hmac_sha256("Jefe", "what do ya want for nothing?"),
@@ -124,13 +124,13 @@ TEST(OwnSeal, IsThatOfTheStandard) {
             "60e431591ee0b67f0d8a26aacbf5b77f8e0bc6213728c5140546040f0ee37f54");
 }
 
-TEST_F(TruthsTest, AreAsTrueWhereTheyCannotBeKept) {
+TEST_F(TruthsTest, AreCorrectIfTheyCannotBeStored) {
   static_cast<void>(store());
   record::Store read = store(record::Store::Mode::read);
   EXPECT_EQ(truths(read).of(record_with("1")).truth.rgba[0], 1);
 }
 
-TEST_F(TruthsTest, LimitsAreKeptBesideThem) {
+TEST_F(TruthsTest, LimitImagesAreStoredToo) {
   record::Store first = store();
   Truths fresh = truths(first);
   EXPECT_EQ(fresh.limit_of(record_with("2")), nullptr);

@@ -61,7 +61,7 @@ TEST(TimeFrames, AnExceptionEndsTheLoopAndTheNextRunIsNotAffected) {
             "good/iterations:1/repeats:2/manual_time");
 }
 
-TEST(TimeLoop, TakesTheTimeOnceAroundAllFrames) {
+TEST(TimeLoop, MeasuresAllFramesTogether) {
   initialize_benchmarks();
   int calls = 0;
   const BenchmarkResult result = time_loop("loop", 50, [&] { ++calls; });

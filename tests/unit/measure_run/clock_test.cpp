@@ -27,7 +27,7 @@ record::ClockTrust verdict_on_ratio(double ratio) {
   return verdict_on([=](int) { return frame_of(30 * millisecond, ratio * 30 * millisecond); });
 }
 
-TEST(Calibrate, BelievesAnExactClockAndOneThatLeavesOutTheLaunch) {
+TEST(Calibrate, TrustsExactClocksAndClocksThatOmitTheLaunch) {
   for (const double ratio : {1.0, 0.98, 0.91, 1.01}) {
     const record::ClockTrust trust = verdict_on_ratio(ratio);
     EXPECT_TRUE(trust.offered && trust.trusted) << trust.verdict;
@@ -37,7 +37,7 @@ TEST(Calibrate, BelievesAnExactClockAndOneThatLeavesOutTheLaunch) {
   }
 }
 
-TEST(Calibrate, DoesNotBelieveClocksThatReadTooLittleOrTooMuch) {
+TEST(Calibrate, RejectsClocksThatAreTooSlowOrTooFast) {
   for (const double ratio : {0.0, 0.14, 0.85, 1.05, 3.0, -1.0}) {
     const record::ClockTrust trust = verdict_on_ratio(ratio);
     EXPECT_TRUE(trust.offered);
@@ -47,7 +47,7 @@ TEST(Calibrate, DoesNotBelieveClocksThatReadTooLittleOrTooMuch) {
   EXPECT_THAT(verdict_on_ratio(0).verdict, HasSubstr("reads 0"));
 }
 
-TEST(Calibrate, DoesNotBelieveAClockThatJitters) {
+TEST(Calibrate, RejectsAClockThatJitters) {
   const auto trust = verdict_on([](int n) {
     return frame_of(30 * millisecond, (n % 2 == 0 ? 0.5 : 0.99) * 30 * millisecond);
   });
@@ -56,7 +56,7 @@ TEST(Calibrate, DoesNotBelieveAClockThatJitters) {
   EXPECT_NEAR(trust.ratio_high, 0.99, 1e-12);
 }
 
-TEST(Calibrate, ExcusesOneLateWakeUpButNoOtherOddity) {
+TEST(Calibrate, ToleratesOneLateWakeUpButNoOtherOutlier) {
   const auto odd_one = [](double wall_ms, double device_ms) {
     return verdict_on([=](int n) {
              return n == 5 ? frame_of(wall_ms * millisecond, device_ms * millisecond)
@@ -69,21 +69,21 @@ TEST(Calibrate, ExcusesOneLateWakeUpButNoOtherOddity) {
   EXPECT_FALSE(odd_one(30, 0));
 }
 
-TEST(Calibrate, SaysWhenTheDeviceTellsNoTime) {
+TEST(Calibrate, ReportsADeviceWithoutTimes) {
   const auto trust = verdict_on([](int) { return frame_of(30 * millisecond); });
   EXPECT_FALSE(trust.offered);
   EXPECT_FALSE(trust.trusted);
   EXPECT_THAT(trust.verdict, HasSubstr("reports no time"));
 }
 
-TEST(Calibrate, SurvivesTimesThatAreNone) {
+TEST(Calibrate, HandlesTimesThatAreNotNumbers) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(verdict_on([=](int) { return frame_of(30 * millisecond, nan); }).trusted);
   EXPECT_FALSE(verdict_on([=](int) { return frame_of(nan, 30 * millisecond); }).trusted);
   EXPECT_FALSE(verdict_on([](int) { return frame_of(0, 0); }).trusted);
 }
 
-TEST(Calibrate, TakesFewerFramesWhereTheyAreLong) {
+TEST(Calibrate, NeedsFewerFramesIfTheyAreLong) {
   ScriptedPrepared prepared = steady(900 * millisecond, 899 * millisecond);
   EXPECT_TRUE(calibrate(prepared, technique::Work::draw).trusted);
   EXPECT_LE(std::ranges::count(prepared.calls, "timing"), 5);
@@ -99,7 +99,7 @@ TEST(Plausible, NeedsATimePerFrameAboveZeroAndWithinTheWallTime) {
   EXPECT_FALSE(plausible({1.1 * millisecond}, {1 * millisecond}));
 }
 
-TEST(Plausible, ExcusesLaunchesAndAFewLateWakeUpsButNotMissingWork) {
+TEST(Plausible, ToleratesLaunchesAndLateWakeUpsButNotMissingWork) {
   EXPECT_TRUE(
       plausible({0.05 * millisecond}, {0.3 * millisecond}));  // a launch may take this long
   EXPECT_FALSE(plausible({0.05 * millisecond},
@@ -148,7 +148,7 @@ TEST(CalibrateClock, LengthensFramesUntilTheLaunchNoLongerMatters) {
   EXPECT_GE(device.longest_ns, ClockLimits::least_frame_ns);
 }
 
-TEST(CalibrateClock, SaysThatShortFramesTellLittleWhereNothingLongerRuns) {
+TEST(CalibrateClock, ReportsThatFramesAreTooShort) {
   FakeSuite suite;
   GrowingDevice device(1);
   const record::ClockTrust trust = calibrate_clock(device, suite, technique::Work::compute);
@@ -156,7 +156,7 @@ TEST(CalibrateClock, SaysThatShortFramesTellLittleWhereNothingLongerRuns) {
   EXPECT_THAT(trust.verdict, HasSubstr("such short frames are not conclusive"));
 }
 
-TEST(CalibrateClock, SaysWhyAKindOfWorkCannotBeCalibrated) {
+TEST(CalibrateClock, ReportsWhyAKindOfWorkCannotBeCalibrated) {
   FakeSuite suite;
   GrowingDevice device(2);
   const record::ClockTrust trust = calibrate_clock(device, suite, technique::Work::draw);

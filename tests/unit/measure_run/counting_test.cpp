@@ -38,11 +38,11 @@ class Counting : public testing::Test {
   }
 };
 
-TEST_F(Counting, CodeInMemoryIsDeviceCodeToTheInstruction) {
+TEST_F(Counting, CodeInMemoryIsCountedExactlyAsDeviceCode) {
   EXPECT_EQ(counted("1000"), "2002 0 1\n2002 0 1\n2002 0 1\n");
 }
 
-TEST_F(Counting, OneInstructionMoreIsSeen) {
+TEST_F(Counting, OneMoreInstructionIsCounted) {
   EXPECT_THAT(counted("1001"), testing::StartsWith("2004 0 1\n"));
 }
 
@@ -52,27 +52,27 @@ TEST_F(Counting, FilesOfTheKernelCacheAreDeviceCode) {
   EXPECT_THAT(counted("1000", folder), testing::Not(testing::StartsWith("2002 ")));
 }
 
-TEST_F(Counting, WaitsForWhatAnotherThreadStillDoes) {
+TEST_F(Counting, WaitsForOtherThreads) {
   EXPECT_EQ(counted("1000", "/nowhere", "count-busy"), "2002 0 1\n2002 0 1\n2002 0 1\n");
 }
 
 // The cache misses are the cache lines of the loads, plus the stack line with the return address.
 // 1,000 loads touch either 1,000 lines, which do not fit into the cache, or 125 lines, which do.
-TEST_F(Counting, AStrideThatMissesTheCacheCostsMissesAndNoInstruction) {
+TEST_F(Counting, CacheMissesAreCountedSeparately) {
   EXPECT_EQ(counted("64", "/nowhere", "count-stride"), "4002 1001\n4002 1001\n4002 1001\n");
   EXPECT_EQ(counted("8", "/nowhere", "count-stride"), "4002 126\n4002 0\n4002 0\n");
 }
 
-TEST_F(Counting, TheEmulatorIsNamedWithItsProcessor) {
+TEST_F(Counting, TheEmulatorNameIncludesTheProcessor) {
   EXPECT_THAT(std::get<Emulator>(find_emulator()).name,
               testing::MatchesRegex("valgrind [0-9]+\\.[0-9]+ (AVX2|SSE)"));
 }
 
-TEST(InstructionCounter, IsNotThereNatively) {
+TEST(InstructionCounter, IsAbsentWithoutTheEmulator) {
   EXPECT_FALSE(InstructionCounter::of_this_process());
 }
 
-TEST(InstructionCounter, TellsWhatWasTakenSince) {
+TEST(InstructionCounter, CountsSinceThePreviousReading) {
   const record::Counts taken = InstructionCounter::between({1, 5, 0, 0, 2, 0}, {1, 12, 0, 0, 3, 0});
   EXPECT_EQ(taken.at("driver"), 7U);
   EXPECT_EQ(taken.at("device_code"), 0U);

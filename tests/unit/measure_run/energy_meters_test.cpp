@@ -45,12 +45,12 @@ void take_a_while() {
   std::this_thread::sleep_for(std::chrono::milliseconds(12));
 }
 
-TEST_F(EnergyMetersTest, AMachineWithoutAnyTellsNothingAndDrawsNothing) {
+TEST_F(EnergyMetersTest, WithoutMetersNothingIsReportedOrDrawn) {
   EXPECT_THAT(meters().names(), IsEmpty());
   EXPECT_THAT(meters().of_a_frame([] { ADD_FAILURE() << "a frame was drawn"; }), IsEmpty());
 }
 
-TEST_F(EnergyMetersTest, WhatIsCountedAlreadyOrNotAtAllIsNoMeter) {
+TEST_F(EnergyMetersTest, DuplicateAndUnreadableMetersAreIgnored) {
   zone("intel-rapl:0", "package-0", "1");
   zone("intel-rapl:0/intel-rapl:0:0", "core", "1");
   zone("intel-rapl:0/intel-rapl:0:1", "dram", "1");
@@ -68,7 +68,7 @@ TEST_F(EnergyMetersTest, WhatIsCountedAlreadyOrNotAtAllIsNoMeter) {
 
 // The meter is updated only every third frame. Energy before its first or after its last update
 // must not be counted.
-TEST_F(EnergyMetersTest, CountsBetweenRenewals) {
+TEST_F(EnergyMetersTest, CountsBetweenMeterUpdates) {
   zone("intel-rapl:0", "package-0", "1000");
   int drawn = 0;
   std::optional<Stopwatch> since_the_first;
@@ -85,7 +85,7 @@ TEST_F(EnergyMetersTest, CountsBetweenRenewals) {
   EXPECT_GE(since_the_first->ns(), 100e6);
 }
 
-TEST_F(EnergyMetersTest, ACountMayBeginAnew) {
+TEST_F(EnergyMetersTest, ACounterMayWrap) {
   zone("intel-rapl:0", "package-0", "9000");
   int drawn = 0;
   const record::Counts told = meters().of_a_frame([&] {
@@ -95,7 +95,7 @@ TEST_F(EnergyMetersTest, ACountMayBeginAnew) {
   EXPECT_THAT(told, ElementsAre(Pair("package-0", 300)));
 }
 
-TEST_F(EnergyMetersTest, OneThatStandsStillIsLeftOutAfterASecond) {
+TEST_F(EnergyMetersTest, AMeterThatDoesNotChangeIsIgnoredAfterASecond) {
   zone("intel-rapl:0", "package-0", "1000");
   zone("intel-rapl:1", "package-1", "1000");
   int drawn = 0;
@@ -107,7 +107,7 @@ TEST_F(EnergyMetersTest, OneThatStandsStillIsLeftOutAfterASecond) {
   EXPECT_LE(drawn, 84);
 }
 
-TEST_F(EnergyMetersTest, OfLongFramesTwoAreEnough) {
+TEST_F(EnergyMetersTest, TwoLongFramesAreEnough) {
   zone("intel-rapl:0", "package-0", "1000");
   int drawn = 0;
   const record::Counts told = meters().of_a_frame([&] {
@@ -118,7 +118,7 @@ TEST_F(EnergyMetersTest, OfLongFramesTwoAreEnough) {
   EXPECT_THAT(told, ElementsAre(Pair("package-0", 7)));
 }
 
-TEST_F(EnergyMetersTest, NvidiasTellMillijoules) {
+TEST_F(EnergyMetersTest, NvidiaMetersReportMillijoules) {
   const EnergyMeters meters(system_.path(), FAKE_NVML);
   EXPECT_THAT(meters.names(), ElementsAre("nvidia-0"));
   void* library = ::dlopen(FAKE_NVML, RTLD_NOW);
@@ -132,7 +132,7 @@ TEST_F(EnergyMetersTest, NvidiasTellMillijoules) {
   EXPECT_THAT(told, ElementsAre(Pair("nvidia-0", 3000)));
 }
 
-TEST_F(EnergyMetersTest, ARecordTellsThemWhereItHasALoop) {
+TEST_F(EnergyMetersTest, RecordsOfTimedLoopsContainEnergy) {
   zone("intel-rapl:0", "package-0", "1000");
   const EnergyMeters meters = this->meters();
   int drawn = 0;

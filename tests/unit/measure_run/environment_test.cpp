@@ -28,7 +28,7 @@ TEST(ParseEnvironment, AValueMayHoldCommas) {
   }
 }
 
-TEST(WorkerEnvironment, GivesPoclItsDefaultsAndNobodyElse) {
+TEST(WorkerEnvironment, SetsDefaultsForPoclOnly) {
   const ScratchFolder scratch;
   const Variable cache_home("XDG_CACHE_HOME", scratch.path().string());
   const Variable unset("POCL_CACHE_DIR");
@@ -40,7 +40,7 @@ TEST(WorkerEnvironment, GivesPoclItsDefaultsAndNobodyElse) {
   EXPECT_THAT(worker_environment("vulkan:lavapipe", cache), Each(Not(StartsWith("POCL_"))));
 }
 
-TEST(WorkerEnvironment, LeavesWhatTheUserSet) {
+TEST(WorkerEnvironment, KeepsVariablesThatTheUserSet) {
   const ScratchFolder scratch;
   const Variable cache_home("XDG_CACHE_HOME", scratch.path().string());
   const Variable set("POCL_PTHREAD_MIN_WGS", "8");
@@ -63,7 +63,7 @@ TEST(WorkerEnvironment, OverridesWinOverTheUserAndTheDefaults) {
   EXPECT_THAT(environment, Not(Contains("POCL_PTHREAD_MIN_WGS=1")));
 }
 
-TEST(WorkerEnvironment, KeepsFlagsOfGoogleBenchmarkAway) {
+TEST(WorkerEnvironment, RemovesFlagsOfGoogleBenchmark) {
   const ScratchFolder scratch;
   const Variable cache_home("XDG_CACHE_HOME", scratch.path().string());
   const Variable flag("BENCHMARK_LIST_TESTS", "true");
@@ -71,7 +71,7 @@ TEST(WorkerEnvironment, KeepsFlagsOfGoogleBenchmarkAway) {
   EXPECT_THAT(worker_environment("null:scripted", cache), Each(Not(StartsWith("BENCHMARK_"))));
 }
 
-TEST(CacheFolder, IsHeldByOneAtATimeAndFoundAgain) {
+TEST(CacheFolder, IsLockedByOneProcessAndReused) {
   const ScratchFolder scratch;
   const Variable cache_home("XDG_CACHE_HOME", scratch.path().string());
   std::filesystem::path first_path;
@@ -113,7 +113,7 @@ class PlantedCache : public testing::Test {
   }
 };
 
-TEST_F(PlantedCache, IsMadeForThisUserAlone) {
+TEST_F(PlantedCache, IsCreatedForThisUserOnly) {
   const mode_t before = ::umask(0);
   const CacheFolder cache("opencl:pocl");
   ::umask(before);
@@ -123,7 +123,7 @@ TEST_F(PlantedCache, IsMadeForThisUserAlone) {
   }
 }
 
-TEST_F(PlantedCache, ALinkIsRefused) {
+TEST_F(PlantedCache, ASymbolicLinkIsRejected) {
   const ScratchFolder other;
   std::filesystem::create_directory_symlink(other.path(), planted_);
   EXPECT_THAT(refusal(), testing::HasSubstr("is a symbolic link"));
@@ -134,20 +134,20 @@ TEST_F(PlantedCache, ALinkIsRefused) {
   EXPECT_THAT(refusal(), testing::HasSubstr("is a symbolic link"));
 }
 
-TEST_F(PlantedCache, AFolderThatOthersCanWriteIsRefused) {
+TEST_F(PlantedCache, AFolderThatOthersCanWriteIsRejected) {
   std::filesystem::create_directory(planted_);
   ASSERT_EQ(::chmod(planted_.c_str(), 0777), 0);
   EXPECT_THAT(refusal(), testing::HasSubstr("other users can write to it"));
 }
 
-TEST_F(PlantedCache, AFolderThatOthersCanOnlyReadIsClosedToThem) {
+TEST_F(PlantedCache, AFolderThatOthersCanReadIsMadePrivate) {
   std::filesystem::create_directory(planted_);
   ASSERT_EQ(::chmod(planted_.c_str(), 0755), 0);
   EXPECT_THAT(refusal(), StartsWith("used: "));
   EXPECT_EQ(std::filesystem::status(planted_).permissions(), std::filesystem::perms::owner_all);
 }
 
-TEST_F(PlantedCache, AFolderOfAnotherUserIsRefused) {
+TEST_F(PlantedCache, AFolderOfAnotherUserIsRejected) {
   if (::geteuid() != 0) GTEST_SKIP() << "only root can give a folder to another user";
   std::filesystem::create_directory(planted_);
   ASSERT_EQ(::chmod(planted_.c_str(), 0755), 0);
@@ -155,7 +155,7 @@ TEST_F(PlantedCache, AFolderOfAnotherUserIsRefused) {
   EXPECT_THAT(refusal(), testing::HasSubstr("belongs to another user"));
 }
 
-TEST_F(PlantedCache, APlaceInWhichOthersCanRenameIsRefused) {
+TEST_F(PlantedCache, AParentInWhichOthersCanRenameIsRejected) {
   ASSERT_EQ(::chmod(scratch_.path().c_str(), 0777), 0);
   EXPECT_THAT(refusal(), testing::HasSubstr("no sticky bit"));
   ASSERT_EQ(::chmod(scratch_.path().c_str(), 01777), 0);

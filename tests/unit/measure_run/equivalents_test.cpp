@@ -27,13 +27,13 @@ core::Image picture(const std::vector<float>& alphas) {
   return image;
 }
 
-TEST(LeastTransmittance, IsWhatThePictureLeavesOfTheBackground) {
+TEST(LeastTransmittance, FollowsFromTheVisibleBackground) {
   EXPECT_NEAR(least_transmittance(volume_over(0), picture({0.25F, 0.75F, 0.5F})), 0.25, 1e-6);
   // The image is 0.85 = 1 − T + T·0.25, so T is 0.2.
   EXPECT_NEAR(least_transmittance(volume_over(0.25F), picture({0.25F, 0.85F})), 0.2, 1e-6);
 }
 
-TEST(LeastTransmittance, IsNothingWhereItCannotBeSeen) {
+TEST(LeastTransmittance, IsZeroIfItCannotBeDetermined) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(least_transmittance(volume_over(1), picture({0.5F})), 0);
   EXPECT_EQ(least_transmittance(volume_over(0), picture({1.0F})), 0);
@@ -52,7 +52,7 @@ class EquivalentsOf : public testing::Test {
   Equivalents equivalents;
 };
 
-TEST_F(EquivalentsOf, RaysThatEndBelowWhatTheyReachAreTheSame) {
+TEST_F(EquivalentsOf, EarlyTerminationThatNoRayReachesIsEquivalent) {
   const auto equivalent = equivalents.find(plain("1", 0.125));
   ASSERT_TRUE(equivalent);
   EXPECT_EQ(equivalent->key, "first");
@@ -61,13 +61,13 @@ TEST_F(EquivalentsOf, RaysThatEndBelowWhatTheyReachAreTheSame) {
   EXPECT_FALSE(equivalents.find(plain("2", 0.125)));
 }
 
-TEST_F(EquivalentsOf, WhatEndedRaysTellsNothingOfLess) {
+TEST_F(EquivalentsOf, TerminatedRaysProveNothingAboutLowerThresholds) {
   equivalents.add(plain("2", 0.3), "second", volume_over(0), picture({0.75F}));
   EXPECT_FALSE(equivalents.find(plain("2", 0)));
   EXPECT_TRUE(equivalents.find(plain("2", 0.3)));
 }
 
-TEST_F(EquivalentsOf, TheReasonNamesWhatWasReplacedInOneOfThem) {
+TEST_F(EquivalentsOf, TheReasonNamesTheReplacedLevel) {
   PlainWork leaps = plain("1", 0);
   leaps.why["skip"] = "nothing is empty";
   const auto equivalent = equivalents.find(leaps);
@@ -97,7 +97,7 @@ class RunTwins : public RunTest {
   const std::string none = "camera=random:7,data=full,skip=none,technique=raycast,viewport=8";
 };
 
-TEST_F(RunTwins, TakeOverWhatTheFirstTold) {
+TEST_F(RunTwins, CopyTheFramesOfTheFirst) {
   const RunResult result = run(full());
   EXPECT_EQ(result.measured, 2);
   EXPECT_EQ(result.taken_over, 1);
@@ -117,22 +117,22 @@ TEST_F(RunTwins, TakeOverWhatTheFirstTold) {
   EXPECT_TRUE(other.benchmark_json.empty());
 }
 
-TEST_F(RunTwins, AreMeasuredWhereTheSceneTellsThemApart) {
+TEST_F(RunTwins, AreMeasuredIfTheyDifferInTheScene) {
   EXPECT_EQ(run(full("cube")).taken_over, 0);
 }
 
-TEST_F(RunTwins, AreMeasuredWhereThatIsAskedFor) {
+TEST_F(RunTwins, AreMeasuredOnRequest) {
   options.protocol.measure_every = true;
   EXPECT_EQ(run(full()).taken_over, 0);
 }
 
-TEST_F(RunTwins, AreMeasuredWhereAFaultIsInjected) {
+TEST_F(RunTwins, AreMeasuredIfAFaultIsInjected) {
   options.faults = {{.fault = "half_voxel_shift", .only = {}}};
   EXPECT_EQ(run(full()).taken_over, 0);
 }
 
 // Untimed runs also reuse the results of equal work: the records contain the same frames.
-TEST_F(RunTwins, TakeOverPicturesOfAnUntimedRunToo) {
+TEST_F(RunTwins, ShareImagesOfAnUntimedRun) {
   options.protocol.timed = false;
   const RunResult result = run(full());
   EXPECT_EQ(result.taken_over, 1);
@@ -143,7 +143,7 @@ TEST_F(RunTwins, TakeOverPicturesOfAnUntimedRunToo) {
   EXPECT_TRUE(all[none].untimed() && all[bricks].untimed());
 }
 
-TEST_F(RunTwins, AreDrawnByAPlanForPicturesAlone) {
+TEST_F(RunTwins, AreDrawnByAPlanForImagesOnly) {
   Plan what = full();
   what.checks = {record::Check::image, record::Check::counters};
   EXPECT_EQ(run(what).taken_over, 0);

@@ -65,7 +65,7 @@ TEST(FrameProof, FindsALoopOfFramesThatTookNoTime) {
   EXPECT_NO_THROW(check_loop({0.02 * ms}, {1.9 * ms}));
 }
 
-TEST(FrameProof, LetsFramesAfterAJumpDifferButNotBeMissing) {
+TEST(FrameProof, FramesAfterAJumpMayDifferButNotBeMissing) {
   const Protocol jumping{.timed = false, .camera_jumps = true};
   ScriptedPrepared differing = steady(50 * ms);
   differing.picture = [](int n) { return static_cast<float>(n); };
@@ -85,7 +85,7 @@ TEST(FrameProof, FindsAnImageThatIsNeverDrawn) {
 
 // If a frame computes NaNs, it has drawn them. Whether they are correct is decided by the
 // comparison with the reference image.
-TEST(FrameProof, TakesNaNsThatAFrameComputedForItsImage) {
+TEST(FrameProof, AcceptsNaNsThatAFrameComputed) {
   // The NaN that a processor computes for 0/0.
   static constexpr std::uint32_t computed_nan = 0xFFC00000;
   ScriptedPrepared prepared = steady(50 * ms);
@@ -107,7 +107,7 @@ TEST(FrameProof, FindsAnImageThatCannotBeOverwritten) {
   EXPECT_THROW(measure_all(prepared), NotDrawn);
 }
 
-TEST(FrameProof, TrustsNoClockByFramesThatAreNotDrawn) {
+TEST(FrameProof, DoesNotTrustClocksOfFramesThatAreNotDrawn) {
   ScriptedPrepared prepared = steady(50 * ms, 49 * ms);
   prepared.draws = [](int n) { return n < 3; };
   EXPECT_THROW(static_cast<void>(calibrate(prepared, technique::Work::compute)), NotDrawn);

@@ -24,7 +24,7 @@ TEST(InjectedFault, PutsTheNamedFaultIntoTheOptions) {
   EXPECT_EQ(injected("coarse_filter").fault, Fault::coarse_filter);
 }
 
-TEST(InjectedFault, IsReadWithWhatItIsMeantFor) {
+TEST(InjectedFault, IsParsedWithItsTarget) {
   const std::vector<std::string> texts{"crash", "slowdown:1@step=2", "hang@a@b"};
   const std::vector<InjectedFault> faults = parse_faults(texts);
   ASSERT_EQ(faults.size(), 3U);
@@ -53,7 +53,7 @@ TEST(InjectedFault, IsLimitedByLevelsOrByAPattern) {
   }
 }
 
-TEST(InjectedFault, UnknownNamesAndImpossibleSlowdownsAreRefused) {
+TEST(InjectedFault, UnknownNamesAndImpossibleSlowdownsAreRejected) {
   for (const char* fault : {"", "half_voxel", "slowdown", "slowdown:", "slowdown:0", "slowdown:-5",
                             "slowdown:101", "slowdown:5x", "slowdown:nan"}) {
     EXPECT_THROW(check_fault(fault), core::InputError) << fault;

@@ -66,7 +66,7 @@ TEST_F(TurnsTest, TheDifferenceIsTheLogarithmOfTheRatio) {
   EXPECT_TRUE(device_clock_holds(all));
 }
 
-TEST_F(TurnsTest, OrdersAreBothThereAndFollowFromTheSeed) {
+TEST_F(TurnsTest, BothOrdersOccurAndFollowFromTheSeed) {
   const auto orders = [this](std::uint64_t seed) {
     options_.seed = seed;
     Interleaved interleaved = open();
@@ -98,7 +98,7 @@ TEST_F(TurnsTest, ShortFramesAreBatchedAlikeOnBothSides) {
 
 // The result of a block is wrong only if all ten first or all ten second batches of b are
 // disturbed, which has a probability of 1/85000.
-TEST_F(TurnsTest, WhatDisturbsSomeOfABlocksTurnsDoesNotCount) {
+TEST_F(TurnsTest, ADisturbanceOfPartOfABlockDoesNotCount) {
   a.environment = {script_with(R"("base_ns": 1e6, "ns_per_sample": 0)")};
   b.environment = {script_with(
       R"("base_ns": 1e6, "ns_per_sample": 0, "outlier_share": 0.3, "outlier_factor": 2)")};
@@ -109,7 +109,7 @@ TEST_F(TurnsTest, WhatDisturbsSomeOfABlocksTurnsDoesNotCount) {
   EXPECT_THAT(differences(blocks(interleaved, 12), SideClock::wall), Each(DoubleNear(0, 1e-9)));
 }
 
-TEST_F(TurnsTest, AClockThatTellsNothingOrLiesDoesNotHold) {
+TEST_F(TurnsTest, MissingAndWrongClocksAreRejected) {
   b.environment = {script_with(R"("base_ns": 3e6, "device_over_wall": null)")};
   {
     Interleaved interleaved = open();
@@ -127,7 +127,7 @@ TEST_F(TurnsTest, AClockThatTellsNothingOrLiesDoesNotHold) {
   EXPECT_FALSE(device_clock_holds(blocks(interleaved, 4)));
 }
 
-TEST_F(TurnsTest, ACrashCostsOneConfigurationAndNamesItsSide) {
+TEST_F(TurnsTest, ACrashAffectsOneConfigurationAndReportsItsSide) {
   Interleaved interleaved = open();
   const auto end = ended(interleaved, "crash");
   ASSERT_TRUE(end);
@@ -139,7 +139,7 @@ TEST_F(TurnsTest, ACrashCostsOneConfigurationAndNamesItsSide) {
   EXPECT_EQ(started_workers().size(), 3U);
 }
 
-TEST_F(TurnsTest, AHangCostsItsLimit) {
+TEST_F(TurnsTest, AHangEndsAtItsTimeLimit) {
   options_.limit = hang_limit;
   Interleaved interleaved = open();
   const auto end = ended(interleaved, "hang");
@@ -148,7 +148,7 @@ TEST_F(TurnsTest, AHangCostsItsLimit) {
   hold(interleaved);
 }
 
-TEST_F(TurnsTest, ALostDeviceCostsItsWorker) {
+TEST_F(TurnsTest, ALostDeviceEndsItsWorker) {
   Interleaved interleaved = open();
   const auto end = ended(interleaved, "device_lost");
   ASSERT_TRUE(end);
@@ -157,7 +157,7 @@ TEST_F(TurnsTest, ALostDeviceCostsItsWorker) {
   EXPECT_EQ(started_workers().size(), 3U);
 }
 
-TEST_F(TurnsTest, AnErrorInAFrameEndsTheBlockAndNoWorker) {
+TEST_F(TurnsTest, AnErrorInAFrameEndsTheBlockButNotTheWorker) {
   b.environment = {script_with(
       R"("base_ns": 3e6, "failures": [{"kind": "api_error", "at": "frame", "frame": 12, "only": "*data=*"}])")};
   options_.kinds = {};  // otherwise, the frames of the calibration would fail as well
@@ -176,7 +176,7 @@ TEST_F(TurnsTest, AnErrorInAFrameEndsTheBlockAndNoWorker) {
   EXPECT_EQ(started_workers().size(), 2U);
 }
 
-TEST_F(TurnsTest, NothingIsDrawnOfWhatIsNotHeld) {
+TEST_F(TurnsTest, OnlyPreparedConfigurationsAreDrawn) {
   Interleaved interleaved = open();
   EXPECT_THROW(static_cast<void>(interleaved.block()), SideEnded);
   hold(interleaved);
@@ -185,7 +185,7 @@ TEST_F(TurnsTest, NothingIsDrawnOfWhatIsNotHeld) {
   EXPECT_THROW(static_cast<void>(interleaved.block()), SideEnded);
 }
 
-TEST_F(TurnsTest, FreshLaunchesAreNewProcesses) {
+TEST_F(TurnsTest, FreshProcessRunsAreNewProcesses) {
   Interleaved interleaved = open();
   hold(interleaved);
   interleaved.restart();
@@ -195,12 +195,12 @@ TEST_F(TurnsTest, FreshLaunchesAreNewProcesses) {
   EXPECT_EQ(interleaved.block().a.wall_ns, interleaved.block().b.wall_ns);
 }
 
-TEST_F(TurnsTest, ADeviceThatIsNotThereIsRefusedAtOnce) {
+TEST_F(TurnsTest, AMissingDeviceIsRejectedImmediately) {
   b.device = "null:nothing";
   EXPECT_THROW(static_cast<void>(open()), record::NotMeasured);
 }
 
-TEST_F(TurnsTest, AnEnvironmentThatChangesTheWorkIsRefused) {
+TEST_F(TurnsTest, AnEnvironmentThatChangesTheWorkIsRejected) {
   b.environment = {"LP_PERF=no_tex"};
   EXPECT_THROW(static_cast<void>(open()), core::InputError);
 }

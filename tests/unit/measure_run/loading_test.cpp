@@ -40,17 +40,17 @@ class PacedLoading : public testing::Test {
                           [this] { return now_; });
 };
 
-TEST_F(PacedLoading, NothingIsSaidOfShortLoads) {
+TEST_F(PacedLoading, ShortLoadsAreNotReported) {
   for (int i = 0; i < 10; ++i) load("a", milliseconds(1900), 100);
   EXPECT_THAT(told, IsEmpty());
 }
 
-TEST_F(PacedLoading, OfLongOnesAWordEveryTwoSecondsAndTheEnd) {
+TEST_F(PacedLoading, LongLoadsAreReportedEveryTwoSeconds) {
   load("a", milliseconds(10'000), 100);
   EXPECT_THAT(told, ElementsAre(0.2, 0.4, 0.6, 0.8, 1));
 }
 
-TEST_F(PacedLoading, NotesArePassedOnAtOnceAndOnce) {
+TEST_F(PacedLoading, NotesAreForwardedImmediatelyAndOnce) {
   note("a", "guessed");
   note("a", "guessed");
   note("b", "guessed");
@@ -65,7 +65,7 @@ TEST_F(PacedLoading, TimeBetweenLoadsDoesNotCount) {
   EXPECT_THAT(told, ElementsAre(0.5, 1));
 }
 
-TEST_F(RunTest, AWorkersSlowLoadingIsToldByTheRun) {
+TEST_F(RunTest, SlowLoadingInAWorkerIsReported) {
   const Plan slow = plan(
       {{"technique", {"raycast"}}, {"data", {"slow"}}, {"step", {"1"}}, {"camera", {"random:7"}}});
   EXPECT_EQ(run(slow).measured, 1);
@@ -75,7 +75,7 @@ TEST_F(RunTest, AWorkersSlowLoadingIsToldByTheRun) {
   EXPECT_THAT(told, SizeIs(1));  // only the report about the configuration itself
 }
 
-TEST_F(RunTest, NothingIsToldOfLoadingThatIsSoonDone) {
+TEST_F(RunTest, FastLoadingIsNotReported) {
   EXPECT_EQ(run(small_plan()).measured, 4);
   EXPECT_THAT(loads, IsEmpty());
 }

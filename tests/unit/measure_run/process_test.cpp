@@ -56,7 +56,7 @@ TEST(Process, ConnectsRequestsAnswersAndBothOutputs) {
   EXPECT_EQ(describe(*exit), "exited with code 0");
 }
 
-TEST(Process, GivesNoOtherDescriptorAndOnlyTheGivenEnvironment) {
+TEST(Process, PassesOnlyTheGivenDescriptorsAndEnvironment) {
   const FileDescriptor opened(::open("/dev/null", O_RDONLY));
   const FileDescriptor stray(::dup2(opened.get(), 40));  // neither descriptor is close-on-exec
   ASSERT_EQ(::setenv("TRIPTYCH_STRAY", "1", 1), 0);
@@ -65,7 +65,7 @@ TEST(Process, GivesNoOtherDescriptorAndOnlyTheGivenEnvironment) {
   EXPECT_EQ(all_from(process.log_fd()), "0\n1\n2\n3\n4\n5\n\n");
 }
 
-TEST(Process, SaysHowItEnded) {
+TEST(Process, ReportsHowItEnded) {
   Process by_signal = shell("kill -SEGV $$");
   EXPECT_EQ(describe(by_signal.wait(seconds(5)).value()), "killed by SIGSEGV (Segmentation fault)");
   Process by_code = shell("exit 3");
@@ -79,7 +79,7 @@ TEST(Process, WaitingEndsAtItsLimit) {
   EXPECT_EQ(process.wait(seconds(5)).value().signal, SIGKILL);
 }
 
-TEST(Process, DestructionTakesTheWholeGroupAndLeavesNoZombie) {
+TEST(Process, DestructionKillsTheWholeGroupAndLeavesNoZombie) {
   pid_t grandchild = 0;
   {
     Process process = shell("sleep 100 4>&- & echo $! >&4; exec 4>&-; wait");
@@ -101,7 +101,7 @@ bool dies(pid_t pid) {
   return !alive(pid);
 }
 
-TEST(Process, DestructionTakesWhatLeftTheGroup) {
+TEST(Process, DestructionKillsProcessesThatLeftTheGroup) {
   pid_t daemon = 0;
   {
     Process process = shell(std::string(starts_a_daemon) + "wait");
@@ -112,7 +112,7 @@ TEST(Process, DestructionTakesWhatLeftTheGroup) {
   EXPECT_TRUE(dies(daemon));
 }
 
-TEST(Process, WhatItLeftBehindDiesWhereItEndsByItself) {
+TEST(Process, LeftoverProcessesAreKilledWhenItExits) {
   Process process = shell(starts_a_daemon);
   const pid_t daemon = std::stoi(all_from(process.answer_fd()));
   ASSERT_TRUE(process.wait(seconds(5)));
@@ -121,7 +121,7 @@ TEST(Process, WhatItLeftBehindDiesWhereItEndsByItself) {
 
 // While two processes run, it is unknown which of them started the daemon, so the daemon is killed
 // only after both have ended.
-TEST(Process, WhatWasLeftBehindDiesWithTheLastAndHarmsNoOther) {
+TEST(Process, LeftoverProcessesAreKilledWithTheLastChild) {
   pid_t daemon = 0;
   {
     Process other = shell("sleep 100");
@@ -138,7 +138,7 @@ TEST(Process, WhatWasLeftBehindDiesWithTheLastAndHarmsNoOther) {
 
 // If another program replaced itself with this one, its children may still be running and must not
 // be killed.
-TEST(Process, AChildFromBeforeIsLeftAlone) {
+TEST(Process, EarlierChildrenAreNotKilled) {
   Process process = shell("sleep 100 & exec '" MEASURE_RUN_HELPER "' keeps $!");
   EXPECT_EQ(describe(process.wait(seconds(20)).value()), "exited with code 0");
 }
@@ -149,7 +149,7 @@ TEST(Process, AMissingProgramIsAnIoError) {
   EXPECT_THROW(Process({}, {}), core::IoError);
 }
 
-TEST(LogTail, KeepsTheLastLinesHoweverMuchIsWritten) {
+TEST(LogTail, KeepsTheLastLinesOfLongOutput) {
   LogTail log;
   for (int i = 0; i < 10000; ++i) log.append("line " + std::to_string(i) + "\n\n");
   EXPECT_EQ(log.last_lines(2), "line 9998 | line 9999");
@@ -159,7 +159,7 @@ TEST(LogTail, KeepsTheLastLinesHoweverMuchIsWritten) {
   EXPECT_EQ(log.last_lines(3), "");
 }
 
-TEST(WorkerLink, AWorkerThatTalksNonsenseIsBuriedWithItsWords) {
+TEST(WorkerLink, AWorkerWithInvalidAnswersIsKilledAndQuoted) {
   InterruptGuard interrupts;
   WorkerLink link(
       {"/bin/sh", "-c", "echo broken >&2; echo 'no message, only some words' >&4; sleep 100"},

@@ -35,7 +35,7 @@ std::vector<std::string> repeated(const std::string& call, int times) {
   return std::vector<std::string>(static_cast<std::size_t>(times), call);
 }
 
-TEST(Protocol, CallsInThePapersOrder) {
+TEST(Protocol, CallsAreInTheOrderOfThePaper) {
   ScriptedPrepared prepared = steady(50 * ms);
   static_cast<void>(measured(prepared));
   std::erase(prepared.calls, "image");
@@ -44,7 +44,7 @@ TEST(Protocol, CallsInThePapersOrder) {
   EXPECT_EQ(prepared.calls, expected);
 }
 
-TEST(Protocol, LongFramesCostExactlyTheLeastWarmUpAndOneLoopFrame) {
+TEST(Protocol, LongFramesNeedMinimalWarmUpAndOneLoopFrame) {
   ScriptedPrepared prepared = steady(300 * ms);
   const record::Record record = measured(prepared).record;
   EXPECT_EQ(record.warm_up_frames, 4);
@@ -74,7 +74,7 @@ TEST(Protocol, AClockTooCoarseForAFrameIsBounded) {
   EXPECT_LE(record.warm_up_frames, 20);
 }
 
-TEST(Protocol, TheLoopAsksForItsOwnLengthWhateverFills100Ms) {
+TEST(Protocol, TheLoopHasItsOwnLength) {
   ScriptedPrepared prepared = steady(10 * ms);
   const record::Record record = measured(prepared, {.least_loop_ns = 30 * ms}).record;
   EXPECT_EQ(record.frames_per_100ms, 10);
@@ -82,7 +82,7 @@ TEST(Protocol, TheLoopAsksForItsOwnLengthWhateverFills100Ms) {
   EXPECT_GT(record.loop_wall_ns, 0);
 }
 
-TEST(Protocol, EveryRawValueOfTheTimedFramesArrivesUnchanged) {
+TEST(Protocol, RawTimesAreUnchanged) {
   ScriptedPrepared prepared([](int n) { return frame_of(50 * ms + n / 3.0, 49 * ms + n / 7.0); });
   const record::Record record = measured(prepared, {}, trusting(technique::Work::compute)).record;
   ASSERT_EQ(record.wall_ns.size(), 8U);
@@ -94,14 +94,14 @@ TEST(Protocol, EveryRawValueOfTheTimedFramesArrivesUnchanged) {
   EXPECT_EQ(record.clock(), "device");
 }
 
-TEST(Protocol, ThePictureIsThatOfTheLastTimedFrame) {
+TEST(Protocol, TheImageIsFromTheLastTimedFrame) {
   ScriptedPrepared prepared = steady(50 * ms);
   const Measurement result = measured(prepared);
   EXPECT_EQ(result.image.rgba[0], 1.0F);
   EXPECT_EQ(result.record.image, image_hash(result.image));
 }
 
-TEST(Protocol, CountsComeFromTheirOwnFramesAndCanBeLeftOut) {
+TEST(Protocol, CountsComeFromTheirOwnFramesAndAreOptional) {
   ScriptedPrepared prepared = steady(50 * ms);
   const record::Record with = measured(prepared).record;
   EXPECT_EQ(with.counters, (record::Counts{{"rays_hit", 64}, {"samples", 512}}));
@@ -113,7 +113,7 @@ TEST(Protocol, CountsComeFromTheirOwnFramesAndCanBeLeftOut) {
   EXPECT_EQ(std::ranges::count(bare.calls, "counters"), 0);
 }
 
-TEST(Protocol, UntimedIsOneFrameForThePictureOneForTheCountersAndTheFirstOnceMore) {
+TEST(Protocol, UntimedRunsDrawThreeFrames) {
   ScriptedPrepared prepared = steady(50 * ms);
   const Measurement result = measured(prepared, {.statistics = false, .timed = false});
   std::erase(prepared.calls, "image");
@@ -125,7 +125,7 @@ TEST(Protocol, UntimedIsOneFrameForThePictureOneForTheCountersAndTheFirstOnceMor
   EXPECT_THAT(result.record.statistics, IsEmpty());
 }
 
-TEST(Protocol, ADeviceThatMissesOneTimeToldNone) {
+TEST(Protocol, OneMissingDeviceTimeDiscardsAllDeviceTimes) {
   ScriptedPrepared prepared(
       [](int n) { return n == 9 ? frame_of(50 * ms) : frame_of(50 * ms, 49 * ms); });
   const record::Record record = measured(prepared, {}, trusting(technique::Work::compute)).record;
@@ -140,7 +140,7 @@ TEST(Protocol, AClockIsTrustedOnlyForTheKindItWasCalibratedFor) {
   EXPECT_THAT(record.device_ns, Each(49 * ms));  // recorded nevertheless
 }
 
-TEST(Protocol, ATrustedClockThatLiesInThisConfigurationIsNotBelieved) {
+TEST(Protocol, ATrustedClockWithImpossibleTimesIsRejected) {
   for (const double device_ns : {0.0, 60 * ms, std::numeric_limits<double>::quiet_NaN()}) {
     ScriptedPrepared prepared(
         [=](int n) { return frame_of(50 * ms, n == 6 ? device_ns : 49 * ms); });
@@ -149,7 +149,7 @@ TEST(Protocol, ATrustedClockThatLiesInThisConfigurationIsNotBelieved) {
   }
 }
 
-TEST(Protocol, ATrustedClockThatLeavesOutTheWorkOfThisConfigurationIsNotBelieved) {
+TEST(Protocol, ATrustedClockThatOmitsWorkIsRejected) {
   ScriptedPrepared prepared = steady(28 * ms, 0.009 * ms);
   const record::Record record = measured(prepared, {}, trusting(technique::Work::compute)).record;
   EXPECT_EQ(record.clock(), "wall");
@@ -158,7 +158,7 @@ TEST(Protocol, ATrustedClockThatLeavesOutTheWorkOfThisConfigurationIsNotBelieved
       record::unpack_benchmark_entries(record.benchmark_json).at(0).at("device_clock_trusted"), 0);
 }
 
-TEST(Protocol, AnErrorOfAFrameComesOutAsItWas) {
+TEST(Protocol, ErrorsOfFramesAreRethrown) {
   // The failing frame is a warm-up frame, a timed frame, or the frame for the counters.
   for (const int failing : {2, 7, 13}) {
     ScriptedPrepared prepared([=](int n) {
@@ -205,14 +205,14 @@ TEST(Protocol, BenchmarkEntriesCarrySamplesStatisticsAndCountsAsFlatKeys) {
   }
 }
 
-TEST(Protocol, OverheadLeavesOutWhatTheFramesTook) {
+TEST(Protocol, OverheadExcludesTheFrames) {
   ScriptedPrepared prepared = steady(50 * ms);
   const double overhead_ns = measured(prepared).record.overhead_ns;
   EXPECT_GE(overhead_ns, 0);
   EXPECT_LT(overhead_ns, 1e9);
 }
 
-TEST(ImageHash, TellsBitsSizesAndPlanesApart) {
+TEST(ImageHash, DistinguishesBitsSizesAndPlanes) {
   core::Image image(2, 1);
   const std::string hash = image_hash(image);
   core::Image turned(1, 2);

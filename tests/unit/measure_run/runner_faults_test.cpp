@@ -43,7 +43,7 @@ class RunFaults : public RunTest {
   }
 };
 
-TEST_F(RunFaults, ACrashCostsOneConfigurationAndNamesItsSignal) {
+TEST_F(RunFaults, ACrashAffectsOneConfigurationAndReportsItsSignal) {
   const record::Record record = outcome_of("crash");
   EXPECT_EQ(record.outcome, Outcome::crashed);
   EXPECT_EQ(record.reason.number("signal"), SIGSEGV);
@@ -51,7 +51,7 @@ TEST_F(RunFaults, ACrashCostsOneConfigurationAndNamesItsSignal) {
   EXPECT_EQ(started_workers().size(), 2U);
 }
 
-TEST_F(RunFaults, AHangCostsOneConfigurationAndItsLimit) {
+TEST_F(RunFaults, AHangAffectsOneConfiguration) {
   options.limit = hang_limit;
   const record::Record record = outcome_of("hang");
   EXPECT_EQ(record.outcome, Outcome::hung);
@@ -59,13 +59,13 @@ TEST_F(RunFaults, AHangCostsOneConfigurationAndItsLimit) {
   EXPECT_EQ(started_workers().size(), 2U);
 }
 
-TEST_F(RunFaults, ALostDeviceCostsOneConfigurationAndItsWorker) {
+TEST_F(RunFaults, ALostDeviceAffectsOneConfigurationAndItsWorker) {
   const record::Record record = outcome_of("device_lost");
   EXPECT_EQ(record.outcome, Outcome::lost);
   EXPECT_EQ(started_workers().size(), 2U);
 }
 
-TEST_F(RunFaults, AnApiErrorCostsOneConfigurationAndNoWorker) {
+TEST_F(RunFaults, AnApiErrorAffectsOneConfigurationButNotItsWorker) {
   const Variable failing(
       "TRIPTYCH_NULL_SCRIPT",
       R"({"base_ns": 3e6, "failures": [{"kind": "api_error", "at": "frame", "frame": 6, "only": "*data=cube*step=0.5*"}]})");
@@ -83,7 +83,7 @@ TEST_F(RunFaults, AnApiErrorCostsOneConfigurationAndNoWorker) {
   }
 }
 
-TEST_F(RunFaults, ABrokenFileIsNoFaultOfTheDevice) {
+TEST_F(RunFaults, ABrokenFileIsNotAttributedToTheDevice) {
   const Plan torn = plan({{"technique", {"raycast"}},
                           {"data", {"torn", "cube"}},
                           {"step", {"1"}},
@@ -100,7 +100,7 @@ TEST_F(RunFaults, ABrokenFileIsNoFaultOfTheDevice) {
   }
 }
 
-TEST_F(RunFaults, DataThatTakeTooMuchMemoryAreNamed) {
+TEST_F(RunFaults, DataThatNeedTooMuchMemoryAreReported) {
   const RunResult result = run(plan(
       {{"technique", {"raycast"}}, {"data", {"huge"}}, {"step", {"1"}}, {"camera", {"random:7"}}}));
   EXPECT_EQ(result.failed, 1);
@@ -109,7 +109,7 @@ TEST_F(RunFaults, DataThatTakeTooMuchMemoryAreNamed) {
   EXPECT_EQ(reason.subject, "huge");
 }
 
-TEST_F(RunFaults, AWorkerThatEndsByItselfIsACrashToo) {
+TEST_F(RunFaults, AWorkerThatExitsCountsAsCrashed) {
   const Variable leaving(
       "TRIPTYCH_NULL_SCRIPT",
       R"({"base_ns": 3e6, "failures": [{"kind": "exit", "at": "prepare", "only": "*data=cube*step=0.5*"}]})");
@@ -136,7 +136,7 @@ TEST_F(RunFaults, ADeviceThatCannotBeOpenedIsGivenUpAfterTwoStarts) {
   }
 }
 
-TEST_F(RunFaults, WhatADeviceLacksSkipsAllAfterOneStart) {
+TEST_F(RunFaults, AnUnsupportedDeviceSkipsEverythingAfterOneStart) {
   const Variable closed("TRIPTYCH_NULL_SCRIPT",
                         R"({"failures": [{"kind": "not_supported", "at": "open"}]})");
   const RunResult result = run(small_plan());
@@ -147,14 +147,14 @@ TEST_F(RunFaults, WhatADeviceLacksSkipsAllAfterOneStart) {
   EXPECT_EQ(reason.cause, Cause::not_supported);
 }
 
-TEST_F(RunFaults, AStartThatFailsOnceCostsNothing) {
+TEST_F(RunFaults, AStartThatFailsOnceIsRepeated) {
   const Variable once("TRIPTYCH_TEST_FAILING_STARTS", "1");
   const RunResult result = run(small_plan());
   EXPECT_EQ(result.measured, 4);
   EXPECT_EQ(started_workers().size(), 2U);
 }
 
-TEST_F(RunFaults, ACommandThatDiesIsReportedWithItsSignalAndLastWords) {
+TEST_F(RunFaults, AKilledCommandIsReportedWithItsSignalAndLastOutput) {
   options.worker_command = {"/bin/sh", "-c",
                             "echo first; echo cannot map device >&2; kill -BUS $$"};
   const RunResult result = run(small_plan());
@@ -164,7 +164,7 @@ TEST_F(RunFaults, ACommandThatDiesIsReportedWithItsSignalAndLastWords) {
   EXPECT_EQ(reason.last_words, "first | cannot map device");
 }
 
-TEST_F(RunFaults, ACommandThatIsNotThereFailsEverythingWithTheReason) {
+TEST_F(RunFaults, AMissingCommandFailsEverythingWithTheReason) {
   if (!spawning_tells_of_a_missing_program()) GTEST_SKIP() << spawning_tells_nothing;
   options.worker_command = {"/nowhere/triptych"};
   const RunResult result = run(small_plan());
@@ -185,7 +185,7 @@ TEST_F(RunFaults, AWorkerThatHangsWhileStartingIsGivenUp) {
   EXPECT_EQ(reason.limit(), std::chrono::ceil<std::chrono::seconds>(hang_limit));
 }
 
-TEST_F(RunFaults, AReplacedWorkerGoesOnWithTheClocksOfTheFirst) {
+TEST_F(RunFaults, AReplacementWorkerUsesTheSameClocks) {
   static_cast<void>(outcome_of("crash"));
   const record::Store store = open_store();
   const auto run_id = store.latest_run("fake/quick")->id;
@@ -197,7 +197,7 @@ TEST_F(RunFaults, AReplacedWorkerGoesOnWithTheClocksOfTheFirst) {
   }
 }
 
-TEST_F(RunFaults, NeitherDescriptorsNorZombiesStay) {
+TEST_F(RunFaults, LeavesNoDescriptorsOrZombies) {
   const std::size_t before = open_descriptors();
   options.limit = hang_limit;
   options.faults = {{"crash", "*camera=random:7*"}, {"hang", "*camera=orbit_y:1/8*step=0.5*"}};

@@ -91,7 +91,7 @@ TEST_F(RunResume, AKilledSupervisorLosesAtMostTheConfigurationInFlight) {
 }
 
 // Imitates a driver that crashes the machine, so that no process is left to report the crash.
-TEST_F(RunResume, WhatTwiceEndedAllIsPassedBy) {
+TEST_F(RunResume, AConfigurationThatTwiceEndedTheRunIsSkipped) {
   end_at_the_first(SIGKILL);
   end_at_the_first(SIGKILL);
   options.resume = true;
@@ -106,7 +106,7 @@ TEST_F(RunResume, WhatTwiceEndedAllIsPassedBy) {
   EXPECT_EQ(first.reason.number("times"), 2);
 }
 
-TEST_F(RunResume, OnceMayBeAnybodysDoingAndAnInterruptIsNobodysFault) {
+TEST_F(RunResume, OneAbnormalEndOrAnInterruptIsNotRecordedAsACrash) {
   end_at_the_first(SIGKILL);
   end_at_the_first(SIGTERM);
   end_at_the_first(SIGTERM);
@@ -114,7 +114,7 @@ TEST_F(RunResume, OnceMayBeAnybodysDoingAndAnInterruptIsNobodysFault) {
   EXPECT_EQ(run(load_plan("fake/quick", {}, find())).failed, 0);
 }
 
-TEST_F(RunResume, ATerminatedSupervisorTakesItsWorkerAlongAndLeavesAStoreToGoOnWith) {
+TEST_F(RunResume, ATerminatedSupervisorEndsItsWorkerAndCanBeResumed) {
   Process supervisor = supervise();
   wait_for_records(2);
   ::kill(supervisor.pid(), SIGTERM);
@@ -142,7 +142,7 @@ TEST_F(RunResume, AWorkerStuckInItsDriverDoesNotOutliveItsSupervisor) {
 
 class RunAgain : public RunTest {};
 
-TEST_F(RunAgain, AFinishedRunResumesToNothingAndWithoutResumeBeginsAnew) {
+TEST_F(RunAgain, ResumingAFinishedRunMeasuresNothing) {
   const RunResult first = run(small_plan());
   options.resume = true;
   const RunResult again = run(small_plan());
@@ -154,7 +154,7 @@ TEST_F(RunAgain, AFinishedRunResumesToNothingAndWithoutResumeBeginsAnew) {
   EXPECT_NE(run(small_plan()).run, first.run);
 }
 
-TEST_F(RunAgain, ABuildThatResumesAnotherOnesRunIsNamed) {
+TEST_F(RunAgain, ABuildThatResumesAnotherRunIsReported) {
   options.program = "build a";
   static_cast<void>(run(plan({{"technique", {"raycast"}}, {"data", {"cube"}}})));
   options.program = "build b";
@@ -167,7 +167,7 @@ TEST_F(RunAgain, ABuildThatResumesAnotherOnesRunIsNamed) {
   EXPECT_EQ(programs, (std::set<std::string>{"build a", "build b"}));
 }
 
-TEST_F(RunAgain, AChangedPlanGoesOnOnlyWithWhatItWouldMeasureItself) {
+TEST_F(RunAgain, AChangedPlanResumesOnlyItsOwnConfigurations) {
   const RunResult first = run(plan({{"technique", {"raycast"}}, {"data", {"cube"}}}));
   options.resume = true;
   Plan larger = plan({{"technique", {"raycast"}}});
@@ -181,7 +181,7 @@ TEST_F(RunAgain, AChangedPlanGoesOnOnlyWithWhatItWouldMeasureItself) {
   EXPECT_NE(run(another).run, first.run);
 }
 
-TEST_F(RunAgain, AResumedRunKeepsItsClocksAndRefusesAnotherDriver) {
+TEST_F(RunAgain, AResumedRunKeepsItsClocksAndRejectsAnotherDriver) {
   static_cast<void>(run(plan({{"technique", {"raycast"}}, {"data", {"cube"}}, {"step", {"1"}}})));
   options.resume = true;
   {
@@ -209,7 +209,7 @@ TEST_F(RunTest, WorkersOfOneDeviceShareAPlan) {
   EXPECT_EQ(started_workers().size(), 4U) << "one, whose times nobody disturbs";
 }
 
-TEST_F(RunTest, WorkersOfOneDeviceGoOnWithARun) {
+TEST_F(RunTest, WorkersOfOneDeviceResumeARun) {
   options.jobs = 2;
   options.protocol.timed = false;
   options.faults = {{.fault = "crash", .only = "*step=0.5*"}};
@@ -221,7 +221,7 @@ TEST_F(RunTest, WorkersOfOneDeviceGoOnWithARun) {
   EXPECT_EQ(resumed.failed, 2);
 }
 
-TEST_F(RunTest, WhatIsDrawnAgainTakesTheOldRecordsPlace) {
+TEST_F(RunTest, RepeatedConfigurationsReplaceTheirRecords) {
   options.faults = {{.fault = "crash", .only = "*step=0.5*"}};
   const RunResult first = run(small_plan());
   ASSERT_EQ(first.failed, 2);

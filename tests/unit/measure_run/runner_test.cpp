@@ -18,7 +18,7 @@ using record::Outcome;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-TEST_F(RunTest, MeasuresEveryConfigurationOnEveryDeviceAndTellsOfEach) {
+TEST_F(RunTest, MeasuresAndReportsEveryConfigurationOnEveryDevice) {
   const Variable two("TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 3e6, "devices": [1, 2]})");
   const RunResult result = run(small_plan(), {"null:scripted", "null:scripted#2"});
   EXPECT_EQ(result.measured, 8);
@@ -34,7 +34,7 @@ TEST_F(RunTest, MeasuresEveryConfigurationOnEveryDeviceAndTellsOfEach) {
   EXPECT_EQ(cells.size(), 8U);
 }
 
-TEST_F(RunTest, ARecordTellsEverythingAboutItsConfiguration) {
+TEST_F(RunTest, RecordsDescribeTheirConfigurationCompletely) {
   const Plan one = plan({{"technique", {"raycast"}},
                          {"data", {"cube"}},
                          {"step", {"0.5"}},
@@ -69,7 +69,7 @@ TEST_F(RunTest, ARecordTellsEverythingAboutItsConfiguration) {
       testing::StartsWith("null:scripted/" + record.configuration));
 }
 
-TEST_F(RunTest, ThePictureLiesInTheStoreUnderTheHashOfItsBits) {
+TEST_F(RunTest, ImagesAreStoredUnderTheirHash) {
   const RunResult result = run(small_plan());
   const record::Store store = open_store();
   for (const record::Record& record : store.records(result.run)) {
@@ -79,7 +79,7 @@ TEST_F(RunTest, ThePictureLiesInTheStoreUnderTheHashOfItsBits) {
   }
 }
 
-TEST_F(RunTest, TheRunKnowsItsSystemItsDevicesAndTheirClocks) {
+TEST_F(RunTest, RunsRecordSystemDevicesAndClocks) {
   const RunResult result = run(small_plan());
   const record::Store store = open_store();
   const auto latest = store.latest_run("fake/quick");
@@ -97,7 +97,7 @@ TEST_F(RunTest, TheRunKnowsItsSystemItsDevicesAndTheirClocks) {
   EXPECT_TRUE(devices[0].clocks[0].trusted) << devices[0].clocks[0].verdict;
 }
 
-TEST_F(RunTest, ALyingClockIsFoundOutAndTheWallClockCounts) {
+TEST_F(RunTest, AWrongClockIsDetectedAndTheWallClockIsUsed) {
   const Variable lying("TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 3e6, "device_over_wall": 0.1})");
   const RunResult result = run(small_plan());
   for (const record::Record& record : records(result.run)) {
@@ -107,7 +107,7 @@ TEST_F(RunTest, ALyingClockIsFoundOutAndTheWallClockCounts) {
   EXPECT_THAT(open_store().devices(result.run)[0].clocks[0].verdict, HasSubstr("not trusted"));
 }
 
-TEST_F(RunTest, WhatADeviceCannotDoIsSkippedWithTheReason) {
+TEST_F(RunTest, UnsupportedConfigurationsAreSkippedWithAReason) {
   const Variable partial(
       "TRIPTYCH_NULL_SCRIPT",
       R"({"base_ns": 3e6, "failures": [{"kind": "not_supported", "at": "supports", "only": "*step=0.5*"}]})");
@@ -133,7 +133,7 @@ TEST_F(RunTest, MissingDataIsSkippedWithTheReason) {
             2);
 }
 
-TEST_F(RunTest, InjectedFaultsAreInTheRecordAndInThePicture) {
+TEST_F(RunTest, InjectedFaultsAffectRecordAndImage) {
   const RunResult plain = run(small_plan());
   const auto before = records(plain.run);
   options.faults = {{"flipped_axis", "*step=0.5*"}};
@@ -159,7 +159,7 @@ TEST_F(RunTest, AnInjectedSlowdownIsThatMuchMoreWork) {
   }
 }
 
-TEST_F(RunTest, AnUnknownFaultOrLpPerfIsRefusedBeforeAnythingRuns) {
+TEST_F(RunTest, UnknownFaultsAndLpPerfAreRejectedBeforeMeasuring) {
   options.faults = {{"gremlin", ""}};
   EXPECT_THROW(run(small_plan()), core::InputError);
   options.faults.clear();

@@ -31,7 +31,7 @@ Configuration raycast(const std::string& data, const std::string& step,
   return {{"technique", "raycast"}, {"data", data}, {"step", step}, {"camera", camera}};
 }
 
-TEST(SameFailure, TwoAlikeForetellTheRestThatSharesTheirLevels) {
+TEST(SameFailure, TwoEqualFailuresPredictOthersWithTheirLevels) {
   SameFailure failures({"data", "step"});
   failures.saw(raycast("ball", "1"), ended(Outcome::crashed, killed(SIGSEGV, "at 0x12")));
   EXPECT_FALSE(failures.foretold(raycast("ball", "2"))) << "one is no rule";
@@ -47,7 +47,7 @@ TEST(SameFailure, TwoAlikeForetellTheRestThatSharesTheirLevels) {
   EXPECT_TRUE(failures.foretold(raycast("cube", "3"))) << "it is not the data's";
 }
 
-TEST(SameFailure, WhereNothingIsSharedNothingIsNamed) {
+TEST(SameFailure, WithoutSharedLevelsNothingIsPredicted) {
   SameFailure failures({"step"});
   failures.saw(raycast("ball", "1"), ended(Outcome::crashed, segv));
   failures.saw(raycast("ball", "2"), ended(Outcome::crashed, segv));
@@ -58,7 +58,7 @@ TEST(SameFailure, WhereNothingIsSharedNothingIsNamed) {
 
 // If a factor turned out not to matter for one failure, it is assumed not to matter for the next
 // failure, which then has to be tried only once.
-TEST(SameFailure, WhatDoesNotMatterIsRemembered) {
+TEST(SameFailure, IrrelevantFactorsAreRemembered) {
   SameFailure failures({"data", "step"});
   for (const char* step : {"1", "2", "3"}) {
     failures.saw(raycast("box", step), ended(Outcome::measured, {}));
@@ -71,7 +71,7 @@ TEST(SameFailure, WhatDoesNotMatterIsRemembered) {
   EXPECT_FALSE(failures.foretold(raycast("torus", "1"))) << "boxes are drawn";
 }
 
-TEST(SameFailure, WhatWasMeasuredRefutesIt) {
+TEST(SameFailure, AMeasurementRefutesAPrediction) {
   SameFailure failures({"data", "step"});
   failures.saw(raycast("ball", "3"), ended(Outcome::measured, {}));
   failures.saw(raycast("ball", "1"), ended(Outcome::crashed, segv));
@@ -89,7 +89,7 @@ TEST(SameFailure, AnotherCauseIsAnotherFailure) {
   EXPECT_FALSE(failures.foretold(raycast("ball", "6")));
 }
 
-TEST(SameFailure, WhatWasNotTriedIsNoWitness) {
+TEST(SameFailure, UntriedConfigurationsProveNothing) {
   SameFailure failures({"data", "step"});
   failures.saw(raycast("ball", "1"), ended(Outcome::crashed, segv));
   failures.saw(raycast("cube", "1"), ended(Outcome::crashed, {.cause = Cause::signal,
@@ -102,7 +102,7 @@ TEST(SameFailure, WhatWasNotTriedIsNoWitness) {
 class SameFailureRun : public RunTest {};
 
 // Of six configurations with two data sets, the three with the cube crash their worker.
-TEST_F(SameFailureRun, IsPaidForTwice) {
+TEST_F(SameFailureRun, OccursOnlyTwice) {
   const Plan what = plan({{"technique", {"raycast"}},
                           {"data", {"ball", "cube"}},
                           {"step", {"0.5", "1", "2"}},

@@ -121,7 +121,7 @@ Calibration calibration_of(Script script, technique::Work kind = technique::Work
 
 void tell_the_truth(const Work&, int, record::Counts&) {}
 
-TEST(Calibration, ExactIsWhatCountsAsTheScenesDo) {
+TEST(Calibration, CorrectNumbersAreExact) {
   const Calibration calibration = calibration_of(tell_the_truth);
   EXPECT_THAT(calibration, Each(Pair(testing::_, exact)));
   for (const char* const name :
@@ -135,7 +135,7 @@ TEST(Calibration, ExactIsWhatCountsAsTheScenesDo) {
             (Calibration{{"compute_invocations", exact}}));
 }
 
-TEST(Calibration, TheViewIsNoWholeNumberOfStamps) {
+TEST(Calibration, TheViewIsNotAMultipleOfPixelBlocks) {
   for (const CalibrationScene& scene : calibration_scenes(technique::Work::draw)) {
     const scene::ParticleScene& drawn = std::get<ParticleWork>(scene.work.scene).scene;
     EXPECT_NE(drawn.width % 4, 0);
@@ -147,7 +147,7 @@ TEST(Calibration, TheViewIsNoWholeNumberOfStamps) {
   }
 }
 
-TEST(Calibration, StampsOfPixelsAreInflatedByARange) {
+TEST(Calibration, PixelsCountedInBlocksAreInflated) {
   const Calibration calibration = calibration_of([](const Work& work, int, record::Counts& counts) {
     counts["fragment_invocations"] = is_one_sprite(work) ? 3536 : 9856;
   });
@@ -158,14 +158,14 @@ TEST(Calibration, StampsOfPixelsAreInflatedByARange) {
   EXPECT_EQ(calibration.at("vertex_invocations"), exact);
 }
 
-TEST(Calibration, OneMultipleEverywhereIsProportional) {
+TEST(Calibration, AConstantMultipleIsProportional) {
   const Calibration calibration = calibration_of(
       [](const Work&, int, record::Counts& counts) { counts["vertex_invocations"] *= 3; });
   EXPECT_EQ(calibration.at("vertex_invocations"),
             (StatisticWorth{.worth = Worth::proportional, .low = 3, .high = 3}));
 }
 
-TEST(Calibration, WhichOfOurCountersADriverCountsIsNamed) {
+TEST(Calibration, TheCounterThatADriverMatchesIsReported) {
   const auto kept = [](const Work&, int, record::Counts& counts) {
     counts["fragment_invocations"] = kept_fragments;
   };
@@ -178,7 +178,7 @@ TEST(Calibration, WhichOfOurCountersADriverCountsIsNamed) {
   EXPECT_THAT(almost.at("fragment_invocations"), Is(Worth::differs));
 }
 
-TEST(Calibration, TooLowSomewhereDiffers) {
+TEST(Calibration, ATooLowNumberDiffers) {
   const Calibration calibration = calibration_of([](const Work& work, int, record::Counts& counts) {
     counts["clipping_primitives"] += is_one_sprite(work) ? 1U : 0U;
     if (work.technique == "quad_tess") counts["input_assembly_primitives"] = 0;
@@ -191,14 +191,14 @@ TEST(Calibration, TooLowSomewhereDiffers) {
   EXPECT_THAT(calibration.at("clipping_invocations"), Is(Worth::differs));
 }
 
-TEST(Calibration, AnotherNumberOnTheSecondFrameIsUnsteady) {
+TEST(Calibration, ADifferentNumberInTheSecondFrameIsUnsteady) {
   const Calibration calibration = calibration_of([](const Work&, int n, record::Counts& counts) {
     counts["input_assembly_vertices"] *= static_cast<std::uint64_t>(n) + 1;
   });
   EXPECT_THAT(calibration.at("input_assembly_vertices"), Is(Worth::unsteady));
 }
 
-TEST(Calibration, WhatIsNeverToldIsAbsentAndWhatIsToldAtTimesDiffers) {
+TEST(Calibration, MissingStatisticsAreAbsentAndIntermittentOnesDiffer) {
   const Calibration calibration = calibration_of([](const Work& work, int, record::Counts& counts) {
     counts.erase("geometry_primitives");
     if (!is_one_sprite(work)) counts.erase("vertex_invocations");
@@ -207,13 +207,13 @@ TEST(Calibration, WhatIsNeverToldIsAbsentAndWhatIsToldAtTimesDiffers) {
   EXPECT_THAT(calibration.at("vertex_invocations"), Is(Worth::differs));
 }
 
-TEST(Calibration, ADeviceWithoutStatisticsHasNoneAndIsAskedOnce) {
+TEST(Calibration, ADeviceWithoutStatisticsIsQueriedOnce) {
   CountingDevice device([](const Work&, int, record::Counts& counts) { counts.clear(); });
   EXPECT_THAT(calibrate_statistics(device, technique::Work::draw), IsEmpty());
   EXPECT_EQ(device.prepared.size(), 1U);
 }
 
-TEST(Calibration, AStageThatIsNotThereIsNotJudged) {
+TEST(Calibration, AMissingStageIsNotJudged) {
   CountingDevice device(tell_the_truth, "quad_screen");
   const Calibration calibration = calibrate_statistics(device, technique::Work::draw);
   EXPECT_THAT(calibration, Not(Contains(Key("geometry_primitives"))));
@@ -223,7 +223,7 @@ TEST(Calibration, AStageThatIsNotThereIsNotJudged) {
   EXPECT_THAT(calibrate_statistics(none, technique::Work::compute), IsEmpty());
 }
 
-TEST(Calibration, AnErrorVouchesForNothing) {
+TEST(Calibration, AnErrorGivesNoCalibration) {
   const auto failing = [](const Work& work, int, record::Counts&) {
     if (work.technique == "quad_tess") throw core::Error("the driver refuses");
   };

@@ -35,7 +35,7 @@ Answer sample_answer() {
   return answer;
 }
 
-TEST(Wire, AnAnswerArrivesAsItWasSent) {
+TEST(Wire, AnswersRoundTrip) {
   TestPipe pipe;
   send(pipe.write.get(), to_message(sample_answer()));
   auto message = receive(pipe.read.get());
@@ -51,7 +51,7 @@ TEST(Wire, AnAnswerArrivesAsItWasSent) {
   EXPECT_EQ(answer->exr, expected.exr);
 }
 
-TEST(Wire, AJobCarriesProtocolAndPlants) {
+TEST(Wire, JobsContainProtocolAndInjectedFaults) {
   const Job job{
       .name = "n",
       .configuration = {{"step", "0.5"}},
@@ -66,7 +66,7 @@ TEST(Wire, AJobCarriesProtocolAndPlants) {
   EXPECT_EQ(back->faults, job.faults);
 }
 
-TEST(Wire, BatchesAreAskedForAndAnswered) {
+TEST(Wire, BatchesRoundTrip) {
   const auto hold =
       as_hold(to_message(Hold{.configuration = {{"step", "0.5"}}, .faults = {"slowdown:5"}}));
   ASSERT_TRUE(hold);
@@ -88,7 +88,7 @@ TEST(Wire, BatchesAreAskedForAndAnswered) {
   EXPECT_THROW(static_cast<void>(as_batch({{{"type", "turn"}}, {}})), core::InputError);
 }
 
-TEST(Wire, LoadingIsNoAnswer) {
+TEST(Wire, LoadingIsNotAnAnswer) {
   const Message message = to_message(Loading{.what = "a.xyz", .share = 0.25});
   EXPECT_FALSE(as_answer(message));
   const auto loading = as_loading(message);
@@ -97,7 +97,7 @@ TEST(Wire, LoadingIsNoAnswer) {
   EXPECT_EQ(loading->share, 0.25);
 }
 
-TEST(Wire, TheEndOfAPipeIsNoMessageAndHalfAMessageAnError) {
+TEST(Wire, TheEndOfAPipeIsNotAMessageAndAPartialMessageIsAnError) {
   TestPipe pipe;
   ASSERT_EQ(::write(pipe.write.get(), "tripty", 6), 6);
   pipe.write.reset();
@@ -122,7 +122,7 @@ TEST(Wire, ABufferPutsPiecesTogetherAndKeepsTheNextMessage) {
   EXPECT_TRUE(buffer.empty());
 }
 
-TEST(Wire, WhatADriverPrintsIntoAPipeIsRefused) {
+TEST(Wire, DriverOutputInAPipeIsRejected) {
   MessageBuffer buffer;
   const std::string noise = "WARNING: lavapipe is not a conformant implementation";
   buffer.append(std::as_bytes(std::span(noise)));

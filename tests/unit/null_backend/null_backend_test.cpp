@@ -91,7 +91,7 @@ TEST_F(NullEnvironment, ScriptMakesDevices) {
   EXPECT_THROW(static_cast<void>(backend->open("null:scripted#3")), core::NotSupported);
 }
 
-TEST_F(NullEnvironment, ScriptThatCannotBeReadIsBroken) {
+TEST_F(NullEnvironment, AnInvalidScriptIsReportedAsBroken) {
   script("{\"seed\": -1}");
   const auto backend = make_backend();
   ASSERT_THAT(backend->list().broken, SizeIs(1));
@@ -129,7 +129,7 @@ TEST(NullScript, AllKeys) {
   EXPECT_EQ(parse_script("{}").device_over_wall, Script().device_over_wall);
 }
 
-TEST(NullScript, MistakesAreNamed) {
+TEST(NullScript, MistakesAreReported) {
   for (const auto& [json, named] : std::vector<std::pair<const char*, const char*>>{
            {"", "JSON object"},
            {"[1]", "JSON object"},
@@ -164,12 +164,12 @@ TEST(NullTime, IsComputedFromTheWork) {
   EXPECT_NEAR(times(script, 1, work(slowed))[0] / times(script, 1)[0], 1.1, 1e-12);
 }
 
-TEST(NullTime, WarmUpFactorIsOfTheFirstFrame) {
+TEST(NullTime, WarmUpFactorAppliesToTheFirstFrame) {
   const Script script{.base_ns = 100, .ns_per_sample = 0, .warm_up_factor = 5};
   EXPECT_THAT(times(script, 3), ElementsAre(500, 100, 100));
 }
 
-TEST(NullTime, PrepareFactorsAreOfOneWork) {
+TEST(NullTime, PrepareFactorsApplyToEachWork) {
   const auto backend =
       make_backend(Script{.base_ns = 100, .ns_per_sample = 0, .prepare_factors = {3, 2}});
   const auto device = backend->open("null:scripted");
@@ -197,7 +197,7 @@ TEST(NullTime, NoiseIsInjectedAndSeeded) {
   EXPECT_NEAR(std::sqrt(variance), 50, 2.5);
 }
 
-TEST(NullTime, OutliersComeAsOftenAsAsked) {
+TEST(NullTime, OutliersHaveTheRequestedFrequency) {
   const Script script{
       .base_ns = 1000, .ns_per_sample = 0, .outlier_share = 0.1, .outlier_factor = 3};
   const auto all = times(script, 2000);
@@ -206,7 +206,7 @@ TEST(NullTime, OutliersComeAsOftenAsAsked) {
   EXPECT_EQ(std::ranges::count(all, 1000.0), 2000 - outliers);
 }
 
-TEST(NullTime, DeviceClockSaysWhatTheScriptSays) {
+TEST(NullTime, DeviceTimeFollowsTheScript) {
   for (const std::optional<double> ratio : {std::optional<double>(0.98), {0.0}, {3.0}, {}}) {
     const auto opened = device({.device_over_wall = ratio});
     const auto prepared = opened->prepare(work());
@@ -220,7 +220,7 @@ TEST(NullTime, DeviceClockSaysWhatTheScriptSays) {
   }
 }
 
-TEST(NullTime, SleepTakesTheTimeItSays) {
+TEST(NullTime, SleepTakesTheReportedTime) {
   const auto start = std::chrono::steady_clock::now();
   static_cast<void>(times({.base_ns = 2e7, .ns_per_sample = 0, .sleep = true}, 2));
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(40));
@@ -228,7 +228,7 @@ TEST(NullTime, SleepTakesTheTimeItSays) {
 
 // Counts and images
 
-TEST(NullCounts, AreToldPerPurposeOrNotAtAll) {
+TEST(NullCounts, AreReportedPerPurposeOrNotAtAll) {
   const auto opened = device({});
   const auto prepared = opened->prepare(work());
   EXPECT_THAT(prepared->frame(Purpose::timing).counts, IsEmpty());
@@ -310,7 +310,7 @@ Script failing(FailureKind kind, Place at, std::optional<int> frame = {},
   return {.failures = {{.kind = kind, .at = at, .frame = frame, .only = only}}};
 }
 
-TEST(NullFailure, ComesAtItsPlaceAndFrame) {
+TEST(NullFailure, OccursAtItsPlaceAndFrame) {
   EXPECT_THROW(static_cast<void>(device(failing(FailureKind::api_error, Place::open))),
                core::ApiError);
   EXPECT_THROW(
@@ -326,7 +326,7 @@ TEST(NullFailure, ComesAtItsPlaceAndFrame) {
   EXPECT_THROW(static_cast<void>(at_image->image()), core::ApiError);
 }
 
-TEST(NullFailure, ConcernsOnlyTheWorkItNames) {
+TEST(NullFailure, AffectsOnlyMatchingWork) {
   const auto opened =
       device(failing(FailureKind::not_supported, Place::supports, {}, "*,data=ball,*"));
   EXPECT_FALSE(opened->unsupported(work()));
@@ -354,7 +354,7 @@ TEST(NullFailureDeathTest, EndsTheProcess) {
 
 // The call log
 
-TEST(NullLog, HoldsTheCallsInOrder) {
+TEST(NullLog, ContainsTheCallsInOrder) {
   const Script script{.log = std::make_shared<CallLog>()};
   {
     const auto prepared = device(script)->prepare(work());

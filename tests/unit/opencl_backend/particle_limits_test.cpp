@@ -5,13 +5,13 @@
 namespace triptych::opencl_backend {
 namespace {
 
-TEST(BinTable, HoldsEveryTileAndEveryCoarseOne) {
+TEST(BinTable, HasABinForEveryTileAndCoarseTile) {
   EXPECT_EQ(bin_table(1, 1, 2).bins, 1U + 1U);
   EXPECT_EQ(bin_table(256, 128, 2).bins, 16U * 8U + 2U * 1U);
   EXPECT_EQ(bin_table(257, 129, 2).bins, 17U * 9U + 3U * 2U);
 }
 
-TEST(BinTable, SomeParticlesShareAChunkWhateverTheDevice) {
+TEST(BinTable, ChunksDependOnTheParticlesAlone) {
   EXPECT_EQ(bin_table(512, 512, 0).chunks, 16U);
   EXPECT_EQ(bin_table(512, 512, 8191).chunks, 16U);
   EXPECT_EQ(bin_table(512, 512, 100000).chunks, 195U);
@@ -20,7 +20,7 @@ TEST(BinTable, SomeParticlesShareAChunkWhateverTheDevice) {
 }
 
 // With 512 chunks, the counts for 8192×8192 pixels would need half a gigabyte.
-TEST(BinTable, StaysSmallerThanTheLargestPictures) {
+TEST(BinTable, StaysSmallForLargeImages) {
   for (const int edge : {4096, 8192, 16384, 32768}) {
     const BinTable table = bin_table(edge, edge, 1000000);
     EXPECT_GE(table.chunks, 16U) << edge;

@@ -18,7 +18,7 @@ measure::Configuration configuration_of(const measure::Suite& suite, const std::
   return configuration;
 }
 
-TEST(Keys, ChangeWithTheTransferFunctionsFile) {
+TEST(Keys, ChangeWithTheTransferFunctionFile) {
   const test::TemporaryFolder folder;
   const auto suite = make_suite({folder.path()});
   measure::Configuration configuration = configuration_of(*suite, "generate:uniform:10");
@@ -32,7 +32,7 @@ TEST(Keys, ChangeWithTheTransferFunctionsFile) {
 }
 
 // The key of a stress case must contain the case's own camera, which is not among the factors.
-TEST(Keys, HoldTheFrameOfAStressCase) {
+TEST(Keys, ContainTheCameraOfAStressCase) {
   const auto suite = make_suite({});
   measure::Configuration configuration = configuration_of(*suite, "stress:widest");
   for (const char* factor : {"camera", "fov", "viewport"}) configuration[factor] = "own";

@@ -49,7 +49,7 @@ TEST(OpenByQuads, FragmentsInTheCornersOfSquares) {
   EXPECT_EQ(open.at("fragments"), open.at("fragments_discarded"));
 }
 
-TEST(OpenByQuads, NothingBehindTheEyeAndWholePicturesAroundIt) {
+TEST(OpenByQuads, SpheresBehindAndAroundTheEye) {
   EXPECT_TRUE(open_by_quads(at_distances({-3}), 1, false).empty());
   EXPECT_EQ(open_by_quads(at_distances({0}), 199, false).at("vertices"), 3);
   EXPECT_EQ(open_by_quads(at_distances({0}), 199, false).at("fragments"), 0);
@@ -66,7 +66,7 @@ TEST(OpenByQuads, BehindQuadsOcclusionCullsMore) {
 
 // If the points of a device can be as large as the image, the device draws no quads, so no counts
 // are open.
-TEST(OpenByQuads, AsADeviceTells) {
+TEST(OpenByQuads, DependOnTheDevicesLargestPoint) {
   const auto suite = make_suite({});
   measure::Configuration configuration;
   for (const measure::Factor& factor : suite->factors()) {

@@ -41,7 +41,7 @@ TEST(SpritesApart, OnlyWhereNoTwoShareAPixel) {
   EXPECT_FALSE(sprites_are_apart(work_of(touching).scene));
 }
 
-TEST(SpritesApart, NothingIsSaidOfSpheresAtTheEye) {
+TEST(SpritesApart, SpheresAtTheEyeGiveNoResult) {
   auto near = apart;
   near.push_back({0, 0, 9.5, 0.4});
   EXPECT_FALSE(sprites_are_apart(work_of(near).scene));
@@ -49,13 +49,13 @@ TEST(SpritesApart, NothingIsSaidOfSpheresAtTheEye) {
   EXPECT_TRUE(sprites_are_apart(work_of(near).scene));
 }
 
-TEST(SpritesApart, TheRadiusIsTheOneDrawn) {
+TEST(SpritesApart, UseTheDrawnRadius) {
   measure::ParticleWork work = work_of(apart);
   work.scene.radius_scale = 5;
   EXPECT_FALSE(sprites_are_apart(work.scene));
 }
 
-TEST(PlainParticleWork, LevelsThatNothingReadsAreTheStandardOnes) {
+TEST(PlainParticleWork, UnusedLevelsBecomeDefaults) {
   const auto plain = plain_work(configuration("quad_ray", "rgba8"), work_of(apart));
   EXPECT_EQ(plain.levels.at("transfer"), "vertex");
   EXPECT_EQ(plain.levels.at("transfer_function"), "haze");
@@ -64,14 +64,14 @@ TEST(PlainParticleWork, LevelsThatNothingReadsAreTheStandardOnes) {
   EXPECT_EQ(plain.why.size(), 4U);
 }
 
-TEST(PlainParticleWork, LevelsThatAreReadStay) {
+TEST(PlainParticleWork, UsedLevelsAreKept) {
   const auto plain = plain_work(configuration("polygon_tess", "intensity"),
                                 work_of({{0, 0, 0, 1}, {0.5, 0, 0, 1}}));
   EXPECT_EQ(plain.levels, configuration("polygon_tess", "intensity"));
   EXPECT_TRUE(plain.why.empty());
 }
 
-TEST(PlainParticleWork, TilesRejectByTheFrontWhateverIsAsked) {
+TEST(PlainParticleWork, TilesIgnoreConservativeDepth) {
   const auto plain =
       plain_work(configuration("tiles", "intensity"), work_of({{0, 0, 0, 1}, {0.5, 0, 0, 1}}));
   EXPECT_EQ(plain.levels.at("conservative_depth"), "off");

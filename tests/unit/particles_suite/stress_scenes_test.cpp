@@ -66,7 +66,7 @@ TEST(StressScenes, AreCertainNearlyEverywhere) {
   }
 }
 
-TEST(StressScenes, OfAnyScaleAreOnePicture) {
+TEST(StressScenes, AreTheSameImageAtAnyScale) {
   const Seen unit = see("stress:scale:unit");
   for (const auto& [variant, scale] :
        {std::pair("small", 0x1.0p-20), std::pair("large", 0x1.0p20)}) {
@@ -93,7 +93,7 @@ TEST(StressScenes, FarSilhouettesAreDiscs) {
   }
 }
 
-TEST(StressScenes, InsideThereIsNoWayPast) {
+TEST(StressScenes, FromInsideOnlyTheEnclosingSphereIsVisible) {
   for (const char* eye : {"centre", "off_centre", "under_surface"}) {
     const Seen seen = see(fmt::format("stress:inside:{}", eye));
     EXPECT_EQ(seen.truth.coverage, 1);
@@ -111,14 +111,14 @@ TEST(StressScenes, TheHorizonCrossesThePicture) {
   }
 }
 
-TEST(StressScenes, OnlyHundredthsOfAPixelOnCentresAreSeen) {
+TEST(StressScenes, TinySpheresAreVisibleOnlyOnPixelCentres) {
   const Seen seen = see("stress:subpixel");
   EXPECT_EQ(seen.covered(), 144);
   EXPECT_EQ(seen.uncertain(), 0);
   for (const std::uint32_t id : seen.ids()) EXPECT_EQ(id % 2, 0U);
 }
 
-TEST(StressScenes, WhatIsNoSphereIsCounted) {
+TEST(StressScenes, InvalidSpheresAreCounted) {
   const Seen with = see("stress:no_sphere:with");
   const Seen without = see("stress:no_sphere:without");
   EXPECT_EQ(with.scene.particles->dropped, 10U);
@@ -158,7 +158,7 @@ TEST(StressScenes, InterpenetratingSpheresMeetInBisectingPlanes) {
   }
 }
 
-TEST(StressScenes, AllDepthsOfTheRangeAreSeenAndTheNearerOneHides) {
+TEST(StressScenes, AllDepthsAreVisibleAndNearerSpheresHideOthers) {
   const Seen seen = see("stress:depth_range");
   ASSERT_EQ(seen.ids().size(), 7U);
   double nearest = 1e9;
@@ -171,7 +171,7 @@ TEST(StressScenes, AllDepthsOfTheRangeAreSeenAndTheNearerOneHides) {
   EXPECT_GT(farthest / nearest, 1e6);
 }
 
-TEST(StressScenes, ThePileShowsItsLastAlone) {
+TEST(StressScenes, ThePileShowsOnlyItsLastSphere) {
   const Seen seen = see("stress:pile:200000");
   EXPECT_EQ(seen.ids(), (std::set<std::uint32_t>{199999}));
   EXPECT_EQ(seen.covered(), 1);
@@ -179,7 +179,7 @@ TEST(StressScenes, ThePileShowsItsLastAlone) {
 }
 
 // Only the wall is visible both before and after the jump.
-TEST(StressScenes, AfterTheJumpOtherSpheresAreSeen) {
+TEST(StressScenes, AfterTheJumpOtherSpheresAreVisible) {
   const Seen after = see("stress:jump");
   const Seen before = see("stress:jump", true);
   static constexpr std::uint32_t in_wall = 441;
@@ -194,7 +194,7 @@ TEST(StressScenes, AfterTheJumpOtherSpheresAreSeen) {
   EXPECT_EQ(both, 0U);
 }
 
-TEST(StressScenes, TheLetterIsNoneOfItsFlips) {
+TEST(StressScenes, TheLetterDiffersFromItsFlips) {
   const Seen seen = see("stress:asymmetric");
   const auto differing = [&](auto other) {
     int different = 0;
@@ -214,7 +214,7 @@ TEST(StressScenes, TheLetterIsNoneOfItsFlips) {
   EXPECT_GT(differing([](int x, int y) { return std::pair(y, x); }), covered / 2);
 }
 
-TEST(StressScenes, WhatEndsAPixelBeforeTheEdgeIsNotSeen) {
+TEST(StressScenes, SpheresOutsideTheEdgeAreInvisible) {
   const Seen seen = see("stress:edges");
   EXPECT_TRUE(seen.ids().contains(9));
   EXPECT_FALSE(seen.ids().contains(10));

@@ -34,7 +34,7 @@ measure::Configuration defaults(const measure::Suite& suite) {
   return configuration;
 }
 
-TEST(StressCases, NumbersGoOnWithoutAGapAndEveryNameIsRead) {
+TEST(StressCases, NumbersAreConsecutiveAndNamesAreParsed) {
   int number = 33;
   for (const StressCase& each : stress_cases()) {
     EXPECT_EQ(each.number, number++);
@@ -50,7 +50,7 @@ TEST(StressCases, NumbersGoOnWithoutAGapAndEveryNameIsRead) {
   EXPECT_FALSE(stress_data("generate:uniform:10"));
 }
 
-TEST(StressCases, WhatIsNoCaseIsToldWithWhatThereIs) {
+TEST(StressCases, UnknownCasesAreRejectedWithTheKnownOnes) {
   const auto message = [](std::string_view data) -> std::string {
     try {
       static_cast<void>(stress_data(data));
@@ -66,7 +66,7 @@ TEST(StressCases, WhatIsNoCaseIsToldWithWhatThereIs) {
 }
 
 // The plan contains all cases except the largest pile, which would take too long on every device.
-TEST(StressCases, ThePlanHasThemAll) {
+TEST(StressCases, ThePlanContainsEveryCase) {
   const auto suite = make_suite({});
   const measure::Plan plan = measure::load_plan(
       "particles/stress", {}, [&](std::string_view) -> measure::Suite& { return *suite; });
@@ -78,7 +78,7 @@ TEST(StressCases, ThePlanHasThemAll) {
   EXPECT_EQ(planned, std::set<std::string>(all.begin(), all.end()));
 }
 
-TEST(StressSuite, OwnIsTheCameraAndTheViewportOfTheCase) {
+TEST(StressSuite, OwnSelectsTheCameraAndViewportOfTheCase) {
   const auto suite = make_suite({});
   measure::Configuration configuration = defaults(*suite);
   configuration["data"] = "stress:widest";
@@ -91,7 +91,7 @@ TEST(StressSuite, OwnIsTheCameraAndTheViewportOfTheCase) {
   EXPECT_NE(suite->limit(configuration).image.ids, limit.ids);
 }
 
-TEST(StressSuite, OtherDataHaveNothingOfTheirOwn) {
+TEST(StressSuite, OtherDataHaveNoCameraOfTheirOwn) {
   const auto suite = make_suite({});
   for (const std::string factor : {"camera", "fov", "viewport"}) {
     measure::Configuration configuration = defaults(*suite);

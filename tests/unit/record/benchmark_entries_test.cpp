@@ -19,7 +19,7 @@ TEST(BenchmarkEntries, UnpackingInvertsPackingToTheByte) {
   EXPECT_EQ(unpack_benchmark_entries(pack_benchmark_entries(entries)).dump(), entries.dump());
 }
 
-TEST(BenchmarkEntries, RepetitionIsSaidOnce) {
+TEST(BenchmarkEntries, RepeatedTextIsStoredOnce) {
   Json entries = Json::array();
   for (int i = 0; i < 16; ++i) {
     entries.push_back({{"name", std::string(200, 'n')}, {"samples", 123456}, {"index", i}});
@@ -27,7 +27,7 @@ TEST(BenchmarkEntries, RepetitionIsSaidOnce) {
   EXPECT_LT(8 * pack_benchmark_entries(entries).size(), 2 * entries.dump().size());
 }
 
-TEST(BenchmarkEntries, OlderStoresAndNone) {
+TEST(BenchmarkEntries, OlderStoresAndEmptyEntriesAreRead) {
   EXPECT_EQ(unpack_benchmark_entries(R"([{"name":"x"},{"name":"y"}])").size(), 2U);
   EXPECT_EQ(unpack_benchmark_entries(R"({"name":"x"})"), Json::array({{{"name", "x"}}}));
   EXPECT_EQ(unpack_benchmark_entries(""), Json::array());

@@ -12,7 +12,7 @@ namespace {
 
 using Factors = std::map<std::string, std::string>;
 
-TEST(FactorList, TextWithoutSeparatorsStandsForItself) {
+TEST(FactorList, StringsWithoutSeparatorsAreUnchanged) {
   for (const char* value : {"generate:mandelbulb:128", "a b", "50%", "%", "%%", "%2", "%2c", "%41",
                             "\\", "\"", "'", "ä", ""}) {
     EXPECT_EQ(escaped(value), value);
@@ -28,7 +28,7 @@ TEST(FactorList, SeparatorsWithinAValue) {
   EXPECT_EQ(factor_list({{"data", "x,step=2"}, {"step", "1"}}), "data=x%2Cstep%3D2,step=1");
 }
 
-TEST(FactorList, WhatNamesNoFactorIsLeftOut) {
+TEST(FactorList, EntriesWithoutAFactorAreIgnored) {
   EXPECT_EQ(parse_factor_list(""), Factors{});
   EXPECT_EQ(parse_factor_list("none"), Factors{});
   EXPECT_EQ(parse_factor_list("a=1,none,,b="), (Factors{{"a", "1"}, {"b", ""}}));

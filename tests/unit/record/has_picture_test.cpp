@@ -10,7 +10,7 @@
 namespace triptych::record {
 namespace {
 
-TEST(HasPicture, IsWhatTheCatalogueSays) {
+TEST(HasPicture, AgreesWithTheCatalogue) {
   std::size_t without = 0;
   for (const technique::Technique& each : technique::catalogue()) {
     Record record;

@@ -61,7 +61,7 @@ class MergeFailure : public StoreTest {
 
 // Repeats the merge with every possible amount of free space, so that each page is once the first
 // that does not fit.
-TEST_F(MergeFailure, WithoutRoomLeavesNothing) {
+TEST_F(MergeFailure, AFullDiskLeavesNoFile) {
   constexpr std::size_t page = 4096;
   const std::vector<fs::path> files{shard(1), shard(2)};
   const fs::path out = folder_ / "out";
@@ -87,7 +87,7 @@ TEST_F(MergeFailure, WithoutRoomLeavesNothing) {
   }
 }
 
-TEST_F(MergeFailure, FullDiskIsSaid) {
+TEST_F(MergeFailure, FullDiskIsReported) {
   const std::vector<fs::path> files{shard(1, 1'000'000), shard(2, 1'000'000)};
   const fs::path disk = folder_ / "disk";
   fs::create_directory(disk);

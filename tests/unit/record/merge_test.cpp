@@ -104,7 +104,7 @@ std::string text_of(Record record) {
   return core::Json(record).dump();
 }
 
-TEST_F(Merge, HoldsEverythingThatItsPartsHold) {
+TEST_F(Merge, ContainsEverythingFromItsInputs) {
   const Files files{shard(1, {record_of(3), record_of(1)}), shard(2, {record_of(2)})};
   {
     Store store(files[1], Mode::append);
@@ -176,7 +176,7 @@ TEST_F(Merge, AnyOrderAndGroupingMakesTheSameBytes) {
   }
 }
 
-TEST_F(Merge, OfTwoRecordsOneThatWasMeasuredIsKept) {
+TEST_F(Merge, PrefersMeasuredRecords) {
   const Files files{
       shard(1, {failed(1), record_of(2, 5), failed(3), record_of(4)}),
       shard(2, {record_of(1), record_of(2, 6), failed(3, Outcome::hung), record_of(4)})};
@@ -190,7 +190,7 @@ TEST_F(Merge, OfTwoRecordsOneThatWasMeasuredIsKept) {
 
 // A record with an injected fault does not show how the device behaves, so a record without a fault
 // is preferred, even if it failed.
-TEST_F(Merge, OneWithoutAnInjectedFaultIsKept) {
+TEST_F(Merge, PrefersRecordsWithoutInjectedFaults) {
   const auto clean = [](Record record) {
     record.injected = "";
     return record;
@@ -211,7 +211,7 @@ TEST_F(Merge, OneWithoutAnInjectedFaultIsKept) {
   EXPECT_EQ(hash_of_merged({files[2], files[1], files[0]}, "out"), expected);
 }
 
-TEST_F(Merge, OtherTextOfAPlanIsRefused) {
+TEST_F(Merge, DifferentVersionsOfAPlanAreRejected) {
   const Files files{shard(1, {record_of(1)}), shard(2, {record_of(2)})};
   record::Run run = sample_run("run-002");
   run.plan_hash = "another";
@@ -226,7 +226,7 @@ TEST_F(Merge, OtherTextOfAPlanIsRefused) {
   expect_refused(files, AllOf(HasSubstr("the checks timing"), HasSubstr("--timed")));
 }
 
-TEST_F(Merge, AnotherDriverUnderOneDeviceIsRefused) {
+TEST_F(Merge, DifferentDriversOfOneDeviceAreRejected) {
   Device newer = sample_device();
   newer.driver_version = "2.0";
   expect_refused({shard(1, {record_of(1)}), shard(2, {record_of(2)}, newer)},
@@ -234,7 +234,7 @@ TEST_F(Merge, AnotherDriverUnderOneDeviceIsRefused) {
                        HasSubstr("driver 2.0"), HasSubstr("separately")));
 }
 
-TEST_F(Merge, OtherDataUnderOneNameAreRefused) {
+TEST_F(Merge, DifferentDataWithOneNameAreRejected) {
   Record other = record_of(2);
   other.data_hash = "other";
   const fs::path first = shard(1, {record_of(1)});
@@ -245,7 +245,7 @@ TEST_F(Merge, OtherDataUnderOneNameAreRefused) {
   expect_refused({first, shard(3, {other})}, HasSubstr("contains results for different data"));
 }
 
-TEST_F(Merge, FactorsThatChangeTheVoxelsTellContentsApart) {
+TEST_F(Merge, DataHashesMayDifferIfFactorsChangeTheVoxels) {
   int each = 0;
   for (const char* factor : {"voxel", "colour", "window", "mapping"}) {
     Record other = record_of(8);
@@ -259,13 +259,13 @@ TEST_F(Merge, FactorsThatChangeTheVoxelsTellContentsApart) {
   }
 }
 
-TEST_F(Merge, AnotherSchemaIsRefused) {
+TEST_F(Merge, AnotherSchemaIsRejected) {
   const Files files{shard(1, {record_of(1)}), shard(2, {record_of(2)})};
   SQLite::Database(files[1].string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 3");
   expect_refused(files, AllOf(HasSubstr("shard-2.sqlite"), HasSubstr("schema version 3")));
 }
 
-TEST_F(Merge, WhatIsThereIsNeverReplaced) {
+TEST_F(Merge, ExistingFilesAreNotReplaced) {
   const Files files{shard(1, {record_of(1)}), shard(2, {record_of(2)})};
   const auto before = core::read_file(files[0]);
   EXPECT_THAT([&] { static_cast<void>(merge(files, "shard-1.sqlite")); },
@@ -298,7 +298,7 @@ TEST_F(Merge, TheLatestRunOfEachPlanCounts) {
   EXPECT_THAT(merged_records(), SizeIs(1));
 }
 
-TEST_F(Merge, NamesWhatAShardLacks) {
+TEST_F(Merge, ReportsWhatAShardLacks) {
   const fs::path file = shard(1, {record_of(1), record_of(2)});
   EXPECT_THAT(gaps_of(Store(file, Mode::read)), IsEmpty());
   SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec("DELETE FROM record WHERE seq = 1");
@@ -310,7 +310,7 @@ TEST_F(Merge, NamesWhatAShardLacks) {
 }
 
 // The merged run must also list the planned configurations of each shard.
-TEST_F(Merge, NamesWhatWasNeverBegun) {
+TEST_F(Merge, ReportsConfigurationsThatWereNeverBegun) {
   const fs::path file = shard(1, {record_of(1)});
   {
     Store store(file, Mode::append);
@@ -346,7 +346,7 @@ TEST_F(Merge, AnEmptyShardIsAGap) {
 }
 
 // If a value was changed in a shard, the error must be detected in the merged store.
-TEST_F(Merge, SealsHoldAfterwards) {
+TEST_F(Merge, SealsRemainValid) {
   const fs::path file = shard(1, {record_of(1)});
   static_cast<void>(merge({file}));
   EXPECT_NO_THROW(static_cast<void>(merged_records()));

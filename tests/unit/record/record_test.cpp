@@ -32,7 +32,7 @@ TEST(Percentile, InterpolatesBetweenOrderStatistics) {
   EXPECT_EQ(percentile({1, inf}, 0), 1);
 }
 
-TEST(Percentile, NotANumberIsNoSample) {
+TEST(Percentile, IgnoresNaN) {
   EXPECT_EQ(percentile({nan, 5, nan, 7}, 0.5), 6);
   EXPECT_TRUE(std::isnan(percentile({nan}, 0.5)));
   EXPECT_TRUE(std::isnan(percentile({}, 0.5)));
@@ -52,7 +52,7 @@ TEST(Summarise, QuartilesOrNothing) {
 
 // --- Clocks and names
 
-TEST(RecordTest, DeviceClockCountsOnlyWhereTrustedAndThere) {
+TEST(RecordTest, DeviceTimeIsUsedOnlyIfTrustedAndPresent) {
   Record record = sample_record();
   EXPECT_EQ(record.clock(), "device");
   EXPECT_EQ(record.time_ns(), record.device_ns);
@@ -65,7 +65,7 @@ TEST(RecordTest, DeviceClockCountsOnlyWhereTrustedAndThere) {
   EXPECT_EQ(record.time_ns(), record.wall_ns);
 }
 
-TEST(RecordTest, InstructionsAreWhatRepeats) {
+TEST(RecordTest, InstructionsExcludeUnrepeatableParts) {
   Record record;
   EXPECT_FALSE(record.instructions());
   EXPECT_FALSE(record.fetched_bytes());
@@ -74,7 +74,7 @@ TEST(RecordTest, InstructionsAreWhatRepeats) {
   EXPECT_EQ(record.fetched_bytes(), 192U);
 }
 
-TEST(RecordTest, TestIdKeepsToItsAlphabet) {
+TEST(RecordTest, TestIdsUseOnlyAllowedCharacters) {
   Record record = sample_record();
   record.suite = "volume";
   record.plan = "volume/quick";
@@ -91,7 +91,7 @@ TEST(RunTest, APlanFromAFileIsMeasuredFromAFileAgain) {
   EXPECT_EQ(plan_argument("mine"), "FOLDER/mine.yaml");
 }
 
-TEST(OutcomeTest, NamesAreRead) {
+TEST(OutcomeTest, NamesRoundTrip) {
   for (const Outcome each : {Outcome::measured, Outcome::skipped, Outcome::failed, Outcome::crashed,
                              Outcome::hung, Outcome::lost}) {
     EXPECT_EQ(outcome(name_of(each)), each);
@@ -99,7 +99,7 @@ TEST(OutcomeTest, NamesAreRead) {
   EXPECT_THROW(static_cast<void>(outcome("broken")), core::InputError);
 }
 
-TEST(DeviceTest, KeyChangesWithEverythingTimingsDependOn) {
+TEST(DeviceTest, TheKeyCoversEverythingThatAffectsTimings) {
   const Device device = sample_device();
   std::set<std::string> keys{device.key()};
   std::set<std::string> hashes{device.key_hash()};
@@ -131,7 +131,7 @@ TEST(DeviceTest, KeyChangesWithEverythingTimingsDependOn) {
 }
 
 // One driver can serve many graphics cards.
-TEST(DeviceTest, HardwareIsKnownByItsName) {
+TEST(DeviceTest, HardwareIsIdentifiedByItsName) {
   Device device = sample_device("vulkan:nvidia");
   device.cpu_features.clear();
   device.name = "Board 1";
@@ -141,7 +141,7 @@ TEST(DeviceTest, HardwareIsKnownByItsName) {
   EXPECT_THAT(device.key(), HasSubstr("; GPU Board 1"));
 }
 
-TEST(DeviceTest, KeysAreOneLineAndFileNames) {
+TEST(DeviceTest, KeysAreValidLinesAndFileNames) {
   Device device = sample_device("vulkan:lavapipe");
   device.driver_version = "Mesa 22.3.6\n(LLVM/15)";
   EXPECT_THAT(device.key(), ::testing::Not(HasSubstr("\n")));
@@ -150,7 +150,7 @@ TEST(DeviceTest, KeysAreOneLineAndFileNames) {
               MatchesRegex("vulkan-lavapipe-mesa-22.3.6-llvm-15-[0-9a-f]+"));
 }
 
-TEST(DeviceTest, StatisticsKeyIsOfIdAndDriverAlone) {
+TEST(DeviceTest, TheStatisticsKeyCoversOnlyIdAndDriver) {
   const Device device = sample_device();
   Device other = device;
   other.environment.clear();
@@ -169,7 +169,7 @@ Json round_trip(const T& value) {
   return Json(Json::parse(Json(value).dump()).get<T>());
 }
 
-TEST(RecordJson, EverythingComesBack) {
+TEST(RecordJson, EveryFieldRoundTrips) {
   EXPECT_EQ(round_trip(sample_record()), Json(sample_record()));
   EXPECT_EQ(Json(sample_record()).size(), 35U) << "add the new field to sample_record()";
   EXPECT_EQ(Json::parse(Json(sample_device()).dump()).get<Device>(), sample_device());
@@ -178,7 +178,7 @@ TEST(RecordJson, EverythingComesBack) {
   EXPECT_EQ(Json(sample_record()).get<Record>().counters, sample_record().counters);
 }
 
-TEST(RecordJson, NaNAndInfinityTravel) {
+TEST(RecordJson, NaNAndInfinityRoundTrip) {
   Record record = sample_record();
   record.wall_ns = {nan, inf, -inf, 1};
   record.precision["filter_weight_error"] = nan;
@@ -191,7 +191,7 @@ TEST(RecordJson, NaNAndInfinityTravel) {
   EXPECT_TRUE(std::isnan(back.precision.at("filter_weight_error")));
 }
 
-TEST(RecordJson, BrokenUtf8IsMended) {
+TEST(RecordJson, InvalidUtf8IsReplaced) {
   Device device = sample_device();
   device.name = "caf\xe9";
   device.limits["\xff"] = "\xfe";
@@ -201,7 +201,7 @@ TEST(RecordJson, BrokenUtf8IsMended) {
   });
 }
 
-TEST(RecordJson, WrongTypesAreRefusedByName) {
+TEST(RecordJson, WrongTypesAreReportedByName) {
   const auto refusal = [](const char* name, const Json& value) {
     Json json = sample_record();
     json[name] = value;

@@ -9,7 +9,7 @@ const std::string key =
     "camera=orbit_y:1/8,data=generate:mandelbulb:96,step=0.5,technique=raycast,"
     "transfer_function=surfaces,viewport=192";
 
-TEST(ShortName, HasTheValuesAndNoDefaults) {
+TEST(ShortName, ContainsLevelsThatAreNotDefaults) {
   EXPECT_EQ(short_name("volume", "volume/quick", key),
             "volume.quick.raycast.mandelbulb_96.surfaces.orbit_y_1_8.s0_5.v192");
   EXPECT_EQ(short_name(key), "raycast.mandelbulb_96.surfaces.orbit_y_1_8.s0_5.v192");

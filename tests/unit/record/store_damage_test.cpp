@@ -52,18 +52,18 @@ class StoreDamage : public StoreTest {
   }
 };
 
-TEST_F(StoreDamage, NoneIsNone) {
+TEST_F(StoreDamage, AnIntactStoreIsAccepted) {
   EXPECT_NO_THROW(read_all());
 }
 
-TEST_F(StoreDamage, AChangedValueIsFoundByAVisit) {
+TEST_F(StoreDamage, AVisitDetectsAChangedValue) {
   change("UPDATE counter SET value = value + 1 WHERE name = 'rays_hit'");
   const Store store(file_, Mode::read);
   EXPECT_THAT([&] { store.visit_records("run-1", [](const Record&) { FAIL(); }); },
               ThrowsMessage<core::InputError>(HasSubstr("was changed after it was written")));
 }
 
-TEST_F(StoreDamage, AChangedValueIsFoundWhereverItIs) {
+TEST_F(StoreDamage, AChangedValueIsDetectedInEveryTable) {
   for (const char* sql :
        {"UPDATE run SET plan_hash = 'x'",
         "UPDATE run SET configurations = 2",
@@ -101,7 +101,7 @@ TEST_F(StoreDamage, AChangedValueIsFoundWhereverItIs) {
   }
 }
 
-TEST_F(StoreDamage, AWordThatIsNoneNamesTheFile) {
+TEST_F(StoreDamage, AnInvalidWordIsReportedWithTheFile) {
   change("UPDATE record SET outcome = 'passed'");
   EXPECT_THAT([&] { read_all(); },
               ThrowsMessage<core::InputError>(

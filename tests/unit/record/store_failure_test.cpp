@@ -56,7 +56,7 @@ TEST_F(StoreTest, ShortTextFile) {
   EXPECT_THAT(refusal<core::InputError>(file_, Mode::append), HasSubstr("not an SQLite file"));
 }
 
-TEST_F(StoreTest, AnotherPrograms) {
+TEST_F(StoreTest, AStoreOfAnotherProgram) {
   {
     const SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
     SQLite::Statement(other, "CREATE TABLE t (x)").exec();
@@ -96,7 +96,7 @@ TEST_F(StoreTest, OtherSchemaVersion) {
 
 // A trigger could hide what a driver did wrong, a view could show other records, and an index or a
 // changed table could do either.
-TEST_F(StoreTest, ObjectsThatOthersMadeAreRefused) {
+TEST_F(StoreTest, UnknownDatabaseObjectsAreRejected) {
   const std::vector<std::pair<std::string, std::string>> attacks{
       {"CREATE TRIGGER hide AFTER INSERT ON device_fault BEGIN DELETE FROM device_fault; END",
        "has the trigger hide"},
@@ -187,7 +187,7 @@ TEST_F(StoreTest, DamagedColumn) {
 
 // SQLite limits values to 10⁹ bytes. Computing the seal of such a string would still take minutes
 // and several times as much memory.
-TEST_F(StoreTest, ATextOfManyMegabytesIsRefused) {
+TEST_F(StoreTest, AStringOfManyMegabytesIsRejected) {
   make_store(file_);
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE)
       .exec("UPDATE record SET detail = CAST(zeroblob(70000000) AS TEXT)");
@@ -196,7 +196,7 @@ TEST_F(StoreTest, ATextOfManyMegabytesIsRefused) {
               ThrowsMessage<core::InputError>(HasSubstr("a string of 70000000 bytes")));
 }
 
-TEST_F(StoreTest, APictureThatIsNoneIsNamed) {
+TEST_F(StoreTest, AnInvalidImageIsReported) {
   Store store(file_, Mode::append);
   store.add_image("0123", std::as_bytes(std::span("no picture")));
   EXPECT_THAT([&] { static_cast<void>(store.picture("0123")); },
@@ -261,7 +261,7 @@ TEST_F(StoreTest, ReadOnlyFolderWithALogLeftBehind) {
               HasSubstr("log cannot be replayed"));
 }
 
-TEST_F(StoreTest, FileTakenAwayWhileItIsOpen) {
+TEST_F(StoreTest, FileRemovedWhileOpen) {
   for (const std::string ending : {"", "-wal"}) {
     Store store(file_, Mode::append);
     store.add_run(sample_run());
@@ -342,7 +342,7 @@ std::string fill(const std::filesystem::path& file) {
 
 // The writer is killed, and the store is copied without its log. In the copy, an earlier run that
 // passed must not be mistaken for the latest run.
-TEST_F(StoreTest, ACopyWithoutItsLogKnowsWhatTheLatestRunSetOutToDo) {
+TEST_F(StoreTest, ACopyWithoutItsLogStillContainsTheLatestPlan) {
   make_store(file_);
   Store store(file_, Mode::append);
   record::Run later = sample_run();

@@ -30,7 +30,7 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 using Mode = Store::Mode;
 
-TEST_F(StoreTest, BusyIsWaitedForThenSaid) {
+TEST_F(StoreTest, ABusyStoreIsReportedAfterWaiting) {
   make_store(file_);
   SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE, patience_ms);
   other.exec("BEGIN IMMEDIATE");
@@ -48,7 +48,7 @@ TEST_F(StoreTest, BusyIsWaitedForThenSaid) {
   EXPECT_NO_THROW(store.add_run(sample_run("x")));
 }
 
-TEST_F(StoreTest, BusyForAShortTimeIsNoError) {
+TEST_F(StoreTest, BusyForAShortTimeIsNotAnError) {
   make_store(file_);
   SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE);
   other.exec("BEGIN IMMEDIATE");
@@ -62,7 +62,7 @@ TEST_F(StoreTest, BusyForAShortTimeIsNoError) {
 }
 
 // CTest starts the devices of a plan in parallel, and all of them must add to the same run.
-TEST_F(StoreTest, OfManyThatWouldBeginARunOneDoes) {
+TEST_F(StoreTest, OnlyOneOfManyProcessesBeginsTheRun) {
   { const Store empty(file_, Mode::append); }
   std::array<std::string, 8> ids;
   std::vector<std::thread> processes;
@@ -78,7 +78,7 @@ TEST_F(StoreTest, OfManyThatWouldBeginARunOneDoes) {
   EXPECT_THAT(ids, testing::Each(store.runs().front().id));
 }
 
-TEST_F(StoreTest, ReaderBesideAWriter) {
+TEST_F(StoreTest, ReaderWhileAWriterIsActive) {
   Store writer(file_, Mode::append);
   writer.add_run(sample_run());
   const Store reader(file_, Mode::read);
@@ -152,7 +152,7 @@ class LateWriter {
 
 // Another process has created the file and is about to enable write-ahead logging. If a second
 // process also tries to enable it, SQLite rejects the attempt at once instead of waiting.
-TEST_F(StoreTest, SwitchedToTheLogByAnotherMeanwhile) {
+TEST_F(StoreTest, SwitchedToTheLogByAnotherProcess) {
   make_store(file_);
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA journal_mode = DELETE");
   const LateWriter late(file_);
@@ -164,7 +164,7 @@ TEST_F(StoreTest, SwitchedToTheLogByAnotherMeanwhile) {
   EXPECT_THAT(Store(file_, Mode::read).records("late"), SizeIs(10));
 }
 
-TEST_F(StoreTest, CreatedByAnotherBetweenLookAndLock) {
+TEST_F(StoreTest, CreatedByAnotherProcessBeforeTheLock) {
   const std::filesystem::path model = folder_ / "model.sqlite";
   make_store(model);
   const LateWriter late(file_);

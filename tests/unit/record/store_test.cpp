@@ -50,7 +50,7 @@ TEST_F(StoreTest, EverythingComesBackFromTheFile) {
   EXPECT_EQ(truth->bound, bytes_of("bound"));
 }
 
-TEST_F(StoreTest, RecordsOneAtATimeAreThoseThatComeTogether) {
+TEST_F(StoreTest, VisitingRecordsMatchesReadingAll) {
   Store store(file_, Mode::append);
   store.add_run(sample_run());
   store.add_run(sample_run("run-2"));
@@ -71,7 +71,7 @@ TEST_F(StoreTest, RecordsOneAtATimeAreThoseThatComeTogether) {
   EXPECT_THAT(store.names("run-3", "cost"), IsEmpty());
 }
 
-TEST_F(StoreTest, WhatIsNotThere) {
+TEST_F(StoreTest, MissingRows) {
   Store store(file_, Mode::append);
   EXPECT_THAT(store.runs(), IsEmpty());
   EXPECT_FALSE(store.latest_run("fake/quick"));
@@ -84,7 +84,7 @@ TEST_F(StoreTest, WhatIsNotThere) {
   EXPECT_THROW(store.add_device("run-1", sample_device(), {}), core::InputError);
 }
 
-TEST_F(StoreTest, WhatIsUnderWayIsCountedUntilItHasARecord) {
+TEST_F(StoreTest, AttemptsAreCountedUntilThereIsARecord) {
   Store store(file_, Mode::append);
   EXPECT_THROW((void)store.begin_record("run-1", "a", "gl:a"), core::InputError);
   store.add_run(sample_run());
@@ -100,7 +100,7 @@ TEST_F(StoreTest, WhatIsUnderWayIsCountedUntilItHasARecord) {
   EXPECT_EQ(begin(), 1);
 }
 
-TEST_F(StoreTest, NumbersThatAreNone) {
+TEST_F(StoreTest, NonFiniteNumbers) {
   Store store(file_, Mode::append);
   store.add_run(sample_run());
   Record record = sample_record();
@@ -148,7 +148,7 @@ TEST_F(StoreTest, RunsInTheOrderTheyWereAdded) {
   EXPECT_THAT(store.records("b"), SizeIs(1));
 }
 
-TEST_F(StoreTest, RecordsByDeviceThenAsAdded) {
+TEST_F(StoreTest, RecordsAreSortedByDeviceThenAsAdded) {
   Store store(file_, Mode::append);
   store.add_run(sample_run());
   store.add_run(sample_run("run-2"));
@@ -167,7 +167,7 @@ TEST_F(StoreTest, RecordsByDeviceThenAsAdded) {
   EXPECT_FALSE(store.has_record("run-2", "y", "gl:b"));
 }
 
-TEST_F(StoreTest, SameKeyReplacesWhole) {
+TEST_F(StoreTest, SameKeyReplacesTheWholeRecord) {
   Store store(file_, Mode::append);
   store.add_run(sample_run());
   store.add_record(sample_record());
@@ -215,7 +215,7 @@ TEST_F(StoreTest, StoresCanBeMoved) {
 }
 
 // docs/store.md documents these columns for users' own queries.
-TEST_F(StoreTest, ColumnsForQueriesByHand) {
+TEST_F(StoreTest, DocumentedColumnsExist) {
   {
     Store store(file_, Mode::append);
     store.add_run(sample_run());

@@ -36,11 +36,11 @@ class FailureOf : public testing::Test {
   Evidence evidence;
 };
 
-TEST_F(FailureOf, ARightPictureIsNone) {
+TEST_F(FailureOf, ACorrectImageIsNotAFailure) {
   EXPECT_FALSE(failure_of(record, evidence));
 }
 
-TEST_F(FailureOf, APictureBeyondItsBoundIsOfOneKindWhateverItsNumbers) {
+TEST_F(FailureOf, WrongImagesAreOneKindWhateverTheirNumbers) {
   value = 0.6F;
   const auto some = failure_of(record, evidence);
   ASSERT_TRUE(some);
@@ -52,7 +52,7 @@ TEST_F(FailureOf, APictureBeyondItsBoundIsOfOneKindWhateverItsNumbers) {
   EXPECT_FALSE(is_same_kind(*failure_of(record, evidence), *some));
 }
 
-TEST_F(FailureOf, ACrashAndAHangAreOfTheirOwnKinds) {
+TEST_F(FailureOf, CrashesAndHangsAreSeparateKinds) {
   record.outcome = record::Outcome::crashed;
   record.reason = {.cause = record::Cause::signal, .numbers = {{"signal", 11}}};
   const auto crash = failure_of(record, evidence);
@@ -62,12 +62,12 @@ TEST_F(FailureOf, ACrashAndAHangAreOfTheirOwnKinds) {
   EXPECT_FALSE(is_same_kind(*failure_of(record, evidence), *crash));
 }
 
-TEST_F(FailureOf, ASkipIsNone) {
+TEST_F(FailureOf, ASkipIsNotAFailure) {
   record.outcome = record::Outcome::skipped;
   EXPECT_FALSE(failure_of(record, evidence));
 }
 
-TEST_F(FailureOf, CountersAreHeldAgainstAnotherDeviceOnly) {
+TEST_F(FailureOf, CountersAreComparedOnlyWithAnotherDevice) {
   other.counters = {{"samples", 200}};
   EXPECT_FALSE(failure_of(record, evidence));
   evidence.other = [this](const record::Record&) { return other; };
@@ -81,7 +81,7 @@ TEST_F(FailureOf, CountersAreHeldAgainstAnotherDeviceOnly) {
   EXPECT_FALSE(failure_of(record, evidence));
 }
 
-TEST_F(FailureOf, CountersOfADeviceThatCouldNotDrawItAreNoMeasure) {
+TEST_F(FailureOf, CountersOfADeviceThatFailedAreNotUsed) {
   other.counters = {{"samples", 200}};
   other.outcome = record::Outcome::crashed;
   evidence.other = [this](const record::Record&) { return other; };

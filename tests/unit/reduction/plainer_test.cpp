@@ -18,7 +18,7 @@ using ::testing::Not;
 
 constexpr auto picture = measure::Decides::the_picture;
 
-TEST(Plainer, AChoiceHasTheLevelsBeforeIt) {
+TEST(Plainer, AChoiceHasThePrecedingLevels) {
   const measure::Factor skip =
       measure::choice("skip", {"none", "bricks", "distance"}, "distance", picture, "");
   EXPECT_THAT(plainer(skip, "distance"), ElementsAre("none", "bricks"));
@@ -49,7 +49,7 @@ TEST(Plainer, AViewportShrinksAsAWholeThenBySides) {
   EXPECT_THAT(plainer(viewport, "1"), IsEmpty());
 }
 
-TEST(Plainer, ASizeIsNearedFromBelow) {
+TEST(Plainer, SizesApproachFromBelow) {
   const measure::Factor viewport = measure::text("viewport", "256", "");
   const std::vector<std::string> levels = plainer(viewport, "100");
   for (const char* level : {"1", "3", "64", "96", "88", "94", "99"}) {

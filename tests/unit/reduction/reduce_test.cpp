@@ -42,7 +42,7 @@ int width(const Configuration& configuration) {
   return measure::parse_viewport(configuration.at("viewport"))[0];
 }
 
-TEST_F(Reduce, WhatAlwaysFailsBecomesTheSmallestFrame) {
+TEST_F(Reduce, AConstantFailureIsReducedToTheSmallestFrame) {
   const Reduction result =
       reduce_from(configuration({{"step", {"0.5"}}, {"shading", {"gradient"}}}),
                   [](const Configuration&) { return true; });
@@ -53,7 +53,7 @@ TEST_F(Reduce, WhatAlwaysFailsBecomesTheSmallestFrame) {
   EXPECT_TRUE(result.complete);
 }
 
-TEST_F(Reduce, WhatTheFaultNeedsStays) {
+TEST_F(Reduce, LevelsThatTheFaultNeedsAreKept) {
   const Reduction result = reduce_from(
       configuration({{"step", {"0.5"}}, {"viewport", {"200"}}}), [](const Configuration& each) {
         return each.at("skip") == "distance" && each.at("step") == "0.5" && width(each) >= 37;
@@ -66,7 +66,7 @@ TEST_F(Reduce, WhatTheFaultNeedsStays) {
 }
 
 // Sometimes one factor can be simplified only after another factor has been.
-TEST_F(Reduce, FactorsAreTriedAgainWhenOthersBecamePlainer) {
+TEST_F(Reduce, FactorsAreTriedAgainAfterOthersWereSimplified) {
   const Reduction result = reduce_from(
       configuration({{"adapt", {"0.1"}}, {"skip", {"bricks"}}}), [](const Configuration& each) {
         return each.at("skip") == "bricks" || each.at("adapt") == "0";
@@ -75,7 +75,7 @@ TEST_F(Reduce, FactorsAreTriedAgainWhenOthersBecamePlainer) {
   EXPECT_EQ(result.smallest.at("skip"), "none");
 }
 
-TEST_F(Reduce, AnotherKindOfFailureIsNone) {
+TEST_F(Reduce, AnotherKindOfFailureDoesNotCount) {
   const Configuration start = configuration({});
   const Try attempt = [](const Configuration&) {
     return Failure{.cause = judge::Cause::ended, .outcome = record::Outcome::crashed};
@@ -99,7 +99,7 @@ TEST_F(Reduce, NoFrameIsDrawnTwiceAndNoneBeyondTheLimit) {
   EXPECT_FALSE(part.complete);
 }
 
-TEST_F(Reduce, ChangesTellFirstAndLastLevels) {
+TEST_F(Reduce, ChangesContainFirstAndLastLevels) {
   const Configuration start = configuration({});
   const Configuration smallest = configuration({{"skip", {"none"}}, {"viewport", {"1"}}});
   EXPECT_THAT(changes(*suite, start, smallest),

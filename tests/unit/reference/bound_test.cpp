@@ -80,7 +80,7 @@ TEST(Bound, HoldsForSinglePrecisionOnRandomScenes) {
 // Tests every kind of ray that needs a separate rule: in a face, along an edge, from a corner, with
 // direction components of zero, grazing, and through a silhouette. With an opaque table, a missing
 // sample has its full effect.
-TEST(Bound, HoldsWhereRaysGrazeTheBox) {
+TEST(Bound, HoldsForRaysThatGrazeTheBox) {
   const std::array<glm::dvec3, 7> eyes{
       {{0, 4, 30}, {0, 0, 30}, {8, 8, 30}, {1e-7, 4, 30}, {8 + 1e-6, 4, 30}, {0, 0, 0}, {8, 4, 4}}};
   for (const float alpha : {0.05F, 1.0F}) {
@@ -121,7 +121,7 @@ Comparison compare_displaced(const scene::VolumeScene& scene, const glm::dvec3& 
 
 // When the eye moves, the cuts through cells move as well, and cells at grazing angles appear and
 // disappear. The quadrature error itself therefore changes.
-TEST(Bound, OfCellsHoldsForADisplacedEye) {
+TEST(Bound, ForCellsHoldsForADisplacedEye) {
   double largest_ratio = 0;
   for (std::uint64_t seed = 208; seed < 216; ++seed) {
     scene::VolumeScene scene = random_scene(
@@ -195,7 +195,7 @@ TEST(Bound, IsSmallOnSmoothScenes) {
   }
 }
 
-TEST(Bound, CatchesAHalfVoxelShift) {
+TEST(Bound, DetectsAHalfVoxelShift) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const scene::VolumeScene scene = random_scene(seed, Character::smooth, scene::VoxelFormat::u8);
     FloatOptions shifted;
@@ -207,7 +207,7 @@ TEST(Bound, CatchesAHalfVoxelShift) {
   }
 }
 
-TEST(Bound, CatchesEarlyTerminationThatIsNotAllowed) {
+TEST(Bound, DetectsEarlyTerminationThatIsNotAllowed) {
   scene::VolumeScene scene = random_scene(3, Character::smooth, scene::VoxelFormat::u8);
   for (auto& entry : scene.transfer_function.entries) entry[3] = 0.3F;
   FloatOptions early;
@@ -229,7 +229,7 @@ TEST(Bound, EarlyTerminationAddsAtMostItsShareOfTheColourBehind) {
   EXPECT_GT(largest, 0.1 / 512);
 }
 
-TEST(Bound, IsZeroWhereNothingCanBeSeen) {
+TEST(Bound, IsZeroWhereNothingIsVisible) {
   scene::VolumeScene scene = random_scene(7, Character::rough, scene::VoxelFormat::u16);
   scene.transfer_function = constant_table({1, 1, 1, 0});
   const Truth truth = render_volume(scene, float_model(scene, {}));
@@ -241,7 +241,7 @@ TEST(Bound, IsZeroForAPerfectDevice) {
   for (const double bound : truth.bound) EXPECT_EQ(bound, 0.0);
 }
 
-TEST(Bound, DoesNotMoveThePicture) {
+TEST(Bound, DoesNotChangeTheImage) {
   scene::VolumeScene scene = random_scene(9, Character::rough, scene::VoxelFormat::f32);
   scene.shading.enabled = true;
   const Truth plain = render_volume(scene);

@@ -32,7 +32,7 @@ double rms(const Truth& a, const Truth& b) {
   return std::sqrt(sum / static_cast<double>(a.rgba.size()));
 }
 
-TEST(CellsPicture, TendsToTheLimitOfTheMidpointRule) {
+TEST(CellsPicture, ConvergesToTheLimitOfTheMidpointRule) {
   for (const char* function : {"haze", "surfaces"}) {
     scene::VolumeScene scene = volume_scene_of("mandelbulb", function);
     const Truth limit = render_volume_converged(scene, 1e-6);
@@ -73,7 +73,7 @@ TEST(CellsPicture, IsOfFourthOrder) {
 }
 
 // Steps longer than a cell do not subdivide any cell.
-TEST(CellsPicture, IsTheSameForEveryStepFromACellOn) {
+TEST(CellsPicture, IsTheSameForAllStepsLongerThanACell) {
   scene::VolumeScene scene = volume_scene_of("mandelbulb", "haze");
   const Truth one = render_volume(scene);
   scene.step_voxels = 7;

@@ -31,7 +31,7 @@ Radiance by_quadrature(const std::function<double(double)>& tau,
           opacity};
 }
 
-TEST(ClosedForms, ConstantMediumIsItsDefinition) {
+TEST(ClosedForms, ConstantMediumMatchesItsDefinition) {
   const Radiance exact = v1_constant(0.7, 0.3, 2.5);
   const Radiance numeric = by_quadrature([](double) { return 0.7; }, [](double) { return 0.3; },
                                          [](double t) { return 0.7 * t; }, 2.5);
@@ -39,7 +39,7 @@ TEST(ClosedForms, ConstantMediumIsItsDefinition) {
   EXPECT_NEAR(exact.opacity, numeric.opacity, 1e-14);
 }
 
-TEST(ClosedForms, ThinConstantMediumKeepsItsDigits) {
+TEST(ClosedForms, ThinConstantMediumIsAccurate) {
   EXPECT_DOUBLE_EQ(v1_constant(1e-20, 1.0, 1.0).opacity, 1e-20);
 }
 

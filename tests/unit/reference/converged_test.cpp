@@ -100,7 +100,7 @@ double largest_bound(const Truth& truth) {
   return *std::max_element(truth.bound.begin(), truth.bound.end());
 }
 
-TEST(Converged, StaysWithinItsToleranceAndSaysSo) {
+TEST(Converged, StaysWithinItsStatedTolerance) {
   for (const char* function : {"haze", "surfaces"}) {
     for (const bool shaded : {false, true}) {
       const scene::VolumeScene scene = lit_scene(function, shaded);
@@ -129,7 +129,7 @@ TEST(Converged, StaysWithinItsToleranceAcrossOpacityOne) {
 }
 
 // Nothing behind an opaque layer may be visible, however thin the layer is.
-TEST(Converged, ShowsTheFaceOfWhatIsOpaque) {
+TEST(Converged, ShowsTheFrontOfOpaqueLayers) {
   scene::VolumeScene scene;
   scene.grid = make_grid({4, 4, 16}, {1, 1, 1}, scene::VoxelFormat::f32,
                          [](int, int, int k) { return k / 16.0; });
@@ -148,7 +148,7 @@ TEST(Converged, ShowsTheFaceOfWhatIsOpaque) {
 }
 
 // If rays are cut at the kinks of the shading, shading requires hardly any additional points.
-TEST(Converged, TakesFewPointsWithShadingToo) {
+TEST(Converged, NeedsFewPointsEvenWithShading) {
   const auto points = [](const char* function, bool shaded) {
     return static_cast<double>(
         render_volume_converged(lit_scene(function, shaded), 0x1.0p-24).samples);

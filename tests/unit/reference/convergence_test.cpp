@@ -173,7 +173,7 @@ TEST(Convergence, LayersSeenFromBehindAreReversed) {
 
 // The limit image must equal the closed-form solution, apart from what the grid and the table
 // cannot represent.
-TEST(Convergence, LimitIsTheClosedForm) {
+TEST(Convergence, LimitMatchesTheClosedForm) {
   for (const AnalyticProblem problem : analytic_problems) {
     for (const int size : {8, 32}) {
       const AnalyticScene analytic = analytic_scene(problem, options(size));

@@ -130,7 +130,7 @@ TEST(Reference, EyeInsideSeesWhatIsAhead) {
   EXPECT_NEAR(opacity_of(one_pixel({0, 0, 0}, {1, 0, 0})), 1 - std::pow(0.75, 4), 1e-14);
 }
 
-TEST(Reference, WhatIsBehindTheEyeIsNotSeen) {
+TEST(Reference, ObjectsBehindTheEyeAreInvisible) {
   EXPECT_EQ(opacity_of(one_pixel({2, 2, 20}, {0, 0, 1})), 0.0);
 }
 
@@ -235,7 +235,7 @@ TEST(Reference, SameBitsAtAnyPowerOfTwoInScale) {
   }
 }
 
-TEST(Reference, BackgroundLiesUnderTheVolume) {
+TEST(Reference, TheBackgroundIsBehindTheVolume) {
   scene::VolumeScene scene = random_scene(10, Character::smooth, scene::VoxelFormat::u8);
   const Truth over = render_volume(scene);
   scene.background = {0, 0, 0, 0};
@@ -247,7 +247,7 @@ TEST(Reference, BackgroundLiesUnderTheVolume) {
   }
 }
 
-TEST(Reference, TransparentVolumeIsTheBackgroundToTheBit) {
+TEST(Reference, TransparentVolumesShowExactlyTheBackground) {
   scene::VolumeScene scene = random_scene(12, Character::rough, scene::VoxelFormat::f32);
   scene.transfer_function = constant_table({1, 1, 1, 0});
   scene.background = {0.1F, 0.2F, 0.3F, 0.4F};
@@ -271,7 +271,7 @@ TEST(Reference, EveryFormatIsTheSameFieldWhereItIsExact) {
   }
 }
 
-TEST(Reference, RefusesWhatIsNoScene) {
+TEST(Reference, RejectsInvalidScenes) {
   scene::VolumeScene scene;
   EXPECT_THROW((void)render_volume(scene), core::InputError);
   scene = random_scene(1, Character::smooth, scene::VoxelFormat::u8);
@@ -284,7 +284,7 @@ TEST(Reference, RefusesWhatIsNoScene) {
   EXPECT_THROW((void)render_volume_converged(scene, 1e-3), core::InputError);
 }
 
-TEST(AnalyticScenes, RefuseAnEdgeInsideAVoxel) {
+TEST(AnalyticScenes, RejectAnEdgeInsideAVoxel) {
   AnalyticOptions o;
   o.size = {4, 4, 5};
   EXPECT_THROW((void)analytic_scene(AnalyticProblem::v6_layers, o), core::InputError);

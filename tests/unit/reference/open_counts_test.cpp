@@ -43,7 +43,7 @@ scene::Camera diagonal() {
 }
 
 // If the same scene is expressed in another unit of length, it is drawn with different round-off.
-TEST(OpenCounts, CoverArithmeticThatRoundsOtherwise) {
+TEST(OpenCounts, CoverArithmeticThatRoundsDifferently) {
   const FloatOptions options;
   double largest = 0;
   for (const scene::Camera& camera : {oblique(), within_a_face(), diagonal(), straight()}) {
@@ -74,7 +74,7 @@ TEST(OpenCounts, AreFewInAGeneralPosition) {
   }
 }
 
-TEST(OpenCounts, AreWholeRaysWhereTheyRunWithinAFace) {
+TEST(OpenCounts, AreWholeRaysWithinAFace) {
   const scene::VolumeScene face = volume_seen_by(within_a_face());
   const FloatOptions options;
   const auto open = open_counts(face, float_model(face, options), {8, 0});
@@ -84,7 +84,7 @@ TEST(OpenCounts, AreWholeRaysWhereTheyRunWithinAFace) {
 }
 
 // Without round-off, no count is open.
-TEST(OpenCounts, AreNoneOfExactArithmetic) {
+TEST(OpenCounts, AreZeroForExactArithmetic) {
   for (const scene::Quadrature quadrature :
        {scene::Quadrature::midpoint, scene::Quadrature::cells}) {
     scene::VolumeScene scene = volume_seen_by(oblique());

@@ -110,7 +110,7 @@ TEST(PreintegratedStep, IsTheIntegralOfASteepTable) {
   }
 }
 
-TEST(PreintegratedStep, FullOpacityHidesAllBehind) {
+TEST(PreintegratedStep, FullOpacityHidesEverythingBehind) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) function.entries[k] = {1, 0, 0, k < 20 ? 0.0F : 1.0F};
   const Table table(function, 0);
@@ -145,7 +145,7 @@ TEST(PreintegratedPicture, IsExactOnTheRampBetweenPlateaus) {
   }
 }
 
-TEST(PreintegratedPicture, TendsToTheLimitOfTheMidpointRule) {
+TEST(PreintegratedPicture, ConvergesToTheLimitOfTheMidpointRule) {
   AnalyticOptions options;
   options.size = {10, 10, 10};
   AnalyticScene analytic = analytic_scene(AnalyticProblem::v4_gaussian, options);

@@ -111,7 +111,7 @@ TEST(SphereBounds, CoverTheInsideOfASphere) {
 
 // Displacing the eye displaces all centres perpendicular to the ray by as much as the model
 // permits.
-TEST(SphereBounds, CoverCentresThatAreOff) {
+TEST(SphereBounds, CoverDisplacedCentres) {
   auto scene = scene_of(set_of({{0, 0, 0, 1}}), 64, 64, 0.1);
   SphereErrorModel model;
   model.lateral_relative = 0.01;  // relative to the radius, which is 1

@@ -61,7 +61,7 @@ std::size_t expect_brute_force(const scene::ParticleScene& scene, const SphereEr
   return changes;
 }
 
-TEST(Spheres, EveryPixelIsThatOfALoopOverAllSpheres) {
+TEST(Spheres, EveryPixelMatchesALoopOverAllSpheres) {
   struct View {
     const char* what;
     scene::Camera camera;

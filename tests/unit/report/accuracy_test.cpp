@@ -44,7 +44,7 @@ std::string untimed_section(accuracy::AccuracyScene scene = some_scene()) {
       .text();
 }
 
-TEST(AccuracyChart, ShowsWhatLogarithmicAxesCan) {
+TEST(AccuracyChart, ShowsOnlyCasesThatFitLogarithmicAxes) {
   const std::vector<accuracy::AccuracyScene> scenes{some_scene()};
   const std::string html = accuracy_chart(scenes, Cost::time).text();
   EXPECT_EQ(test::xml_fault(html), "") << html;
@@ -62,7 +62,7 @@ TEST(AccuracyChart, ShowsWhatLogarithmicAxesCan) {
 
 // Each axis has its own Pareto front. On the memory axis, the case with the smallest non-zero error
 // also needs the least memory, so it is the only case on the front.
-TEST(AccuracyChart, DrawsTheFrontOfWhatItShows) {
+TEST(AccuracyChart, DrawsTheFrontOfTheShownCases) {
   std::vector<accuracy::AccuracyScene> scenes{some_scene()};
   scenes[0].cases[2].memory = 1U << 20;
   const auto rings = [&scenes](Cost cost) {
@@ -76,7 +76,7 @@ TEST(AccuracyChart, DrawsTheFrontOfWhatItShows) {
   EXPECT_EQ(rings(Cost::memory), 1 + 1 + 1);
 }
 
-TEST(AccuracySection, TellsOrdersTimesAndParts) {
+TEST(AccuracySection, ShowsOrdersTimesAndParts) {
   judge::GateResult verdict;
   PlanData plan{.prefix = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
   EXPECT_TRUE(accuracy_section(plan).empty());
@@ -94,14 +94,14 @@ TEST(AccuracySection, TellsOrdersTimesAndParts) {
 }
 
 // Here, the plan counts instructions but measures no times.
-TEST(AccuracySection, TellsInstructionsWhereThereAreNoTimes) {
+TEST(AccuracySection, ShowsInstructionsIfThereAreNoTimes) {
   const std::string text = untimed_section();
   EXPECT_THAT(text, HasSubstr("1.0 M instructions"));  // the cost of an RMSE of 1/255
   EXPECT_THAT(text, HasSubstr("3.2 M instructions"));  // the cost of an RMSE of 1e-4, interpolated
   EXPECT_THAT(text, testing::Not(HasSubstr("time of a frame, ms")));
 }
 
-TEST(AccuracySection, RanksByInstructionsWhereThereAreNoTimes) {
+TEST(AccuracySection, RanksByInstructionsIfThereAreNoTimes) {
   EXPECT_THAT(untimed_section(), testing::AllOf(HasSubstr(">4</td>"), HasSubstr(">1 of 5</td>")));
   accuracy::AccuracyScene coarse = some_scene();
   coarse.cases.resize(1);
@@ -125,7 +125,7 @@ TEST(AccuracySection, ComparesDevicesByTheArea) {
 }
 
 // Scenes that differ only in image size are listed separately, each under its own name.
-TEST(AccuracySection, TellsPicturesOfOneDataApart) {
+TEST(AccuracySection, DistinguishesImageSizesOfTheSameData) {
   accuracy::AccuracyScene finer = some_scene();
   finer.limit = "ball of 128";
   finer.scene = "data=ball <1>,viewport=128";
@@ -142,7 +142,7 @@ TEST(AccuracySection, TellsPicturesOfOneDataApart) {
   EXPECT_EQ(accuracy_title(std::vector{scene}, scene), "ball <1>");
 }
 
-TEST(AccuracySection, WithoutTimesTellsErrorsAlone) {
+TEST(AccuracySection, ShowsOnlyErrorsWithoutTimes) {
   const std::string text = untimed_section();
   EXPECT_THAT(text, HasSubstr("2.00 ± 0.00 (3 steps)"));
   EXPECT_THAT(text, testing::Not(HasSubstr("time of a frame, ms")));

@@ -55,7 +55,7 @@ TEST_F(Annotations, ARegressionIsAnErrorAtItsStoredValue) {
   EXPECT_EQ(std::ranges::count(text, '\n'), 1);
 }
 
-TEST_F(Annotations, WhatCannotBeJudgedIsAWarningAtTheJob) {
+TEST_F(Annotations, FindingsThatCannotBeJudgedAreWarningsAtTheJob) {
   std::vector<judge::GateResult> results{result_with(cannot_judge, "step=7")};
   EXPECT_THAT(github_annotations(results, places()),
               StartsWith("::warning file=.github/workflows/triptych.yml,line=1,"));
@@ -63,7 +63,7 @@ TEST_F(Annotations, WhatCannotBeJudgedIsAWarningAtTheJob) {
   EXPECT_EQ(github_annotations(results, places()), "");
 }
 
-TEST_F(Annotations, FilesOutsideTheRepositoryAreNoPlaces) {
+TEST_F(Annotations, FilesOutsideTheRepositoryAreNotReferenced) {
   const FindingPlaces elsewhere(
       {.repository = folder.path() / "other", .baselines = folder.path() / "baselines"});
   const judge::GateResult result = result_with(regression, "step=2");
@@ -80,7 +80,7 @@ TEST_F(Annotations, AreAtMostTen) {
   EXPECT_EQ(std::ranges::count(text, '\n'), 10);
 }
 
-TEST_F(Annotations, NoNameEndsACommandOrBeginsOne) {
+TEST_F(Annotations, NamesCannotInjectCommands) {
   for (const std::string& name : test::hostile_strings()) {
     judge::GateResult result = result_with(regression, "step=" + name + "\n::set-env name=A::b");
     result.plan = result.findings.front().device = name + "\n::error::";
@@ -91,7 +91,7 @@ TEST_F(Annotations, NoNameEndsACommandOrBeginsOne) {
   }
 }
 
-TEST_F(Annotations, CodeQualityHasAllThatGitLabNeeds) {
+TEST_F(Annotations, CodeQualityContainsWhatGitLabRequires) {
   const auto issues = nlohmann::json::parse(
       gitlab_code_quality(std::vector{result_with(regression, "step=2")}, places()));
   ASSERT_EQ(issues.size(), 1U);

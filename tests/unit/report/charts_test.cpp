@@ -37,7 +37,7 @@ ScatterFigure some_scatter() {
   return scatter;
 }
 
-TEST(ScatterChart, ShowsPointsLineAndWhatIsOffIt) {
+TEST(ScatterChart, ShowsPointsLineAndOutliers) {
   const std::string html = scatter_chart(some_scatter()).text();
   EXPECT_EQ(xml_fault(html), "") << html;
   EXPECT_EQ(count(html, "<svg class=\"figure\""), 2U);
@@ -48,7 +48,7 @@ TEST(ScatterChart, ShowsPointsLineAndWhatIsOffIt) {
   EXPECT_THAT(html, HasSubstr(">slices<"));
 }
 
-TEST(ScatterChart, WithoutALineShowsPointsAlone) {
+TEST(ScatterChart, ShowsOnlyPointsWithoutALine) {
   ScatterFigure scatter = some_scatter();
   scatter.line.reset();
   EXPECT_EQ(count(scatter_chart(scatter).text(), "<svg class=\"figure\""), 1U);
@@ -56,7 +56,7 @@ TEST(ScatterChart, WithoutALineShowsPointsAlone) {
   EXPECT_EQ(scatter_chart(scatter).text(), "");
 }
 
-TEST(TimeChart, HasAFigureForEachSceneAndARowForEachDevice) {
+TEST(TimeChart, HasAFigurePerSceneAndARowPerDevice) {
   PlanData plan;
   for (const auto& [device, step] : {std::pair("gl:x", "1"), {"gl:<y>", "1"}, {"gl:x", "2"}}) {
     record::Record record;
@@ -94,7 +94,7 @@ TEST(SpeedOfLight, DividesTimesOnOneClock) {
   EXPECT_THAT(speed_of_light_section(plan).text(), HasSubstr(">4.00<"));
 }
 
-TEST(TimesSection, SaysWhetherTimesDecided) {
+TEST(TimesSection, StatesWhetherTimesDecided) {
   record::Record record;
   record.outcome = record::Outcome::measured;
   record.wall_ns = {1e6, 2e6};

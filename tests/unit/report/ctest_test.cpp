@@ -15,7 +15,7 @@ using judge::Verdict;
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(CTestList, NamesOfTestsHoldNothingThatAFileCannot) {
+TEST(CTestList, TestNamesAreValidFileNames) {
   EXPECT_EQ(ctest_stem("volume", "volume/quick"), "volume.quick");
   EXPECT_EQ(ctest_stem("volume", "my plan;1"), "volume.my_plan_1");
 }
@@ -43,7 +43,7 @@ TEST(CTestList, AScoreWaitsForEveryDevice) {
   EXPECT_THAT(list, Not(HasSubstr("agreement")));
 }
 
-TEST(CTestList, OneDeviceOfADriverMeasuresALargePlan) {
+TEST(CTestList, OneDevicePerDriverMeasuresALargePlan) {
   const record::Device egl{.id = "gl:a-egl", .api = "gl", .driver = "a", .driver_version = "1"};
   const record::Device osmesa{.id = "gl:a-os", .api = "gl", .driver = "a", .driver_version = "1"};
   const record::Device newer{.id = "gl:a-2", .api = "gl", .driver = "a", .driver_version = "2"};
@@ -77,14 +77,14 @@ class CTestAnswer : public testing::Test {
   }
 };
 
-TEST_F(CTestAnswer, WhatOnlyAdvisesHasJudgedNothing) {
+TEST_F(CTestAnswer, AdviceAloneDoesNotPass) {
   add(Verdict::advisory, "step=1");
   EXPECT_TRUE(reason_to_skip(result_));
   add(Verdict::pass, "step=2");
   EXPECT_EQ(reason_to_skip(result_), std::nullopt);
 }
 
-TEST_F(CTestAnswer, WhatCannotBeJudgedOfADeviceIsNoSkip) {
+TEST_F(CTestAnswer, ADeviceThatCannotBeJudgedIsNotSkipped) {
   add(Verdict::skipped, "step=1");
   add(Verdict::pass, "");
   EXPECT_TRUE(reason_to_skip(result_));
@@ -92,13 +92,13 @@ TEST_F(CTestAnswer, WhatCannotBeJudgedOfADeviceIsNoSkip) {
   EXPECT_EQ(reason_to_skip(result_), std::nullopt);
 }
 
-TEST_F(CTestAnswer, ACorrelationIsDecidedOfADevice) {
+TEST_F(CTestAnswer, ACorrelationOfADeviceIsAVerdict) {
   add(Verdict::advisory, "");
   add(Verdict::pass, "", Check::correlation);
   EXPECT_EQ(reason_to_skip(result_), std::nullopt);
 }
 
-TEST_F(CTestAnswer, TellsWhatIsNoPassAndTheNumbersOfTheWorst) {
+TEST_F(CTestAnswer, ReportsFailuresAndTheWorstNumbers) {
   add(Verdict::regression, "step=1");
   add(Verdict::pass, "step=2");
   const std::string text = ctest_answer(result_, store_, {});

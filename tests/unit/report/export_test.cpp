@@ -19,7 +19,7 @@ using record::Record;
 using record::Store;
 using testing::HasSubstr;
 
-TEST(Csv, QuotesWhatNeedsItAndLeavesMissingEmpty) {
+TEST(Csv, QuotesFieldsIfNecessaryAndLeavesMissingOnesEmpty) {
   EXPECT_EQ(csv_field({}), "");
   EXPECT_EQ(csv_field(std::numeric_limits<double>::quiet_NaN()), "");
   EXPECT_EQ(csv_field(0.0), "0");
@@ -32,7 +32,7 @@ TEST(Csv, QuotesWhatNeedsItAndLeavesMissingEmpty) {
 }
 
 // OpenOffice, Excel and Google Sheets evaluate cells that begin like this.
-TEST(Csv, NoTextIsAFormula) {
+TEST(Csv, NoFieldIsAFormula) {
   for (const char* text : {"=1+1", "+1+1", "-1+1", "@SUM(1)", "=cmd|' /C calc'!A0", "＝1", "-"}) {
     const std::string field = csv_field(std::string(text));
     EXPECT_EQ(field, std::string("'") + text);
@@ -190,7 +190,7 @@ TEST_F(ExportTest, OfOnePlan) {
   EXPECT_THROW(write("volume/none"), core::NotSupported);
 }
 
-TEST_F(ExportTest, ARunInTwoStoresIsRefused) {
+TEST_F(ExportTest, ARunInTwoStoresIsRejected) {
   Store copy(folder_.path() / "copy.sqlite", Store::Mode::append);
   copy.add_run(run_);
   try {
@@ -202,7 +202,7 @@ TEST_F(ExportTest, ARunInTwoStoresIsRefused) {
   }
 }
 
-TEST_F(ExportTest, WhatCannotBeWrittenIsSaidAndLeavesNoDictionary) {
+TEST_F(ExportTest, AFailedWriteIsReportedAndLeavesNoDictionary) {
   static_cast<void>(write());
   std::filesystem::remove(folder_.path() / "samples.csv");
   std::filesystem::create_directory(folder_.path() / "samples.csv");

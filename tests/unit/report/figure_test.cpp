@@ -43,12 +43,12 @@ TEST(Ticks, AreAtLeastTwo) {
   }
 }
 
-TEST(Ticks, OfNoRangeAreOne) {
+TEST(Ticks, AreOneForAnEmptyRange) {
   EXPECT_EQ(ticks(3, 3, false, 5).size(), 1U);
   EXPECT_EQ(ticks(0, INFINITY, false, 5).size(), 1U);
 }
 
-TEST(ShortNumber, IsWhatOneWouldSay) {
+TEST(ShortNumber, IsEasyToRead) {
   EXPECT_EQ(short_number(0), "0");
   EXPECT_EQ(short_number(0.05), "0.05");
   EXPECT_EQ(short_number(1e-6), "1e-6");
@@ -115,7 +115,7 @@ TEST(Figure, SharesItsAxisByTheValuesItContains) {
   EXPECT_NE(mark(2), mark(1e6)) << "beyond the shared values the axis grows";
 }
 
-TEST(Figure, HasItsDataAsATable) {
+TEST(Figure, ContainsItsDataAsATable) {
   Figure figure("f", {.title = "time, ms"}, {.names = {"gl:x", "gl:y"}}, 200, 100);
   figure.point({1, 0}, {}, "not data");
   EXPECT_THAT(figure.svg().text(), Not(HasSubstr("data-csv")));
@@ -129,7 +129,7 @@ TEST(Figure, HasItsDataAsATable) {
   EXPECT_THAT(figure.svg().text(), HasSubstr("data-csv=\"series,"));
 }
 
-TEST(Figure, IsWellFormedWhateverItIsTold) {
+TEST(Figure, IsWellFormedForAnyInput) {
   for (const std::string& text : test::hostile_strings()) {
     const std::string svg = some_figure(text).svg().text();
     EXPECT_EQ(xml_fault(svg), "");
@@ -140,7 +140,7 @@ TEST(Figure, IsWellFormedWhateverItIsTold) {
   }
 }
 
-TEST(Figure, DrawsNothingAtNoNumber) {
+TEST(Figure, DrawsNothingForInvalidNumbers) {
   Figure figure("f", {.logarithmic = true}, {}, 100, 50);
   figure.point({0, 1}, {});  // a logarithmic axis has no 0
   figure.point({1, NAN}, {});
@@ -153,7 +153,7 @@ TEST(Figure, DrawsNothingAtNoNumber) {
   EXPECT_THAT(svg, Not(HasSubstr("inf")));
 }
 
-TEST(Figure, ABoxLiesWhereItsCornersAre) {
+TEST(Figure, ABoxLiesBetweenItsCorners) {
   Figure figure("f", {.low = 0, .high = 10}, {.low = 0, .high = 10}, 100, 100);
   figure.box({2, 8}, {4, 3}, {});
   EXPECT_THAT(figure.svg().text(), HasSubstr("width=\"20.0\" height=\"50.0\""));
@@ -203,7 +203,7 @@ TEST(Figure, LabelsDoNotCoverEachOther) {
 }
 
 // As with lists of factors, long names may differ only in the middle.
-TEST(Figure, ALegendTellsLongNamesApart) {
+TEST(Figure, ALegendDistinguishesLongNames) {
   Figure figure("", {}, {}, 100, 100);
   figure.point({1, 1}, {}, "");
   figure.legend("precision=fp32, quadrature=cells, sampler=manual", {});
@@ -211,7 +211,7 @@ TEST(Figure, ALegendTellsLongNamesApart) {
               HasSubstr(">precision=fp32, quadrature=cells, sampler=manual</text>"));
 }
 
-TEST(WellFormed, TellsWhatIsNot) {
+TEST(WellFormed, DetectsMalformedDocuments) {
   EXPECT_EQ(xml_fault("<a b=\"c\"><d/>x &amp; y</a>"), "");
   for (const char* bad : {"<a>", "<a></b>", "<a b=c/>", "<a b=\"<\"/>", "<a>&x;</a>", "<a/><a/>",
                           "<a b=\"1\" b=\"2\"/>", "<a>\x1b</a>", "x", "<a><b></a></b>"}) {

@@ -23,7 +23,7 @@ Finding finding(judge::Verdict verdict, const std::string& device, const std::st
 const judge::Observation dearer = changed("device_code");
 const judge::Observation off{.cause = judge::Cause::residual_moved};
 
-TEST(FindingGroups, OneCauseIsSaidOnceWithTheSmallestCase) {
+TEST(FindingGroups, OneCauseIsReportedOnceWithTheSmallestCase) {
   const std::vector<Finding> findings{
       finding(regression, "gl:x", "data=generate:ball:64,technique=raycast,viewport=128",
               over_bound(9)),
@@ -39,7 +39,7 @@ TEST(FindingGroups, OneCauseIsSaidOnceWithTheSmallestCase) {
   EXPECT_THAT(groups[0].right_on, ElementsAre("gl:y"));
 }
 
-TEST(FindingGroups, WhoseItIsByWhatOtherDevicesDo) {
+TEST(FindingGroups, OtherDevicesShowWhoIsAtFault) {
   const auto blame = [](std::vector<Finding> findings) { return grouped(findings)[0].blame(); };
   Finding wrong = finding(regression, "vulkan:new", "technique=a");
   EXPECT_EQ(blame({wrong}).of, Blame::Of::unknown);
@@ -68,7 +68,7 @@ TEST(FindingGroups, WhoseItIsByWhatOtherDevicesDo) {
 
 // Configurations that were skipped because two similar ones had failed belong to the cause of those
 // failures. The command must reproduce a configuration that was actually tried.
-TEST(FindingGroups, WhatWasNotTriedIsOfTheCauseThatWas) {
+TEST(FindingGroups, UntriedConfigurationsCountTowardsTheirCause) {
   judge::Observation not_tried = crashed(11);
   not_tried.reason.not_tried = true;
   const std::vector<Finding> findings{
@@ -89,7 +89,7 @@ TEST(FindingGroups, MoreCodeAndMoreMissesAreOneCause) {
   EXPECT_EQ(grouped(findings).size(), 1U);
 }
 
-TEST(FindingGroups, TechniquesAreCausesOfTheirOwnUnlessAllSayIt) {
+TEST(FindingGroups, TechniquesAreSeparateCausesUnlessAllFailAlike) {
   std::vector<Finding> findings{finding(regression, "gl:x", "technique=a"),
                                 finding(regression, "gl:x", "technique=b")};
   EXPECT_EQ(grouped(findings).size(), 1U);
@@ -99,7 +99,7 @@ TEST(FindingGroups, TechniquesAreCausesOfTheirOwnUnlessAllSayIt) {
   EXPECT_EQ(grouped(findings)[1].signature, "technique=b");
 }
 
-TEST(FindingGroups, ThreeTechniquesThatSayTheSameHaveOneCause) {
+TEST(FindingGroups, ThreeTechniquesThatFailAlikeHaveOneCause) {
   const std::vector<Finding> findings{finding(regression, "gl:x", "technique=a"),
                                       finding(regression, "gl:x", "technique=b"),
                                       finding(regression, "gl:x", "technique=c"),
@@ -116,7 +116,7 @@ TEST(FindingGroups, ThreeTechniquesThatSayTheSameHaveOneCause) {
   EXPECT_FALSE(have_one_cause(groups[0], grouped(other)[0]));
 }
 
-TEST(FindingGroups, DevicesChecksVerdictsAndCausesAreApart) {
+TEST(FindingGroups, DevicesChecksVerdictsAndCausesAreSeparate) {
   const std::vector<Finding> findings{
       finding(regression, "gl:x", "step=1"), finding(regression, "gl:y", "step=1"),
       finding(cannot_judge, "gl:x", "step=2"),
@@ -125,7 +125,7 @@ TEST(FindingGroups, DevicesChecksVerdictsAndCausesAreApart) {
   EXPECT_EQ(grouped(findings).size(), 5U);
 }
 
-TEST(FindingGroups, FaultsOfADeviceAreApart) {
+TEST(FindingGroups, FaultsOfADeviceAreSeparate) {
   const auto fault = [](const std::string& kind) {
     return judge::Observation{.cause = judge::Cause::device_fault, .facts = {{"kind", kind}}};
   };
@@ -134,7 +134,7 @@ TEST(FindingGroups, FaultsOfADeviceAreApart) {
   EXPECT_EQ(grouped(findings).size(), 2U);
 }
 
-TEST(FindingGroups, AWrongPicturesCountersAreToldWithIt) {
+TEST(FindingGroups, CountersOfAWrongImageAreReportedWithIt) {
   const std::vector<Finding> findings{
       finding(regression, "gl:x", "step=1"), finding(regression, "gl:x", "step=2"),
       finding(regression, "gl:x", "step=2", changed("samples"), Check::counters),
@@ -163,7 +163,7 @@ TEST(FindingGroups, WorstFirstAndCausesBeforeConsequences) {
                                  "gl:x pixels_over_bound"));
 }
 
-TEST(FindingGroups, ADeviceOffTheLineIsNotToldWhereItsCostTellsWhy) {
+TEST(FindingGroups, CorrelationFindingsAreOmittedIfTheCostExplainsThem) {
   std::vector<Finding> findings{finding(regression, "gl:x", "step=1", dearer, Check::cost),
                                 finding(regression, "gl:x", "step=1", off, Check::correlation),
                                 finding(regression, "gl:x", "", off, Check::correlation)};
@@ -174,7 +174,7 @@ TEST(FindingGroups, ADeviceOffTheLineIsNotToldWhereItsCostTellsWhy) {
   EXPECT_EQ(grouped(findings).size(), 3U);
 }
 
-TEST(CommandOf, DrawsTheConfigurationAgain) {
+TEST(CommandOf, RendersTheConfiguration) {
   const Finding wrong = finding(regression, "gl:x#2", "data=a b%2Cc,step=0.5");
   judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
   quick.environments = {{"gl:x#2", {{"LP_X", "$(x)"}}}};
@@ -194,7 +194,7 @@ TEST(CommandOf, DrawsTheConfigurationAgain) {
 
 // To reproduce a finding that is based on stored values, the command must also compare with them:
 // it judges a single configuration of the plan, with the plan argument that the user typed.
-TEST(CommandOf, JudgesAgainWhatIsHeldAgainstBaselines) {
+TEST(CommandOf, JudgesFindingsAboutBaselinesAgain) {
   const Finding cost = finding(regression, "gl:x", "step=1", dearer, Check::cost);
   judge::GateResult mine{.plan = "mine", .run = "r", .findings = {}};
   EXPECT_EQ(command_of(cost, mine), "") << "a store does not contain the path of the plan file";
@@ -206,7 +206,7 @@ TEST(CommandOf, JudgesAgainWhatIsHeldAgainstBaselines) {
             "--measure --check cost --store repro.sqlite --baselines b");
 }
 
-TEST(CommandOf, MeasuresTimesAgainWhereTheyDecided) {
+TEST(CommandOf, MeasuresTimesIfTheyDecidedTheVerdict) {
   judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
   const std::string command =
       "triptych gate volume/quick --device gl:x --set step=1 --measure --check timing --store "
@@ -230,7 +230,7 @@ TEST(CommandOf, JudgesAnErrorAgain) {
       "--store repro.sqlite");
 }
 
-TEST(CommandOf, DrawsTheLineThroughAllDevicesAgain) {
+TEST(CommandOf, RepeatsTheCorrelationOfAllDevices) {
   const judge::GateResult cost{.plan = "volume/cost", .run = "r", .findings = {}};
   for (const char* configuration : {"", "step=1"}) {
     EXPECT_EQ(command_of(finding(regression, "gl:x", configuration, off, Check::correlation), cost),
@@ -238,7 +238,7 @@ TEST(CommandOf, DrawsTheLineThroughAllDevicesAgain) {
   }
 }
 
-TEST(CommandOf, IsNothingWhereNoneShowsIt) {
+TEST(CommandOf, IsEmptyIfNoCommandReproducesTheFinding) {
   const judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
   EXPECT_EQ(command_of(finding(regression, "", ""), quick), "");
   EXPECT_EQ(command_of(finding(advisory, "gl:x", "step=1",

@@ -27,7 +27,7 @@ std::string page_of(const std::vector<double>& times) {
 }
 
 // A change of 0.02 % must not look like a step.
-TEST(HistoryPage, MakesNoSlopeOfNoise) {
+TEST(HistoryPage, DoesNotMagnifyNoise) {
   EXPECT_THAT(page_of({1, 1.0002}), HasSubstr(">1.01<"));
   EXPECT_THAT(page_of({1, 1.5}), Not(HasSubstr(">1.01<")));
 }

@@ -296,7 +296,7 @@ TEST(HostilePage, EveryStringStaysText) {
 }
 
 // Shows that the test can fail: it must detect the elements that unescaped names could insert.
-TEST(HostilePage, AStrangerIsSeen) {
+TEST(HostilePage, AnInsertedElementIsFound) {
   for (const char* page :
        {"<p><blink>x</blink></p>", "<p onload=\"x\">", "<a href=\"javascript:x\">", "<p class=x>",
         "<img src=\"http://x\">", "<script>1</script><script>2</script>"}) {
@@ -304,7 +304,7 @@ TEST(HostilePage, AStrangerIsSeen) {
   }
 }
 
-TEST(HostilePage, HistoryToo) {
+TEST(HostilePage, EveryStringOfAHistoryStaysText) {
   const Json point{{"name", ""}, {"driver_version", ""}, {"started_at", ""}, {"changes", "x"}};
   for (const std::string& each : strings()) {
     int number = 0;
@@ -322,7 +322,7 @@ TEST(HostilePage, HistoryToo) {
 
 // If an element were inserted, its script would still not run, because the policy allows only the
 // script with the hash of the page's own.
-TEST(HostilePage, ThePolicyNamesTheScriptAlone) {
+TEST(HostilePage, ThePolicyAllowsOnlyThePagesScript) {
   const std::string drawn = page_of("x");
   EXPECT_THAT(drawn, testing::HasSubstr("<meta http-equiv=\"Content-Security-Policy\" content=\""
                                         "default-src 'none'; img-src data:; style-src "

@@ -7,7 +7,7 @@
 namespace triptych::report {
 namespace {
 
-TEST(Html, EscapesWhatHasMeaning) {
+TEST(Html, EscapesSpecialCharacters) {
   EXPECT_EQ(escape("a<b & \"c\">\x01"), "a&lt;b &amp; &quot;c&quot;&gt;\\x01");
 }
 
@@ -37,7 +37,7 @@ TEST(Html, MalformedTextIsReplaced) {
   EXPECT_EQ(escape("\xF5\x80\x80\x80"), "\uFFFD\uFFFD\uFFFD\uFFFD");
 }
 
-TEST(Html, BreaksBetweenParts) {
+TEST(Html, AllowsLineBreaksBetweenParts) {
   EXPECT_EQ(breakable("gl:x,a=<1").text(), "gl:<wbr>x,<wbr>a=<wbr>&lt;1<wbr>");
   EXPECT_EQ(breakable("").text(), "");
 }

@@ -54,7 +54,7 @@ TEST(LastScreen, OfAPassIsShort) {
 }
 
 // If no image comes close to its bound, the bound is a weak test, and the screen must show that.
-TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
+TEST(LastScreen, ShowsHowCloseImagesAreToTheirBounds) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   for (const auto& [device, ratio] :
        {std::pair("gl:x", 0.61), {"gl:x", 0.2}, {"opencl:y", 0.003}}) {
@@ -76,7 +76,7 @@ TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
 }
 
 // A waived finding must not be counted as an image within its bound.
-TEST(LastScreen, NamesWhatIsWaived) {
+TEST(LastScreen, ListsWaivedFindings) {
   GateResult result = passing();
   result.findings.back().numbers["ratio"] = 0.5;
   add(result, Check::image, waived, "gl:x", "step=2", over_bound(3));
@@ -88,7 +88,7 @@ TEST(LastScreen, NamesWhatIsWaived) {
   EXPECT_THAT(text, HasSubstr("\n  – gl:x, step=2: waived until 2027-01-01 (known): 3 of"));
 }
 
-TEST(LastScreen, SaysThatTimesAreShownOrDecided) {
+TEST(LastScreen, StatesWhetherTimesDecided) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   add(result, Check::timing, pass, "gl:x", "step=1", {.cause = judge::Cause::time});
   add(result, Check::timing, advisory, "gl:x", "", {.cause = judge::Cause::times});
@@ -99,7 +99,7 @@ TEST(LastScreen, SaysThatTimesAreShownOrDecided) {
               HasSubstr("  Times       pass       1 not slower; 1 with advice\n"));
 }
 
-TEST(LastScreen, SaysWhenOnlyAPartWasJudged) {
+TEST(LastScreen, StatesThatOnlyAPartWasJudged) {
   GateResult result = passing();
   EXPECT_THAT(last_screen(std::vector{result}, 3, {}), Not(HasSubstr("a part")));
   result.part = true;
@@ -107,18 +107,18 @@ TEST(LastScreen, SaysWhenOnlyAPartWasJudged) {
               HasSubstr("Triptych   1 device · 3 s · only part of the plans"));
 }
 
-TEST(LastScreen, WithoutAVerdictStillSaysWhatIsRight) {
+TEST(LastScreen, WithoutAVerdictShowsWhatIsCorrect) {
   GateResult result = passing();
   add(result, Check::image, cannot_judge, "", "", {.cause = judge::Cause::no_required_device});
   EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
               HasSubstr("the plan: 1 of 1 checks not judged; 1 within their error bounds"));
 }
 
-TEST(LastScreen, OfNothingIsNoPass) {
+TEST(LastScreen, OfNoFindingsDoesNotPass) {
   EXPECT_THAT(last_screen({}, 0, {}), HasSubstr("CANNOT JUDGE (2)"));
 }
 
-TEST(LastScreen, OfAllPlansTheWorstCounts) {
+TEST(LastScreen, ShowsTheWorstVerdictOfAllPlans) {
   GateResult good{.plan = "particles/quick", .run = "r", .findings = {}};
   add(good, Check::image, pass, "gl:x", "step=1", within_bound());
   const std::string text = last_screen(std::vector{good, failing(), good}, 3, {});
@@ -126,7 +126,7 @@ TEST(LastScreen, OfAllPlansTheWorstCounts) {
   EXPECT_THAT(text, HasSubstr("3 devices"));
 }
 
-TEST(LastScreen, HasAtMostFortyLinesAndSaysWhatIsLeftOut) {
+TEST(LastScreen, HasAtMostFortyLinesAndReportsOmissions) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   for (int i = 0; i < 60; ++i) {
     add(result, Check::image, regression, fmt::format("gl:x#{}", i), "step=1", over_bound(1));
@@ -138,7 +138,7 @@ TEST(LastScreen, HasAtMostFortyLinesAndSaysWhatIsLeftOut) {
   EXPECT_THAT(text, HasSubstr("; 57 more devices"));
 }
 
-TEST(LastScreen, SaysWhereTheOtherCausesAreToldAndHowToMendThem) {
+TEST(LastScreen, RefersToTheOtherCausesAndAdvice) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   for (int i = 0; i < 60; ++i) {
     add(result, Check::image, cannot_judge, fmt::format("gl:x#{}", i), "step=1",
@@ -156,7 +156,7 @@ TEST(LastScreen, ColoursOnlyWhenAsked) {
   EXPECT_THAT(last_screen(results, 3, {}, {.colours = true}), HasSubstr("\x1b[1;31mFAIL"));
 }
 
-TEST(LastScreen, ObeysNoName) {
+TEST(LastScreen, EscapesNames) {
   for (const std::string& name : test::hostile_strings()) {
     GateResult result{.plan = name, .run = "r", .findings = {}};
     add(result, Check::image, regression, name, "step=" + name, quoting(name));
@@ -177,7 +177,7 @@ TEST(LastScreen, RepeatsTheEnvironment) {
 }
 
 // Accepting a baseline cannot correct an image, so the screen proposes it only for changed values.
-TEST(LastScreen, SaysWhatToDoNext) {
+TEST(LastScreen, SuggestsTheNextStep) {
   const std::string wrong = last_screen(std::vector{failing()}, 3, {});
   EXPECT_THAT(wrong, HasSubstr("next: for a bug report, use the command above with reduce"));
   EXPECT_THAT(wrong, Not(HasSubstr("triptych accept")));
@@ -189,7 +189,7 @@ TEST(LastScreen, SaysWhatToDoNext) {
 }
 
 // A single driver bug typically affects every plan.
-TEST(LastScreen, OneCauseInSeveralPlansIsToldOnce) {
+TEST(LastScreen, OneCauseInSeveralPlansIsReportedOnce) {
   GateResult stress{.plan = "volume/stress", .run = "r", .findings = {}};
   add(stress, Check::image, regression, "vulkan:lavapipe", "technique=raycast", over_bound(3));
   const std::string text = last_screen(std::vector{failing(), stress}, 3, {});
@@ -207,7 +207,7 @@ TEST(LastScreen, OneCauseInSeveralPlansIsToldOnce) {
       << "another technique may fail for another cause";
 }
 
-TEST(LastScreen, WhatEndsAProgramIsOneCauseInAllPlans) {
+TEST(LastScreen, CrashesAreOneCauseInAllPlans) {
   std::vector<GateResult> results;
   for (const char* plan : {"volume/quick", "volume/stress", "particles/quick"}) {
     results.push_back({.plan = plan, .run = "r", .findings = {}});
@@ -220,7 +220,7 @@ TEST(LastScreen, WhatEndsAProgramIsOneCauseInAllPlans) {
   EXPECT_EQ(text.find("no OpenGL", text.find("\n\n")), text.rfind("no OpenGL"));
 }
 
-TEST(LastScreen, PlansThatWereNotBegunAreOneCause) {
+TEST(LastScreen, UnmeasuredPlansAreOneCause) {
   std::vector<GateResult> results;
   for (const char* plan : {"volume/quick", "volume/stress", "particles/quick"}) {
     results.push_back({.plan = plan, .run = "", .findings = {}});

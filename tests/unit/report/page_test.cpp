@@ -25,7 +25,7 @@ std::string before(const std::string& page, std::string_view what) {
   return page.substr(0, page.find(what));
 }
 
-TEST(Page, OfAPassShowsVerdictRowsAndPicturesAndFoldsTheRest) {
+TEST(Page, OfAPassShowsVerdictRowsAndImages) {
   const std::string page = page_of(false);
   EXPECT_THAT(page, HasSubstr("<header id=\"verdict\" class=\"pass\"><h1>PASS (0)</h1>"));
   EXPECT_THAT(page, HasSubstr("16 within their error bounds"));
@@ -41,7 +41,7 @@ TEST(Page, OfAPassShowsVerdictRowsAndPicturesAndFoldsTheRest) {
   EXPECT_LT(page.size(), 2'000'000U);
 }
 
-TEST(Page, OfAFailureTellsCausesCommandsAndWrongPicturesFirst) {
+TEST(Page, OfAFailureBeginsWithCausesCommandsAndWrongImages) {
   const std::string page = page_of(true);
   EXPECT_THAT(page, HasSubstr("<h1>FAIL (1)</h1>"));
   const std::string findings = before(page.substr(page.find("id=\"findings\"")), "id=\"pictures\"");
@@ -55,7 +55,7 @@ TEST(Page, OfAFailureTellsCausesCommandsAndWrongPicturesFirst) {
   EXPECT_THAT(open, Not(HasSubstr("within the error bound")));
 }
 
-TEST(Page, EveryLinkLeadsSomewhere) {
+TEST(Page, EveryLinkHasATarget) {
   const std::string page = page_of(true);
   const std::regex link("href=\"#([^\"]+)\"");
   int seen = 0;
@@ -65,7 +65,7 @@ TEST(Page, EveryLinkLeadsSomewhere) {
   EXPECT_GE(seen, 3);
 }
 
-TEST(Page, ShowsCostAndTimesBesideWhatIsStored) {
+TEST(Page, ShowsCostAndTimesNextToStoredValues) {
   EXPECT_THAT(page_of(false),
               HasSubstr("<p>All 16 frames execute the stored number of instructions.</p>"));
   const std::string page = page_of(true);
@@ -94,7 +94,7 @@ TEST(Page, RingsPixelsBeyondTheirBound) {
   EXPECT_THAT(page_of(false), Not(HasSubstr("<circle class=\"over\"")));
 }
 
-TEST(Page, SaysWhatWasTested) {
+TEST(Page, StatesWhatWasTested) {
   const std::string page = page_of(false);
   EXPECT_THAT(page, HasSubstr("<dt>machine</dt><dd><div>two cores</div></dd>"));
   EXPECT_THAT(page, HasSubstr("<dt>measured</dt><dd><div>2026-01-02T03:04:05Z</div></dd>"));
@@ -102,14 +102,14 @@ TEST(Page, SaysWhatWasTested) {
   EXPECT_THAT(page, HasSubstr("<span>triptych gate volume/quick</span> <span>--measure</span>"));
 }
 
-TEST(Page, ExplainsItsWords) {
+TEST(Page, ExplainsItsTerms) {
   const std::string page = page_of(true);
   for (const char* word : {"reference image", "bound", "limit", "front"}) {
     EXPECT_THAT(page, HasSubstr(fmt::format("<td>{}</td>", word)));
   }
 }
 
-TEST(Page, TellsHowMuchOfWhatWasTakenThePictureNeeded) {
+TEST(Page, ShowsTheShareOfNecessaryWork) {
   const std::string page = page_of(false);
   const std::string row =
       "<td>distance</td><td class=\"number\">123\u2009456</td><td class=\"number\">92\u2009592</td>"
@@ -126,7 +126,7 @@ TEST(Page, NeedsNoNetwork) {
 }
 
 // Each reference image is embedded only once in the page.
-TEST(Page, KeepsAPictureOnce) {
+TEST(Page, ContainsEachImageOnce) {
   const std::string page = page_of(false);
   std::set<std::string> seen;
   const std::regex source("src=\"(data:image[^\"]+)\"");
@@ -137,7 +137,7 @@ TEST(Page, KeepsAPictureOnce) {
 }
 
 // Factor names come from plans, whereas levels and reasons may come from anywhere.
-TEST(Page, KeepsTextText) {
+TEST(Page, EscapesMarkup) {
   const std::string page = page_of(true, "<script>\"&\x1b");
   EXPECT_EQ(page.find("<script"), page.rfind("<script"));  // the only script is the page's own
   EXPECT_EQ(page.find('\x1b'), std::string::npos);

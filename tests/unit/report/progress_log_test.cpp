@@ -55,7 +55,7 @@ long lines_of(const std::string& text) {
   return std::ranges::count(text, '\n');
 }
 
-TEST_F(ProgressLogTest, AGreenLogHasALineForEachDevice) {
+TEST_F(ProgressLogTest, APassingLogHasALineForEachDevice) {
   ProgressLog quiet = log();
   EXPECT_EQ(run(quiet, 20, record::Outcome::measured, seconds(1)),
             "volume/quick on gl:x: 20 measured, 0 skipped, 0 failed, 20 s\n");
@@ -104,7 +104,7 @@ TEST_F(ProgressLogTest, ABarShowsTheTimeLeft) {
               HasSubstr("1/3 gl:x, 4 min left"));
 }
 
-TEST_F(ProgressLogTest, ObeysNoName) {
+TEST_F(ProgressLogTest, EscapesNames) {
   for (const std::string& name : test::hostile_strings()) {
     for (const std::size_t width : {0U, 80U}) {
       ProgressLog any = log(width, true);

@@ -29,7 +29,7 @@ TEST(ShareOfBound, MarksASinglePixel) {
   EXPECT_EQ(shares.x, 70);
 }
 
-TEST(ShareOfBound, MarksTheWorstFirstAndNoneOverAnother) {
+TEST(ShareOfBound, MarksTheWorstFirstWithoutOverlaps) {
   core::Image image = constant(0.5F);
   set(image, 10, 10, 0.6F);
   set(image, 11, 10, 0.7F);
@@ -51,7 +51,7 @@ TEST(ShareOfBound, MarksTheWorstFirstAndNoneOverAnother) {
 
 // Pixels beyond the bound must differ from every colour of the ramp either in lightness or along
 // the blue–yellow axis, which red–green colour-blind readers can distinguish.
-TEST(ShareOfBound, ThePixelsBeyondTheBoundLookLikeNoOther) {
+TEST(ShareOfBound, PixelsBeyondTheBoundAreDistinguishable) {
   const auto color = [](float error) {
     return share_of_bound(constant(0.5F + error), constant(0.5F), constant(0.25F)).image;
   };

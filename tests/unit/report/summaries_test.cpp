@@ -25,7 +25,7 @@ judge::GateResult some_result() {
   return result;
 }
 
-TEST(Markdown, HasALinePerDeviceAndPlanOfHowNearBoundsAre) {
+TEST(Markdown, ShowsHowCloseImagesAreToTheirBounds) {
   judge::GateResult result = some_result();
   result.findings.front().numbers["ratio"] = 7;  // this ratio belongs to a wrong image
   result.findings.push_back(result.findings.front());
@@ -46,7 +46,7 @@ TEST(Junit, CountsFailuresAndEscapes) {
   EXPECT_NE(xml.find("<property name=\"cause\" value=\"no_reference\"/>"), std::string::npos);
 }
 
-TEST(Junit, HoldsEveryPlan) {
+TEST(Junit, ContainsEveryPlan) {
   judge::GateResult other = some_result();
   other.plan = "volume/stress";
   const std::string xml = junit(std::vector{some_result(), other});
@@ -55,13 +55,13 @@ TEST(Junit, HoldsEveryPlan) {
   EXPECT_EQ(test::xml_fault(xml), "");
 }
 
-TEST(Junit, IsUtf8WhateverADriverSays) {
+TEST(Junit, IsUtf8WhateverADriverPrints) {
   judge::GateResult result = some_result();
   result.findings.front().detail = "GL_RENDERER \xff";
   EXPECT_EQ(junit(result).find('\xff'), std::string::npos);
 }
 
-TEST(Junit, SaysHowToSeeItAgain) {
+TEST(Junit, ContainsCommandsToReproduce) {
   const std::string xml = junit(some_result());
   EXPECT_NE(
       xml.find("3 &lt; 4 | pixels\n"
@@ -80,7 +80,7 @@ judge::GateResult hostile(const std::string& name) {
   return result;
 }
 
-TEST(Junit, IsWellFormedWhateverItIsTold) {
+TEST(Junit, IsWellFormedForAnyInput) {
   for (const std::string& name : test::hostile_strings()) {
     EXPECT_EQ(test::xml_fault(junit(hostile(name))), "");
   }
@@ -96,7 +96,7 @@ TEST(Markdown, HasTheRowsAndCausesOfTheLastScreen) {
               HasSubstr("1 remark in report.html that does not affect the verdict: timing 1"));
 }
 
-TEST(Markdown, ListsWhatIsWaivedAndImproved) {
+TEST(Markdown, ListsWaivedAndImprovedFindings) {
   judge::GateResult result = some_result();
   result.findings.push_back(finding_of(judge::Check::cost, judge::Verdict::improved, "gl:x",
                                        "step=2", changed("device_code")));
@@ -104,7 +104,7 @@ TEST(Markdown, ListsWhatIsWaivedAndImproved) {
   EXPECT_THAT(markdown(result), HasSubstr("- **improved** cost: gl:x"));
 }
 
-TEST(Markdown, KeepsTextText) {
+TEST(Markdown, EscapesMarkup) {
   for (const std::string& name : test::hostile_strings()) {
     const std::string text = markdown(hostile(name));
     EXPECT_LT(text.size(), 65'000U);
@@ -116,7 +116,7 @@ TEST(Markdown, KeepsTextText) {
             "&lt;script&gt;\\`a\\`\\|\\*@\u200Bme\\\\x1b");
 }
 
-TEST(Markdown, StaysShortWhateverFails) {
+TEST(Markdown, HasALimitedLength) {
   judge::GateResult result{.plan = "p", .run = "r", .findings = {}};
   for (int i = 0; i < 3000; ++i) {
     judge::Finding finding = some_result().findings.front();

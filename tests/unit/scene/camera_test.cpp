@@ -229,7 +229,7 @@ TEST(Camera, RandomViewsAreSeededAndSeeEnough) {
 }
 
 // Cameras must be bit-identical on every machine, whichever C library it has.
-TEST(Camera, HasTheSameBitsEverywhere) {
+TEST(Camera, IsBitIdenticalEverywhere) {
   const Camera camera = camera_at("random:7", slab, 60);
   EXPECT_EQ(camera.eye, dvec3(-0x1.15448c0e8efd3p+5, 0x1.7e866b09e47p-1, 0x1.038534fd6ac76p+4));
   EXPECT_EQ(camera_at("orbit_y:1/36", slab, 60).eye,

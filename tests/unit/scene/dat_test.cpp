@@ -59,7 +59,7 @@ TEST(Dat, SpacingIsOneUnlessStated) {
   EXPECT_EQ(volume.value(1), 'B');
 }
 
-TEST(Dat, BrokenFilesNameTheirLine) {
+TEST(Dat, BrokenFilesAreReportedWithTheirLine) {
   const TemporaryFolder folder;
   folder.write("a.raw", "AB");
   const std::string start = "ObjectFileName: a.raw\nResolution: 1 1 2\n";

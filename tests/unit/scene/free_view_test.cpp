@@ -18,7 +18,7 @@ FreeView read_back(const FreeView& view) {
   return parse_free_view(camera_of(view).substr(5)).value();
 }
 
-TEST(FreeView, StandsOnTheOrbitAtElevationZero) {
+TEST(FreeView, IsOnTheOrbitAtElevationZero) {
   for (const auto& [view, orbit] :
        {std::pair{"view:45/0/1", "orbit_y:1/8"}, std::pair{"view:270/0/1", "orbit_y:3/4"},
         std::pair{"view:-90/0/1", "orbit_-y:1/4"}}) {
@@ -32,7 +32,7 @@ TEST(FreeView, StandsOnTheOrbitAtElevationZero) {
   }
 }
 
-TEST(FreeView, LooksAtTheCentreFromItsDistanceAndNeverTips) {
+TEST(FreeView, LooksAtTheCentreAndStaysUpright) {
   const glm::dvec3 centre(10, 5.5, 6.5);
   const double radius = glm::length(camera_at("orbit_y:0/1", brick, 60).eye - centre);
   for (const double elevation : {-90.0, -37.5, 0.0, 60.0, 90.0}) {
@@ -46,7 +46,7 @@ TEST(FreeView, LooksAtTheCentreFromItsDistanceAndNeverTips) {
   }
 }
 
-TEST(FreeView, ASpellingIsReadBackAndSpelledTheSame) {
+TEST(FreeView, SpellingsRoundTrip) {
   for (const FreeView view :
        {FreeView{0, 0, 1}, FreeView{359.96, -0.04, 0.81}, FreeView{-12.34, 89.96, 0.0012345},
         FreeView{123.45, -90, 12.3456}, FreeView{725, 100, 1e6}}) {
@@ -60,7 +60,7 @@ TEST(FreeView, ASpellingIsReadBackAndSpelledTheSame) {
 }
 
 // When a drag begins on a camera path, the image must not jump.
-TEST(FreeView, BeginsWhereAPathIs) {
+TEST(FreeView, BeginsAtThePositionOfAPath) {
   for (const char* camera : {"orbit_y:1/8", "orbit_y:7/8", "view:12.5/-30/0.4", "path_z:1/3"}) {
     const Camera path = camera_at(camera, Box{}, 60);
     const Camera free = camera_at(camera_of(free_view_near(camera)), Box{}, 60);

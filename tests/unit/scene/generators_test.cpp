@@ -151,7 +151,7 @@ TEST(Generators, SparseFieldIsMostlyExactlyZero) {
 
 // The set contains the origin, lies within a radius of 1.2, and has an eightfold symmetry about the
 // z axis in the plane z = 0. Only the fourfold symmetry is checked.
-TEST(Generators, MandelbulbLooksLikeOne) {
+TEST(Generators, MandelbulbHasItsKnownProperties) {
   const Volume volume = generate_volume("mandelbulb", {48, 48, 48});
   EXPECT_EQ(volume.value(index_of(volume, 24, 24, 24)), 255);
   EXPECT_EQ(volume.value(0), 0);

@@ -32,7 +32,7 @@ TEST(Half, HasTheValuesOfTheStandard) {
 
 // A number between two half floats is rounded to the nearest. Halfway cases are rounded to the even
 // one.
-TEST(Half, IsTheNearestOfAll) {
+TEST(Half, RoundsToTheNearest) {
   for (unsigned bits = 0; bits < 0x7bff; ++bits) {
     const double below = value_of(bits);
     const double above = value_of(bits + 1);

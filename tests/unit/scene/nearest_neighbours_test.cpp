@@ -14,7 +14,7 @@ namespace {
 
 using Place = std::array<double, 3>;
 
-TEST(NearestNeighbours, AgreeWithLookingAtAllPairs) {
+TEST(NearestNeighbours, AgreeWithASearchOfAllPairs) {
   core::Random random(1);
   std::vector<Place> places(301);
   for (Place& place : places) {
@@ -35,7 +35,7 @@ TEST(NearestNeighbours, AgreeWithLookingAtAllPairs) {
   EXPECT_NEAR(*median, nearest[150], 1e-12);
 }
 
-TEST(NearestNeighbours, LeaveOutEqualAndInfinitePlaces) {
+TEST(NearestNeighbours, IgnoreEqualAndInfinitePositions) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   const std::vector<Place> places{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {3, 0, 0}, {inf, 0, 0}};
   EXPECT_EQ(median_nearest_distance(places), 3);
@@ -45,7 +45,7 @@ TEST(NearestNeighbours, LeaveOutEqualAndInfinitePlaces) {
 
 // Squared distances of such positions would overflow or underflow, and could not show which
 // position is nearer.
-TEST(NearestNeighbours, LeaveOutPlacesBeyondSinglePrecisionAndStayFast) {
+TEST(NearestNeighbours, IgnorePositionsBeyondSinglePrecisionAndStayFast) {
   std::vector<Place> places;
   for (int i = 0; i < 1000; ++i) places.push_back({i * 0.5, 0, 0});
   for (int i = 0; i < 2000; ++i) places.push_back({1e200 * (i + 1), 0, 0});
@@ -62,7 +62,7 @@ TEST(NearestNeighbours, LeaveOutPlacesBeyondSinglePrecisionAndStayFast) {
   EXPECT_LT(seconds_of(1e200), 10 * seconds_of(1) + 0.05);
 }
 
-TEST(NearestNeighbours, AskASampleOfMany) {
+TEST(NearestNeighbours, UseASampleOfManyPoints) {
   std::vector<Place> places;
   for (int i = 0; i < 300'000; ++i) places.push_back({i * 0.5, 0, 0});
   EXPECT_EQ(median_nearest_distance(std::move(places)), 0.5);

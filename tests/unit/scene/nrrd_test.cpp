@@ -130,13 +130,13 @@ TEST(Nrrd, AllowsWhatTheFormatAllows) {
   EXPECT_EQ(volume.value(1), 'B');
 }
 
-TEST(Nrrd, AxesAreSpace) {
+TEST(Nrrd, AxesMustBeSpatial) {
   for (const char* kinds : {"domain domain domain", "space Space none", "??? ??? ???"}) {
     EXPECT_EQ(read_text(minimal + "kinds: " + kinds + "\n\nAB").value(0), 'A') << kinds;
   }
 }
 
-TEST(Nrrd, ADataFilesNameMayHaveAPercentSign) {
+TEST(Nrrd, DataFileNamesMayContainAPercentSign) {
   const TemporaryFolder folder;
   for (const std::string name : {"50%dose.raw", "at 50% 1 2", "%d 1 2"}) {
     folder.write(name, "AB");
@@ -146,7 +146,7 @@ TEST(Nrrd, ADataFilesNameMayHaveAPercentSign) {
   }
 }
 
-TEST(Nrrd, ReadsDataOfSeveralFiles) {
+TEST(Nrrd, ReadsDataFromSeveralFiles) {
   const TemporaryFolder folder;
   folder.write("s09.raw", "xA");
   folder.write("s10.raw", "xB");
@@ -190,7 +190,7 @@ TEST(Nrrd, ReadsGzipOfSeveralMembers) {
   EXPECT_EQ(read_text(header + "\n" + gzipped("A") + gzipped("B")).value(1), 'B');
 }
 
-TEST(Nrrd, RangeIgnoresWhatIsNotFinite) {
+TEST(Nrrd, RangeIgnoresNonFiniteValues) {
   const float nan = std::nanf("");
   const float inf = std::numeric_limits<float>::infinity();
   const std::string header =
@@ -230,7 +230,7 @@ std::string with_line(const std::string& line) {
   return text + "\nAB";
 }
 
-TEST(Nrrd, BrokenHeadersNameTheirLine) {
+TEST(Nrrd, BrokenHeadersAreReportedWithTheirLine) {
   expect_rejected({
       {"", ": the file is empty"},
       {"P5\n1 1\n", ":1: not an NRRD file"},
@@ -309,7 +309,7 @@ TEST(Nrrd, BrokenHeadersNameTheirLine) {
   });
 }
 
-TEST(Nrrd, MissingFieldsAreNamed) {
+TEST(Nrrd, MissingFieldsAreReported) {
   for (const std::string field : {"type", "dimension", "sizes", "encoding"}) {
     std::string text;
     for (const std::string line :
@@ -320,7 +320,7 @@ TEST(Nrrd, MissingFieldsAreNamed) {
   }
 }
 
-TEST(Nrrd, DataThatDisagreeWithTheSizesNameThatLine) {
+TEST(Nrrd, DataThatDoNotMatchTheSizesAreReported) {
   std::string gzip = minimal;
   gzip.replace(gzip.find("raw"), 3, "gzip");
   std::string huge = gzip;
@@ -355,7 +355,7 @@ std::uint64_t peak_memory_bytes() {
 
 // The header claims a size that gzip could produce in principle, but that is far larger than the
 // actual data.
-TEST(Nrrd, AClaimTakesNoMemoryBeforeTheDataAreThere) {
+TEST(Nrrd, AClaimedSizeDoesNotAllocateMemory) {
   core::Random random(1);
   std::string bytes(std::size_t{1} << 20, '\0');
   for (char& byte : bytes)
@@ -371,7 +371,7 @@ TEST(Nrrd, AClaimTakesNoMemoryBeforeTheDataAreThere) {
   EXPECT_LT(peak_memory_bytes() - before, std::uint64_t{300} << 20);
 }
 
-TEST(Nrrd, NoMoreIsUnpackedThanIsAllowed) {
+TEST(Nrrd, UnpackingIsLimited) {
   std::string header = minimal;
   header.replace(header.find("raw"), 3, "gzip");
   header.replace(header.find("2 1 1"), 5, "1024 1024 1025");
@@ -398,7 +398,7 @@ TEST(Nrrd, BrokenGzipStreamsAreBadInput) {
   });
 }
 
-TEST(Nrrd, LiesInAnyByteNeverEscape) {
+TEST(Nrrd, ChangedBytesLeadToAVolumeOrATypedError) {
   const TemporaryFolder folder;
   const std::string good = minimal + "spacings: 1 1 1\n\nAB";
   for (std::size_t i = 0; i < good.size(); ++i) {

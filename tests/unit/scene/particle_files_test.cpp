@@ -44,7 +44,7 @@ TEST(Pdb, TakesElementsFromTheirColumns) {
               ElementsAre(1.F / 3, 0.F, 2.F / 3));
 }
 
-TEST(Pdb, TakesElementsFromNamesWhereThereAreNone) {
+TEST(Pdb, TakesElementsFromNamesIfThereAreNone) {
   const ParticleSet set = load("a.pdb",
                                "ATOM      1  CA  THR A   1       1.000   2.000   3.000\r\n"
                                "ATOM      2 1HB  THR A   1       1.000   2.000   3.000\r\n"
@@ -55,7 +55,7 @@ TEST(Pdb, TakesElementsFromNamesWhereThereAreNone) {
 }
 
 // In old files, columns 73 to 80 contain the entry's id and the line number.
-TEST(Pdb, TakesElementsFromNamesWhereTheirColumnsHoldSomethingElse) {
+TEST(Pdb, TakesElementsFromNamesIfTheirColumnsAreUnusable) {
   const ParticleSet set =
       load("a.pdb",
            "ATOM      1  CA  THR A   1       1.000   2.000   3.000  1.00 13.79      1CRN1070\n"
@@ -96,7 +96,7 @@ TEST(Pdb, FramesWithoutModelsEndWithEnd) {
                  ":3:", "MODEL is not allowed after atoms outside of models");
 }
 
-TEST(Pdb, RefusesBrokenFiles) {
+TEST(Pdb, RejectsBrokenFiles) {
   expect_refused("a.pdb", replaced(pdb, "12.784", "12.x84"),
                  ":3:", "y in columns 39 to 46: expected a number, found '12.x84'");
   expect_refused("a.pdb", pdb.substr(0, 190), ":3:", "expected an atom with its position");
@@ -113,7 +113,7 @@ TEST(Pdb, RefusesBrokenFiles) {
   }
 }
 
-TEST(Pdb, DropsPlacesThatAreNotFinite) {
+TEST(Pdb, DropsNonFinitePositions) {
   const ParticleSet set = load("a.pdb", replaced(pdb, "12.784", "   nan"));
   EXPECT_EQ(set.dropped, 1U);
   EXPECT_THAT(set.ids, ElementsAre(0U, 2U));
@@ -140,7 +140,7 @@ TEST(Mmcif, ReadsTheLoopOverAtoms) {
   EXPECT_EQ(load("a.cif.gz", gzipped(cif)).hash, set.hash);
 }
 
-TEST(Mmcif, RefusesBrokenFiles) {
+TEST(Mmcif, RejectsBrokenFiles) {
   expect_refused("a.cif", cif, "", "no frame 2; the file has 2", "@2");
   expect_refused("a.cif", replaced(cif, "53.499", "?"),
                  ":18:", "Cartn_y: expected a number, found '?'");
@@ -154,7 +154,7 @@ TEST(Mmcif, RefusesBrokenFiles) {
 }
 
 // The PDB ends each section with '#', including the header.
-TEST(Mmcif, RefusesALoopThatIsCutOff) {
+TEST(Mmcif, RejectsATruncatedLoop) {
   const std::string loop =
       "loop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n"
       "_atom_site.Cartn_z\nC 1 2 3\nN 4 5 6\n";
@@ -199,7 +199,7 @@ TEST(Gro, TakesAnyNumberOfDecimalsAndFrames) {
   expect_refused("a.gro", fine + gro, "", "no frame 2; the file has 2", "@2");
 }
 
-TEST(Gro, RefusesBrokenFiles) {
+TEST(Gro, RejectsBrokenFiles) {
   expect_refused("a.gro", replaced(gro, " 4\n", " 3\n"), ":6:", "expected the box");
   expect_refused("a.gro", replaced(gro, " 4\n", " 5\n"), ":7:", "expected an atom");
   expect_refused("a.gro", replaced(gro, " 4\n", " 9\n"), ":7:", "");
@@ -257,7 +257,7 @@ TEST(Xyz, TakesColumnsFromProperties) {
   }
 }
 
-TEST(Xyz, RefusesBrokenFiles) {
+TEST(Xyz, RejectsBrokenFiles) {
   expect_refused("a.xyz", replaced(xyz, "3\n", "2\n"), ":5:", "the next frame's number of atoms");
   expect_refused("a.xyz", "1\nProperties=species:S:1:pos:R:3 \"note\nC 0 0 0\n",
                  ":2:", "a quote or bracket is not closed");
@@ -295,7 +295,7 @@ TEST(ParticleFiles, AreFoundByNameFolderAndFrame) {
                core::InputError);
 }
 
-TEST(ParticleFiles, RefuseWhatTheyCannotRead) {
+TEST(ParticleFiles, RejectUnreadableFiles) {
   for (const std::string name : {"a.pdb", "a.cif", "a.gro", "a.xyz", "a.lammpstrj", "a.dump",
                                  "a.data", "a.lmp", "a.mmpld"}) {
     expect_refused(name, "", ": ", "is empty");
@@ -315,14 +315,14 @@ TEST(ParticleFiles, RefuseWhatTheyCannotRead) {
 
 // A file without usable particles is rejected, because any device would draw its empty image
 // correctly.
-TEST(ParticleFiles, WithoutAnyUsableParticleAreRefused) {
+TEST(ParticleFiles, WithoutUsableParticlesAreRejected) {
   expect_refused("a.xyz", "2\n\nC nan 0 0\nC 0 inf 0\n", ": ",
                  "none of its 2 particles can be drawn");
   EXPECT_EQ(load("a.xyz", "2\n\nC nan 0 0\nC 0 0 0\n").dropped, 1U);
 }
 
 // Tapes and block devices pad the last block with zero bytes.
-TEST(ParticleFiles, ZeroBytesBehindGzipAreSkipped) {
+TEST(ParticleFiles, ZeroBytesAfterGzipAreSkipped) {
   const std::string padded = gzipped(xyz) + std::string(100'000, '\0');
   EXPECT_EQ(load("a.xyz.gz", padded).hash, load("a.xyz.gz", gzipped(xyz)).hash);
   expect_refused("a.xyz.gz", padded + "x", ": ",
@@ -331,7 +331,7 @@ TEST(ParticleFiles, ZeroBytesBehindGzipAreSkipped) {
                  "other data follow the padding of zero bytes");
 }
 
-TEST(ParticleFiles, UnpackNoMoreThanIsAllowed) {
+TEST(ParticleFiles, UnpackingIsLimited) {
   const TemporaryFolder folder;
   const auto file = folder.write("a.pdb.gz", gzipped(std::string(std::size_t{3} << 20, ' ')));
   EXPECT_EQ(read_content(file, {}, std::uint64_t{3} << 20).size(), std::size_t{3} << 20);
@@ -351,7 +351,7 @@ TEST(ParticleFiles, QuoteShortlyAndPrintably) {
   expect_refused("a.dump", std::string(100, '7') + "\n", ":1:", quoted);
 }
 
-TEST(ParticleFiles, TellTheirProgressInHundredths) {
+TEST(ParticleFiles, ReportProgressInHundredths) {
   std::string text = "10000\n\n";
   for (int i = 0; i < 10'000; ++i) text += "C " + std::to_string(i) + " 0 0\n";
   const TemporaryFolder folder;

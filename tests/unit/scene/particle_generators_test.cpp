@@ -35,7 +35,7 @@ Box box_of_centres(const ParticleSet& set) {
   return box;
 }
 
-TEST(ParticleGenerators, GiveTheSameBitsEverywhere) {
+TEST(ParticleGenerators, AreBitIdenticalEverywhere) {
   // If one of these hashes changes, every baseline that uses the data set is invalid.
   const std::map<std::string, std::string> hashes{
       {"uniform", "61b18ae12f76b005ebf1940b716909a1"},
@@ -51,7 +51,7 @@ TEST(ParticleGenerators, GiveTheSameBitsEverywhere) {
   }
 }
 
-TEST(ParticleGenerators, GiveAsManyAsAskedForInEveryKindOfColour) {
+TEST(ParticleGenerators, CreateTheRequestedCountInEveryKindOfColour) {
   for (const GeneratorInfo& info : particle_generators()) {
     for (const std::uint64_t count : {1U, 2U, 7U, 1001U}) {
       SCOPED_TRACE(std::string(info.name) + ":" + std::to_string(count));
@@ -158,7 +158,7 @@ TEST(ParticleGenerators, PlumeThinsOutWithHeightAboveALatticeWithACrater) {
   EXPECT_LE(largest, 2 * smallest);
 }
 
-TEST(ParticleGenerators, CoincidentRepeatsEveryPlaceEightTimesInOtherColours) {
+TEST(ParticleGenerators, CoincidentRepeatsEveryPositionEightTimes) {
   const ParticleSet set = generate_particles("coincident", 800, ColourKind::rgba8);
   std::map<std::array<float, 4>, std::set<std::uint32_t>> places;
   for (std::size_t i = 0; i < set.count(); ++i) places[set.spheres[i]].insert(set.rgba8[i]);
@@ -166,7 +166,7 @@ TEST(ParticleGenerators, CoincidentRepeatsEveryPlaceEightTimesInOtherColours) {
   for (const auto& [place, colours] : places) EXPECT_GE(colours.size(), 7U);
 }
 
-TEST(ParticleGenerators, TellTheirProgressInHundredths) {
+TEST(ParticleGenerators, ReportProgressInHundredths) {
   for (const GeneratorInfo& info : particle_generators()) {
     double last = 0;
     int calls = 0;
@@ -182,7 +182,7 @@ TEST(ParticleGenerators, TellTheirProgressInHundredths) {
   }
 }
 
-TEST(ParticleGenerators, RefuseWhatTheyDoNotKnow) {
+TEST(ParticleGenerators, RejectUnknownNames) {
   EXPECT_THAT([] { static_cast<void>(generate_particles("unifrom", 10, ColourKind::rgba8)); },
               ThrowsMessage<core::InputError>(
                   AllOf(HasSubstr("'unifrom'"), HasSubstr("uniform, droplets, layer"))));
@@ -192,7 +192,7 @@ TEST(ParticleGenerators, RefuseWhatTheyDoNotKnow) {
                core::InputError);
 }
 
-TEST(ParticleHash, SeesEveryArray) {
+TEST(ParticleHash, DependsOnEveryArray) {
   ParticleSet set = generate_particles("uniform", 3, ColourKind::rgba8);
   const std::string hash = particle_hash(set);
   EXPECT_EQ(hash, set.hash);
@@ -213,7 +213,7 @@ TEST(ParticleHash, SeesEveryArray) {
 
 // Both data sets contain the same wall in the same box, so that the same camera shows the same
 // image of it.
-TEST(ParticleGenerators, WhatIsHiddenStandsBehindAnEqualWall) {
+TEST(ParticleGenerators, HiddenSpheresAreBehindAnEqualWall) {
   const ParticleSet wall = generate_particles("wall", 2000, ColourKind::rgba8);
   const ParticleSet hidden = generate_particles("hidden", 20000, ColourKind::rgba8);
   constexpr std::size_t in_wall = 44 * 44;

@@ -35,7 +35,7 @@ TEST(LammpsDump, TypesRankByNumberNotByText) {
       ElementsAre(2.F / 3, 1.F / 3, 0.F));
 }
 
-TEST(LammpsDump, TakesEveryKindOfPlace) {
+TEST(LammpsDump, ReadsEveryKindOfPosition) {
   const auto place = [](const std::string& columns, const std::string& row,
                         const std::string& box = "pp pp pp\n10 20\n-5 5\n0 4\n") {
     return load("a.dump", dump("element " + columns, "1", "C " + row + "\n", box)).spheres.at(0);
@@ -51,7 +51,7 @@ TEST(LammpsDump, TakesEveryKindOfPlace) {
   EXPECT_EQ(place("xs ys zs", "1 0.5 0.5", tilted), (Sphere{19.5F, 1.5F, 2, 1.7F}));
 }
 
-TEST(LammpsDump, TakesItsOwnRadii) {
+TEST(LammpsDump, UsesTheRadiiInTheFile) {
   EXPECT_THAT(load("a.dump", dump("type x y z radius", "2", "1 0 0 0 0.25\n1 9 0 0 3\n")).spheres,
               ElementsAre(Sphere{0, 0, 0, 0.25F}, Sphere{9, 0, 0, 3}));
   EXPECT_EQ(load("a.dump", dump("x y z diameter", "1", "0 0 0 3\n")).spheres[0][3], 1.5F);
@@ -63,7 +63,7 @@ TEST(LammpsDump, TakesItsOwnRadii) {
   EXPECT_THAT(set.spheres, ElementsAre(Sphere{4, 0, 0, 2}, Sphere{0, 0, 0, 1}));
 }
 
-TEST(LammpsDump, PicksAFrame) {
+TEST(LammpsDump, SelectsAFrame) {
   const std::string text = dump("x y z radius", "1", "1 0 0 1\n") +
                            "ITEM: UNITS\nlj\nITEM: TIME\n0.5\n" +
                            dump("x y z radius", "2", "2 0 0 1\n3 0 0 1\n");
@@ -72,7 +72,7 @@ TEST(LammpsDump, PicksAFrame) {
   expect_refused("a.dump", text, "", "no frame 2; the file has 2", "@2");
 }
 
-TEST(LammpsDump, RefusesBrokenFiles) {
+TEST(LammpsDump, RejectsBrokenFiles) {
   const std::string rows = "1 0 0 0\n2 1 0 0\n";
   expect_refused("a.dump", dump("id x y z", "1", rows),
                  ":11:", "expected the next frame after 1 atoms");
@@ -123,7 +123,7 @@ TEST(LammpsData, ReadsEveryStyle) {
   check("Atoms # sphere", "2 2 4 1 1 2 7\n1 1 4 1 1 2 3\n");
 }
 
-TEST(LammpsData, RefusesBrokenFiles) {
+TEST(LammpsData, RejectsBrokenFiles) {
   const std::string rows = "2 2 1 2 7\n1 1 1 2 3\n";
   expect_refused("a.data", data("Atoms", rows, "1"),
                  ":15:", "expected the section to end after 1 atoms");

@@ -89,7 +89,7 @@ TEST(Mmpld, ReadsEveryVersion) {
   }
 }
 
-TEST(Mmpld, ReadsEveryKindOfPlace) {
+TEST(Mmpld, ReadsEveryKindOfPosition) {
   const std::string shorts = pack(std::int16_t{-1}, std::int16_t{2}, std::int16_t{300});
   const std::string rgba = pack(byte(1), byte(2), byte(3), byte(4));
   EXPECT_THAT(
@@ -143,7 +143,7 @@ TEST(Mmpld, IntensityIsTheFilesOrTheListsRank) {
               ElementsAre(0.F, 0.5F));
 }
 
-TEST(Mmpld, PicksAFrame) {
+TEST(Mmpld, SelectsAFrame) {
   const auto at = [](float x) {
     return frame(102, {list(102, 1, 0, pack(1.F, 0), 1, pack(x, 0.F, 0.F))});
   };
@@ -154,7 +154,7 @@ TEST(Mmpld, PicksAFrame) {
               ThrowsMessage<core::InputError>(HasSubstr("no frame 2; the file has 2")));
 }
 
-TEST(Mmpld, DropsAndCountsWhatIsNoSphere) {
+TEST(Mmpld, DropsAndCountsInvalidSpheres) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   constexpr float inf = std::numeric_limits<float>::infinity();
   const std::string data = pack(1.F, 0.F, 0.F, 1.F, 10.F) + pack(nan, 0.F, 0.F, 1.F, 20.F) +
@@ -168,7 +168,7 @@ TEST(Mmpld, DropsAndCountsWhatIsNoSphere) {
   EXPECT_THAT(set.intensity, ElementsAre(0.1F, 0.6F));
 }
 
-TEST(Mmpld, WithoutASphereIsRefused) {
+TEST(Mmpld, RejectsFilesWithoutSpheres) {
   const std::string flat = list(100, 1, 0, pack(0.F, 0), 3, std::string(36, '\0'));
   EXPECT_THAT([&] { load_mmpld(file(100, {frame(100, {flat})})); },
               ThrowsMessage<core::InputError>(
@@ -176,7 +176,7 @@ TEST(Mmpld, WithoutASphereIsRefused) {
                         HasSubstr("radius above 0"))));
 }
 
-TEST(Mmpld, RefusesEveryTruncation) {
+TEST(Mmpld, RejectsEveryTruncation) {
   const std::string bytes =
       file(103, {frame(103, {list(103, 1, 3, pack(1.F, 0.F, 1.F), 1, pack(0.F, 0.F, 0.F, 1.F))})});
   EXPECT_EQ(load_mmpld(bytes).count(), 1U);
@@ -191,7 +191,7 @@ void expect_mmpld_refused(const std::string& bytes, const std::string& expectati
       ThrowsMessage<core::InputError>(AllOf(HasSubstr("a.mmpld: byte "), HasSubstr(expectation))));
 }
 
-TEST(Mmpld, SaysWhatItExpected) {
+TEST(Mmpld, ReportsWhatWasExpected) {
   const std::string header = pack(1.F, 0);
   const auto with = [&](int vertex, int colour, std::uint64_t count) {
     return file(100,

@@ -40,7 +40,7 @@ std::string kinds_of(const ParticleSet& set) {
 
 const std::string here = "   1.000   2.000   3.000";
 
-TEST(PdbColumns, NumbersThatRunTogetherAreRefused) {
+TEST(PdbColumns, NumbersThatRunTogetherAreRejected) {
   for (const char* place :
        {"1428.327-1130.277-624.974", "12345.67812345.67812345.678", "-1130.277-1130.277-1130.277",
         "   1.000-12345.678   3.000", "  12.3456   2.000   3.000", "   1.0000  2.0000  3.0000"}) {
@@ -56,7 +56,7 @@ TEST(PdbColumns, NumbersThatRunTogetherAreRefused) {
   EXPECT_EQ(load("a.pdb", pdb_atom(" C  ", "LIG", "     1.0     2.0     3.0")).spheres[0][2], 3);
 }
 
-TEST(PdbRecords, NothingThatBeginsLikeAnAtomIsLeftOut) {
+TEST(PdbRecords, RecordsThatBeginLikeAnAtomAreNotIgnored) {
   const std::string atom = pdb_atom(" C  ", "LIG", here);
   const std::string rest = atom.substr(6);
   for (const char* begin :
@@ -69,7 +69,7 @@ TEST(PdbRecords, NothingThatBeginsLikeAnAtomIsLeftOut) {
   EXPECT_EQ(load("a.pdb", "REMARK ATOM\nATOMS IN ALL\nSIGATM\n" + atom).count(), 1U);
 }
 
-TEST(PdbElements, ComeFromTheResidueWhereNamesAreAdjustedToTheLeft) {
+TEST(PdbElements, ComeFromTheResidueIfNamesAreLeftAligned) {
   const ParticleSet set =
       load("a.pdb", pdb_atom("N   ", "ALA", here) + pdb_atom("CA  ", "ALA", here) +
                         pdb_atom("HG2 ", "ARG", here) + pdb_atom("CD  ", "LIG", here) +
@@ -78,7 +78,7 @@ TEST(PdbElements, ComeFromTheResidueWhereNamesAreAdjustedToTheLeft) {
   EXPECT_THAT(set.facts.notes, ElementsAre(HasSubstr("no element for 1 atom")));
 }
 
-TEST(PdbElements, ComeFromTheColumnsWhereNamesAreAdjustedToTheRight) {
+TEST(PdbElements, ComeFromTheColumnsIfNamesAreRightAligned) {
   const ParticleSet set =
       load("a.pdb", pdb_atom(" CA ", "ALA", here) + pdb_atom("CD  ", "LIG", here) +
                         pdb_atom(" CD ", "LIG", here));
@@ -87,21 +87,21 @@ TEST(PdbElements, ComeFromTheColumnsWhereNamesAreAdjustedToTheRight) {
 }
 
 // The columns of the element may contain the end of a word, which must not be read as an element.
-TEST(PdbElements, AreNoPartOfAWord) {
+TEST(PdbElements, AreNotPartOfAWord) {
   const ParticleSet set = load(
       "a.pdb", pdb_atom(" C1 ", "POPC", here, "  1.00  0.00      MEMBRANE").replace(21, 1, "") +
                    pdb_atom(" CA ", "ALA", here, "  1.00  0.00      PROA C  "));
   EXPECT_EQ(kinds_of(set), "C2");
 }
 
-TEST(Elements, ThatAreNoneAreReported) {
+TEST(Elements, UnknownElementsAreReported) {
   const ParticleSet set = load("a.xyz", "3\n\nC 0 0 0\nXx 1 0 0\nXx 2 0 0\n");
   EXPECT_THAT(set.facts.notes, ElementsAre(HasSubstr("2 of 'Xx'")));
   EXPECT_EQ(kinds_of(load("a.xyz", "3\n\nN 0 0 0\nCA 1 0 0\nCB 2 0 0\n")), "C2 N1");
   EXPECT_EQ(kinds_of(load("a.xyz", "2\n\nCA 1 0 0\nO 2 0 0\n")), "O1 Ca1");
 }
 
-TEST(ByteOrderMark, IsDroppedOrNamed) {
+TEST(ByteOrderMark, IsIgnoredOrReported) {
   const std::string mark = "\xEF\xBB\xBF";
   const std::string atom = pdb_atom(" C  ", "LIG", here);
   EXPECT_EQ(load("a.pdb", mark + atom + atom).count(), 2U);
@@ -124,7 +124,7 @@ TEST(LineEnds, MayBeACarriageReturn) {
   EXPECT_EQ(load("a.xyz", "2\rx\rC 0 0 0\rO 1 0 0\r").count(), 2U);
 }
 
-TEST(Compression, IsKnownByTheContent) {
+TEST(Compression, IsDetectedFromTheContent) {
   const std::string atom = pdb_atom(" C  ", "LIG", here);
   EXPECT_EQ(load("a.pdb", gzipped(atom)).count(), 1U);
   expect_refused("a.pdb",
@@ -134,7 +134,7 @@ TEST(Compression, IsKnownByTheContent) {
   expect_refused("a.pdb", "BZh9broken", ": ", "broken bzip2 stream");
 }
 
-TEST(Content, ThatIsOfAnotherFormatIsNamed) {
+TEST(Content, OfAnotherFormatIsReported) {
   expect_refused("a.pdb", "data_1ABC\n#\n", ": ", "begins like mmCIF; if the content is correct");
   expect_refused("a.xyz", "ITEM: TIMESTEP\n0\n", ": ", "begins like LAMMPS dump");
   const std::string dump =
@@ -144,7 +144,7 @@ TEST(Content, ThatIsOfAnotherFormatIsNamed) {
   expect_refused("a.xtc", "x", ": ", "gmx trjconv");
 }
 
-TEST(ExtendedXyz, IsReadByItsSpecification) {
+TEST(ExtendedXyz, FollowsItsSpecification) {
   const auto second = [](const std::string& comment) {
     return load("a.xyz", "1\n" + comment + "\nC 1 2 3 7 8 9\n").spheres.at(0)[0];
   };
@@ -175,7 +175,7 @@ TEST(MmcifRows, MayComeInAnyOrder) {
   expect_refused("a.cif", text, "", "the file has 2", "@2");
 }
 
-TEST(MmcifElements, ComeFromNamesWhereTheyAreNotStated) {
+TEST(MmcifElements, ComeFromNamesIfTheyAreNotStated) {
   const ParticleSet set =
       load("a.cif",
            "data_X\nloop_\n_atom_site.label_atom_id\n_atom_site.label_comp_id\n"

@@ -91,7 +91,7 @@ TEST(TransferFunction, ReadsRawBytes) {
   EXPECT_EQ(tf.entries[8], (std::array<float, 4>{0, 0, 0, 0}));
 }
 
-TEST(TransferFunction, BrokenFilesAreNamedWithTheirLine) {
+TEST(TransferFunction, BrokenFilesAreReportedWithTheirLine) {
   const TemporaryFolder folder;
   const auto expect = [&](const std::string& text, const std::string& message) {
     const auto file = folder.write("b.tf", text);
@@ -109,7 +109,7 @@ TEST(TransferFunction, BrokenFilesAreNamedWithTheirLine) {
 }
 
 // The cut-off text has exactly the size of a binary table.
-TEST(TransferFunction, TextCutOffIsNotTakenForBytes) {
+TEST(TransferFunction, TruncatedTextIsNotReadAsBytes) {
   const TemporaryFolder folder;
   for (const std::string start : {"", "# made by hand: µ\n"}) {
     const std::string text = (start + repeated("12 0.5 1e1 0\r\n", 256)).substr(0, 1024);

@@ -60,14 +60,14 @@ TEST(Window, IsReadFromEitherKindOfEnd) {
   EXPECT_EQ(mixed->hi.number, 99.5);
 }
 
-TEST(Window, RefusesWhatIsNone) {
+TEST(Window, RejectsInvalidWindows) {
   for (const char* text : {"", "own", "1", "1..", "..1", "1..x", "p1..q2", "p-1..p5", "p1..p101",
                            "nan..1", "0..inf", "p..p5", "1..2..3", "2..1", "1..1", "p9..p9"}) {
     EXPECT_THROW((void)parse_window(text), core::InputError) << text;
   }
 }
 
-TEST(Window, FullAndLinearLeavesAVolumeAsItIs) {
+TEST(Window, FullAndLinearLeavesAVolumeUnchanged) {
   const Volume volume = row_of<std::int16_t>({-7, 0, 900}, ScalarType::i16);
   const VoxelGrid grid = natural(mapped(volume, "full"));
   EXPECT_EQ(grid.format, VoxelFormat::u16);
@@ -125,7 +125,7 @@ TEST(Window, PercentilesCountFiniteValuesAndOfALogarithmPositiveOnes) {
   EXPECT_EQ(mapped(volume, "full", Mapping::logarithmic).range_lo, 1);
 }
 
-TEST(Mapping, OfALogarithmIsItsClosedForm) {
+TEST(Mapping, OfALogarithmMatchesItsFormula) {
   const std::vector<float> values = long_tail(500);
   const Volume volume = row_of(values, ScalarType::f32);
   for (const char* window : {"full", "0.01..20", "p5..p95"}) {
@@ -139,7 +139,7 @@ TEST(Mapping, OfALogarithmIsItsClosedForm) {
   }
 }
 
-TEST(Mapping, OfALogarithmHasAPlaceForEveryValue) {
+TEST(Mapping, OfALogarithmIsDefinedForEveryValue) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   constexpr double least = std::numeric_limits<double>::denorm_min();
   constexpr double most = std::numeric_limits<double>::max();
@@ -159,7 +159,7 @@ TEST(Mapping, OfALogarithmHasAPlaceForEveryValue) {
 
 // The results must be bit-identical on every machine, because baselines contain hashes of such
 // data.
-TEST(Mapping, OfALogarithmHasTheSameBitsEverywhere) {
+TEST(Mapping, OfALogarithmIsBitIdenticalEverywhere) {
   std::vector<std::uint16_t> values(65536);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint16_t>(i);
   const Volume volume = mapped(row_of(values, ScalarType::u16), "3..50000", Mapping::logarithmic);
@@ -203,7 +203,7 @@ void expect_window_refused(const Volume& volume, std::string_view window, Mappin
               testing::ThrowsMessage<core::InputError>(testing::HasSubstr(words)));
 }
 
-TEST(Window, SaysWhatIsWrongForTheseVoxels) {
+TEST(Window, ReportsWindowsThatDoNotFitTheVoxels) {
   const Volume zeros = row_of<std::uint8_t>({0, 0, 0, 9}, ScalarType::u8);
   expect_window_refused(zeros, "p1..p50", Mapping::linear,
                         "row: the window 0..0 of values 0..9 is empty");

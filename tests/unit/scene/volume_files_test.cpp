@@ -33,7 +33,7 @@ TEST(LoadVolume, RejectsMalformedGeneratorStrings) {
   }
 }
 
-TEST(LoadVolume, LooksInTheFoldersInTurn) {
+TEST(LoadVolume, SearchesTheFoldersInOrder) {
   const TemporaryFolder first;
   const TemporaryFolder second;
   second.write("a.nrrd", tiny);
@@ -48,7 +48,7 @@ TEST(LoadVolume, LooksInTheFoldersInTurn) {
   EXPECT_TRUE(is_present("generate:mandelbulb:4"));
 }
 
-TEST(LoadVolume, TellsAbsentFromUnknown) {
+TEST(LoadVolume, DistinguishesMissingFromUnknownFiles) {
   const TemporaryFolder folder;
   EXPECT_THAT([&] { (void)load_volume("none.nrrd", {folder.path()}); },
               ThrowsMessage<core::IoError>(
@@ -59,7 +59,7 @@ TEST(LoadVolume, TellsAbsentFromUnknown) {
       ThrowsMessage<core::InputError>(HasSubstr("the nearest supported format is raw voxels")));
 }
 
-TEST(LoadVolume, KnowsFilesByTheirEnding) {
+TEST(LoadVolume, DetectsFormatsByExtension) {
   const TemporaryFolder folder;
   folder.write("a.NRRD", tiny);
   EXPECT_EQ(load_volume("a.NRRD", {folder.path()}).voxel_count(), 2U);

@@ -194,7 +194,7 @@ TEST(NiftiFiles, MayBePairs) {
   EXPECT_THAT(values_of(load_volume("a.hdr", {folder.path()})), ElementsAre('A', 'B'));
 }
 
-TEST(NiftiFiles, ThatAreBrokenNameTheCause) {
+TEST(NiftiFiles, ReportTheCauseOfAnError) {
   const auto nifti = [] { return Nifti(1, false).dims({2, 1, 1}).type(2); };
   expect_volume_refused("a.nii", "short", "has 5 bytes");
   expect_volume_refused("a.nii", std::string(400, 'x'), "first 4 bytes are not a header size");
@@ -214,7 +214,7 @@ TEST(NiftiFiles, ThatAreBrokenNameTheCause) {
 
 const std::string meta = "ObjectType = Image\nNDims = 3\nDimSize = 2 1 1\nElementSpacing = 1 2 3\n";
 
-TEST(MetaImage, IsReadInAllItsForms) {
+TEST(MetaImage, ReadsAllVariants) {
   EXPECT_EQ(load_as_volume("a.mha", meta + "ElementType = MET_UCHAR\nElementDataFile = LOCAL\nAB")
                 .spacing,
             (std::array<double, 3>{1, 2, 3}));
@@ -254,7 +254,7 @@ TEST(MetaImage, HasChannels) {
   EXPECT_THAT(values_of(load_as_volume("a.mha", times, {.index = 1})), ElementsAre('c', 'd'));
 }
 
-TEST(MetaImage, ThatIsBrokenNamesTheLine) {
+TEST(MetaImage, ReportsTheLineOfAnError) {
   expect_volume_refused("a.mha", meta, "no line 'ElementDataFile = …'");
   expect_volume_refused("a.mha", meta + "ElementDataFile = LOCAL\nAB", "no line 'ElementType = …'");
   expect_volume_refused("a.mha", meta + "ElementType = MET_WORD\nElementDataFile = LOCAL\nAB",
@@ -280,7 +280,7 @@ std::string vti(const std::string& root, const std::string& array, const std::st
          array + "</DataArray></PointData></Piece></ImageData>" + after + "</VTKFile>\n";
 }
 
-TEST(VtkXml, IsReadInAllItsForms) {
+TEST(VtkXml, ReadsAllVariants) {
   const auto expect = [](const std::string& text) {
     const Volume volume = load_as_volume("a.vti", text);
     EXPECT_THAT(values_of(volume), ElementsAre(-3, 500)) << text;
@@ -317,7 +317,7 @@ TEST(VtkXml, IsReadInAllItsForms) {
                  blocks[0] + blocks[1] + "</AppendedData>"));
 }
 
-TEST(VtkXml, ThatIsBrokenNamesTheCause) {
+TEST(VtkXml, ReportsTheCauseOfAnError) {
   const std::string little = "byte_order=\"LittleEndian\"";
   expect_volume_refused("a.vti", "<VTKFile type=\"PolyData\"></VTKFile>",
                         "expected <VTKFile type=\"Image");
@@ -338,7 +338,7 @@ TEST(VtkXml, ThatIsBrokenNamesTheCause) {
                         "expected <AppendedData>");
 }
 
-TEST(VtkLegacy, IsReadInAllItsForms) {
+TEST(VtkLegacy, ReadsAllVariants) {
   const auto file = [](const std::string& kind, const std::string& data) {
     return "# vtk DataFile Version 3.0\ntitle\n" + kind +
            "\nDATASET STRUCTURED_POINTS\n"
@@ -367,7 +367,7 @@ TEST(VtkLegacy, IsReadInAllItsForms) {
                         ":4: expected DATASET STRUCTURED_POINTS, found 'dataset polydata'");
 }
 
-TEST(RawVoxelFiles, HaveTheirSizeInTheName) {
+TEST(RawVoxelFiles, StateTheirSizeInTheName) {
   const TemporaryFolder folder;
   folder.write("a:b.raw", "hh" + bytes_of_values<std::uint16_t>({258, 7}, true));
   const auto load_as = [&](const std::string& spec) {
@@ -405,7 +405,7 @@ TEST(NrrdComponents, AreAnAxisOfFour) {
                         "expected 3 axes, or 4");
 }
 
-TEST(WideIntegers, BecomeTheSmallestTypeThatHoldsThem) {
+TEST(WideIntegers, BecomeTheSmallestSufficientType) {
   const auto type_of = [](const std::vector<std::int64_t>& values) {
     return load_as_volume("a.nrrd",
                           "NRRD0004\ntype: int64\nendian: little\ndimension: 3\nencoding: raw\n"

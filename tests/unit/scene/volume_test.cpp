@@ -116,7 +116,7 @@ double half_at(const VoxelGrid& grid, std::size_t index) {
 
 // Tests signed 12-bit values of a scanner, bytes in a window that is larger than their range, and
 // even numbers up to the largest half float.
-TEST(Encode, HalvesHoldIntegersOfElevenBits) {
+TEST(Encode, HalvesStoreElevenBitIntegersExactly) {
   expect_exact<std::uint8_t>(VoxelFormat::f16, -3.5, 260);
   expect_exact<std::int8_t>(VoxelFormat::f16, -128, 127);
   EXPECT_TRUE(fits_halves(row_of<std::int16_t>({-1024, -1023, 0, 1023}, -1024, 1024)));
@@ -129,7 +129,7 @@ TEST(Encode, HalvesHoldIntegersOfElevenBits) {
 }
 
 // Tests values that half floats cannot represent: floats, wider integers, and clamped integers.
-TEST(Encode, HalvesRoundWhatTheyCannotHold) {
+TEST(Encode, HalvesRoundOtherValues) {
   const auto expect_rounded = [](const Volume& volume) {
     ASSERT_FALSE(fits_halves(volume));
     Volume copy = volume;
@@ -152,7 +152,7 @@ TEST(Encode, HalvesRoundWhatTheyCannotHold) {
   expect_rounded(clipped);
 }
 
-TEST(Encode, NonFiniteVoxelsHaveTheirPlace) {
+TEST(Encode, NonFiniteVoxelsAreMappedToTheEnds) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   const std::vector<double> values{std::numeric_limits<double>::quiet_NaN(), inf, -inf, 2};
   for (const auto format : all_formats) {
@@ -193,7 +193,7 @@ TEST(Encode, CarriesGeometryRangeAndName) {
   EXPECT_EQ(grid.name, "row");
 }
 
-TEST(Encode, HashTellsVoxelsMappingAndGeometryApart) {
+TEST(Encode, HashDistinguishesVoxelsMappingAndGeometry) {
   const auto hash = [](const std::vector<std::uint8_t>& values, double lo, double hi,
                        VoxelFormat format) { return encode(row_of(values, lo, hi), format).hash; };
   const std::string base = hash({1, 2, 3}, 1, 3, VoxelFormat::u8);

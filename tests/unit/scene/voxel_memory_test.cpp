@@ -29,7 +29,7 @@ class DataLimit {
   rlimit before_{};
 };
 
-TEST(VoxelMemory, IsZeroAndCopiesAsAVector) {
+TEST(VoxelMemory, IsZeroedAndCopiesLikeAVector) {
   VoxelBytes bytes(1000);
   EXPECT_EQ(std::ranges::count(bytes, std::byte{0}), 1000);
   bytes[7] = std::byte{3};
@@ -42,7 +42,7 @@ TEST(VoxelMemory, IsZeroAndCopiesAsAVector) {
   EXPECT_EQ(copy.back(), std::byte{9});
 }
 
-TEST(VoxelMemory, OfManyIsNoneOfTheProcessData) {
+TEST(VoxelMemory, LargeMemoryIsNotProcessData) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "built with a sanitizer";
 #endif
@@ -62,7 +62,7 @@ TEST(VoxelMemory, LeavesNoFile) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-TEST(VoxelMemory, WithoutRoomSaysWhereAndWhatToDo) {
+TEST(VoxelMemory, AFullDiskIsReportedWithItsFolderAndAdvice) {
   const auto message = [](const char* folder, std::size_t bytes) -> std::string {
     ::setenv("TMPDIR", folder, 1);
     std::string said;

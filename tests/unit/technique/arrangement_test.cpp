@@ -58,7 +58,7 @@ std::vector<std::byte> expected(const Arrangement& arranged, const Value& value)
   return {bytes.begin(), bytes.end()};
 }
 
-TEST(Arrangement, HoldsEveryParticleOnce) {
+TEST(Arrangement, ContainsEveryParticleOnce) {
   const scene::ParticleScene scene = generated("uniform", 20000);
   const Arrangement arranged = arrange(scene);
   ASSERT_EQ(arranged.count(), 20000U);
@@ -97,7 +97,7 @@ TEST_P(ArrangementColour, PropertiesAreThoseOfTheSetInOrder) {
   }
 }
 
-TEST_P(ArrangementColour, PropertiesInPiecesAreThoseInOneGo) {
+TEST_P(ArrangementColour, PropertiesInPiecesMatchTheWhole) {
   const Arrangement arranged =
       arrange(scene_of(scene::generate_particles("uniform", 3001, GetParam())));
   for (const Property property : {Property::sphere, Property::colour, Property::id}) {
@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(EveryColour, ArrangementColour,
                                          scene::ColourKind::intensity),
                          [](const auto& kind) { return std::string(name_of(kind.param)); });
 
-TEST(Arrangement, CellsFollowOneAnotherAndEncloseTheirSpheres) {
+TEST(Arrangement, CellsAreContiguousAndEncloseTheirSpheres) {
   const Arrangement arranged = arrange(generated("droplets", 30000));
   EXPECT_GT(arranged.cells.size(), 20U);
   std::uint32_t next = 0;
@@ -198,7 +198,7 @@ TEST(Arrangement, DoesNotDependOnTheOrderOfTheSet) {
 }
 
 // A sphere that would make the box of its cell too large for culling gets a cell of its own.
-TEST(Arrangement, ALargeSphereGrowsNoCell) {
+TEST(Arrangement, ALargeSphereGetsItsOwnCell) {
   scene::ParticleSet set = scene::generate_particles("uniform", 20000, scene::ColourKind::rgba8);
   set.spheres[777][3] = 20;
   const Arrangement arranged = arrange(scene_of(std::move(set)));
@@ -230,7 +230,7 @@ TEST(Arrangement, RadiiAreScaledAsTheSceneSays) {
   }
 }
 
-TEST(Arrangement, NothingIsArrangedToNothing) {
+TEST(Arrangement, OfNoParticlesIsEmpty) {
   EXPECT_EQ(arrange(scene_of({})).count(), 0U);
   EXPECT_TRUE(arrange(scene_of({})).cells.empty());
 }

@@ -84,7 +84,7 @@ std::array<double, 4> composite(const std::vector<Sample>& samples, double lengt
   return sum;
 }
 
-TEST(BrickKinds, MergedBricksKeepTheirBudget) {
+TEST(BrickKinds, MergedBricksStayWithinTheirBudget) {
   core::Random random(11);
   scene::VolumeScene scene = generated_volume("uniform_box", "haze");
   const double longest = 40 * std::sqrt(3.0);
@@ -124,7 +124,7 @@ TEST(BrickKinds, MergedBricksKeepTheirBudget) {
 }
 
 // Evaluates the merging criterion directly, with the extreme values found by trying many values.
-TEST(BrickKinds, AreThoseOfTheCriterion) {
+TEST(BrickKinds, FollowTheCriterion) {
   core::Random random(12);
   scene::VolumeScene scene = generated_volume("uniform_box", "haze");
   const double longest = 40 * std::sqrt(3.0);
@@ -183,7 +183,7 @@ TEST(BrickKinds, HomogeneousBricksAreNumberedByTheirValue) {
                                               homogeneous + 1, homogeneous}));
 }
 
-TEST(BrickKinds, AnOpaqueBrickIsNot) {
+TEST(BrickKinds, AnOpaqueBrickIsNotMerged) {
   scene::VolumeScene scene = generated_volume("uniform_box", "haze");
   scene.transfer_function.entries.fill({1, 1, 1, 1});
   EXPECT_EQ(brick_kinds(one_brick(0.2F, 0.4F), scene, 0.5)[0], sampled);
@@ -202,7 +202,7 @@ TEST(BrickKinds, ShadingCountsAsColour) {
   EXPECT_EQ(brick_layout(scene, Skip::bricks).border, 1);
 }
 
-TEST(BrickKinds, AreTheMapOfBricks) {
+TEST(BrickKinds, DetermineTheBrickMap) {
   const scene::VolumeScene scene = generated_volume("nested_shells", "haze");
   const auto visible = brick_map(scene, Skip::bricks);
   const auto kinds = brick_map(scene, Skip::bricks, 1e-3);
@@ -212,7 +212,7 @@ TEST(BrickKinds, AreTheMapOfBricks) {
   }
 }
 
-TEST(AdaptReason, SaysWhatHasNoBricksToMerge) {
+TEST(AdaptReason, ReportsOptionsWithoutBricksToMerge) {
   scene::VolumeScene scene;
   RaycastOptions options{.skip = Skip::bricks};
   EXPECT_FALSE(adapt_reason("speed_of_light", scene, options));

@@ -58,7 +58,7 @@ TEST(BrickReach, IsTheDistanceToTheNearestBrickOfTheOtherKind) {
   }
 }
 
-TEST(BrickLayout, CoversWhatASampleInABrickMayRead) {
+TEST(BrickLayout, CoversEverythingThatASampleMayRead) {
   scene::VolumeScene scene;
   scene.grid = std::make_shared<const scene::VoxelGrid>(
       scene::encode(scene::generate_volume("uniform_box", {40, 40, 40}), scene::VoxelFormat::u8));

@@ -37,7 +37,7 @@ std::vector<std::size_t> counts_of(const scene::ParticleScene& scene, const Divi
 
 // The wall consists of 316 × 316 spheres, and 900,144 spheres are behind it. Without division, the
 // grid cells that contain spheres of the wall would also contain 71,507 of the spheres behind it.
-TEST(Division, AWallIsPartedFromWhatIsBehindIt) {
+TEST(Division, AWallIsSeparatedFromSpheresBehindIt) {
   constexpr std::size_t wall = 316 * 316;
   const scene::ParticleScene scene = scene_without_camera(generated_set("hidden", 1'000'000));
   const Division division(scene, per_cell);
@@ -62,7 +62,7 @@ TEST(Division, EvenlySpreadParticlesStayInTheCellsOfTheGrid) {
 }
 
 // Because of a single distant particle, all others fall into one cell of the grid.
-TEST(Division, AFarParticleDoesNotKeepTheOthersTogether) {
+TEST(Division, AFarParticleDoesNotPreventDivision) {
   scene::ParticleSet set = generated_set("uniform", 20'000);
   set.spheres[777][0] = 1e5F;
   const scene::ParticleScene scene = scene_without_camera(std::move(set));
@@ -83,7 +83,7 @@ TEST(Division, CoincidentCentresAreInOnePart) {
   EXPECT_EQ(part_at.size(), 5000U);
 }
 
-TEST(Division, APileHasNoPlaneThatDividesIt) {
+TEST(Division, APileCannotBeDivided) {
   scene::ParticleSet set;
   for (std::uint32_t i = 0; i < 5000; ++i) {
     ASSERT_TRUE(scene::append(set, {1, 2, 3, 0.5}, i));

@@ -29,7 +29,7 @@ Pixels drawn_again(int width, int height, int stride) {
   return pixels;
 }
 
-TEST(ExtraWork, TheGridOfThePictureIsThePicture) {
+TEST(ExtraWork, TheFirstPartOfTheGridIsTheImage) {
   for (const int width : {1, 16, 97, 2048}) {
     for (int x = 0; x < width; ++x) {
       EXPECT_EQ(portable::tri_drawn_column(x, 7 * x % 2048, again_from(width), 5), x);
@@ -57,7 +57,7 @@ TEST(ExtraWork, NoPixelIsDrawnTwiceAndTheShareIsAsAsked) {
 
 // A driver may statically assign half of the rows to each of two processors, so both halves need
 // equal work.
-TEST(ExtraWork, EveryHalfHasItsShare) {
+TEST(ExtraWork, IsDistributedOverBothHalves) {
   for (const int size : {192, 320, 512}) {
     for (const int stride : {5, 10, 20, 33}) {
       const Pixels pixels = drawn_again(size, size, stride);
@@ -72,7 +72,7 @@ TEST(ExtraWork, EveryHalfHasItsShare) {
 
 // Rays are longest in the middle of an image, so the middle must receive its share of the extra
 // work.
-TEST(ExtraWork, IsSpreadOverThePicture) {
+TEST(ExtraWork, IsDistributedOverTheImage) {
   for (const int stride : {5, 10, 20, 33}) {
     const Pixels pixels = drawn_again(512, 512, stride);
     const auto inner = std::ranges::count_if(pixels, [](const auto& pixel) {
@@ -83,7 +83,7 @@ TEST(ExtraWork, IsSpreadOverThePicture) {
   }
 }
 
-TEST(ExtraWork, NoPlaceIsWrittenTwice) {
+TEST(ExtraWork, NoOutputIsWrittenTwice) {
   for (const auto& [width, height, stride] : {std::array{97, 33, 4}, std::array{192, 192, 20}}) {
     std::set<int> places;
     const int columns = drawn_columns(width, stride);
@@ -102,7 +102,7 @@ TEST(ExtraWork, NoPlaceIsWrittenTwice) {
   }
 }
 
-TEST(ExtraWork, TilesAreTheSamePixels) {
+TEST(ExtraWork, TilesCoverTheSamePixels) {
   for (const auto& [width, height] : {std::pair{97, 33}, std::pair{192, 192}}) {
     Pixels tiled;
     for (const ExtraTile& tile : extra_tiles(width, height, 5)) {

@@ -7,7 +7,7 @@ namespace {
 
 using enum scene::VoxelFormat;
 
-TEST(FilterBound, IsOfTheWeightsAndOfTheFormat) {
+TEST(FilterBound, DependsOnWeightsAndFormat) {
   EXPECT_DOUBLE_EQ(allowed_filter_error(8, u8), 6.0 / 256);
   EXPECT_DOUBLE_EQ(allowed_filter_error(8, u16), 3.0 / 256 + 3.0 / 2048);
   EXPECT_DOUBLE_EQ(allowed_filter_error(8, f16), allowed_filter_error(8, u16));
@@ -16,7 +16,7 @@ TEST(FilterBound, IsOfTheWeightsAndOfTheFormat) {
 
 // The bound must reject nearest-voxel sampling, whose error halfway between a black and a white
 // voxel is 0.5.
-TEST(FilterBound, TheNearestVoxelIsNoFilter) {
+TEST(FilterBound, NearestNeighbourSamplingExceedsIt) {
   for (const scene::VoxelFormat format : {u8, u16, f32, f16}) {
     EXPECT_LT(allowed_filter_error(least_weight_bits, format), 0.5);
   }

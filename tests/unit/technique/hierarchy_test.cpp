@@ -16,7 +16,7 @@ namespace {
 
 using namespace portable;
 
-TEST(Hierarchy, LeavesHoldEveryParticleOnce) {
+TEST(Hierarchy, LeavesContainEveryParticleOnce) {
   for (const std::uint32_t count : {1U, 3U, 4U, 7U, 8U, 9U, 63U, 64U, 65U, 513U, 100000U}) {
     SCOPED_TRACE(count);
     const Hierarchy tree(count, {0, 0, 0}, 1);
@@ -30,14 +30,14 @@ TEST(Hierarchy, LeavesHoldEveryParticleOnce) {
   }
 }
 
-TEST(Hierarchy, OfNothingHasOneEmptyLeaf) {
+TEST(Hierarchy, OfNoParticlesHasOneEmptyLeaf) {
   const Hierarchy tree(0, {0, 0, 0}, 0);
   EXPECT_EQ(tree.leaves(), 1U);
   EXPECT_EQ(tree.leaf_begin(1), 0U);
   EXPECT_GT(tree.sorted_words(), 0U);
 }
 
-TEST(Hierarchy, ASetWithoutExtentHasOnePlaceOnTheCurve) {
+TEST(Hierarchy, ASetWithoutExtentHasOnePositionOnTheCurve) {
   EXPECT_EQ(Hierarchy(10, {1, 2, 3}, 0).parameters().origin[3], 0.0F);
   EXPECT_EQ(Hierarchy(10, {1, 2, 3}, 1e-40F).parameters().origin[3], 0.0F);
 }

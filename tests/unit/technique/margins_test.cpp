@@ -7,7 +7,7 @@
 namespace triptych::technique {
 namespace {
 
-TEST(PointMargin, IsTheGranularityWhereSizesMayBeRounded) {
+TEST(PointMargin, IsTheGranularityOfPointSizes) {
   EXPECT_EQ(point_margin("Some GPU (llvmpipe is not its name)", 0.125), 0.125);
   EXPECT_EQ(point_margin("Some GPU", 1), 1);
 }

@@ -19,7 +19,7 @@ std::string reason(std::string_view technique, const ParticleOptions& options,
   return option_reason(technique, options, rasterizer).value_or("");
 }
 
-TEST(OptionReason, WithoutFaultsOnlyRaysAndCornersAreRefused) {
+TEST(OptionReason, WithoutFaultsOnlyRaysAndCornersAreRejected) {
   for (const std::string_view technique : techniques) {
     for (const SpriteRasterizer rasterizer : both_rasterizers) {
       for (const Culling culling : {Culling::none, Culling::frustum, Culling::occlusion}) {
@@ -34,7 +34,7 @@ TEST(OptionReason, WithoutFaultsOnlyRaysAndCornersAreRefused) {
   }
 }
 
-TEST(OptionReason, RaysAreMadeAtVerticesWhereThereAreSome) {
+TEST(OptionReason, RaysAtVerticesNeedVertices) {
   for (const std::string_view technique : techniques) {
     for (const SpriteRasterizer rasterizer : both_rasterizers) {
       const bool refused = technique == "point" || technique == "tiles";
@@ -47,14 +47,14 @@ TEST(OptionReason, RaysAreMadeAtVerticesWhereThereAreSome) {
   EXPECT_THAT(reason("bvh", {.ray = ComputedAt::vertex}), HasSubstr("no vertices"));
 }
 
-TEST(OptionReason, APolygonHasFourCornersAtLeast) {
+TEST(OptionReason, APolygonHasAtLeastFourCorners) {
   EXPECT_THAT(reason("polygon_tess", {.corners = 3}), HasSubstr("3 corners"));
   EXPECT_EQ(reason("polygon_tess", {.corners = 4}), "");
   // The adaptive technique ignores the number of corners.
   EXPECT_EQ(reason("polygon_adaptive", {.corners = 3}), "");
 }
 
-TEST(OptionReason, AFaultNeedsWhatItBreaks) {
+TEST(OptionReason, AFaultNeedsTheCodeThatItBreaks) {
   for (const std::string_view technique : techniques) {
     for (const SpriteRasterizer rasterizer : both_rasterizers) {
       const auto refused = [&](const ParticleOptions& options) {

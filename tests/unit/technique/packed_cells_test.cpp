@@ -40,7 +40,7 @@ bool holds(const std::vector<std::byte>& bytes, std::size_t texel, std::size_t k
                      &grid.data[index * one], one) == 0;
 }
 
-TEST(PackedCells, HoldTheVoxelsAroundThem) {
+TEST(PackedCells, ContainTheSurroundingVoxels) {
   for (const VoxelFormat format : all_formats) {
     const scene::VoxelGrid grid = grid_of(format, {5, 4, 3});
     const auto bytes = packed(grid);
@@ -63,7 +63,7 @@ TEST(PackedCells, HoldTheVoxelsAroundThem) {
   }
 }
 
-TEST(PackedCells, PartsMakeTheWhole) {
+TEST(PackedCells, PartsMatchTheWhole) {
   for (const VoxelFormat format : all_formats) {
     const scene::VoxelGrid grid = grid_of(format, {7, 5, 3});
     const auto whole = packed(grid);
@@ -79,7 +79,7 @@ TEST(PackedCells, PartsMakeTheWhole) {
   }
 }
 
-TEST(PackedCells, WhatADeviceCannotReadIsNamedWithBothNumbers) {
+TEST(PackedCells, ExceededLimitsAreReportedWithBothNumbers) {
   scene::VoxelGrid grid{.format = VoxelFormat::u8, .size = {511, 511, 512}};
   constexpr TexelLimit limit{.texels = 134217728, .name = "theLimit"};
   EXPECT_EQ(packed_reason(packed_texels(grid.size, grid.format), {}, limit).value_or(""),
@@ -92,7 +92,7 @@ TEST(PackedCells, WhatADeviceCannotReadIsNamedWithBothNumbers) {
                             {.table = 16 * (limit.texels + 1)}, limit));
 }
 
-TEST(PackedCells, AreTheDefaultWhereTheyAreFaster) {
+TEST(PackedCells, AreTheDefaultIfTheyAreFaster) {
   constexpr std::uint64_t many = std::uint64_t{1} << 27U;
   EXPECT_TRUE(packs_by_default({256, 256, 256}, VoxelFormat::u8, true, many));
   EXPECT_TRUE(packs_by_default({96, 96, 96}, VoxelFormat::f32, true, many));

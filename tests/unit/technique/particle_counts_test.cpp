@@ -40,7 +40,7 @@ TEST(ParticleCounts, OfSpritesAddUpAllRows) {
                                    Pair("visible_ids", 1)));
 }
 
-TEST(ParticleCounts, OfComputeAreBinEntriesAndNoFragments) {
+TEST(ParticleCounts, OfTilesContainBinEntriesAndNoFragments) {
   const CountedFrame frame{
       .method = Method::tiles, .culling = Culling::frustum, .cells = 90, .particles = 100};
   const auto counts = particle_counts(frame, two_rows(), picture_of({1}));
@@ -48,7 +48,7 @@ TEST(ParticleCounts, OfComputeAreBinEntriesAndNoFragments) {
   EXPECT_THAT(counts, Not(Contains(Pair(testing::StartsWith("fragments"), testing::_))));
 }
 
-TEST(ParticleCounts, OfRaysAreWhatTheyWentThrough) {
+TEST(ParticleCounts, OfRaysContainNodesAndBoxes) {
   const CountedFrame frame{.method = Method::rays, .cells = 90, .particles = 100};
   EXPECT_THAT(particle_counts(frame, two_rows(), picture_of({1})),
               UnorderedElementsAre(Pair("nodes_visited", 11), Pair("boxes_tested", 21),

@@ -21,7 +21,7 @@ scene::ParticleScene small_scene() {
   return scene;
 }
 
-TEST(ParticleParameters, TwoFloatsHoldTheCameraToSixteenDigits) {
+TEST(ParticleParameters, TwoFloatsStoreTheCameraToSixteenDigits) {
   const scene::ParticleScene scene = small_scene();
   const ParticleParameters p = particle_parameters(scene, {}, arrange(scene));
   for (int axis = 0; axis < 3; ++axis) {
@@ -36,7 +36,7 @@ TEST(ParticleParameters, TwoFloatsHoldTheCameraToSixteenDigits) {
   }
 }
 
-TEST(ParticleParameters, ThePlaneIsTheCameras) {
+TEST(ParticleParameters, ThePlaneMatchesTheCamera) {
   const scene::ParticleScene scene = small_scene();
   const ParticleParameters p = particle_parameters(scene, {}, arrange(scene));
   const glm::dvec3 ray = scene.camera.ray_direction(31, 7, scene.width, scene.height);
@@ -53,7 +53,7 @@ TEST(ParticleParameters, DepthIsScaledByAPowerOfTwo) {
   EXPECT_LT(scene.camera.near, 1e-6);
 }
 
-TEST(ParticleOptions, NamesGoBothWays) {
+TEST(ParticleOptions, NamesRoundTrip) {
   for (const Culling each : {Culling::none, Culling::frustum, Culling::occlusion}) {
     EXPECT_EQ(culling(name_of(each)), each);
   }

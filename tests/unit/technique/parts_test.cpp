@@ -29,12 +29,12 @@ std::vector<Part> cut(const scene::VolumeScene& scene, std::uint64_t room) {
   return cut.parts;
 }
 
-TEST(Parts, OfWhatHasRoomThereAreNone) {
+TEST(Parts, AreNotUsedIfTheVolumeFits) {
   EXPECT_TRUE(cut(scene_of(50), 102).empty());
   EXPECT_FALSE(cut(scene_of(50), 101).empty());
 }
 
-TEST(Parts, TakeEveryCellOnceAndHoldWhatItsSamplesReach) {
+TEST(Parts, ContainEveryCellOnceWithItsSamples) {
   for (const double eye : {-30.0, 0.0, 3.0, 49.5, 50.0, 99.0, 200.0}) {
     for (const bool shaded : {false, true}) {
       for (const std::uint64_t room : {11U, 30U, 80U}) {
@@ -85,7 +85,7 @@ TEST(Parts, BeginAtTheEyeAndGoOutwards) {
 }
 
 // A part must hold the voxels of whole steps, because a preintegrated step reads both of its ends.
-TEST(Parts, HoldAWholeStep) {
+TEST(Parts, ContainWholeSteps) {
   scene::VolumeScene scene = scene_of(50);
   scene.quadrature = scene::Quadrature::preintegrated;
   scene.step_voxels = 6.5;
@@ -95,7 +95,7 @@ TEST(Parts, HoldAWholeStep) {
   }
 }
 
-TEST(Parts, AreRefusedWithTheReason) {
+TEST(Parts, AreRejectedWithAReason) {
   const scene::VolumeScene scene = scene_of(50);
   const auto reason = [&](std::string_view technique, Sampler sampler, std::uint64_t room) {
     return cut_into_parts(technique, scene, {.sampler = sampler}, of_one_byte,
@@ -115,7 +115,7 @@ TEST(Parts, AreRefusedWithTheReason) {
   EXPECT_EQ(within_budget({1000, "theLimit"}, {.budget = 2000}).bytes, 1000U);
 }
 
-TEST(Parts, AreReadWhereABrickNearThemIsVisible) {
+TEST(Parts, AreReadIfABrickNearThemIsVisible) {
   scene::VolumeScene scene = scene_of(50);
   scene::VoxelGrid grid = *scene.grid;
   grid.data.resize(grid.voxel_count());

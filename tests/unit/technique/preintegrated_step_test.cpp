@@ -185,7 +185,7 @@ TEST(PreintegratedStep, IsExactHoweverOpaqueItIs) {
 
 // If all whole cells are taken at once regardless of their optical depth, three coefficients cannot
 // represent their light. The bound must detect that.
-TEST(PreintegratedStep, ByOneChunkIsWrongAndBeyondTheBound) {
+TEST(PreintegratedStep, InOneChunkExceedsTheBound) {
   const scene::TransferFunction function = scene::load_transfer_function("surfaces");
   for (const auto& [length, error] : {std::pair{2.0, 5e-3}, {64.0, 0.25}}) {
     const Found found = find(function, length, 0, any_depth);
@@ -194,7 +194,7 @@ TEST(PreintegratedStep, ByOneChunkIsWrongAndBeyondTheBound) {
   }
 }
 
-TEST(PreintegratedStep, StaysWithinItsBoundWhereItsEndsAreUncertain) {
+TEST(PreintegratedStep, StaysWithinItsBoundIfItsEndsAreUncertain) {
   core::Random random(3);
   std::vector<scene::TransferFunction> functions{scene::load_transfer_function("haze"),
                                                  scene::load_transfer_function("surfaces")};
@@ -209,7 +209,7 @@ TEST(PreintegratedStep, StaysWithinItsBoundWhereItsEndsAreUncertain) {
   }
 }
 
-TEST(PreintegratedStep, IsTakenInChunksWhereItMayBeDeep) {
+TEST(PreintegratedStep, IsSplitIntoChunksIfItMayBeDeep) {
   scene::VolumeScene scene;
   // Each voxel halves the transmittance.
   scene.transfer_function.entries.fill({1, 1, 1, 0.5F});

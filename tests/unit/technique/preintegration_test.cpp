@@ -72,7 +72,7 @@ double largest_difference(const Light& a, const Light& b) {
 
 // For smooth functions, the truncation error is at most (range of colour)·D⁴/635, and far smaller
 // where the colour is smooth. The remaining tolerance is the round-off of a dozen operations.
-TEST(PreintegratedPairs, AreTheIntegralsOfPathsBetweenEntries) {
+TEST(PreintegratedPairs, MatchTheIntegralsBetweenEntries) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {
     const float g = static_cast<float>(k) / 255;
@@ -125,7 +125,7 @@ TEST(PreintegratedPairs, AreTheSameEverywhere) {
             "81bbfa4674ecfbe4d87b7bc27375ea93");
 }
 
-TEST(PreintegratedPairs, WhereNothingIsSeenThereIsNoDepth) {
+TEST(PreintegratedPairs, TransparentPathsHaveNoDepth) {
   const auto pairs = preintegrated_pairs(scene::load_transfer_function("surfaces"));
   EXPECT_EQ(pairs[texels_per_pair * (256 * 3 + 40)][0], 0);
   EXPECT_EQ(pairs[texels_per_pair * (256 * 40 + 3)][0], 0);
@@ -141,7 +141,7 @@ TEST(PreintegratedPairs, FullOpacityLeavesNothing) {
   EXPECT_NEAR(static_cast<double>(light.colour[0]), 1, 1e-6);
 }
 
-TEST(PreintegrationMath, MeanOfTheLogarithmErrsAsItsRestSays) {
+TEST(PreintegrationMath, MeanOfTheLogarithmHasTheStatedError) {
   core::Random random(5);
   for (int n = 0; n < 20000; ++n) {
     const auto a = static_cast<float>(random.uniform(0, 1));
@@ -165,7 +165,7 @@ TEST(PreintegrationMath, MeanOfTheLogarithmErrsAsItsRestSays) {
   }
 }
 
-TEST(PreintegrationMath, AttenuationIsOfTheLangevinFunction) {
+TEST(PreintegrationMath, AttenuationMatchesTheLangevinFunction) {
   for (int n = 1; n <= 4000; ++n) {
     const auto z = static_cast<float>(std::exp2(-14 + n * 0.005));
     const float opacity = portable::tri_1m_exp2(-2.885390082F * z);

@@ -42,7 +42,7 @@ TEST(KinkTable, LeadsToTheNextVisibleEntry) {
   EXPECT_GT(table[256][2], 1e38F);
 }
 
-TEST(QuadratureTable, HasTheBytesThatAreStated) {
+TEST(QuadratureTable, HasTheStatedSize) {
   scene::VolumeScene scene;
   scene.transfer_function = ramp();
   for (const auto quadrature :

@@ -22,7 +22,7 @@ scene::VolumeScene scene_of(std::array<int, 3> size) {
   return scene;
 }
 
-TEST(RaycastBuffers, AreThoseThatAreMade) {
+TEST(RaycastBuffers, MatchTheAllocatedBuffers) {
   for (const std::array<int, 3> size : {std::array{1, 1, 1}, {2, 3, 4}, {24, 17, 9}}) {
     scene::VolumeScene scene = scene_of(size);
     for (const auto quadrature : {scene::Quadrature::midpoint, scene::Quadrature::preintegrated,
@@ -45,7 +45,7 @@ TEST(RaycastBuffers, AreThoseThatAreMade) {
 
 // The volume has 1024³ voxels. Its map of bricks with 4³ cells needs 64 MiB; with 2³ cells, the map
 // would need 512 MiB.
-TEST(RaycastBuffers, TheOneThatIsTooLargeIsNamed) {
+TEST(RaycastBuffers, ATooLargeBufferIsReported) {
   constexpr std::uint64_t most = 1U << 27U;
   scene::VolumeScene scene = scene_of({2, 2, 2});
   auto grid = *scene.grid;

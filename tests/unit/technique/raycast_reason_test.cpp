@@ -21,7 +21,7 @@ scene::VolumeScene flat_scene(double flat) {
               scene::encode(std::move(volume), scene::VoxelFormat::f32))};
 }
 
-TEST(RaycastReason, SamplesAreCountedInIntegersOfADevice) {
+TEST(RaycastReason, SampleCountsMustFitIntoDeviceIntegers) {
   EXPECT_FALSE(raycast_reason("raycast", flat_scene(1e-8), {}));
   scene::VolumeScene scene = flat_scene(1e-10);
   EXPECT_THAT(raycast_reason("raycast", scene, {}).value_or(""),
@@ -38,7 +38,7 @@ TEST(RaycastReason, OfCellsHasNoSamplesToCount) {
   EXPECT_FALSE(raycast_reason("raycast", scene, {}));
 }
 
-TEST(RaycastParameters, OfCellsAreTheSameForEveryStepFromACellOn) {
+TEST(RaycastParameters, OfCellsAreTheSameForAllStepsLongerThanACell) {
   scene::VolumeScene scene = flat_scene(0.5);
   scene.quadrature = scene::Quadrature::cells;
   const auto one = raycast_parameters(scene, {}, 1);

@@ -8,7 +8,7 @@
 namespace triptych::technique {
 namespace {
 
-TEST(Sources, WholeHasWhatItIncludesInTheirPlace) {
+TEST(Sources, WholeContainsTheIncludedFiles) {
   static constexpr std::string_view begin = "#include \"";
   std::string expected(source("raycast.glsl"));
   int included = 0;
@@ -23,7 +23,7 @@ TEST(Sources, WholeHasWhatItIncludesInTheirPlace) {
   EXPECT_EQ(whole_source("raycast.glsl"), expected);
 }
 
-TEST(Sources, WithoutIncludesItIsTheText) {
+TEST(Sources, WithoutIncludesIsUnchanged) {
   EXPECT_EQ(whole_source("preintegrated.glsl"), source("preintegrated.glsl"));
   EXPECT_THROW(static_cast<void>(whole_source("no_such.glsl")), std::out_of_range);
 }

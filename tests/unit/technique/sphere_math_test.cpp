@@ -30,7 +30,7 @@ float along_axis(const glm::vec3& p, const dvec3& eye, const dvec3& axis) {
 
 // This is the case for which the function exists: the result must be correctly rounded even if all
 // three products cancel.
-TEST(SphereMath, CameraCoordinatesAreRightToTheLastBit) {
+TEST(SphereMath, CameraCoordinatesAreCorrectToTheLastBit) {
   core::Random random(1);
   for (int i = 0; i < 20000; ++i) {
     const auto any = [&](double size) {
@@ -140,7 +140,7 @@ TEST(SphereMath, LargerDiscsGetMoreCorners) {
   }
 }
 
-TEST(SphereMath, ASpriteLiesBeforeItsSphereAndCoversIt) {
+TEST(SphereMath, ASpriteLiesInFrontOfItsSphereAndCoversIt) {
   for (const float d : {1.001F, 1.25F, 2.0F, 10.0F, 1e3F, 1e5F}) {
     const float plane = tri_sprite_plane(d, 1);
     EXPECT_LT(plane, d - 1);

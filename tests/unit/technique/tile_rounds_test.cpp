@@ -27,7 +27,7 @@ void expect_all_cells_in_order(const TileRounds& rounds, const Arrangement& arra
   EXPECT_EQ(next, arrangement.cells.size());
 }
 
-TEST(TileRounds, HoldEveryCellOnceAndKeepTheirLimits) {
+TEST(TileRounds, ContainEveryCellOnceWithinTheirLimits) {
   const scene::ParticleScene scene = uniform(60000, 8);
   const Arrangement arrangement = arrange(scene);
   for (const std::uint32_t most_cells : {1U, 7U, 65535U}) {
@@ -64,7 +64,7 @@ TEST(TileRounds, SmallSpheresNeedNoEntries) {
 }
 
 // If all spheres are large, the buffers for small spheres need not be cleared.
-TEST(TileRounds, LargeSpheresAlonePromiseThatNoneIsSmall) {
+TEST(TileRounds, OnlyLargeSpheresMeansThatNoneIsSmall) {
   const scene::ParticleScene large = uniform(8, 2);
   EXPECT_FALSE(tile_rounds(large, arrange(large), 65535, 1U << 20U).small);
   // The sphere may be visible in only a few pixels.
@@ -75,7 +75,7 @@ TEST(TileRounds, LargeSpheresAlonePromiseThatNoneIsSmall) {
 
 // If there are only a few large spheres, every pixel reads their entries. Otherwise, the entries
 // are resolved once for all pixels of a column.
-TEST(TileRounds, FewLargeSpheresAreDrawnAtOnce) {
+TEST(TileRounds, FewLargeSpheresAreDrawnDirectly) {
   for (const auto& [count, at_once] : {std::pair{8U, true}, {200U, false}, {60000U, false}}) {
     const scene::ParticleScene scene = uniform(count, 2);
     const TileRounds rounds = tile_rounds(scene, arrange(scene), 65535, 1U << 20U);
@@ -87,7 +87,7 @@ TEST(TileRounds, FewLargeSpheresAreDrawnAtOnce) {
 
 // Mesa's drivers limit the iterations of a loop. A tile's loop over its entries must stay below
 // that limit.
-TEST(TileRounds, ARoundHasNotMoreLargeSpheresThanALoopMayTake) {
+TEST(TileRounds, ARoundHasAtMostAsManyLargeSpheresAsALoopAllows) {
   scene::ParticleScene scene = uniform(200000, 1000);
   scene.width = scene.height = 16;
   const Arrangement arrangement = arrange(scene);
@@ -100,13 +100,13 @@ TEST(TileRounds, ARoundHasNotMoreLargeSpheresThanALoopMayTake) {
   }
 }
 
-TEST(TileRounds, ASphereAroundTheEyeMayEnterEveryTile) {
+TEST(TileRounds, ASphereAroundTheEyeMayOverlapEveryTile) {
   scene::ParticleScene scene = uniform(1, 1000);
   scene.camera.eye = {5, 5, 5};
   EXPECT_EQ(tile_rounds(scene, arrange(scene), 65535, 1).entries, 256U);
 }
 
-TEST(TileRounds, ThereAreNoneForNothing) {
+TEST(TileRounds, AreEmptyWithoutParticles) {
   scene::ParticleScene scene = uniform(1, 1);
   scene.particles = std::make_shared<const scene::ParticleSet>();
   EXPECT_TRUE(tile_rounds(scene, arrange(scene), 65535, 1).rounds.empty());

@@ -25,7 +25,7 @@ class ViewChoices : public testing::Test {
   std::unique_ptr<measure::SuiteWithTruth> particles = particles_suite::make_suite({});
 };
 
-TEST_F(ViewChoices, AValueIsKeptInItsOneSpelling) {
+TEST_F(ViewChoices, LevelsAreStoredInCanonicalSpelling) {
   Choices choices = choices_of(*volume);
   EXPECT_EQ(choices.set("step", "0.50"), "");
   EXPECT_EQ(choices.value("step"), "0.5");
@@ -35,7 +35,7 @@ TEST_F(ViewChoices, AValueIsKeptInItsOneSpelling) {
   EXPECT_EQ(choices.configuration(), measure::default_plan(*volume, {}).configurations.front());
 }
 
-TEST_F(ViewChoices, WhatIsRefusedChangesNothing) {
+TEST_F(ViewChoices, RejectedLevelsChangeNothing) {
   Choices choices = choices_of(*volume);
   const measure::Configuration before = choices.configuration();
   EXPECT_THAT(choices.set("step", "0"), HasSubstr("step"));

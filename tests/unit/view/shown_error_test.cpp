@@ -21,7 +21,7 @@ core::Image flat(float value) {
   return image;
 }
 
-TEST(ShownError, NamesTheShareOfTheBound) {
+TEST(ShownError, StatesTheShareOfTheBound) {
   core::Image image = flat(0.5F);
   image.rgba[4] += 0.03F;
   const ShownError error = shown_error(image, flat(0.5F), flat(0.1F), "");
@@ -48,7 +48,7 @@ TEST(ShownError, RingsAPixelBeyondTheBound) {
   }
 }
 
-TEST(ShownError, ImagesOfDifferentSizesHaveNoPicture) {
+TEST(ShownError, ImagesOfDifferentSizesHaveNoDifference) {
   const ShownError error = shown_error(core::Image(3, 2), flat(0), flat(1), "");
   EXPECT_FALSE(error.right);
   EXPECT_TRUE(error.picture.rgb.empty());
@@ -56,7 +56,7 @@ TEST(ShownError, ImagesOfDifferentSizesHaveNoPicture) {
 
 // Two devices at opposite ends of their bounds are both correct. A device beyond both bounds is
 // not.
-TEST(BoundBetween, IsTheSumOfBothBoundsAndOfTheDistanceOfTheReferences) {
+TEST(BoundBetween, IsTheSumOfBothBoundsAndTheDistanceOfTheReferences) {
   const accuracy::TruthPair a{flat(0.5F), flat(0.125F)};
   const accuracy::TruthPair b{flat(0.75F), flat(0.0625F)};
   const core::Image bound = bound_between(a, b);
@@ -69,7 +69,7 @@ TEST(BoundBetween, IsTheSumOfBothBoundsAndOfTheDistanceOfTheReferences) {
   EXPECT_THROW((void)bound_between(a, {core::Image(1, 1), core::Image(1, 1)}), core::InputError);
 }
 
-TEST(BoundBetween, ASurfaceMustBeTheSameWhereBothReferencesAreCertain) {
+TEST(BoundBetween, RequiresTheSameSurfaceWhereBothReferencesAreCertain) {
   constexpr float nothing = std::numeric_limits<float>::infinity();
   accuracy::TruthPair a{flat(0), flat(0.1F)};
   a.truth.ids = {1, 1, 1, core::Image::no_particle, 1, 1, 1, 1};
@@ -84,7 +84,7 @@ TEST(BoundBetween, ASurfaceMustBeTheSameWhereBothReferencesAreCertain) {
   EXPECT_NEAR(bound.depth[3], 0.5, 1e-6);
 }
 
-TEST(ScaleOfBounds, EndsBeyondTheBound) {
+TEST(ScaleOfBounds, ExtendsBeyondTheBound) {
   const core::RgbPicture scale = scale_of_bounds(111);
   const auto pixel = [&](std::size_t x) {
     return std::array{scale.rgb[3 * x], scale.rgb[3 * x + 1], scale.rgb[3 * x + 2]};

@@ -40,7 +40,7 @@ TEST(ViewCommand, RepeatsALimitThatIsNotTheUsualOne) {
             std::string::npos);
 }
 
-TEST(ViewRequest, IsReadBackAsItWasWritten) {
+TEST(ViewRequest, RoundTrips) {
   const measure::ViewRequest written = request();
   const auto read = core::Json::parse(core::Json(written).dump()).get<measure::ViewRequest>();
   EXPECT_EQ(core::Json(read), core::Json(written));

@@ -21,7 +21,7 @@ measure::Configuration configuration_of(const measure::Suite& suite, const std::
   return configuration;
 }
 
-TEST(Keys, ChangeWithTheTransferFunctionsFile) {
+TEST(Keys, ChangeWithTheTransferFunctionFile) {
   const test::TemporaryFolder folder;
   const auto suite = make_suite({folder.path()});
   const measure::Configuration configuration = configuration_of(*suite, "a.rgba");
@@ -30,7 +30,7 @@ TEST(Keys, ChangeWithTheTransferFunctionsFile) {
 
 // Fixed tables must not be part of the key, so that reference images that are already stored remain
 // usable.
-TEST(Keys, SayNothingOfTablesThatCannotChange) {
+TEST(Keys, OmitTablesThatCannotChange) {
   const auto suite = make_suite({});
   for (const char* function : {"haze", "surfaces", "own"}) {
     const measure::Configuration configuration = configuration_of(*suite, function);
@@ -41,7 +41,7 @@ TEST(Keys, SayNothingOfTablesThatCannotChange) {
 
 // Entries stored before the factors `window` and `mapping` existed must still be found under their
 // old keys.
-TEST(Keys, NameAWindowAndAMappingOnlyWhereThereIsOne) {
+TEST(Keys, NameAWindowAndAMappingOnlyIfThereIsOne) {
   const auto suite = make_suite({});
   measure::Configuration configuration = configuration_of(*suite, "haze");
   configuration["data"] = "generate:gaussian_blob:8";
@@ -61,7 +61,7 @@ TEST(Keys, NameAWindowAndAMappingOnlyWhereThereIsOne) {
   }
 }
 
-TEST(Keys, NameAComponentOnlyWhereOneIsChosen) {
+TEST(Keys, NameAComponentOnlyIfOneIsChosen) {
   const auto suite = make_suite({});
   measure::Configuration configuration = configuration_of(*suite, "haze");
   const std::string plain = measure::scene_key(*suite, configuration);

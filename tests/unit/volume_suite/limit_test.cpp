@@ -32,7 +32,7 @@ double largest_difference(const core::Image& a, const core::Image& b) {
 
 // According to the model in analytic_scenes.hpp, the transfer function table represents the ramp
 // with an error below 4e-5.
-TEST(Limit, OfARampIsItsClosedForm) {
+TEST(Limit, OfARampMatchesTheClosedForm) {
   const auto suite = make_suite({});
   const measure::Configuration ramp = limited_configuration(*suite, "analytic:v2_ramp:16");
   const measure::Limit limit = suite->limit(ramp);
@@ -44,7 +44,7 @@ TEST(Limit, OfARampIsItsClosedForm) {
   EXPECT_LT(*std::ranges::max_element(limit.uncertainty.rgba), 1e-7F);
 }
 
-TEST(Limit, IsNotWhatACoarseStepGives) {
+TEST(Limit, DiffersFromACoarseStep) {
   const auto suite = make_suite({});
   measure::Configuration ramp = limited_configuration(*suite, "analytic:v2_ramp:16");
   ramp["step"] = "2";
@@ -64,7 +64,7 @@ TEST(Limit, DoesNotDependOnStepOrStorage) {
   EXPECT_NE(suite->limit_key(a), suite->limit_key(b));
 }
 
-TEST(Limit, OnlyAProblemsOwnPictureHasAClosedForm) {
+TEST(Limit, OnlyAnUnmodifiedProblemHasAClosedForm) {
   const auto suite = make_suite({});
   measure::Configuration ramp = limited_configuration(*suite, "analytic:v2_ramp:8");
   ramp["transfer_function"] = "haze";

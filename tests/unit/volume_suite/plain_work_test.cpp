@@ -28,7 +28,7 @@ measure::PlainWork plain(const std::string& generator, technique::Skip skip,
       work_of(generator, skip));
 }
 
-TEST(PlainVolumeWork, LeapsOverNothingAreNone) {
+TEST(PlainVolumeWork, LeapsWithoutEmptyBricksAreEquivalentToNone) {
   const auto full = plain("uniform_box", technique::Skip::distance);
   EXPECT_EQ(full.levels.at("skip"), "none");
   EXPECT_TRUE(full.why.contains("skip"));
@@ -36,22 +36,22 @@ TEST(PlainVolumeWork, LeapsOverNothingAreNone) {
 }
 
 // To find out that a brick is not empty, a ray must visit it, and the visit is counted.
-TEST(PlainVolumeWork, OfCellsLeapsOverNothingAreWork) {
+TEST(PlainVolumeWork, ForCellsLeapsWithoutEmptyBricksAreWork) {
   measure::VolumeWork work = work_of("uniform_box", technique::Skip::distance);
   work.scene.quadrature = scene::Quadrature::cells;
   const auto plain = plain_work({{"technique", "raycast"}, {"skip", "distance"}}, work);
   EXPECT_EQ(plain.levels.at("skip"), "distance");
 }
 
-TEST(PlainVolumeWork, AWalkIsWorkEvenThroughAFullVolume) {
+TEST(PlainVolumeWork, AWalkThroughAFullVolumeIsWork) {
   EXPECT_EQ(plain("uniform_box", technique::Skip::bricks).levels.at("skip"), "bricks");
 }
 
-TEST(PlainVolumeWork, EmptyBricksTellLeapsApart) {
+TEST(PlainVolumeWork, LeapsDifferIfThereAreEmptyBricks) {
   EXPECT_EQ(plain("sparse_field", technique::Skip::distance).levels.at("skip"), "distance");
 }
 
-TEST(PlainVolumeWork, RaysOfTheSpeedOfLightEndNowhere) {
+TEST(PlainVolumeWork, SpeedOfLightHasNoEarlyTermination) {
   EXPECT_EQ(plain("uniform_box", technique::Skip::none).ends_below, 0.25);
   const auto bare = plain("uniform_box", technique::Skip::none, "speed_of_light");
   EXPECT_EQ(bare.ends_below, 0);

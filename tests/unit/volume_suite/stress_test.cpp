@@ -61,7 +61,7 @@ double largest_ratio(const accuracy::TruthPair& truth, bool flip_x, bool flip_y)
   return largest;
 }
 
-TEST(Stress, NumbersAndNamesAreUnlikeAndInOrder) {
+TEST(Stress, NumbersAndNamesAreUniqueAndInOrder) {
   std::set<std::string_view> names;
   int last = 0;
   for (const StressCase& each : stress_cases()) {
@@ -84,7 +84,7 @@ TEST(Stress, ThePlanHasEveryCaseOnce) {
   EXPECT_EQ(planned, std::set<std::string>(all.begin(), all.end()));
 }
 
-TEST(Stress, EveryCaseIsASceneAndItsExpectationsNameOthers) {
+TEST(Stress, EveryCaseIsValidWithItsExpectations) {
   const std::vector<std::string> all = all_data();
   const auto suite = make_suite({});
   for (const std::string& data : all) {
@@ -105,7 +105,7 @@ TEST(Stress, EveryCaseIsASceneAndItsExpectationsNameOthers) {
   }
 }
 
-TEST(Stress, UnknownNamesAreRefusedWithWhatThereIs) {
+TEST(Stress, UnknownNamesAreRejectedWithTheKnownOnes) {
   EXPECT_FALSE(stress_data("generate:mandelbulb:8"));
   for (const char* wrong :
        {"stress:none", "stress:inside", "stress:inside:out", "stress:prime:1"}) {
@@ -114,14 +114,14 @@ TEST(Stress, UnknownNamesAreRefusedWithWhatThereIs) {
 }
 
 // Flipping the image vertically, horizontally or both ways exceeds the bound by far.
-TEST(Stress, TheAsymmetricSceneTellsEveryFlip) {
+TEST(Stress, TheAsymmetricSceneRevealsEveryFlip) {
   const accuracy::TruthPair truth = truth_of("stress:asymmetric");
   EXPECT_GT(largest_ratio(truth, true, false), 100);
   EXPECT_GT(largest_ratio(truth, false, true), 100);
   EXPECT_GT(largest_ratio(truth, true, true), 100);
 }
 
-TEST(Stress, MirroredOctantsHaveMirroredTruths) {
+TEST(Stress, MirroredOctantsHaveMirroredReferenceImages) {
   const accuracy::TruthPair first = truth_of("stress:octant:ppp");
   const accuracy::TruthPair mirrored = truth_of("stress:octant:pmp");
   double largest = 0;
@@ -194,7 +194,7 @@ TEST(Stress, EveryCaseShowsSomething) {
 
 // A distant eye with a narrow field of view must produce as accurate an image as a nearby eye. If
 // the bound were derived from the distance of the eye, it would accept any image.
-TEST(Stress, AFarEyeCostsNoPrecision) {
+TEST(Stress, ADistantEyeDoesNotLosePrecision) {
   const auto error_at = [](const char* data) {
     const StressScene stress = stress_scene(*stress_data(data));
     scene::Volume volume = stress.volume;
@@ -212,7 +212,7 @@ TEST(Stress, AFarEyeCostsNoPrecision) {
 
 // Rounding a ray direction moves samples by a multiple of the smallest voxel spacing, regardless of
 // the other spacings.
-TEST(Stress, AnisotropicVoxelsAreCountedInTheSmallest) {
+TEST(Stress, AnisotropicVoxelsUseTheSmallestSpacing) {
   scene::VolumeScene scene;
   scene::VoxelGrid grid;
   grid.size = {8, 8, 8};

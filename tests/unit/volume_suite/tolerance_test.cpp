@@ -26,7 +26,7 @@ scene::VolumeScene plate(const glm::dvec3& eye) {
   return scene;
 }
 
-TEST(Tolerance, PaysForTheWayToTheFarthestEntry) {
+TEST(Tolerance, CoversTheDistanceToTheFarthestEntry) {
   const double inside = 7 * std::hypot(64, 4, 64);
   const auto expect = [&](const glm::dvec3& eye, double corner, double entry) {
     EXPECT_NEAR(error_model(plate(eye), {}).position_error_voxels,
@@ -66,7 +66,7 @@ TEST(Tolerance, HoldsForSinglePrecision) {
 
 // Compares images of rounded voxels with the reference images of the original voxels. The bound
 // must include a term for this rounding; without it, the bound is exceeded.
-TEST(Tolerance, PaysForVoxelsRoundedToHalves) {
+TEST(Tolerance, CoversVoxelsRoundedToHalves) {
   double paid = 0;
   double unpaid = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {

@@ -170,7 +170,7 @@ TEST(Sentences, OfEveryWorth) {
   expect_golden("worths.txt", text);
 }
 
-TEST(Sentences, OfExcusesAndOfWhatWasDrawnAgain) {
+TEST(Sentences, OfExcusesAndRepetitions) {
   judge::Finding finding =
       finding_of(judge::Check::image, judge::Verdict::waived, "gl:x", "step=1", over_bound(16));
   std::string text;

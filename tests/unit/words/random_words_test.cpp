@@ -185,7 +185,7 @@ class RandomWords : public GateTest {
   }
 };
 
-TEST_F(RandomWords, DecideNothing) {
+TEST_F(RandomWords, DoNotAffectDecisions) {
   accept_first(steady);
   const std::string plain = everything("plain", nullptr);
   EXPECT_THAT(plain, testing::HasSubstr("exit 1"));
@@ -197,7 +197,7 @@ TEST_F(RandomWords, DecideNothing) {
 
 // If a reference image cannot be computed, the findings do not depend on the message of the
 // exception.
-TEST_F(RandomWords, OfAnExceptionDecideNothing) {
+TEST_F(RandomWords, InExceptionsDoNotAffectDecisions) {
   accept_first();
   add_run("b");
   Words words(1);
