@@ -178,7 +178,7 @@ std::vector<Candidate> egl_candidates() {
   const Egl egl;
   std::vector<Candidate> result;
   if (egl.get_platform_display == nullptr) {
-    throw core::NotSupported("libEGL has no EGL_EXT_platform_base");
+    throw core::NotSupported("libEGL lacks the extension EGL_EXT_platform_base");
   }
   if (egl.has(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
     result.push_back(candidate("EGL surfaceless", EGL_PLATFORM_SURFACELESS_MESA, nullptr));

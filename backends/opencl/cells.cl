@@ -241,7 +241,7 @@ TRI_FN int look_around(__constant Parameters* u, __global const int* brick_map, 
 }
 
 #if TRI_PARTS
-// See raycast.cl.
+// The state of a ray that continues in the next part of the volume, as in raycast.cl.
 typedef struct {
   Gathered gathered;
   Counts counts;
@@ -255,7 +255,7 @@ typedef struct {
 #define TRI_PAUSES
 #endif
 
-// See the kernel in raycast.cl.
+// Writes the image, the counters and the pauses as the kernel in raycast.cl does.
 __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       __global const int* brick_map, __global float4* image,
                       __global uint* counters, __global const float4* kinks TRI_PAUSES) {

@@ -70,7 +70,8 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
     const Entry* entry = find_entry(work.technique);
     if (entry == nullptr) return fmt::format("Vulkan has no technique '{}'", work.technique);
     if (entry->prepare.index() != work.scene.index()) {
-      return fmt::format("technique {} belongs to another suite than the scene", work.technique);
+      return fmt::format("technique {} belongs to a different suite than the scene",
+                         work.technique);
     }
     if (auto reason = feature_reason(gpu_, entry->needs)) return reason;
     if (const auto* volume = std::get_if<measure::VolumeWork>(&work.scene)) {

@@ -1,5 +1,5 @@
-"""Makes pages with this machine's devices as a gate does: one that passes, and one with an injected fault of each kind.
-Scenes are small, and the baselines are separate. The program under test measures every run.
+"""Creates the pages of two gates on this machine's devices: one that passes, and one with an injected fault of each kind.
+The scenes are small, and these gates have baselines of their own. The program under test measures every run.
 """
 import os
 import subprocess

@@ -1,5 +1,5 @@
-"""A server receives everything that ci/dashboard sends, including the numbers and images of a check. A small server in
-this test takes the place of CDash."""
+"""Tests that a server receives everything that ci/dashboard sends, including the numbers and images of a check. A small
+server in this test takes the place of CDash."""
 
 import gzip
 import http.server

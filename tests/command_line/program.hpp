@@ -19,8 +19,8 @@ class Program {
   }
   [[nodiscard]] std::string read(const std::string& name) const { return folder_.read(name); }
 
-  // A shell in that folder parses `arguments`. `wrapper` is a command that is put before the
-  // program.
+  // Runs the program in that folder, through a shell that parses `arguments`. `wrapper` is a
+  // command that is put before the program.
   [[nodiscard]] Result run(const std::string& arguments, const std::string& script = "{}",
                            const std::string& wrapper = "") const {
     return test::run_command("cd '" + folder().string() + "' && TRIPTYCH_NULL_SCRIPT='" + script +

@@ -1,5 +1,5 @@
-"""ci/ratios reports the ratio that the scripted device has, between the best configurations of each side, or the reason
-why there is none."""
+"""Tests that ci/ratios reports the ratio between the best configurations of both sides on a scripted device, or the
+reason why there is none."""
 
 import importlib.machinery
 import importlib.util

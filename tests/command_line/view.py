@@ -1,5 +1,5 @@
-"""The window of `triptych view`, under Xvfb: it shows the images that `triptych render` writes, its commands reproduce them, the
-mouse turns the camera, and every mistake is one clear line. The program is $TRIPTYCH_PROGRAM."""
+"""Tests the window of `triptych view` under Xvfb: it shows the images that `triptych render` writes, its commands reproduce
+them, the mouse turns the camera, and every mistake of the user causes one clear line. The program is $TRIPTYCH_PROGRAM."""
 
 import json
 import os

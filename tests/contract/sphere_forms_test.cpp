@@ -133,7 +133,8 @@ TEST(SphereForms, S5RandomDiscsLeaveTheExpectedShareUncovered) {
 // Computes the ratio between the fragments of an N-gon and those of its disc. The polygon is
 // enlarged by 1/64 pixel and by perspective, both of which are below a thousandth here. Some of its
 // edges are horizontal, vertical or at 45°, so a whole edge may lie on one side of the pixel
-// centres. That is half a pixel for each pixel of the outline, at most 8R.
+// centres. This adds or removes up to half a pixel per pixel of the outline, whose length is at
+// most 8R.
 TEST(SphereForms, S6PolygonsWasteTheExpectedFragments) {
   on_every_driver([](measure::Device& device) {
     const double radius_px = 60;

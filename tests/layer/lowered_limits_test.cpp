@@ -17,7 +17,7 @@ constexpr const char* draws = "--set technique=raycast_fragment";
 struct Lowered {
   const char* change;
   const char* plan;
-  int skipped = 0;          // configurations of the plan that are skipped
+  int skipped = 0;          // number of configurations of the plan that are skipped
   const char* reason = "";  // the reason of each of them
 };
 

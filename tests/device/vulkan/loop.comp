@@ -1,7 +1,7 @@
 #version 450
-// The least that shows whether a device ends loops early: each invocation counts to a number that the
-// compiler cannot know, by at most 1024 passes of a loop within another. Neither is long; a device that
-// counts the passes of both together ends them all the same.
+// The smallest shader that shows whether a device ends loops early. Each invocation counts to a number
+// that the compiler does not know, in an outer loop around an inner loop of at most 1024 iterations.
+// Neither loop is long, but a device that limits the iterations of both together still ends them.
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) readonly buffer In { uint wanted[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer Out { uint counted[]; };

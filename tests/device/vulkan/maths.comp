@@ -1,6 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// The functions of volume_math.h, one vector per invocation; maths_device_test.cpp does the same in C++.
+// Evaluates the functions of volume_math.h for one vector per invocation. maths_device_test.cpp does the
+// same in C++.
 #include "portable/prelude.glsl"
 #include "portable/volume_math.h"
 

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// The functions of volume_math.h in double precision and what they are made of, one vector per invocation;
-// maths_device_test.cpp does the same in C++.
+// Evaluates the functions of volume_math.h in double precision, and the operations that they use, for one
+// vector per invocation. maths_device_test.cpp does the same in C++.
 #define TRI_PRECISION 64
 #include "portable/prelude.glsl"
 #include "portable/volume_math.h"

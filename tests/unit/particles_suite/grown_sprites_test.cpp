@@ -38,7 +38,7 @@ TEST(GrownSprites, OnTheAxisAnEdgeMovesByTheGrowth) {
 
 // At 70° from the axis, lengths in the radial direction cover 1/cos 70° times as many pixels. This
 // makes two edges of the square longer.
-TEST(GrownSprites, AwayFromTheAxisMuchMore) {
+TEST(GrownSprites, AwayFromTheAxisEdgesMoveMuchFurther) {
   const double sideways = 10 * std::tan(70 * std::acos(-1.0) / 180);
   const double near_axis = fragments_of_growth(one(0, 10, 1, 150), 1);
   const double far = fragments_of_growth(one(sideways, 10, 1, 150), 1);

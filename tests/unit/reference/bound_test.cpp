@@ -273,7 +273,7 @@ TEST(Bound, GrowsWithEveryTermOfTheModel) {
 }
 
 // Compares both methods of bounding the corrected opacity with a search through the allowed range.
-TEST(StepOpacity, EncloseEveryAllowedValue) {
+TEST(StepOpacity, EnclosesEveryAllowedValue) {
   for (const double alpha : {1e-6, 0.01, 0.5, 0.99, 1 - 1e-7, 1.0}) {
     for (const double error : {0.0, 1e-8, 1e-4, 0.03}) {
       for (const double steps : {0.1, 0.5, 1.0, 3.0, 40.0}) {
@@ -293,7 +293,7 @@ TEST(StepOpacity, EncloseEveryAllowedValue) {
   }
 }
 
-TEST(StepOpacity, IsThePowerItStandsFor) {
+TEST(StepOpacity, OfOneValueIsCorrectedForTheStep) {
   EXPECT_EQ(step_opacity(0.3, 1.0), 0.3);
   EXPECT_NEAR(step_opacity(0.3, 2.0), 1 - 0.49, 1e-16);
   EXPECT_EQ(step_opacity(1.0, 0.001), 1.0);

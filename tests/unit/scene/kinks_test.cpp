@@ -33,7 +33,7 @@ TEST(Kinks, AStraightFunctionHasThemAtItsEndsOnly) {
   EXPECT_EQ(count(function), 2);
 }
 
-TEST(Kinks, AColourBendsAsMuchAsItShows) {
+TEST(Kinks, ChangesOfNearlyTransparentColoursAreNotKinks) {
   TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) function.entries[k] = {k < 128 ? 0.0F : 1.0F, 0, 0, 1e-6F};
   EXPECT_EQ(count(function), 0);

@@ -70,8 +70,9 @@ double largest_difference(const Light& a, const Light& b) {
   return static_cast<double>(largest);
 }
 
-// For smooth functions, the truncation error is at most (range of colour)·D⁴/635, and far smaller
-// where the colour is smooth. The remaining tolerance is the round-off of a dozen operations.
+// The truncation error is at most (range of colour)·D⁴/635 for optical depth D, and far smaller for
+// the smooth function here. The rest of the tolerance allows for the round-off of a dozen
+// operations.
 TEST(PreintegratedPairs, MatchTheIntegralsBetweenEntries) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {
