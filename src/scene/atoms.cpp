@@ -81,12 +81,12 @@ std::vector<std::uint32_t> sorted_by_number(const Atoms& atoms, const LineReader
     const std::uint32_t second = *std::next(twice);
     reader.reject_at(
         first_line + static_cast<int>(second),
-        fmt::format("atom {} appears twice; expected each number once", number(second)));
+        fmt::format("atom number {} appears twice; atom numbers must be unique", number(second)));
   }
   return sorted;
 }
 
-// Returns the number of atoms of each kind, in the order of the ranks.
+// Returns the number of atoms of each kind, sorted by rank.
 std::vector<ReadFacts::Kind> counted_kinds(const Atoms& atoms) {
   const std::vector<std::size_t> ranks = ranks_of(atoms);
   std::vector<ReadFacts::Kind> kinds(ranks.size());
@@ -116,10 +116,10 @@ ReadFacts facts_of(Atoms& atoms) {
                   .notes = std::move(atoms.notes)};
   if (!atoms.elements || !atoms.radii.empty()) return facts;
   if (const std::string list = without_element(facts.kinds); !list.empty()) {
-    facts.notes.push_back(fmt::format(
-        "{}: these kinds are not chemical elements, so their atoms are drawn with a radius of 2 Å "
-        "and with arbitrary colours",
-        list));
+    facts.notes.push_back(
+        fmt::format("some atoms are not chemical elements ({}); they are drawn with a radius of 2 "
+                    "Å and arbitrary colours",
+                    list));
   }
   return facts;
 }

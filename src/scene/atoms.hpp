@@ -13,9 +13,8 @@
 
 namespace triptych::scene {
 
-// The atoms that a reader of a text format has read: the position of each atom, and its element or
-// type, which determines its radius and colour. `places` and `kinds` have one entry per atom, in
-// file order.
+// The atoms read from a text file: the position of each atom, and its element or type, which
+// determines its radius and colour. `places` and `kinds` have one entry per atom, in file order.
 struct Atoms {
   std::vector<std::array<double, 3>> places;  // in the file's unit
   std::vector<std::uint32_t> kinds;           // indices into kind_names

@@ -27,8 +27,7 @@ constexpr std::array<std::string_view, 16> paths{
     "diagonal_xyz", "diagonal_-xyz", "diagonal_x-yz", "diagonal_xy-z", "path_x",   "path_y",
     "path_z",       "path_sin_x",    "path_sin_y",    "path_sin_z"};
 
-// The box around which all camera paths are laid out, and the quantities that the paths are derived
-// from.
+// The bounding box of the scene, and the quantities derived from it that define all camera paths.
 struct Stage {
   dvec3 centre;
   dvec3 size;
@@ -158,8 +157,8 @@ double coverage(const Stage& stage, const Pose& pose) {
 }
 
 Pose random_view(const Stage& stage, std::uint64_t seed) {
-  // This loop ends soon for any box, because a camera farther away than L/2 + D sees most of the
-  // box.
+  // For any box, this loop needs only a few iterations, because a camera farther away than L/2 + D
+  // sees most of the box.
   core::Random random(seed);
   Pose pose = random_pose(stage, random);
   while (coverage(stage, pose) < random_view_coverage) pose = random_pose(stage, random);
@@ -251,8 +250,8 @@ void require_usable(const Box& box, double fov_y_deg) {
     const double extent = box.hi[axis] - box.lo[axis];
     if (!(extent > 0 && std::isfinite(extent))) {
       throw core::InputError(
-          fmt::format("a camera needs data with a positive, finite extent, but the extent is {} "
-                      "along the {} axis",
+          fmt::format("the extent of the data is {} along the {} axis; a camera requires a "
+                      "positive, finite extent",
                       extent, "xyz"[axis]));
     }
   }

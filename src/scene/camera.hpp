@@ -42,14 +42,14 @@ struct Box {
 //   orbit_x|y|z      a circle of radius L/2 + D about that axis, at the angle 2πλ, looking at c
 //   orbit_-x|-y|-z   the same circle in the opposite direction. The orbits about x and y start on the +z side, those about z on
 //                    the +x side, all with +y up. The up vector turns with the camera, so it is never parallel to the view.
-//   diagonal_xyz     along that diagonal of the box (a minus sign reverses the axis after it). The camera starts at half the
-//   diagonal_-xyz    diagonal's length plus D before c, moves straight towards c, and reaches it at λ = 1.
+//   diagonal_xyz     along that diagonal of the box (a minus sign reverses the axis that follows it). The camera starts half
+//   diagonal_-xyz    the diagonal's length plus D in front of c, moves straight towards c, and reaches c at λ = 1.
 //   diagonal_x-yz, diagonal_xy-z
 //   path_x|y|z       along the axis towards its lower end, looking ahead. The camera starts at half the extent plus D
 //                    from c and reaches c at λ = 1.
-//   path_sin_x|y|z   the same path, displaced along z, x or x, respectively, by ¼ of the box's extent there times sin 2πλ
+//   path_sin_x|y|z   the same path, displaced along z, x or x, respectively, by ¼·sin(2πλ) of the box's extent along that axis
 //   random:SEED      a random direction, roll, distance (0.3…1.2 times L/2 + D) and target (in the middle half of the box).
-//                    They are drawn again until at least the fraction `random_view_coverage` of the centres of the box's 8×8×8
+//                    All are drawn again until at least the fraction `random_view_coverage` of the centres of the box's 8×8×8
 //                    cells lies inside a frustum of aspect ratio 1.
 // clang-format on
 // The near and far planes enclose the part of the box in front of the eye. Equal arguments give

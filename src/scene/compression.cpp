@@ -49,7 +49,7 @@ class Bunzipper {
     while (filled < out.size()) {
       if (!has_input()) {
         if (ended_) break;
-        reject("the data end too early");
+        reject("the data end prematurely");
       }
       if (ended_) {
         BZ2_bzDecompressEnd(&stream_);

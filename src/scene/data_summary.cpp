@@ -13,8 +13,8 @@
 namespace triptych::scene {
 namespace {
 
-// An image made of characters, from blank to dense. A character is about twice as high as it is
-// wide.
+// An ASCII-art image whose characters range from blank to dense. A character cell is about twice as
+// high as it is wide.
 class SmallPicture {
  public:
   // The image has at most as many columns and rows as the grid, so that no cell remains empty.

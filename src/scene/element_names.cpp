@@ -19,7 +19,7 @@ namespace {
 using Names = std::set<std::string, std::less<>>;
 
 // Residues that contain only the elements H, C, N, O, P and S: the PDB's standard residues, and the
-// residues of the force fields AMBER, CHARMM, GROMOS and OPLS as their programs spell them.
+// residues of the force fields AMBER, CHARMM, GROMOS and OPLS in the spelling of their programs.
 constexpr std::string_view organic_residues =
     // amino acids, their protonation states and caps
     "ALA ARG ASN ASP CYS GLN GLU GLY HIS ILE LEU LYS MET PHE PRO SER THR TRP TYR VAL ASX GLX PYL "

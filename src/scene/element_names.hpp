@@ -24,8 +24,8 @@ inline constexpr std::string_view unknown_element = "X";
 // atom's name.
 [[nodiscard]] NamedElement element_of_name(std::string_view atom, std::string_view residue);
 
-// Does the same for the four name columns of a PDB file, in which symbols are right-aligned in
-// columns 13 and 14. In an unknown residue, "CA " is therefore calcium, and " CA " is carbon.
+// Derives the element from the four name columns of a PDB file, in which symbols are right-aligned
+// in columns 13 and 14. In an unknown residue, "CA " is therefore calcium, and " CA " is carbon.
 [[nodiscard]] NamedElement element_of_columns(std::string_view columns, std::string_view residue);
 
 // Returns a temporary kind for an atom whose element the file does not state. name_elements()

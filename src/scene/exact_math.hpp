@@ -16,7 +16,7 @@ namespace triptych::scene {
 // Returns the natural logarithm of a positive, finite number.
 [[nodiscard]] double logarithm(double x);
 
-// Returns ln(1 + x) for x ≥ −1, which is accurate even for small x. Returns −∞ for −1.
+// Returns ln(1 + x) for x ≥ −1, without loss of accuracy for small x. Returns −∞ for x = −1.
 [[nodiscard]] double logarithm_of_1_plus(double x);
 
 }  // namespace triptych::scene

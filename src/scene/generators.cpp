@@ -28,7 +28,8 @@ constexpr ScalarType scalar_type_of() {
   return ScalarType::f32;
 }
 
-// Rounds a value in [0, 1] to the nearest step of an integer type. Floats are not rounded to steps.
+// Quantizes a value in [0, 1] to the full range of an unsigned integer type. Floats are not
+// quantized.
 template <typename T>
 T quantise(double x) {
   if constexpr (std::is_integral_v<T>) {

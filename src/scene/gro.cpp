@@ -70,7 +70,9 @@ void check_box(std::string_view line, const LineReader& reader) {
 ParticleSet read_gro(LineReader& reader, std::uint64_t frame, ColourKind colour) {
   for (std::uint64_t current = 0;; ++current) {
     if (current > 0 && reader.at_end()) {
-      reader.reject(fmt::format("there is no frame {}; the file has {}", frame, current));
+      reader.reject(fmt::format(
+          "there is no frame {}; number of frames in the file: {} (the first is frame 0)", frame,
+          current));
     }
     static_cast<void>(reader.require("a title"));
     const std::uint64_t count =

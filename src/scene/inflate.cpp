@@ -15,10 +15,11 @@
 namespace triptych::scene {
 
 void refuse_unpacked(const std::string& file, std::uint64_t most) {
-  throw core::InputError({.file = file},
-                         fmt::format("unpacks to more than {} bytes; if that is intended, unpack "
-                                     "it first, because uncompressed files have no limit",
-                                     most));
+  throw core::InputError(
+      {.file = file},
+      fmt::format("the file decompresses to more than {} bytes; if this is intended, decompress it "
+                  "first (uncompressed files have no size limit)",
+                  most));
 }
 
 struct Inflater::Stream {
@@ -49,7 +50,7 @@ struct Inflater::Stream {
   void drop_padding() {
     bool padded = false;
     for (; has_input() && *zlib.next_in == 0; ++zlib.next_in, --zlib.avail_in) padded = true;
-    if (padded && has_input()) reject("other data follow the padding of zero bytes");
+    if (padded && has_input()) reject("the zero padding is followed by other data");
   }
 
   void step() {
@@ -84,7 +85,7 @@ std::size_t Inflater::read(std::span<std::byte> out) {
     if (stream_->ended) stream_->drop_padding();
     if (!stream_->has_input()) {
       if (stream_->ended) break;
-      stream_->reject("the data end too early");
+      stream_->reject("the data end prematurely");
     }
     const auto piece = static_cast<uInt>(
         std::min<std::size_t>(out.size() - filled, std::numeric_limits<uInt>::max()));

@@ -9,7 +9,7 @@ namespace triptych::scene {
 // Reads one frame of a LAMMPS dump with named columns. Positions are read from x y z, or else from
 // the unwrapped columns xu yu zu, or else from the scaled columns xs ys zs or xsu ysu zsu. An
 // atom's radius is read from the file (as radius, or as half the diameter), or else it is derived
-// from the element, or else from the type. If there are ids, the atoms are sorted by id. Throws
+// from the element, or else from the type. If the file has ids, the atoms are sorted by id. Throws
 // InputError with file and line.
 [[nodiscard]] ParticleSet read_lammps_dump(LineReader& reader, std::uint64_t frame,
                                            ColourKind colour);

@@ -79,8 +79,8 @@ const Style& guessed_style(const Words& words, const LineReader& reader) {
   if (atomic.has_flags(words.size()) && are_whole(words, atomic.flags())) {
     if (!are_whole(words, atomic.place)) return atomic;
     reader.reject(
-        "the last 3 of the 8 whole numbers could be image flags (style atomic) or the position "
-        "(style electron and others); expected a comment that names the style, such as 'Atoms # "
+        "the last 3 of the 8 columns could be image flags (style atomic) or the position (style "
+        "electron or line); expected a comment that names the style, such as 'Atoms # "
         "atomic'");
   }
   reader.reject(
@@ -108,8 +108,9 @@ std::string_view find_atoms(LineReader& reader, std::optional<std::uint64_t>& co
 
 void add_data_atom(Atoms& atoms, const Words& words, const Style& style, const LineReader& reader) {
   if (!style.fits(words.size())) {
-    reader.reject(fmt::format("expected {} columns, or {} with image flags (style {}), found {}",
-                              style.flags(), style.flags() + 3, style.name, words.size()));
+    reader.reject(
+        fmt::format("expected {} columns, or {} with image flags, for the style {}; found {}",
+                    style.flags(), style.flags() + 3, style.name, words.size()));
   }
   atoms.order.push_back(reader.integer(words[0], "id"));
   atoms.add({reader.number(words[style.place], "x"), reader.number(words[style.place + 1], "y"),
@@ -130,7 +131,8 @@ void add_data_atom(Atoms& atoms, const Words& words, const Style& style, const L
 }  // namespace
 
 ParticleSet read_lammps_data(LineReader& reader, std::uint64_t frame, ColourKind colour) {
-  if (frame > 0) reader.reject(fmt::format("there is no frame {}; the file has 1", frame));
+  if (frame > 0)
+    reader.reject(fmt::format("there is no frame {}; a LAMMPS data file has only frame 0", frame));
   std::optional<std::uint64_t> count;
   const std::string_view comment = find_atoms(reader, count);
   if (!count) reader.reject("expected 'N atoms' before the section Atoms");

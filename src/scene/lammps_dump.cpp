@@ -168,7 +168,9 @@ class RowReader {
 ParticleSet read_lammps_dump(LineReader& reader, std::uint64_t frame, ColourKind colour) {
   for (std::uint64_t current = 0;; ++current) {
     if (current > 0 && reader.at_end()) {
-      reader.reject(fmt::format("there is no frame {}; the file has {}", frame, current));
+      reader.reject(fmt::format(
+          "there is no frame {}; number of frames in the file: {} (the first is frame 0)", frame,
+          current));
     }
     Frame header;
     const std::string_view names = read_headers(reader, header);

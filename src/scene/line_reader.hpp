@@ -57,7 +57,7 @@ class LineReader {
   ProgressSteps progress_;
 };
 
-// Does the same as split_words(), but into a vector that can be reused.
+// Like split_words(), but writes the words to a vector that the caller can reuse.
 void split_words_into(std::string_view text, std::vector<std::string_view>& words);
 
 }  // namespace triptych::scene

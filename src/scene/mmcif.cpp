@@ -191,7 +191,9 @@ class AtomRows {
       reader_.reject(fmt::format("expected rows of {}, found none", category));
     }
     if (frame_ >= models_.size()) {
-      reader_.reject(fmt::format("there is no frame {}; the file has {}", frame_, models_.size()));
+      reader_.reject(fmt::format(
+          "there is no frame {}; number of frames in the file: {} (the first is frame 0)", frame_,
+          models_.size()));
     }
     name_elements(atoms_);
     return std::move(atoms_);
@@ -293,8 +295,8 @@ class ClosingMarks {
     if (tokens.peek() || tokens.marks_before() > 0 || !closes_heading_ || closed_ == 0) return;
     if (closed_ >= enough) reader.reject("the file ends here, where '#' was expected");
     atoms.notes.emplace_back(
-        "other sections of the file end with '#', but the section of the atoms does not; if the "
-        "file was cut off, atoms are missing");
+        "other sections of the file end with '#', but the atom section does not; the file may be "
+        "truncated, in which case atoms are missing");
   }
 
  private:
@@ -304,7 +306,8 @@ class ClosingMarks {
   std::uint64_t closed_ = 0;
 };
 
-// Describes the content of a file without atoms, as far as the tag of one of its loops reveals it.
+// Describes the content of a file without atoms, if the tag of one of its loops reveals the
+// content. Otherwise returns an empty string.
 std::string_view other_content(std::string_view tag) {
   if (tag.starts_with("_chem_comp_atom.")) {
     return "the file describes a chemical component (_chem_comp_atom), not a structure";

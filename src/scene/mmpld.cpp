@@ -153,7 +153,9 @@ std::uint64_t find_frame(Bytes& bytes, std::uint64_t frame, int& version) {
   const std::uint64_t table = bytes.at();
   const auto offsets = bytes.take_many(std::uint64_t{frames} + 1, 8, "the table of frames");
   if (frame >= frames) {
-    bytes.reject(fmt::format("there is no frame {}; the file has {}", frame, frames));
+    bytes.reject(
+        fmt::format("there is no frame {}; number of frames in the file: {} (the first is frame 0)",
+                    frame, frames));
   }
   std::array<std::uint64_t, 2> range{};
   std::memcpy(range.data(), offsets.data() + frame * 8, sizeof(range));
@@ -255,7 +257,7 @@ ParticleSet read_mmpld(std::span<const char> content, const std::string& file, s
   }
   if (bytes.at() != end) {
     bytes.reject(
-        fmt::format("expected the frame's end at byte {}, as the table of frames states", end));
+        fmt::format("expected the frame to end at byte {}, as stated in the table of frames", end));
   }
   if (total == 0) bytes.reject("expected particles, found none");
   if (total > most_particles) {

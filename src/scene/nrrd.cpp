@@ -60,7 +60,7 @@ bool parse_big_endian(const Header& header, const RawVoxels& source) {
   if (field == nullptr) {
     if (bytes_of(source.layout.type) == 1 || source.encoding == RawEncoding::text) return false;
     throw core::InputError(header.require("type").place,
-                           "values with more than one byte need the field 'endian'");
+                           "multi-byte values require the field 'endian'");
   }
   const std::string name = lower_case(field->value);
   if (name == "little") return false;

@@ -147,8 +147,8 @@ std::optional<Vector> spacing_of_ends(const Header& header, const std::array<int
     if (steps == 0) {
       throw core::InputError(
           highest->place,
-          fmt::format("axis {} has a single node-centred sample, so its ends do not determine a "
-                      "spacing; expected the field 'spacings'",
+          fmt::format("axis {} has a single node-centred sample, so the spacing does not follow "
+                      "from the ends of the axis; expected the field 'spacings'",
                       i));
     }
     spacing.at(i) = usable_spacing(length / steps, size.at(i), highest->place);
@@ -179,8 +179,8 @@ bool is_space(std::string_view kind) {
   return name == "domain" || name == "space" || name == "none" || name == "???";
 }
 
-// Rejects colours or vectors along one of three axes, because they would be drawn as if they were
-// positions in space.
+// Rejects a file with three axes if one of them is not spatial, because its colours or vector
+// components would be drawn as if they were positions in space.
 void require_places(const Field& kinds) {
   const auto words = split_words(kinds.value);
   if (words.size() != 3) {

@@ -103,7 +103,8 @@ std::optional<std::vector<std::string>> files_of_pattern(std::string_view value,
   return names;
 }
 
-// Finds the files that the field names, in this order.
+// Finds the files that are named by the field 'data file', and adds them to `source` in the same
+// order.
 void locate_files(const Header& header, const Field& data, const std::filesystem::path& file,
                   RawVoxels& source) {
   std::vector<Field> named;

@@ -1,5 +1,5 @@
 #pragma once
-// The colours of particles, in each of the forms that a particle set can contain.
+// Particle colours, in each of the formats that a particle set can store (ColourKind).
 
 #include <array>
 #include <cstdint>
@@ -18,11 +18,11 @@ using Rgb = std::array<double, 3>;  // not premultiplied; each channel is in [0,
 // Returns the colour for a hue in turns, 0 ≤ hue ≤ 1. The hue 0 is red, ⅓ is green and ⅔ is blue.
 [[nodiscard]] Rgb hue_colour(double hue, double saturation = 0.75);
 
-// Appends the colour of the most recently appended particle, as the set's kind of colour. The
+// Appends the colour of the most recently appended particle, in the set's colour format. The
 // intensity is clamped to [0, 1].
 void append_colour(ParticleSet& set, const Rgb& rgb, double intensity);
 
-// Reserves memory for `count` particles in the arrays that the set's kind of colour uses.
+// Reserves memory for `count` particles in the arrays that the set's colour format uses.
 void reserve(ParticleSet& set, std::size_t count);
 
 }  // namespace triptych::scene

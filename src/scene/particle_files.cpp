@@ -79,7 +79,7 @@ std::string_view start_of(std::span<const char> content) {
   return {content.data(), std::min(content.size(), enough)};
 }
 
-// Converts lines that end with a single CR, which old Macintosh programs wrote.
+// Converts lines that end with a single CR, as written by old Macintosh programs.
 void end_lines_with_lf(std::vector<char>& content) {
   const bool has_lf = std::ranges::find(content, '\n') != content.end();
   if (!has_lf) std::ranges::replace(content, '\r', '\n');
@@ -128,7 +128,7 @@ ParticleSet load_particles(std::string_view data, ColourKind colour,
     throw core::InputError(
         {.file = source->file.string()},
         fmt::format(
-            "none of its {} particles can be drawn; expected finite positions and a radius above 0",
+            "none of the {} particles can be drawn; expected finite positions and radii above 0",
             set.dropped));
   }
   set.name = data;

@@ -27,8 +27,8 @@ double cube_root(double x) {
   return exponential(logarithm(x) / 3);
 }
 
-// Returns the radius at which the volumes of `count` spheres add up to the fraction `filling` of a
-// volume. Overlaps are counted twice.
+// Returns the radius at which the volumes of `count` equal spheres add up to `filling` times
+// `volume`. Volume that spheres share is counted once per sphere.
 double filling_radius(double filling, double volume, double count) {
   return cube_root(filling * volume / count * 3 / (4 * std::numbers::pi));
 }
@@ -53,8 +53,8 @@ glm::dvec3 place_in_box(core::Random& random, const Box& box) {
   return place;
 }
 
-// A set that is being generated. Colours have a random sequence of their own, so that positions do
-// not depend on the kind of colour.
+// A set that is being generated. Colours use their own random sequence, so that positions do not
+// depend on the colour format.
 class Maker {
  public:
   Maker(std::uint64_t count, ColourKind colour, const Progress& progress)

@@ -29,8 +29,8 @@ enum class ColourKind : std::uint8_t {
 struct ParticleSet {
   std::string name;  // the `data` factor: a file name or generate:NAME:COUNT
   std::vector<std::array<float, 4>> spheres;  // centre x, y, z and radius in world units
-  std::vector<std::uint32_t> ids;  // index in the file, counted from 0 and including dropped
-                                   // particles; ascending unless the set was permuted
+  std::vector<std::uint32_t> ids;  // 0-based index in the file, which counts dropped particles;
+                                   // ascending unless the set was permuted
   ColourKind colour = ColourKind::rgba8;
   // Only the array that `colour` names is filled. Colours are not premultiplied. Alpha is not used,
   // because spheres are opaque.
@@ -63,18 +63,18 @@ using Progress = std::function<void(double share)>;
 
 // Loads particles. `data` has the same form as in a plan: "generate:NAME:COUNT"
 // (scene/particle_generators.hpp), or a file in one of the formats in scene/particle_formats.hpp,
-// which may be compressed with gzip or bzip2. "FILE@K" selects the K-th frame of a trajectory,
-// counted from 0. The default is the first frame. A relative file name is first looked up in the
-// working directory, and then in each of `folders`.
+// which may be compressed with gzip or bzip2. "FILE@K" selects frame K of a trajectory (0-based).
+// The default is the first frame. A relative file name is first looked up in the working directory,
+// and then in each of `folders`.
 //
 // Radii are taken from the file if it has them (MMPLD, PQR, LAMMPS `radius`). Otherwise they are
 // the van der Waals radii of the elements (Bondi 1964; 2.0 Å for elements not listed there), in the
-// file's unit of length. LAMMPS types without elements get half the median distance between nearest
-// neighbours. Colours are taken from the file if it has them (MMPLD); otherwise there is one colour
-// per element or type. Intensities are taken from the file if it has them. Otherwise the intensity
-// is the index of the element or type in the list of those in the file, divided by their number. If
-// there is only one element or type, it is the rank of the particle divided by the number of
-// particles.
+// file's unit of length. LAMMPS types without elements get a radius of half the median distance
+// between nearest neighbours. Colours are taken from the file if it has them (MMPLD); otherwise
+// there is one colour per element or type. Intensities are taken from the file if it has them.
+// Otherwise a particle's intensity is the index of its element or type in the list of all n
+// elements or types in the file, divided by n. If there is only one element or type, the intensity
+// is the particle's rank divided by the number of particles.
 //
 // Throws InputError with the file, the line and what was expected there. Also throws InputError for
 // an empty file, and for a file all of whose particles are dropped. Throws IoError if the file does

@@ -21,8 +21,8 @@ bool is_letter_of_pdb(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-// Returns the given range of columns. Columns are counted from 1 as in the specification, and both
-// ends are included.
+// Returns the columns `first` to `last` of a line. As in the specification, columns are 1-based and
+// the range includes both ends.
 std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
   return line.size() < first ? std::string_view{} : line.substr(first - 1, last - first + 1);
 }
@@ -39,8 +39,8 @@ std::string letters_of_name(std::string_view name) {
 }
 
 // Returns the symbol in columns 77 and 78, or an empty string if there is none. Older files have
-// other text in these columns, such as the end of a segment's name: the "RA" of "MEMBRANE" does not
-// mean radium.
+// other text in these columns. For example, the "RA" of the segment name "MEMBRANE" does not mean
+// radium.
 std::string symbol_in_columns(std::string_view line) {
   const std::string_view field = columns(line, 77, 78);
   const std::string_view symbol = trimmed(field);
@@ -123,7 +123,7 @@ class PdbFrames {
  public:
   explicit PdbFrames(const LineReader& reader) : reader_(reader) {}
 
-  // Is called for each atom. Returns the index of the atom's frame.
+  // Must be called once for each atom. Returns the index of the atom's frame.
   std::uint64_t atom() {
     if (has_models_ && !in_model_) reader_.reject("expected MODEL before further atoms");
     if (!in_model_ && (count_ == 0 || closed_)) ++count_;
@@ -184,8 +184,9 @@ ParticleSet read_pdb(LineReader& reader, std::uint64_t frame, ColourKind colour)
   }
   frames.finish();
   if (frame > 0 && frame >= frames.count()) {
-    reader.reject(fmt::format("there is no frame {}; the file has {}", frame,
-                              std::max<std::uint64_t>(frames.count(), 1)));
+    reader.reject(
+        fmt::format("there is no frame {}; number of frames in the file: {} (the first is frame 0)",
+                    frame, std::max<std::uint64_t>(frames.count(), 1)));
   }
   if (atoms.places.empty()) reader.reject("expected ATOM or HETATM records, found none");
   name_elements(atoms, true);

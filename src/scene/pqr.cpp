@@ -49,7 +49,9 @@ ParticleSet read_pqr(LineReader& reader, std::uint64_t frame, ColourKind colour)
     }
   }
   if (frame > 0 && frame >= frames) {
-    reader.reject(fmt::format("there is no frame {}; the file has {}", frame, frames));
+    reader.reject(
+        fmt::format("there is no frame {}; number of frames in the file: {} (the first is frame 0)",
+                    frame, frames));
   }
   if (atoms.places.empty()) reader.reject("expected ATOM or HETATM records, found none");
   name_elements(atoms);

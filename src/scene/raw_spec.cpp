@@ -112,8 +112,8 @@ Volume read_raw(const RawSpec& spec, const std::filesystem::path& file,
   Volume volume;
   volume.size = spec.size;
   volume.spacing = spec.spacing;
-  // Any bytes may be voxels, so the content does not reveal whether the file is compressed. The
-  // file is checked for compression only if its name ends in .gz or .bz2.
+  // Raw voxels may happen to begin with the same bytes as a compressed file. Therefore the file is
+  // checked for compression only if its name ends in .gz or .bz2.
   const bool packed = file.extension() == ".gz" || file.extension() == ".bz2";
   read_voxels(volume, {.file = file,
                        .packing = packed ? packing_of_file(file) : Packing::none,

@@ -376,8 +376,8 @@ double usable_spacing(double spacing, int size, const core::FilePlace& place) {
   }
   if (spacing < shortest || spacing * size > longest) {
     throw core::InputError(place,
-                           fmt::format("spacing {} along {} voxels; expected a spacing and an axis length "
-                                       "from {} to {}, which single precision can hold",
+                           fmt::format("spacing {} along {} voxels; expected a spacing and an axis "
+                                       "length from {} to {}, as required by single precision",
                                        spacing, size, shortest, longest));
   }
   return spacing;

@@ -1,6 +1,5 @@
 #pragma once
-// Reads the voxels that a header describes into a volume. The voxels may be encoded in one of
-// several ways.
+// Reads the voxels that a header describes into a volume, and decodes them if necessary.
 
 #include <cstdint>
 #include <filesystem>
@@ -22,8 +21,8 @@ struct RawVoxels {
   std::filesystem::path file;
   // Further files with voxels that follow those in `file`. Each contains as many voxels as `file`.
   std::vector<std::filesystem::path> more_files = {};
-  Packing packing = Packing::none;  // of the file; `start` counts decompressed bytes
-  std::uint64_t start = 0;          // where the data begin, including bytes to skip
+  Packing packing = Packing::none;  // compression of the file
+  std::uint64_t start = 0;  // offset of the data in the decompressed file, before any bytes to skip
   // The number of bytes to skip before the voxels in the decoded stream. at_end means that the
   // voxels are the last bytes of the stream.
   std::int64_t skip = 0;
@@ -42,8 +41,8 @@ struct RawVoxels {
 // damaged, and IoError if the file cannot be read.
 void read_voxels(Volume& volume, const RawVoxels& source);
 
-// Does the same for values that are already decoded. More values may follow them. Reads at most
-// most_unpacked_bytes.
+// Like read_voxels(), but reads values that are already decoded, and allows further data after
+// them. Throws InputError if the volume needs more than most_unpacked_bytes.
 void read_stream(Volume& volume, const ValueLayout& layout, const Component& component,
                  const ByteSource& values, const std::filesystem::path& file);
 

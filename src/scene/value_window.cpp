@@ -37,8 +37,8 @@ std::string text_of(const Range& range) {
   return fmt::format("{}..{}", range.lo, range.hi);
 }
 
-// Selects the values of a volume that count. These are the finite values, and for a logarithmic
-// mapping only the positive ones.
+// The values of a volume that are used to determine ranges and percentiles. These are the finite
+// values or, for a logarithmic mapping, the positive finite values.
 template <typename Scalar>
 class Counted {
  public:
@@ -97,8 +97,8 @@ Range range_of(const Window& window, Counted<Scalar>& counted, const std::string
   const Range range{end(window.lo), end(window.hi)};
   if (range.lo < range.hi) return range;
   throw core::InputError(
-      fmt::format("{}: the window {} of values {} is empty; choose percentiles that are farther "
-                  "apart, or choose numbers",
+      fmt::format("{}: the window {} is empty (the values range over {}); choose percentiles that "
+                  "are farther apart, or state the ends as numbers",
                   name, text_of(range), text_of(counted.range())));
 }
 
@@ -112,7 +112,7 @@ void set_window_of(Volume& volume, const std::optional<Window>& window, Mapping 
   if (mapping == Mapping::logarithmic && !(range.lo > 0)) {
     throw core::InputError(
         fmt::format("{}: with mapping=log, a window cannot begin at {}; choose a lower end above 0 "
-                    "(the values above 0 are in {})",
+                    "(the positive values range over {})",
                     volume.name, range.lo, text_of(there)));
   }
   volume.range_lo = range.lo;

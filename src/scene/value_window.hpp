@@ -31,13 +31,14 @@ struct Window {
 // Parses "linear" or "log". Throws InputError for any other name.
 [[nodiscard]] Mapping mapping(std::string_view name);
 
-// Sets the values that encode() maps to 0 and to 1, and the kind of mapping. Each voxel outside the
-// window is clamped to the window's ends before anything is interpolated. The percentile pN is the
-// smallest value for which at least N % of the voxels are not larger (nearest rank). Values that
-// are not finite do not count. With a logarithmic mapping, only positive values count, and the full
-// range begins at the smallest of them. The full range with a linear mapping leaves the volume
-// unchanged. Throws InputError if no value counts, if the window's lower end is not below its upper
-// end for these voxels, or if the mapping is logarithmic and the window does not begin above 0.
+// Sets the values that encode() maps to 0 and 1, and whether the mapping is linear or logarithmic.
+// Each voxel outside the window is clamped to the window's ends before anything is interpolated.
+// The percentile pN is the smallest value for which at least N % of the voxels are not larger
+// (nearest rank). Values that are not finite are ignored. With a logarithmic mapping, only positive
+// values are used, and the full range begins at the smallest positive value. The full range with a
+// linear mapping leaves the volume unchanged. Throws InputError if there are no usable values, if
+// the window's lower end is not below its upper end for these voxels, or if the mapping is
+// logarithmic and the window does not begin above 0.
 void set_window(Volume& volume, const std::optional<Window>& window, Mapping mapping);
 
 }  // namespace triptych::scene

@@ -1,6 +1,5 @@
 #pragma once
-// Volumes from a file or a generator (Volume), and the form in which they are uploaded to a device
-// (VoxelGrid).
+// Volumes as read from a file or generated (Volume), and as uploaded to a device (VoxelGrid).
 
 #include <array>
 #include <cstddef>
@@ -41,7 +40,7 @@ struct Volume {
   double range_hi = 1;
   Mapping mapping = Mapping::linear;
   bool clipped = false;  // some values are outside the range (see set_window())
-  ReadFacts facts;       // about the file
+  ReadFacts facts;       // facts about the file
 
   [[nodiscard]] std::size_t voxel_count() const noexcept;
   // Returns a value as stored in the file, which may be NaN or infinite.
@@ -57,8 +56,7 @@ enum class VoxelFormat : std::uint8_t { u8, u16, f32, f16 };
 // contain the stored value itself.
 [[nodiscard]] double largest_stored(VoxelFormat format);
 
-// Voxels in the form in which they are uploaded to a device. The normalised value, 0..1 over the
-// range, is
+// Voxels as uploaded to a device. The normalised value, which is 0..1 over the range, is
 //   x = stored·scale + offset     (stored: the integer, or the float itself)
 // - u8 and u16 store 8-bit and 16-bit integer files exactly, regardless of their range.
 // - f32 stores x itself, clamped to [0, 1], with NaN as 0.
@@ -75,7 +73,7 @@ struct VoxelGrid {
   double offset = 0;
   double range_lo = 0;
   double range_hi = 1;
-  Mapping mapping = Mapping::linear;  // of the values; `stored` is always mapped linearly
+  Mapping mapping = Mapping::linear;  // how values are mapped to x; x is always linear in `stored`
   std::string name;
   std::string hash;  // content hash of the voxels and how they are mapped to x
 
@@ -95,14 +93,14 @@ struct VoxelGrid {
 // lower end has been subtracted.
 [[nodiscard]] bool fits_halves(const Volume& volume);
 
-// Converts the volume to a format. If the format is too small, values are rounded to its steps over
-// the range. If the volume's type already has the representation of the format, its voxels are
-// moved, so that only one copy exists in memory.
+// Converts the volume to a format. If the format cannot represent the values exactly, they are
+// quantized over the range. If the volume's type already has the representation of the format, its
+// voxels are moved, so that only one copy exists in memory.
 [[nodiscard]] VoxelGrid encode(Volume&& volume, VoxelFormat format);
 
 // The value that is drawn for voxels with several values: the levels of the factor `component`.
 struct Component {
-  std::uint64_t index = 0;  // counted from 0
+  std::uint64_t index = 0;  // 0-based
   bool magnitude = false;   // draw the Euclidean length of all values instead
 };
 // Parses a level such as "2" or "magnitude". Throws InputError.

@@ -72,8 +72,8 @@ Component parse_component(std::string_view text) {
   if (text == "magnitude") return {.magnitude = true};
   const auto index = parse_number<std::uint64_t>(text);
   if (!index) {
-    throw core::InputError(fmt::format(
-        "component '{}': expected a number counted from 0, or magnitude", quotable(text)));
+    throw core::InputError(
+        fmt::format("component '{}': expected a 0-based index or 'magnitude'", quotable(text)));
   }
   return {.index = *index};
 }

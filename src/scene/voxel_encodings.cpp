@@ -15,7 +15,7 @@
 namespace triptych::scene {
 namespace {
 
-// Returns the characters of a source one by one.
+// Reads a source character by character.
 class Letters {
  public:
   explicit Letters(ByteSource source) : source_(std::move(source)) {}

@@ -8,8 +8,8 @@
 
 namespace triptych::scene {
 
-// Each function throws InputError with the file's name if its input has another form. Reading stops
-// at the end of the input.
+// Each function throws InputError with the file's name if its input is not in the expected
+// encoding, and stops at the end of the input.
 
 // Reads two hexadecimal digits per byte. White space is allowed anywhere.
 [[nodiscard]] ByteSource hex_bytes(ByteSource source, std::string file);

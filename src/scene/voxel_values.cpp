@@ -255,7 +255,7 @@ void check_component(const Component& component, std::uint64_t components,
   if (component.magnitude || component.index < components) return;
   throw core::InputError(
       {.file = file.string()},
-      fmt::format("the file has {} value{} per voxel; component {} (counted from 0) does not exist",
+      fmt::format("the file has {} value{} per voxel; component {} (0-based) does not exist",
                   components, components == 1 ? "" : "s", component.index));
 }
 

@@ -18,7 +18,7 @@ namespace triptych::scene {
 enum class StoredType : std::uint8_t { u8, i8, u16, i16, u32, i32, u64, i64, f32, f64 };
 [[nodiscard]] std::size_t bytes_of(StoredType type);
 [[nodiscard]] std::string_view name_of(StoredType type);
-// Returns the type of voxels that stores these values unchanged, or nullopt if there is none.
+// Returns the voxel type that stores these values unchanged, or nullopt if there is none.
 [[nodiscard]] std::optional<ScalarType> same_type(StoredType type);
 
 // The order of the values in a file. In each component, x varies fastest.

@@ -36,7 +36,8 @@ struct VtiFile {
   XmlTag image;
   std::vector<XmlTag> pieces;
   std::vector<VtiArray> arrays;
-  std::array<std::string, 2> active;  // names of the arrays declared as scalars of points and of cells
+  // The names of the arrays that are declared as point scalars and as cell scalars.
+  std::array<std::string, 2> active;
   std::optional<XmlTag> appended;
   std::uint64_t appended_start = 0;  // the position after the '_'
 
@@ -100,8 +101,8 @@ VtiFile read_tags(const std::filesystem::path& file) {
   return vti;
 }
 
-// Returns the array to draw: the scalars of the points, or else the scalars of the cells, or else
-// the first array of the points, or else the first array of the cells.
+// Returns the array to draw: the point scalars, or else the cell scalars, or else the first point
+// array, or else the first cell array.
 const VtiArray& chosen_array(const VtiFile& vti) {
   for (const bool by_name : {true, false}) {
     for (const bool of_cells : {false, true}) {
@@ -254,7 +255,7 @@ class ZlibBlocks {
                          size));
     }
     input_.resize(static_cast<std::size_t>(packed_size));
-    if (source_(input_) != input_.size()) reject("the data end too early");
+    if (source_(input_) != input_.size()) reject("the data end prematurely");
     block_.resize(static_cast<std::size_t>(size));
     auto unpacked = static_cast<uLongf>(size);
     const int code =

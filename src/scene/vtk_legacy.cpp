@@ -25,8 +25,8 @@ class VtkLines {
   explicit VtkLines(const std::filesystem::path& file)
       : file_(file.string()), text_(content_start(file, longest_vtk_header)), rest_(text_) {}
 
-  // Returns the next line that is not blank. If there is none, throws InputError that says what was
-  // expected.
+  // Returns the next line that is not blank. If there is none, throws an InputError whose message
+  // contains `expected`.
   std::string_view next(std::string_view expected) {
     for (;;) {
       if (rest_.empty()) {
@@ -205,8 +205,9 @@ Volume read_vtk(const std::filesystem::path& file, const Component& component) {
   if (static_cast<std::uint64_t>(volume.size[0]) * static_cast<std::uint64_t>(volume.size[1]) >
           count ||
       volume.voxel_count() != count) {
-    lines.reject(fmt::format("the file has {} values, but {} x {} x {} voxels", count, volume.size[0],
-                             volume.size[1], volume.size[2]));
+    lines.reject(fmt::format(
+        "the file declares {} values for {} x {} x {} voxels; expected one value per voxel", count,
+        volume.size[0], volume.size[1], volume.size[2]));
   }
   RawVoxels source;
   source.layout = take_array(lines, header);

@@ -117,8 +117,8 @@ void add_xyz_atom(Atoms& atoms, const std::vector<std::string_view>& words,
                   const XyzColumns& columns, const LineReader& reader) {
   if (!columns.count && words.size() < 4) reader.reject("expected an element, x, y and z");
   if (columns.count && words.size() != *columns.count) {
-    reader.reject(fmt::format("expected {} columns, as Properties states, found {}", *columns.count,
-                              words.size()));
+    reader.reject(fmt::format("expected {} columns, as declared by Properties, found {}",
+                              *columns.count, words.size()));
   }
   const std::string_view word = words[columns.element];
   if (const auto number = parse_number<int>(word)) {
@@ -202,11 +202,11 @@ void check_what_follows(LineReader& reader) {
   const auto smiles = reader.next();
   const auto inchi = reader.next();
   if (smiles && inchi && inchi->starts_with("InChI=") && reader.at_end()) return;
-  reader.reject_at(number,
-                   fmt::format("expected the end of the file or the next frame's number of "
-                               "atoms, found '{}'; the file has more lines than the number of "
-                               "atoms states",
-                               quotable(trimmed(line))));
+  reader.reject_at(
+      number,
+      fmt::format("expected the end of the file or the next frame's number of "
+                  "atoms, found '{}'; the frame has more lines than its number of atoms requires",
+                  quotable(trimmed(line))));
 }
 
 }  // namespace
@@ -215,7 +215,9 @@ ParticleSet read_xyz(LineReader& reader, std::uint64_t frame, ColourKind colour)
   std::vector<std::string_view> words;
   for (std::uint64_t current = 0;; ++current) {
     if (current > 0 && reader.at_end()) {
-      reader.reject(fmt::format("there is no frame {}; the file has {}", frame, current));
+      reader.reject(fmt::format(
+          "there is no frame {}; number of frames in the file: {} (the first is frame 0)", frame,
+          current));
     }
     const std::uint64_t count =
         reader.count(reader.require("the number of atoms"), "the number of atoms");

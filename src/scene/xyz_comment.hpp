@@ -12,9 +12,9 @@ namespace triptych::scene {
 struct XyzComment {
   // The value of the key `Properties` (in upper or lower case), or nullopt if there is no such key.
   std::optional<std::string> properties;
-  // The reason why the comment is not valid extended XYZ, if it contains "Properties=" and was
-  // therefore probably meant to be: a quote or bracket is never closed, or the key appears twice.
-  // Otherwise empty.
+  // The reason why the comment is not valid extended XYZ: a quote or bracket is never closed, or
+  // the key `Properties` appears twice. Empty if the comment is valid, or if it does not contain
+  // "Properties=" (a plain XYZ file may have any comment).
   std::string error;
 };
 

@@ -256,18 +256,21 @@ TEST(Nrrd, BrokenHeadersAreReportedWithTheirLine) {
       {with_line("spacings: 1 1e-31 1"), ":3: spacing 1e-31 along 1 voxels; expected"},
       {with_line("spacings: 1e31 1 1"), ":3: spacing 1e+31 along 2 voxels; expected"},
       {with_line("spacings: 0.7e30 1 1"), ":3: spacing 7e+29 along 2 voxels; expected"},
-      {with_line("space directions: (0.7e30,0,0) (0,1,0) (0,0,1)"), ":3: spacing 7e+29 along 2 vox"},
+      {with_line("space directions: (0.7e30,0,0) (0,1,0) (0,0,1)"),
+       ":3: spacing 7e+29 along 2 vox"},
       {with_line("spacings: 1 1"), ":3: expected 3 spacings, got 2"},
       {with_line("spacings: 1 1 one"), ":3: spacing 'one'"},
       {with_line("space directions: (1,0,0) (0,1,0)"), ":3: expected three vectors"},
       {with_line("space directions: none (0,1,0) (0,0,1)"), ":3: expected three vectors"},
-      {with_line("space directions: (1,0) (0,1) (1,1)"), ":3: the vector has 2 numbers; expected 3"},
+      {with_line("space directions: (1,0) (0,1) (1,1)"),
+       ":3: the vector has 2 numbers; expected 3"},
       {with_line("space directions: (1,0,0) (0,1,0) (0,0,nan)"), ":3: 'nan'; expected a finite"},
       {with_line("space directions: (1,0,0) (0,0,0) (0,0,1)"), ":3: spacing 0"},
       {with_line("space directions: (1,0,0) (1,1,0) (0,0,1)"), ":3: axes 0 and 1 are not perpend"},
       {with_line("space directions: (1,0,0) (0,1,0) (0,0,1) 4"), ":3: unexpected ' 4'"},
       {with_line("kinds: RGB-color domain domain"), ":3: kind 'RGB-color' of axis 0; expected"},
-      {with_line("kinds: domain domain scalar"), ":3: the kind 'scalar' of axis 2 is not spatial; expected domain"},
+      {with_line("kinds: domain domain scalar"),
+       ":3: the kind 'scalar' of axis 2 is not spatial; expected domain"},
       {with_line("kinds: domain domain"), ":3: expected 3 kinds, got 2"},
       {with_line("encoding: xz"), ":3: encoding 'xz' is not supported; expected raw, gzip, bzip2"},
       {with_line("dimension: 4"), ":5: expected 4 sizes, got 3"},
@@ -302,7 +305,7 @@ TEST(Nrrd, BrokenHeadersAreReportedWithTheirLine) {
       {minimal + "axis mins: 0 0 0\naxis maxs: 1 1 1\ncenterings: node node cell\n\nAB",
        ":7: axis 1 has a single node-centred sample"},
       {"NRRD0004\ntype: float\ndimension: 3\nsizes: 1 1 1\nencoding: raw\n\n....",
-       ":2: values with more than one byte need the field 'endian'"},
+       ":2: multi-byte values require the field 'endian'"},
       {"NRRD0004\ntype: float\ndimension: 3\nsizes: 1 1 1\nencoding: raw\nendian: up\n\n....",
        ":6: the byte order 'up' is unknown; expected little or big"},
       {minimal, ":5: the header ends without the blank line before the data"},
@@ -376,7 +379,7 @@ TEST(Nrrd, UnpackingIsLimited) {
   header.replace(header.find("raw"), 3, "gzip");
   header.replace(header.find("2 1 1"), 5, "1024 1024 1025");
   expect_rejected({{header + "\n" + std::string(std::size_t{2} << 20, 'x'),
-                    ": unpacks to more than 1073741824 bytes"}});
+                    ": the file decompresses to more than 1073741824 bytes"}});
 }
 
 TEST(Nrrd, BrokenGzipStreamsAreBadInput) {
@@ -388,13 +391,13 @@ TEST(Nrrd, BrokenGzipStreamsAreBadInput) {
   bad_sum[bad_sum.size() - 6] ^= 1;
   expect_rejected({
       {header + "not gzip", ": broken gzip stream: incorrect header check"},
-      {header + good.substr(0, good.size() - 5), ": broken gzip stream: the data end too early"},
-      {header + good.substr(0, 12), ": broken gzip stream: the data end too early"},
-      {header, ": broken gzip stream: the data end too early"},
+      {header + good.substr(0, good.size() - 5), ": broken gzip stream: the data end prematurely"},
+      {header + good.substr(0, 12), ": broken gzip stream: the data end prematurely"},
+      {header, ": broken gzip stream: the data end prematurely"},
       {header + bad_sum, ": broken gzip stream: incorrect data check"},
       {header + good + "garbage", ": broken gzip stream: incorrect header check"},
       {header + good + std::string("\0x", 2),
-       ": broken gzip stream: other data follow the padding of zero bytes"},
+       ": broken gzip stream: the zero padding is followed by other data"},
   });
 }
 

@@ -72,8 +72,8 @@ TEST(Pdb, FramesAreModels) {
       "MODEL        1\n" + atom + "ENDMDL\nMODEL        2\n" + atom + atom + "ENDMDL\n";
   EXPECT_EQ(load("a.pdb", text).count(), 1U);
   EXPECT_EQ(load("a.pdb", text, ColourKind::rgba8, "@1").count(), 2U);
-  expect_refused("a.pdb", text, "", "no frame 2; the file has 2", "@2");
-  expect_refused("a.pdb", pdb, "", "no frame 1; the file has 1", "@1");
+  expect_refused("a.pdb", text, "", "no frame 2; number of frames in the file: 2", "@2");
+  expect_refused("a.pdb", pdb, "", "no frame 1; number of frames in the file: 1", "@1");
   expect_refused("a.pdb", text.substr(0, text.size() - 7), ":6", "ENDMDL was expected");
 }
 
@@ -87,7 +87,7 @@ TEST(Pdb, FramesWithoutModelsEndWithEnd) {
   EXPECT_THAT(load("a.pdb", text).spheres, ElementsAre(Sphere{1, 2, 3, 1.7F}));
   EXPECT_THAT(load("a.pdb", text, ColourKind::rgba8, "@2").spheres,
               ElementsAre(Sphere{3, 2, 3, 1.7F}));
-  expect_refused("a.pdb", text, "", "no frame 3; the file has 3", "@3");
+  expect_refused("a.pdb", text, "", "no frame 3; number of frames in the file: 3", "@3");
   // The last frame is cut off, which is an error regardless of the requested frame.
   const std::string atoms = replaced(frame(1), "CRYST1   52.000   58.600   61.900\n", "");
   expect_refused("a.pdb", atoms + atoms.substr(0, atoms.size() - 4), ":3:", "END was expected");
@@ -141,7 +141,7 @@ TEST(Mmcif, ReadsTheLoopOverAtoms) {
 }
 
 TEST(Mmcif, RejectsBrokenFiles) {
-  expect_refused("a.cif", cif, "", "no frame 2; the file has 2", "@2");
+  expect_refused("a.cif", cif, "", "no frame 2; number of frames in the file: 2", "@2");
   expect_refused("a.cif", replaced(cif, "53.499", "?"),
                  ":18:", "Cartn_y: expected a number, found '?'");
   expect_refused("a.cif", replaced(cif, "C C 1 2 3 7", "C C 1 2"), "",
@@ -164,7 +164,7 @@ TEST(Mmcif, RejectsATruncatedLoop) {
   EXPECT_EQ(load("a.cif", closing + "_entry.more 1\n").count(), 2U);
   // If the file has only a few such marks, the reader only adds a note.
   const ParticleSet unsure = load("a.cif", "data_X\n#\n_entry.id X\n#\n" + loop);
-  EXPECT_THAT(unsure.facts.notes, ElementsAre(HasSubstr("if the file was cut off")));
+  EXPECT_THAT(unsure.facts.notes, ElementsAre(HasSubstr("the file may be truncated")));
   // Some programs write '#' only between sections, or not at all.
   EXPECT_EQ(load("a.cif", "# made by hand\n#\ndata_X\n_entry.id X\n#\n" + loop).count(), 2U);
   EXPECT_EQ(load("a.cif", "data_X\n" + loop).count(), 2U);
@@ -196,7 +196,7 @@ TEST(Gro, TakesAnyNumberOfDecimalsAndFrames) {
   const std::string fine = "Title\n1\n    1POPC   C12    1   0.51912-118.00512   7.18512\n 1 2 3\n";
   EXPECT_EQ(load("a.gro", fine).spheres[0][1], -118.00512F);
   EXPECT_EQ(load("a.gro", fine + gro, ColourKind::rgba8, "@1").count(), 4U);
-  expect_refused("a.gro", fine + gro, "", "no frame 2; the file has 2", "@2");
+  expect_refused("a.gro", fine + gro, "", "no frame 2; number of frames in the file: 2", "@2");
 }
 
 TEST(Gro, RejectsBrokenFiles) {
@@ -246,7 +246,7 @@ TEST(Xyz, TakesColumnsFromProperties) {
               ElementsAre(Sphere{1, 2, 3, 1.52F}));
 
   expect_refused("a.xyz", with("Properties=" + list + ":mass:R:1"),
-                 ":3:", "expected 7 columns, as Properties states, found 6");
+                 ":3:", "expected 7 columns, as declared by Properties, found 6");
   expect_refused("a.xyz", with("Properties=id:I:1:pos:R:3"),
                  ":2:", "expected Properties with species or Z (1 column) and pos (3 columns)");
   expect_refused("a.xyz", with("Properties=species:S:1:pos:R:2"), ":2:", "and pos (3 columns)");
@@ -270,7 +270,7 @@ TEST(Xyz, RejectsBrokenFiles) {
   expect_refused("a.xyz", replaced(xyz, "30", "300"), ":5:", "expected an element, found '300'");
   expect_refused("a.xyz", "-1\n\n", ":1:", "expected the number of atoms, found '-1'");
   expect_refused("a.xyz", "0\n\n", ":2:", "expected atoms, found none");
-  expect_refused("a.xyz", xyz, "", "no frame 1; the file has 1", "@1");
+  expect_refused("a.xyz", xyz, "", "no frame 1; number of frames in the file: 1", "@1");
   // If the stated count exceeds the size of the file, the reader must not allocate that much
   // memory.
   expect_refused("a.xyz", replaced(xyz, "3\n", "4294967294\n"), ":5:", "the file ends here");
@@ -317,7 +317,7 @@ TEST(ParticleFiles, RejectUnreadableFiles) {
 // correctly.
 TEST(ParticleFiles, WithoutUsableParticlesAreRejected) {
   expect_refused("a.xyz", "2\n\nC nan 0 0\nC 0 inf 0\n", ": ",
-                 "none of its 2 particles can be drawn");
+                 "none of the 2 particles can be drawn");
   EXPECT_EQ(load("a.xyz", "2\n\nC nan 0 0\nC 0 0 0\n").dropped, 1U);
 }
 
@@ -326,18 +326,19 @@ TEST(ParticleFiles, ZeroBytesAfterGzipAreSkipped) {
   const std::string padded = gzipped(xyz) + std::string(100'000, '\0');
   EXPECT_EQ(load("a.xyz.gz", padded).hash, load("a.xyz.gz", gzipped(xyz)).hash);
   expect_refused("a.xyz.gz", padded + "x", ": ",
-                 "broken gzip stream: other data follow the padding of zero bytes");
+                 "broken gzip stream: the zero padding is followed by other data");
   expect_refused("a.xyz.gz", padded + gzipped(xyz), ": ",
-                 "other data follow the padding of zero bytes");
+                 "the zero padding is followed by other data");
 }
 
 TEST(ParticleFiles, UnpackingIsLimited) {
   const TemporaryFolder folder;
   const auto file = folder.write("a.pdb.gz", gzipped(std::string(std::size_t{3} << 20, ' ')));
   EXPECT_EQ(read_content(file, {}, std::uint64_t{3} << 20).size(), std::size_t{3} << 20);
-  EXPECT_THAT([&] { static_cast<void>(read_content(file, {}, (std::uint64_t{3} << 20) - 1)); },
-              ThrowsMessage<core::InputError>(
-                  HasSubstr("a.pdb.gz: unpacks to more than 3145727 bytes; if that is intended")));
+  EXPECT_THAT(
+      [&] { static_cast<void>(read_content(file, {}, (std::uint64_t{3} << 20) - 1)); },
+      ThrowsMessage<core::InputError>(HasSubstr(
+          "a.pdb.gz: the file decompresses to more than 3145727 bytes; if this is intended")));
 }
 
 // Messages quote file contents as one printable line, whatever the file contains.

@@ -69,7 +69,7 @@ TEST(LammpsDump, SelectsAFrame) {
                            dump("x y z radius", "2", "2 0 0 1\n3 0 0 1\n");
   EXPECT_EQ(load("a.dump", text).count(), 1U);
   EXPECT_EQ(load("a.dump", text, ColourKind::rgba8, "@1").spheres[1][0], 3);
-  expect_refused("a.dump", text, "", "no frame 2; the file has 2", "@2");
+  expect_refused("a.dump", text, "", "no frame 2; number of frames in the file: 2", "@2");
 }
 
 TEST(LammpsDump, RejectsBrokenFiles) {
@@ -82,7 +82,7 @@ TEST(LammpsDump, RejectsBrokenFiles) {
   expect_refused("a.dump", dump("id x y z", "9999999999", rows), ":4:", "too many");
   expect_refused("a.dump", dump("id x y", "2", rows), ":9:", "expected columns x y z");
   expect_refused("a.dump", dump("id x y z", "2", "1 0 0 0\n1 1 0 0\n"),
-                 ":11:", "atom 1 appears twice");
+                 ":11:", "atom number 1 appears twice");
   expect_refused("a.dump", dump("id x y z", "2", "1 0 0 0\n2 1 0\n"),
                  ":11:", "expected 4 values, found 3");
   expect_refused("a.dump", dump("id x y z", "2", "1 0 0 0\n2 1 zero 0\n"),
@@ -139,7 +139,7 @@ TEST(LammpsData, RejectsBrokenFiles) {
     expect_refused("a.data", data("Atoms", row + "\n", "1"),
                    ":14:", "expected a comment that names the style");
   }
-  expect_refused("a.data", data("Atoms", "1 1 1 2 3 0 0 0\n", "1"), ":14:", "8 whole numbers");
+  expect_refused("a.data", data("Atoms", "1 1 1 2 3 0 0 0\n", "1"), ":14:", "8 columns could be");
   // The style `electron` has eight columns, and the last three are the position.
   const std::string electron = "1 1 0.5 1 1.0 1.5 2.5 3.5\n";
   expect_refused("a.data", data("Atoms", electron, "1"),
@@ -150,13 +150,15 @@ TEST(LammpsData, RejectsBrokenFiles) {
                  ":14:", "image flag in z: expected a whole number, found '0.5'");
   expect_refused("a.data", data("Atoms", "1 1 1.5 2 3 0 0 0\n2 1 1 2 3 0 x 0\n"),
                  ":15:", "image flag in y: expected a whole number, found 'x'");
-  expect_refused("a.data", data("Atoms", "1 1 1 2 7\n1 1 1 2 3\n"), ":15:", "atom 1 appears twice");
+  expect_refused("a.data", data("Atoms", "1 1 1 2 7\n1 1 1 2 3\n"),
+                 ":15:", "atom number 1 appears twice");
   expect_refused("a.data", data("Atoms", "1 1 1 2 7\n2 1 1 - 3\n"), ":15:", "y: expected a number");
   expect_refused("a.data", data("Atoms", "1 1 1 2 7\n2x 1 1 1 3\n"),
                  ":15:", "id: expected a whole number");
   expect_refused("a.data", data("Bonds", ""), ":13:", "where the section Atoms was expected");
   expect_refused("a.data", "title\n\nAtoms\n\n1 1 0 0 0\n", ":3:", "expected 'N atoms'");
-  expect_refused("a.data", data("Atoms", rows), "", "no frame 1; the file has 1", "@1");
+  expect_refused("a.data", data("Atoms", rows), "",
+                 "no frame 1; a LAMMPS data file has only frame 0", "@1");
 }
 
 }  // namespace

@@ -150,8 +150,9 @@ TEST(Mmpld, SelectsAFrame) {
   const std::string bytes = file(102, {at(1), at(2)});
   EXPECT_EQ(load_mmpld(bytes).spheres[0][0], 1);
   EXPECT_EQ(load_mmpld(bytes, ColourKind::rgba8, "@1").spheres[0][0], 2);
-  EXPECT_THAT([&] { load_mmpld(bytes, ColourKind::rgba8, "@2"); },
-              ThrowsMessage<core::InputError>(HasSubstr("no frame 2; the file has 2")));
+  EXPECT_THAT(
+      [&] { load_mmpld(bytes, ColourKind::rgba8, "@2"); },
+      ThrowsMessage<core::InputError>(HasSubstr("no frame 2; number of frames in the file: 2")));
 }
 
 TEST(Mmpld, DropsAndCountsInvalidSpheres) {
@@ -172,8 +173,8 @@ TEST(Mmpld, RejectsFilesWithoutSpheres) {
   const std::string flat = list(100, 1, 0, pack(0.F, 0), 3, std::string(36, '\0'));
   EXPECT_THAT([&] { load_mmpld(file(100, {frame(100, {flat})})); },
               ThrowsMessage<core::InputError>(
-                  AllOf(HasSubstr("a.mmpld: none of its 3 particles can be drawn"),
-                        HasSubstr("radius above 0"))));
+                  AllOf(HasSubstr("a.mmpld: none of the 3 particles can be drawn"),
+                        HasSubstr("radii above 0"))));
 }
 
 TEST(Mmpld, RejectsEveryTruncation) {
@@ -202,11 +203,11 @@ TEST(Mmpld, ReportsWhatWasExpected) {
   expect_mmpld_refused(with(5, 0, 1), "vertex type from 0 to 4, found 5");
   expect_mmpld_refused(with(1, 8, 1), "colour type from 0 to 7, found 8");
   expect_mmpld_refused(with(1, 0, 2), "where the list's particles was expected");
-  expect_mmpld_refused(with(1, 0, 0), "expected the frame's end");
+  expect_mmpld_refused(with(1, 0, 0), "expected the frame to end");
   expect_mmpld_refused(with(1, 0, 4'294'967'295), "too many; the limit is 4294967294");
   expect_mmpld_refused(with(1, 0, ~std::uint64_t{0}), "too many");
   expect_mmpld_refused(file(100, {frame(100, {})}), "expected particles");
-  expect_mmpld_refused(file(100, {}), "no frame 0; the file has 0");
+  expect_mmpld_refused(file(100, {}), "no frame 0; number of frames in the file: 0");
   std::string table = with(1, 0, 1);
   table.replace(60, 8, pack(std::uint64_t{8}));
   expect_mmpld_refused(table, "expected frame 0 between byte");

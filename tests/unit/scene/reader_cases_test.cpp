@@ -172,7 +172,7 @@ TEST(MmcifRows, MayComeInAnyOrder) {
       "_atom_site.Cartn_y\n_atom_site.Cartn_z\n1 C 1 0 0\n2 C 2 0 0\n1 C 3 0 0\n2 C 4.5(2) 0 0\n";
   EXPECT_EQ(load("a.cif", text).spheres[1][0], 3);
   EXPECT_EQ(load("a.cif", text, ColourKind::rgba8, "@1").spheres[1][0], 4.5F);
-  expect_refused("a.cif", text, "", "the file has 2", "@2");
+  expect_refused("a.cif", text, "", "number of frames in the file: 2", "@2");
 }
 
 TEST(MmcifElements, ComeFromNamesIfTheyAreNotStated) {
