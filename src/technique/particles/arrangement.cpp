@@ -14,7 +14,8 @@
 namespace triptych::technique {
 namespace {
 
-// Indices into the set, sorted by id; empty if the set is already sorted.
+// Returns the particles' indices in the set, sorted by id, or an empty vector if the set is already
+// sorted.
 std::vector<std::uint32_t> by_id(const scene::ParticleSet& set) {
   std::vector<std::uint32_t> places;
   if (std::ranges::is_sorted(set.ids)) return places;
@@ -24,11 +25,11 @@ std::vector<std::uint32_t> by_id(const scene::ParticleSet& set) {
   return places;
 }
 
-// A cell with more particles than this is split into several cells. A crowded region can therefore
-// be divided even where planes cannot divide it.
+// The maximum number of particles in a cell. A larger cell is split into several cells, so that a
+// crowded region is divided even where no plane can separate its particles.
 constexpr std::uint32_t longest_run = 4 * particles_per_cell;
 
-// Particles of one part of the division that have successive ids.
+// A run of particles within one part of the division, in ascending order of their ids.
 struct Run {
   glm::vec3 lo{std::numeric_limits<float>::infinity()};
   glm::vec3 hi{-std::numeric_limits<float>::infinity()};
@@ -36,9 +37,8 @@ struct Run {
   std::uint32_t begin = 0;  // index of its first particle in the arrangement
 };
 
-// Divides the particles into runs. Visits all particles several times in the order of their ids,
-// and determines the run of a particle again each time, because storing the run of each particle
-// would take as much memory as the order itself.
+// Divides the particles into runs. Every pass over the particles recomputes the run of each
+// particle, because storing the runs would take as much memory as the order itself.
 class Runs {
  public:
   explicit Runs(const scene::ParticleScene& scene)
@@ -64,7 +64,7 @@ class Runs {
     return cells;
   }
 
-  // Indices into the set, one run after the other.
+  // Returns the particles' indices in the set, one run after the other.
   [[nodiscard]] std::vector<std::uint32_t> order() {
     std::vector<std::uint32_t> order(set_.count());
     for_each([&](std::uint32_t place, Run& run) { order[run.begin + run.count++] = place; });
@@ -72,8 +72,9 @@ class Runs {
   }
 
  private:
-  // Calls visit(index in the set, its run) in the order of ids. Run::count is the number of
-  // particles of the run that were visited before; `visit` increments it.
+  // Calls visit(place, run) for each particle in ascending order of id, where `place` is the index
+  // of the particle in the set. Run::count is 0 at first, and `visit` must increment it for each
+  // particle.
   template <typename Visit>
   void for_each(const Visit& visit) {
     for (Run& run : runs_) run.count = 0;
@@ -86,7 +87,7 @@ class Runs {
     }
   }
 
-  // Creates as many runs for each part as it needs.
+  // Creates the runs of all parts. A part with more than `longest_run` particles gets several runs.
   void make_runs() {
     first_run_.resize(division_.parts());
     for (std::uint32_t place = 0; place < set_.count(); ++place) {
@@ -111,8 +112,8 @@ class Runs {
       run.hi = glm::max(run.hi, centre + r);
       ++run.count;
     });
-    // The sum centre ± r is rounded to the nearest float, so the next float outwards is certainly
-    // outside.
+    // Rounding may have moved centre ± r inwards by up to half an ulp, so each bound is moved
+    // outwards by one ulp.
     for (Run& run : runs_) {
       for (int axis = 0; axis < 3; ++axis) {
         run.lo[axis] = std::nextafter(run.lo[axis], -std::numeric_limits<float>::infinity());

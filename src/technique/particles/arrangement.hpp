@@ -1,6 +1,6 @@
 #pragma once
-// The order in which every technique on every API draws the particles. It is computed when a scene
-// is prepared and is not part of any timing.
+// The drawing order of the particles, which is the same for all techniques and all APIs. It is
+// computed when a scene is prepared, outside all timed code.
 
 #include <array>
 #include <cstddef>
@@ -30,14 +30,14 @@ enum class Property : std::uint8_t {
   id       // four bytes
 };
 
-// One drawing order for all techniques: cells from front to back as seen from the eye, and
-// ascending ids in each cell. The cells are those of a regular grid, which is divided further where
-// that saves work (division.hpp).
+// One drawing order for all techniques: the cells are sorted from front to back as seen from the
+// eye, and the particles of each cell by ascending id. The cells are those of a regular grid,
+// subdivided where that saves work (division.hpp).
 //
 // Ties in depth are resolved by this order, either by a depth test that keeps the first of equal
-// depths or by comparing indices. Every device therefore resolves them in the same way, whatever is
-// culled. Coincident spheres are in one cell, and the one with the lowest id is visible. The order
-// does not depend on the order of the particles in the set.
+// depths or by comparing indices. Every device therefore resolves ties in the same way, regardless
+// of culling. Coincident spheres are in one cell, and the one with the lowest id is visible. The
+// order does not depend on the order of the particles in the set.
 //
 // Spheres whose diameter exceeds the edge length of a cell are put into the first cells, so that
 // they do not enlarge the boxes of other cells.
@@ -52,7 +52,7 @@ struct Arrangement {
 
   [[nodiscard]] std::size_t count() const noexcept { return order.size(); }
 
-  // The k-th particle in this order.
+  // Returns the sphere of the k-th particle in this order, with radius_scale applied.
   [[nodiscard]] std::array<float, 4> sphere(std::size_t k) const {
     std::array<float, 4> sphere = particles->spheres[order[k]];
     sphere[3] = scene::scaled_radius(sphere[3], radius_scale);
@@ -60,23 +60,24 @@ struct Arrangement {
   }
   [[nodiscard]] std::uint32_t id(std::size_t k) const { return particles->ids[order[k]]; }
 
-  // The number of bytes of the property for one particle.
+  // Returns the size of the property in bytes per particle.
   [[nodiscard]] std::size_t element_bytes(Property property) const;
   [[nodiscard]] std::size_t bytes(Property property) const {
     return element_bytes(property) * count();
   }
-  // Copies the part of the property's array that begins at byte `begin`. Both `begin` and the size
-  // of `out` are multiples of element_bytes(property); `out` need not be aligned.
+  // Fills `out` with the bytes of the property's array that start at byte `begin`. Both `begin` and
+  // the size of `out` must be multiples of element_bytes(property); `out` need not be aligned.
   void copy(Property property, std::size_t begin, std::span<std::byte> out) const;
 };
 
 // The approximate number of particles in a cell if they are evenly distributed. It is large enough
-// that culling a cell saves more than its visibility test costs, and small enough that culling
-// follows the view closely.
+// that culling a cell saves more than its visibility test costs, and small enough that the cells
+// that remain fit the view closely.
 inline constexpr std::size_t particles_per_cell = 512;
 
-// Sorts the particles. In addition to its result, this needs about a hundredth of the set's memory.
-// If the ids in the set are not ascending, it temporarily needs another array as large as `order`.
+// Sorts the particles into cells. In addition to the result, this temporarily needs about one
+// hundredth of the set's memory and, if the ids in the set are not ascending, another array as
+// large as `order`.
 [[nodiscard]] Arrangement arrange(const scene::ParticleScene& scene);
 
 }  // namespace triptych::technique

@@ -1,6 +1,6 @@
 // Vertex stage of the techniques that read a vertex buffer, with one vertex per particle.
 layout(location = 0) in vec4 sphere;
-layout(location = 1) in vec4 colour;  // any kind of colour; the vertex fetch extends it to four components
+layout(location = 1) in vec4 colour;  // any colour format; the vertex fetch expands it to four components
 layout(location = 2) in uint id;
 
 TRI_LINK(0) out vec4 particle_sphere;

@@ -1,24 +1,26 @@
-// One invocation traces a beam of 4×2 pixels. It descends the hierarchy and visits the nearer child first. It tests
-// each sphere whose box the beam crosses, unless the box is behind the surfaces that all pixels of the beam have
-// already found. A block consists of 8×8 beams. Eight consecutive invocations form a square of 8×8 pixels, because
-// software devices run eight invocations at once.
+// Each invocation traces a beam of 4×2 pixels through the hierarchy and visits the nearer child of each node first.
+// It tests each sphere whose box the beam crosses, unless every pixel of the beam has already found a surface in
+// front of the box. A block consists of 8×8 beams. Eight consecutive invocations cover a square of 8×8 pixels,
+// because software devices run eight invocations at once.
 //
-// The traversal needs no stack. `trail` has one bit for each level below the root, which is 1 if the sibling needs
-// no visit: it was visited or missed. Together with the node's number, the bits determine the way back (Laine,
-// Restart trail for stackless BVH traversal, 2010).
+// The traversal needs no stack. `trail` has one bit for each level from the current node up to the children of the
+// root. A bit is 1 if the sibling at that level needs no visit, because it has been visited or because the beam
+// misses it. These bits and the number of the current node determine where the traversal continues (Laine, Restart
+// trail for stackless BVH traversal, 2010).
 //
 // Components of TRI_STEP:
 //   x  only every x-th beam is traced
 //   y  number of blocks per row
 //   z  number of beams
-//   w  flags: 1 continues traversals that an earlier dispatch did not finish; 2 stores where they end
+//   w  flags: 1 resumes traversals that an earlier dispatch did not finish; 2 stores where traversals stop
 //
 // Mesa's software devices run 8 invocations in lockstep. After 65,535 iterations of all loops together, they end
-// the loops without an error. A dispatch therefore visits at most s = TRI_MOST_STEPS nodes. At most s/2 of them
-// (and one for each level) are leaves, because a traversal does not visit more leaves than inner nodes. A leaf
-// takes 1 iteration of the outer loop, 1 to end the inner loop, and 9 for up to 8 spheres: 11·s/2 iterations. Inner
-// nodes take at most 8·s/2 iterations, which happens if no two invocations are at an inner node at the same time.
-// The total is 9.5s plus a few hundred, which is less than 65,535 for s = 6,800.
+// the loops without an error. An invocation therefore visits at most s = TRI_MOST_STEPS nodes per dispatch. At most
+// s/2 of these nodes (plus one per level) are leaves, because a traversal does not visit more leaves than inner
+// nodes. A leaf takes 11 iterations: 1 of the outer loop, 1 to end the inner loop, and 9 for up to 8 spheres. All
+// leaves together take 11·s/2 iterations. Inner nodes take at most 8·s/2 iterations; this maximum occurs if no two
+// invocations are ever at an inner node at the same time. The total of 9.5s plus a few hundred is less than 65,535
+// for s = 6,800.
 layout(local_size_x = 64) in;
 
 TRI_BINDING(13) uniform samplerBuffer box_texels;
@@ -49,8 +51,8 @@ uint intersections_tested = 0u;
 ivec2 beam_pixel(int k) { return first_pixel + ivec2(k % TRI_BEAM_X, k / TRI_BEAM_X); }
 bool in_picture(ivec2 pixel) { return pixel.x < u.viewport.x && pixel.y < u.viewport.y; }
 
-// The sides of the beam lie 1/64 pixel outside its outermost rays. Sprites have the same margin, because a
-// silhouette in single precision exceeds the exact silhouette by less than that.
+// Computes the sides of the beam. They lie 1/64 pixel outside its outermost rays, which is also the margin of
+// sprites, because a silhouette computed in single precision exceeds the exact silhouette by less than 1/64 pixel.
 void open_beam(uint beam) {
   uint block = beam / 64u;
   uint n = beam % 64u;
@@ -79,11 +81,11 @@ float highest(vec3 n, vec3 lo, vec3 hi) {
   return tri_box_highest(n.x, n.y, n.z, lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
 }
 
-// Returns whether the beam crosses the box and something in the box may be visible. `nearest` is the smallest
-// distance of the box along the view axis. The tolerance for rounding is 2⁻¹⁸ of the distance from the eye to the
-// farthest point of the box. It covers the products and sums (8u), the rounding of the axes (u) and, for `nearest`,
-// the error of a surface's distance, 24u·(|C| + r). Enlarging the box by 2.4e-7 of the eye's coordinates covers the
-// rounding of the eye.
+// Returns whether the beam crosses the box and something in the box may be visible. `nearest` receives the smallest
+// distance from the eye to the box along the view axis. The tolerance for rounding is 2⁻¹⁸ of the distance from the
+// eye to the farthest point of the box. With u = 2⁻²⁴, it covers the rounding of products and sums (8u), the
+// rounding of the axes (u) and, for `nearest`, the error in the distance of a surface, 24u·(|C| + r). Enlarging the
+// box by 2.4e-7 of the eye's coordinates covers the rounding of the eye.
 bool may_show(vec3 world_lo, vec3 world_hi, out float nearest) {
   TRI_PRECISE vec3 around = 2.4e-7 * abs(u.eye.xyz);
   TRI_PRECISE vec3 lo = (world_lo - u.eye.xyz) - around;
@@ -131,8 +133,8 @@ void test_leaf(uint leaf) {
   }
 }
 
-// Moves to the next node: the sibling of the nearest ancestor whose sibling has not been visited yet, or 0 if there
-// is none.
+// Moves to the next node to visit, which is the sibling of this node or of its nearest ancestor whose sibling still
+// has to be visited. Sets `node` to 0 if there is none.
 void go_on(inout uint node, inout uint trail) {
   int up = findLSB(~trail);
   node >>= up;
@@ -140,10 +142,10 @@ void go_on(inout uint node, inout uint trail) {
   node = node > 1u ? node ^ 1u : 0u;
 }
 
-// Traverses the hierarchy from a node until the end (node 0), or for at most TRI_MOST_STEPS nodes. The inner loop
+// Traverses the hierarchy from a node to the end (node 0), but stops after TRI_MOST_STEPS nodes. The inner loop
 // visits inner nodes until it reaches a leaf. Devices that run several invocations in lockstep execute the code for
-// leaves whenever any of them is at a leaf. With this nesting, the invocations reach their leaves together (Aila
-// and Laine, Understanding the efficiency of ray traversal on GPUs, 2009).
+// leaves whenever any of the invocations is at a leaf. With these nested loops, the invocations tend to reach their
+// leaves together (Aila and Laine, Understanding the efficiency of ray traversal on GPUs, 2009).
 void trace(inout uint node, inout uint trail) {
   uint leaves = 1u << TRI_TREE_SHAPE.y;
   uint step = 0u;

@@ -1,4 +1,4 @@
-// Cells of the arrangement, and tests of whether a cell can be visible at all.
+// Declares the cells of the arrangement, and tests whether a cell can be visible.
 struct Cell {
   vec3 lo;
   uint begin;
@@ -8,7 +8,8 @@ struct Cell {
 layout(std430) TRI_BINDING(6) readonly buffer Cells { Cell cells[]; };
 
 // Returns whether the box is completely on the negative side of a plane through the eye, by more than the rounding
-// errors. Each product has an error of a few 2⁻²⁴ of its size; 2⁻¹⁸ of the sizes covers all of them.
+// error. Each product has a relative error of a few 2⁻²⁴, so 2⁻¹⁸ of the sum of their magnitudes covers all
+// errors.
 bool beyond(vec3 normal, vec3 lo, vec3 hi) {
   vec3 highest = max(normal * lo, normal * hi);
   vec3 size = max(abs(normal * lo), abs(normal * hi));
@@ -18,7 +19,7 @@ bool beyond(vec3 normal, vec3 lo, vec3 hi) {
 bool outside_view(Cell cell) {
   vec3 lo = cell.lo - u.eye.xyz;
   vec3 hi = cell.hi - u.eye.xyz;
-  // Covers the rounding of the eye, and one unit in the last place of every coordinate.
+  // Covers the rounding of the eye's position and one ulp of every coordinate.
   vec3 rounding = 2.4e-7 * max(abs(u.eye.xyz), max(abs(cell.lo), abs(cell.hi)));
   lo -= rounding;
   hi += rounding;

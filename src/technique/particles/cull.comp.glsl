@@ -1,7 +1,7 @@
-// Include this after cull.glsl. One invocation for each cell tests whether any part of its box is in front of the
-// eye and between the sides of the view. It writes one draw command for each cell. A culled cell gets an empty
-// command, so that cells are drawn in the order of the arrangement. TRI_INSTANCED: 1 if the particles of a cell are
-// instances of four vertices, 0 if they are vertices.
+// Include this after cull.glsl. Each invocation tests whether the box of one cell intersects the view, and writes
+// one draw command for the cell. The command of a culled cell is empty, so the cells are always drawn in the order
+// of the arrangement. TRI_INSTANCED: 1 if each particle is an instance of four vertices, 0 if it is a single
+// vertex.
 layout(local_size_x = 64) in;
 
 struct DrawCommand {

@@ -10,8 +10,8 @@
 namespace triptych::technique {
 namespace {
 
-// Returns the edge length with which about `wanted` cells fill the box. Axes that are too short to
-// be divided are ignored.
+// Returns the edge length for which about `wanted` cubic cells fill the box. Axes that are too
+// short to be divided are ignored.
 double edge_for(const glm::dvec3& size, double wanted) {
   const double longest = std::max({size.x, size.y, size.z});
   if (!(longest > 0)) return 1;
@@ -25,8 +25,8 @@ double edge_for(const glm::dvec3& size, double wanted) {
   return high;
 }
 
-// A loop over all four numbers of a sphere compiles to a single SIMD instruction. Boxes do not use
-// the fourth number.
+// Four floats, as in a sphere, so that a loop over them compiles to a single SIMD instruction.
+// Boxes do not use the fourth float.
 using Four = std::array<float, 4>;
 
 struct Box {
@@ -46,7 +46,7 @@ struct Box {
     }
   }
   [[nodiscard]] float size(std::size_t axis) const { return hi[axis] - lo[axis]; }
-  // Half of the surface area.
+  // Returns half of the surface area.
   [[nodiscard]] double surface() const {
     const double x = static_cast<double>(size(0));
     const double y = static_cast<double>(size(1));
@@ -75,13 +75,13 @@ struct Plane {
   float at = 0;
 };
 
-// Along each axis, planes are tried at multiples of 1/16 of the distance from the first centre to
-// the last one.
+// Along each axis, the search divides the extent of the spheres' centres into 16 equal slices and
+// tries the planes between them.
 constexpr std::size_t slices = 16;
 using SliceGroups = std::array<Group, slices>;
 
-// Finds the plane with the smallest cost. Returns the slice in front of which it lies, and its
-// cost. Returns slice 0 if no plane costs less than `most`.
+// Returns the plane with the lowest cost, as the index of the slice directly above it, and that
+// cost. The index is 0 if no plane costs less than `most`.
 std::pair<std::size_t, double> cheapest(const SliceGroups& parts, double most) {
   std::array<double, slices> below_cost{};
   Group below;
@@ -214,7 +214,7 @@ void Division::divide(Crowd all) {
   while (!open.empty()) {
     const Crowd crowd = open.back();
     open.pop_back();
-    // No plane can save more than the whole cost.
+    // No plane can save more than the entire cost of this part.
     if (static_cast<double>(crowd.places.size()) <= price_) continue;
     const std::optional<Plane> plane = PlaneSearch(scene_, crowd.places).best(price_);
     if (!plane) continue;

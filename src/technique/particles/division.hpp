@@ -10,7 +10,7 @@
 
 namespace triptych::technique {
 
-// A regular grid over the centres, with approximately cubic cells.
+// A regular grid of cubic cells over the spheres' centres.
 class Grid {
  public:
   // Chooses cells that would contain about `per_cell` particles each if the particles were evenly
@@ -34,26 +34,27 @@ class Grid {
 // The cost of a box with n particles is n times the probability that it is visible, which is
 // proportional to its surface area (the surface area heuristic of MacDonald and Booth, Heuristics
 // for ray tracing using space subdivision, 1990). Let A be the surface area of the box around the
-// spheres of a part with n particles. A plane divides it into two parts with n₁·A₁ and n₂·A₂. The
-// plane is used if n·A − n₁·A₁ − n₂·A₂ is at least A times half the intended number of particles
-// per cell. Each half of a cube has two thirds of its surface area, so a cell with evenly
-// distributed particles is divided only if it has at least one and a half times the intended
+// spheres of a part with n particles. A plane divides it into two parts with costs n₁·A₁ and n₂·A₂.
+// The plane is used if the saving n·A − n₁·A₁ − n₂·A₂ is at least A times half the intended number
+// of particles per cell. Half of a cube has two thirds of the cube's surface area, so a cell with
+// evenly distributed particles is divided only if it has at least one and a half times the intended
 // number.
 class Division {
  public:
-  // Divides space for this scene. While it runs, it needs four bytes per particle.
+  // Divides space for this scene. The constructor temporarily needs four bytes per particle.
   Division(const scene::ParticleScene& scene, std::size_t per_cell);
 
   // Returns the part that contains the particle with this index in the set. Part 0 contains the
-  // particles that are wider than a cell of the grid. Coincident centres are in the same part,
-  // except for those in part 0.
+  // particles that are wider than a cell of the grid. Particles with the same centre are in the
+  // same part, unless some of them are large enough for part 0.
   [[nodiscard]] std::uint32_t part_of(std::uint32_t place) const;
   // Returns the number of parts, some of which are empty.
   [[nodiscard]] std::size_t parts() const { return nodes_.size(); }
 
  private:
-  // Either a part, or a node that divides space by a plane: the centre of a particle determines the
-  // side that it belongs to. Node 0 is part 0. The cells of the grid come next.
+  // A node is either a part or divided in two by a plane. The position of a particle's centre
+  // relative to the plane determines the side to which the particle belongs. Node 0 is part 0, and
+  // the nodes of the grid's cells come next.
   struct Node {
     static constexpr std::uint32_t whole = 3;
     std::uint32_t axis = whole;
@@ -70,7 +71,7 @@ class Division {
 
   const scene::ParticleScene& scene_;
   Grid grid_;
-  double price_;  // the saving that justifies one more part, in particles
+  double price_;  // the minimum saving for one more part, in particles
   std::vector<Node> nodes_;
 };
 

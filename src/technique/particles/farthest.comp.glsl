@@ -1,5 +1,5 @@
-// One work group for each block of 16×16 pixels finds the farthest depth in the block. TRI_DEPTH(pixel) is the
-// reversed depth of a pixel.
+// Each work group finds the farthest depth in a block of 16×16 pixels. TRI_DEPTH(pixel) is the reversed depth
+// of a pixel.
 layout(local_size_x = 64) in;
 layout(std430) TRI_BINDING(10) writeonly buffer Farthest { uint farthest[]; };
 

@@ -16,7 +16,7 @@ struct Cube {
   float edge = 0;
 };
 
-// A cube around all spheres, which is computed from the boxes of the cells.
+// Returns a cube that contains all spheres, computed from the boxes of the cells.
 Cube cube_around(const std::vector<Cell>& cells) {
   if (cells.empty()) return {};
   std::array<float, 3> low = cells.front().lo;
@@ -53,8 +53,8 @@ Hierarchy::Hierarchy(const Arrangement& arrangement) {
 
 Hierarchy::Hierarchy(std::uint32_t particles, const std::array<float, 3>& low, float edge) {
   const std::uint32_t levels = levels_of(particles);
-  // If the set has no extent, or if the scale would exceed the largest float, all particles get the
-  // same position on the curve.
+  // If the set has no extent, or if the grid's scale would exceed the largest float, all particles
+  // get the same position on the curve.
   const bool extended = edge > 0 && grid_cells / edge <= std::numeric_limits<float>::max();
   parameters_.origin = {low[0], low[1], low[2], extended ? grid_cells / edge : 0.0F};
   parameters_.shape = {particles, levels, particles >> levels,

@@ -13,8 +13,8 @@ namespace triptych::technique {
 // The parameters of all kernels that build or traverse the hierarchy. `step` differs between
 // passes.
 struct HierarchyParameters {
-  std::array<float, 4> origin{};  // corner of the curve's grid; w: cells per unit
-  // numbers of particles, levels, particles per leaf, larger leaves
+  std::array<float, 4> origin{};  // lower corner of the curve's grid; w: grid cells per unit length
+  // The numbers of particles, levels, particles per leaf, and leaves with one more particle.
   std::array<std::uint32_t, 4> shape{};
   std::array<std::uint32_t, 4> step{};
 };
@@ -23,8 +23,8 @@ static_assert(sizeof(HierarchyParameters) == std::size_t{3} * 16);
 class Hierarchy {
  public:
   explicit Hierarchy(const Arrangement& arrangement);
-  // The hierarchy for this many particles, whose centres are in a cube with this lower corner and
-  // edge.
+  // Describes the hierarchy for this many particles whose centres are in the cube with lower corner
+  // `low` and edge length `edge`.
   Hierarchy(std::uint32_t particles, const std::array<float, 3>& low, float edge);
 
   [[nodiscard]] const HierarchyParameters& parameters() const noexcept { return parameters_; }
@@ -38,32 +38,33 @@ class Hierarchy {
   // The number of levels below the root; 0 if the root is the only leaf.
   [[nodiscard]] std::uint32_t levels() const noexcept { return parameters_.shape[1]; }
   [[nodiscard]] std::uint32_t leaves() const noexcept { return std::uint32_t{1} << levels(); }
-  // The index at which the run of particles of a leaf begins.
+  // Returns the index of the leaf's first particle in the order of the tree.
   [[nodiscard]] std::uint32_t leaf_begin(std::uint32_t leaf) const noexcept;
-  // The number of runs of particles. One invocation sorts each run. There are at most 1,024 runs,
-  // so that the loop over their counts ends before Mesa would end it
-  // (technique/volume/long_rays.hpp).
+  // Returns the number of runs into which the radix sort divides the particles, with one invocation
+  // for each run. There are at most 1,024 runs, so that the loop over their counts stays below
+  // Mesa's limit on loop iterations (technique/volume/long_rays.hpp).
   [[nodiscard]] std::uint32_t runs() const noexcept;
 
-  // The sizes of the buffers in words; at least 4 each, because no API allows an empty buffer.
+  // The sizes of the buffers in words. Each is at least 4, because no API allows an empty buffer.
   [[nodiscard]] std::size_t box_words() const noexcept;     // two corners of four words per node
-  [[nodiscard]] std::size_t sphere_words() const noexcept;  // spheres in the tree's order
-  [[nodiscard]] std::size_t order_words() const noexcept;   // particles of these spheres
+  [[nodiscard]] std::size_t sphere_words() const noexcept;  // spheres in tree order
+  [[nodiscard]] std::size_t order_words() const noexcept;   // their particle indices
   [[nodiscard]] std::size_t sorted_words() const noexcept;  // two lists of (position, particle)
-  // For each of the 256 digits, the number of particles in each run; then one total per digit.
+  // The number of particles with each of the 256 digits in each run, followed by one total for each
+  // digit.
   [[nodiscard]] std::size_t scratch_words() const noexcept;
 
  private:
   HierarchyParameters parameters_;
 };
 
-// One pass of the sort, which sorts by eight bits of the position on the curve. `shift` is the
-// lowest of these bits, and `from` is the index at which the input list begins.
+// One pass of the radix sort, by eight bits of the position on the curve. `shift` is the lowest of
+// these bits, and `from` is the index at which the input list begins.
 struct SortPass {
   std::uint32_t shift = 0;
   std::uint32_t from = 0;
 };
-// Returns the four passes of the sort. The result is in the first list.
+// Returns the four passes of the sort. The last pass writes its result to the first list.
 [[nodiscard]] std::array<SortPass, 4> sort_passes(const Hierarchy& hierarchy);
 
 // The beams of the image, each of 4×2 pixels, in blocks of 8×8 beams (bvh.comp.glsl).
@@ -74,7 +75,8 @@ struct BeamGrid {
 };
 [[nodiscard]] BeamGrid beam_grid(int width, int height);
 
-// The number of groups of 64 invocations, arranged in rows of TRI_GROUP_COLUMNS groups
+// Returns the number of columns and rows of work groups that are dispatched for this many
+// invocations. A group has 64 invocations, and a row has at most TRI_GROUP_COLUMNS groups
 // (hierarchy.glsl).
 [[nodiscard]] std::array<std::uint32_t, 2> group_rows(std::uint32_t invocations);
 

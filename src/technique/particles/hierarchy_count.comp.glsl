@@ -1,5 +1,5 @@
-// One invocation for each run of particles counts how many of them have each digit. TRI_STEP contains the lowest
-// bit of the digit, the index in `sorted` at which the list begins, and the number of runs.
+// Each invocation processes one run and counts its particles with each digit. TRI_STEP contains the lowest bit
+// of the digit, the index in `sorted` at which the input list begins, and the number of runs.
 layout(local_size_x = 64) in;
 
 void main() {

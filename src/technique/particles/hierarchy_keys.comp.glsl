@@ -1,4 +1,4 @@
-// One invocation for each particle computes the position of its centre on Hilbert's curve.
+// Each invocation computes the position of one particle's centre on the Hilbert curve.
 layout(local_size_x = 64) in;
 
 void main() {

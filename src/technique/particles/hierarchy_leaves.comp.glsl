@@ -1,5 +1,5 @@
-// One invocation for each leaf copies its spheres and computes its box. TRI_STEP.x is 1 if tree_order already
-// exists and only the spheres have moved.
+// Each invocation copies the spheres of one leaf and computes the leaf's box. TRI_STEP.x is 1 for a refit, in
+// which tree_order already exists and only the spheres have moved.
 layout(local_size_x = 64) in;
 
 void main() {

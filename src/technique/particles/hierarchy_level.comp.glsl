@@ -1,5 +1,5 @@
-// One invocation for each node of a level computes its box. TRI_STEP.x is the number of the level's first node,
-// which equals the number of nodes in the level.
+// Each invocation computes the box of one node in a level from the boxes of its two children. TRI_STEP.x is the
+// index of the level's first node, which is also the number of nodes in the level.
 layout(local_size_x = 64) in;
 
 void main() {

@@ -1,4 +1,5 @@
-// A single invocation computes where the particles with each digit begin.
+// A single invocation replaces the totals of the digits by the positions at which the particles
+// with each digit begin.
 layout(local_size_x = 1) in;
 
 void main() {

@@ -1,6 +1,6 @@
-// The keys that are stored for a pixel. The nearest depth has the largest depth key, and 0 means that nothing was
-// found. The first particle in the drawing order has the smallest particle key. Two injected faults reverse these
-// orders: fault 2 for ties, fault 3 for depths.
+// The depth key and the particle key that are stored for each pixel. The nearest depth has the largest depth key,
+// and 0 means that no sphere was found. The first particle in the drawing order has the smallest particle key.
+// The injected fault 2 reverses the order of particle keys, and fault 3 the order of depth keys.
 
 #define TRI_LARGEST_KEY 0xFFFFFFFFu
 #define TRI_NO_PARTICLE 0xFFFFFFFFu
@@ -13,7 +13,7 @@ float depth_of_key(uint key) { return uintBitsToFloat(TRI_FAULT == 3 ? ~key : ke
 uint particle_key(uint particle) { return TRI_FAULT == 2 ? ~particle & 0x7FFFFFFFu : particle; }
 uint particle_of_key(uint key) { return TRI_FAULT == 2 ? ~key & 0x7FFFFFFFu : key; }
 
-// Returns the depth key of the sphere on the ray through this position of the image plane, or 0 if the ray misses
+// Returns the depth key of the sphere on the ray through this point of the image plane, or 0 if the ray misses
 // it.
 uint sphere_key(vec4 c, vec2 s) {
   float discriminant = tri_sphere_discriminant(c.x, c.y, c.z, c.w, s.x, s.y);

@@ -6,12 +6,13 @@
 namespace triptych::technique {
 
 double point_margin(std::string_view renderer, double granularity) {
-  // softpipe draws a point of size s as ⌊s⌋ pixels along each axis, beginning at the integer
-  // coordinate next to its lower end. A point that is two pixels larger contains every pixel whose
-  // centre is in the intended square.
+  // softpipe draws a point of size s as ⌊s⌋×⌊s⌋ pixels, beginning at the integer coordinate next to
+  // the point's lower end. If the point is two pixels larger, it contains every pixel whose centre
+  // is in the intended square.
   if (renderer.starts_with("softpipe")) return 2;
-  // llvmpipe snaps points to 1/256 pixel like any vertex, whatever granularity it reports, and the
-  // margin of the sprites already covers that. lavapipe also calls itself llvmpipe.
+  // llvmpipe snaps points to 1/256 pixel, as it does any vertex, regardless of the granularity that
+  // it reports. The margin of the sprites already covers this. lavapipe also reports the name
+  // llvmpipe.
   if (renderer.starts_with("llvmpipe")) return 0;
   return granularity;
 }

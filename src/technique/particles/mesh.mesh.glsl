@@ -1,5 +1,5 @@
-// One invocation for each sprite generates the same quad as quad.geom.glsl, perpendicular to the ray through the
-// centre.
+// Each invocation generates the quad of one sprite, perpendicular to the ray through the sphere's centre, as
+// quad.geom.glsl does.
 layout(local_size_x = 32) in;
 layout(triangles, max_vertices = 128, max_primitives = 64) out;
 taskPayloadSharedEXT CellList list;

@@ -1,7 +1,8 @@
-// Finds the nearest sphere along one ray, as keys (keys.glsl). Candidates may arrive in any order, and more than
-// once. The distance that is reported to the driver depends only on the depth key. Therefore hits with equal depths
-// have equal distances, and the driver does not discard one of them because of another. The reported distance is
-// behind the surface by 2⁻²⁰ of the distance, to allow for the rounding of near/depth.
+// Functions that find the nearest sphere along a ray, as a depth key and a particle key (keys.glsl). The driver may
+// visit candidates in any order, and more than once. The distance reported to the driver depends only on the depth
+// key. Hits with equal depths therefore have equal distances, and the driver does not discard one of them in favour
+// of another. The reported distance lies behind the surface by 2⁻²⁰ of the distance, to allow for the rounding of
+// near/depth.
 TRI_BINDING(13) uniform samplerBuffer candidate_texels;  // spheres in world space, indexed by particle
 
 vec3 ray_direction(vec2 s) { return u.forward.xyz + s.x * u.right.xyz + s.y * u.up.xyz; }

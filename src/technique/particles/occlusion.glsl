@@ -1,18 +1,19 @@
-// Include this after cells.glsl. Finds hidden cells by comparing cells with the farthest depth in each block of
-// 16×16 pixels of an image that shows some of the cells. Depth is reversed, so the farthest depth is the smallest
-// value.
+// Include this after cells.glsl. Finds the cells that are hidden in an image that already contains some of the
+// cells. To do so, each cell is compared with the farthest depth in each block of 16×16 pixels. Depth is reversed,
+// so the farthest depth is the smallest value.
 layout(std430) TRI_BINDING(8) readonly buffer VisibleBefore { uint visible_before[]; };  // in the previous frame
 layout(std430) TRI_BINDING(9) writeonly buffer VisibleNow { uint visible_now[]; };
 layout(std430) TRI_BINDING(10) readonly buffer Farthest { uint farthest[]; };  // bit patterns of depths, by block
 
-// The sphere around the box determines which blocks the cell may reach, and the box itself determines its smallest
-// distance. A hidden cell is strictly behind everything that these blocks show, so it could not win a tie in depth
-// either.
+// Returns whether the cell is hidden. The bounding sphere of the cell's box determines which blocks the cell may
+// reach, and the box itself determines the cell's smallest distance. A hidden cell is strictly behind everything
+// visible in these blocks, so it could not win a depth tie either.
 bool hidden(Cell cell) {
   vec3 middle = 0.5 * (cell.lo + cell.hi);
   vec3 half_size = 0.5 * (cell.hi - cell.lo) + 2.4e-7 * max(abs(cell.lo), abs(cell.hi));
   vec4 around = camera_space(vec4(middle, 1.00001 * length(half_size)));
-  // A device's depth has an error of a few 2⁻²⁴ of the distance to the farthest part, so 2⁻¹⁶ is more than enough.
+  // Depths computed on a device have an error of a few 2⁻²⁴ of the distance to the farthest part of the sphere, so
+  // 2⁻¹⁶ is more than enough.
   float rounding = 1.5259e-5 * (abs(around.x) + abs(around.y) + abs(around.z) + around.w);
   float front = around.z - dot(abs(u.forward.xyz), half_size) - rounding;
   vec2 low;

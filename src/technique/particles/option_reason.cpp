@@ -14,22 +14,22 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
   const bool in_tiles = tiles || rasterizer == SpriteRasterizer::in_tiles;
   switch (options.fault) {
     case ParticleFault::wrong_sense:
-      // tiles always rejects whole spheres by the depth of their front, whatever the option is.
+      // `tiles` always rejects whole spheres by the depth of their front, regardless of the option.
       if (tiles || options.conservative_depth) return std::nullopt;
-      return "the fault wrong_sense needs conservative depth, because nothing is rejected early "
-             "without it";
+      return "the fault wrong_sense requires conservative depth, without which no fragment is "
+             "rejected early";
     case ParticleFault::culled_visible:
       if (options.culling != Culling::none) return std::nullopt;
-      return "the fault culled_visible needs culling";
+      return "the fault culled_visible requires culling=frustum or culling=occlusion";
     case ParticleFault::lost_at_border:
       if (in_tiles) return std::nullopt;
-      return "the fault lost_at_border needs tiles, but here the rasterizer determines which "
-             "pixels a sprite covers";
+      return "the fault lost_at_border requires tiles, but here the API's rasterizer determines "
+             "which pixels a sprite covers";
     case ParticleFault::missing_barrier:
       if (rasterizer == SpriteRasterizer::in_tiles) return std::nullopt;
-      return "the fault missing_barrier needs barriers in work groups, which are not used here";
+      return "the fault missing_barrier requires work-group barriers, which are not used here";
     case ParticleFault::small_box:
-      return "the fault small_box needs a hierarchy of boxes, which only ray techniques use";
+      return "the fault small_box requires a hierarchy of boxes, which only ray techniques use";
     case ParticleFault::none:
     case ParticleFault::small_sprite:
     case ParticleFault::unresolved_ties:
@@ -42,13 +42,13 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
 std::optional<std::string> fault_of_rays(ParticleFault fault) {
   switch (fault) {
     case ParticleFault::small_sprite:
-      return "the fault small_sprite needs sprites, but ray techniques draw none";
+      return "the fault small_sprite requires sprites, but ray techniques draw none";
     case ParticleFault::culled_visible:
-      return "the fault culled_visible needs culling, but ray techniques do not cull cells";
+      return "the fault culled_visible requires culling, but ray techniques do not cull cells";
     case ParticleFault::lost_at_border:
-      return "the fault lost_at_border needs tiles, but ray techniques do not use tiles";
+      return "the fault lost_at_border requires tiles, but ray techniques do not use tiles";
     case ParticleFault::missing_barrier:
-      return "the fault missing_barrier needs barriers in work groups, but ray techniques use none";
+      return "the fault missing_barrier requires work-group barriers, but ray techniques use none";
     case ParticleFault::none:
     case ParticleFault::unresolved_ties:
     case ParticleFault::reversed_depth:
@@ -66,11 +66,11 @@ std::optional<std::string> option_reason(std::string_view id, const ParticleOpti
   const Technique& technique = technique::technique(id);
   if (options.ray == ComputedAt::vertex) {
     if (technique.vertices == Vertices::one) {
-      return fmt::format("{} draws one vertex per sphere, so rays can be computed only per pixel",
+      return fmt::format("{} draws one vertex per sphere, so it can compute rays only per pixel",
                          id);
     }
     if (technique.vertices == Vertices::none) {
-      return fmt::format("{} draws no vertices, so rays can be computed only per pixel", id);
+      return fmt::format("{} draws no vertices, so it can compute rays only per pixel", id);
     }
   }
   if (technique.asks_corners && options.corners < 4) {
@@ -78,7 +78,7 @@ std::optional<std::string> option_reason(std::string_view id, const ParticleOpti
   }
   if (technique.method == Method::rays) return fault_of_rays(options.fault);
   if (options.structure != Structure::built_once) {
-    return fmt::format("{} uses no hierarchy, so there is none to refit or rebuild", id);
+    return fmt::format("{} uses no hierarchy that it could refit or rebuild", id);
   }
   return fault_of_sprites(technique, options, rasterizer);
 }

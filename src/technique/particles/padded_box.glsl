@@ -1,11 +1,12 @@
 // Computes the box of a sphere for an acceleration structure. Include this after sphere_box.glsl. The driver
 // traverses the structure with rays and boxes in single precision, and no specification says how its arithmetic
-// rounds. The box must contain everything that the sphere's own test can hit, so it is larger than the sphere by
-//   2⁻¹⁹·(|eye| + |c| + r)  for the rounding of the eye and of the ray's direction (in each component, u of the
-//                           distance), the driver's differences and divisions (a few u more), and the error of
-//                           24u·(|c| + r) in the distance of a hit. That error is along the view axis, so it is
+// rounds. The box must contain every point that the intersection test for the sphere can report, so it is larger
+// than the sphere by (u = 2⁻²⁴)
+//   2⁻¹⁹·(|eye| + |c| + r)  for the rounding of the eye and of the ray's direction (u times the distance in each
+//                           component), for the driver's differences and divisions (a few u more), and for the
+//                           error in the distance of a hit, 24u·(|c| + r). That error is along the view axis, so it is
 //                           multiplied by the ray's length per unit of depth.
-//   1/64 pixel              the margin of sprites, which covers hits of single precision outside the silhouette
+//   1/64 pixel              the margin of sprites, which covers single-precision hits outside the silhouette
 void padded_box(vec4 sphere, out vec3 lo, out vec3 hi) {
   sphere_box(sphere, lo, hi);
   vec3 to = sphere.xyz - u.eye.xyz;

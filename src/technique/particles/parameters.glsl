@@ -4,7 +4,7 @@
 //   TRI_LINK(n)                    the location of a variable between stages, if the language has locations
 //   TRI_COLOUR                     0 rgba8, 1 rgba32, 2 intensity
 //   TRI_TRANSFER_AT_PIXEL, TRI_RAY_AT_VERTEX (0 or 1), TRI_FAULT (technique::ParticleFault)
-// all of which may be specialization constants, and the macro TRI_COUNT (0 or 1).
+// and the macro TRI_COUNT (0 or 1). The constants from TRI_COLOUR to TRI_FAULT may be specialization constants.
 layout(std140) TRI_BINDING(0) uniform Parameters {
   vec4 eye;
   vec4 eye_rest;
@@ -23,7 +23,7 @@ layout(std140) TRI_BINDING(0) uniform Parameters {
 layout(std140) TRI_BINDING(1) uniform Transfer { vec4 transfer_entries[256]; };
 
 #if TRI_COUNT
-// There are 1024 rows of 8 counters, which the host adds up. A single row would cause contention and could
+// There are 1024 rows of 8 counters, and the host sums the rows. A single row would cause contention and could
 // overflow.
 layout(std430) TRI_BINDING(2) buffer Counters { uint counters[]; };
 #define TRI_COUNT_SPRITES 0

@@ -12,7 +12,8 @@
 
 namespace triptych::technique {
 
-// The columns of the counters, with the values of the constants TRI_COUNT_… in parameters.glsl.
+// The columns of the counter buffer. The values equal those of the constants TRI_COUNT_… in
+// parameters.glsl.
 enum class ParticleCounter : std::uint8_t {
   sprites,
   vertices,
@@ -33,7 +34,7 @@ inline constexpr std::size_t particle_counter_columns = 8;
 inline constexpr std::size_t particle_counter_bytes =
     particle_counter_rows * particle_counter_columns * sizeof(std::uint32_t);
 
-// The number of different particles that are visible in the image.
+// Returns the number of different particles that are visible in the image.
 [[nodiscard]] std::uint64_t visible_ids(const core::Image& picture);
 
 struct CountedFrame {
@@ -43,20 +44,20 @@ struct CountedFrame {
   std::uint64_t cells = 0;
   std::uint64_t particles = 0;
 };
-// Computes Triptych's own counters, which have the same names on every API. A technique reports
-// those that are meaningful for it. They come from frames of Purpose::counters.
+// Computes Triptych's own counters, which have the same names on every API. Each technique reports
+// only the counters that apply to it. The counts come from frames drawn with Purpose::counters.
 //   cells, cells_culled   cells of the arrangement, and cells that were left out
 //   particles_submitted   particles of the cells that were drawn
-//   particles_culled      all other particles
+//   particles_culled      particles of the cells that were left out
 //   sprites               particles whose sprite (for tiles: pixel rectangle) is not empty
-//   vertices              corners of these sprites (0 for tiles)
+//   vertices              corners of the non-empty sprites (0 for tiles)
 //   fragments             pixel centres that the sprites cover, before any depth test
 //   fragments_discarded   fragments whose ray misses the sphere or finds it behind another one
-//   fragments_kept        all other fragments
+//   fragments_kept        fragments that were not discarded
 //   bin_entries           (tile, particle) pairs, for tiles and for OpenCL's rasterizer
 //   nodes_visited         for rays: inner nodes of the hierarchy whose children were tested
-//   boxes_tested          for rays: boxes of nodes and of single spheres
-//   intersections_tested  for rays: (pixel, sphere) pairs
+//   boxes_tested          for rays: tests of the boxes of nodes and of single spheres
+//   intersections_tested  for rays: tests of a pixel's ray with a sphere
 //   visible_ids           the number of different particles in the image, for all techniques
 // `sums` contains all rows of the buffer.
 [[nodiscard]] std::map<std::string, std::uint64_t> particle_counts(

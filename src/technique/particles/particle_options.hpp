@@ -1,5 +1,5 @@
 #pragma once
-// Options for drawing particles: the factors that do not determine the image.
+// Options for how particles are drawn, as opposed to the factors that define the image.
 
 #include <cstdint>
 #include <string_view>
@@ -9,11 +9,12 @@ namespace triptych::technique {
 // The stage that computes a quantity, if both the vertex stage and the fragment stage could compute
 // it.
 enum class ComputedAt : std::uint8_t { vertex, pixel };
-// The cells that are culled: none, the cells outside the view, or also the hidden cells.
+// The cells that are culled: none, those outside the view, or those outside the view and hidden
+// ones.
 enum class Culling : std::uint8_t { none, frustum, occlusion };
-// The work of a frame on a hierarchy or an acceleration structure before rays traverse it: none,
-// because the structure was built when the scene was prepared; fitting the boxes to spheres that
-// have moved; or building the whole structure again.
+// What each frame does to the hierarchy or acceleration structure before rays traverse it: nothing,
+// because it was built when the scene was prepared; refit its boxes to spheres that have moved; or
+// rebuild it.
 enum class Structure : std::uint8_t { built_once, refitted, rebuilt };
 [[nodiscard]] std::string_view name_of(Structure structure);  // static, refit, rebuild
 [[nodiscard]] Structure structure(std::string_view name);     // throws InputError
@@ -26,11 +27,11 @@ enum class Structure : std::uint8_t { built_once, refitted, rebuilt };
 // a compile-time constant unless it only changes a parameter.
 enum class ParticleFault : std::uint8_t {
   none = 0,
-  small_sprite = 1,     // the radius of every sprite is 1 % smaller than that of the silhouette
+  small_sprite = 1,     // every sprite is 1 % smaller than the silhouette of its sphere
   unresolved_ties = 2,  // if depths are equal, the particle that is drawn last stays visible
   reversed_depth = 3,   // the farther of two surfaces stays visible
-  wrong_sense = 4,      // early rejection uses the sphere's back instead of its front; the
-                        // shader declares the opposite of what conservative depth needs
+  wrong_sense = 4,      // early rejection uses the sphere's back instead of its front, and the
+                        // conservative-depth qualifier is the opposite of the correct one
   culled_visible = 5,   // culling assumes a view that is half as wide as the real one
   lost_at_border = 6,   // a particle is not put into the last tile that it reaches
   missing_barrier = 7,  // a work group does not wait for data that its invocations share
@@ -46,7 +47,7 @@ struct ParticleOptions {
   Structure structure = Structure::built_once;
   ParticleFault fault = ParticleFault::none;
   // Every extra_work_stride-th particle (in evenly distributed runs) is drawn twice. This injects a
-  // slowdown by about 1/stride, with real work that changes no pixel. 0 means no extra work.
+  // slowdown of about 1/stride through real work that changes no pixel. 0 disables it.
   int extra_work_stride = 0;
 };
 

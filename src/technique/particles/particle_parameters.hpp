@@ -12,23 +12,24 @@
 namespace triptych::technique {
 
 // The layout is the same as in particles/parameters.glsl (std140) and particle_parameters.cl. A
-// double is stored as two floats: the nearest float, and the rest (see tri_along_axis in
+// double is stored as two floats: the nearest float, and the remainder (see tri_along_axis in
 // portable/sphere_math.h).
 struct ParticleParameters {
-  std::array<float, 4> eye;       // xyz: in world space; w: near, the scale of the depth buffer
+  std::array<float, 4> eye;       // xyz: position in world space; w: near, the scale of depth
   std::array<float, 4> eye_rest;  // w: sprite scale, 1 unless ParticleFault::small_sprite
   std::array<float, 4> right;     // camera axes; w of right: 1/(width of the image plane at z = 1)
   std::array<float, 4> right_rest;
   std::array<float, 4> up;  // w: 1/(height of the image plane)
   std::array<float, 4> up_rest;
-  std::array<float, 4> forward;  // w: share of the view that culling uses: 1, or ½ for a fault
+  std::array<float, 4> forward;  // w: share of the view used for culling: 1, or ½ with a fault
   std::array<float, 4> forward_rest;
-  // The image plane z = 1. Pixel (x, y), top row first, looks through
+  // The image plane z = 1. The ray of pixel (x, y), where y = 0 is the top row, intersects the
+  // plane at
   //   sx = (x + ½)·plane.z − plane.x,   sy = plane.y − (y + ½)·plane.w.
-  std::array<float, 4> plane;            // half extents x, y; size of a pixel x, y
+  std::array<float, 4> plane;            // half extents x, y; pixel size x, y
   std::array<float, 4> shading;          // ambient, diffuse, 0, 0
   std::array<float, 4> background;       // premultiplied RGBA
-  std::array<std::int32_t, 4> viewport;  // width, height, corners, colour kind
+  std::array<std::int32_t, 4> viewport;  // width, height, corners, colour format
   std::array<std::uint32_t, 4> counts;   // particles, cells, 0, 0
 };
 static_assert(sizeof(ParticleParameters) == std::size_t{13} * 16);

@@ -1,7 +1,7 @@
 // The vertex stage of point sprites. A point is the square around the part of the silhouette that is inside the
-// viewport. Spheres that need a larger square than the device can draw as a point are drawn by a second draw, as
-// screen-aligned quads (point_large.vert.glsl). TRI_POINT_MARGIN: pixels to add on a device that draws points
-// smaller than requested. TRI_LARGEST_POINT: the device's largest point in pixels, without this margin.
+// viewport. If the square exceeds the device's maximum point size, a second draw draws the sphere as a
+// screen-aligned quad (point_large.vert.glsl). TRI_POINT_MARGIN: pixels to add on a device that draws points
+// smaller than requested. TRI_LARGEST_POINT: the device's maximum point size in pixels, minus this margin.
 layout(location = 0) in vec4 sphere;
 layout(location = 1) in vec4 colour;
 layout(location = 2) in uint id;

@@ -1,6 +1,6 @@
-// The vertex stage of the second draw of point sprites. For each sphere that needs a larger square than the
-// device's largest point, it generates the rectangle around the part of the silhouette that is inside the viewport.
-// For all other spheres it generates nothing. TRI_PARTICLE and TRI_CORNER have the same meaning as in
+// The vertex stage of the second draw of point sprites. For each sphere whose square exceeds the device's maximum
+// point size, it generates the rectangle around the part of the silhouette that is inside the viewport. For all
+// other spheres, it generates an empty quad. TRI_PARTICLE and TRI_CORNER have the same meaning as in
 // quad_instanced.vert.glsl.
 TRI_LINK(0) flat out vec4 sprite_sphere;
 TRI_LINK(1) flat out vec4 sprite_colour;

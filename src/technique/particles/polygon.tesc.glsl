@@ -1,6 +1,6 @@
 // One particle per patch. TRI_ADAPTIVE: 1 if the number of corners depends on the projected radius, 0 if it is
-// given. TRI_QUAD: 1 for a square without a centre vertex, which consists of the two triangles of an undivided
-// quad; otherwise 0.
+// a parameter. TRI_QUAD: 1 for a square without a centre vertex, which consists of the two triangles of an
+// undivided quad; otherwise 0.
 layout(vertices = 1) out;
 
 TRI_LINK(0) in vec4 particle_sphere[];
@@ -32,8 +32,8 @@ void main() {
   gl_TessLevelOuter = float[4](1.0, 1.0, 1.0, 1.0);
   gl_TessLevelInner = float[2](1.0, 1.0);
 #else
-  // The outline of an n-gon is the outline of the quad, whose four edges are divided into n parts in total. An
-  // inner level of 2 adds one vertex in the middle.
+  // The outline of an n-gon is the outline of a quad patch whose four edges are divided into n parts in total.
+  // An inner level of 2 adds one vertex in the middle.
   for (int edge = 0; edge < 4; ++edge) gl_TessLevelOuter[edge] = float((corners + edge) / 4);
   gl_TessLevelInner = float[2](2.0, 2.0);
 #endif

@@ -1,4 +1,5 @@
-// Converts one point to one quad. TRI_SCREEN_ALIGNED (0 or 1) selects the kind of quad.
+// Expands a point to a quad, which is screen-aligned if TRI_SCREEN_ALIGNED is 1 and ray-aligned if
+// it is 0.
 layout(points) in;
 layout(triangle_strip, max_vertices = 4) out;
 

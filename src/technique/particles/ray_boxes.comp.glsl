@@ -1,4 +1,5 @@
-// One invocation for each particle writes its box as six floats, in the format that Vulkan requires.
+// Each invocation writes the padded box of one particle as six floats, in the format required by
+// Vulkan.
 layout(local_size_x = 64) in;
 layout(std430) TRI_BINDING(7) writeonly buffer SphereBoxes { float sphere_boxes[]; };
 

@@ -1,5 +1,5 @@
-// An any-hit shader is necessary, because if several hits have equal distances, the driver reports only one of them
-// as the closest hit.
+// This any-hit shader is necessary because the driver reports only one closest hit, even if several hits have equal
+// distances.
 hitAttributeEXT uvec2 found;
 layout(location = 0) rayPayloadInEXT uvec2 best;
 

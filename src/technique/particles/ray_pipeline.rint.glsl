@@ -1,4 +1,5 @@
-// Tests the sphere whose box the ray may hit.
+// Tests whether the ray hits the sphere. The driver invokes this shader if the ray may hit the
+// sphere's box.
 hitAttributeEXT uvec2 found;
 
 void main() {

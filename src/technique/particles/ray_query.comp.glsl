@@ -1,4 +1,5 @@
-// One invocation traces one ray for each pixel. With the injected fault of reversed depth, no hit shortens the ray.
+// Each invocation traces the ray of one pixel. With the injected fault 3 (reversed depth), hits do not shorten the
+// ray.
 layout(local_size_x = 8, local_size_y = 8) in;
 TRI_BINDING(20) uniform accelerationStructureEXT structure;
 

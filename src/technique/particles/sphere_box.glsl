@@ -1,4 +1,4 @@
-// The box around a sphere in world space. The injected fault 8 halves the radius.
+// Computes the box around a sphere in world space. The injected fault 8 halves the radius.
 void sphere_box(vec4 sphere, out vec3 lo, out vec3 hi) {
   float r = TRI_FAULT == 8 ? 0.5 * sphere.w : sphere.w;
   lo = vec3(tri_box_low(sphere.x, r), tri_box_low(sphere.y, r), tri_box_low(sphere.z, r));

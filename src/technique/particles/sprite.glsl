@@ -12,14 +12,14 @@ Corner corner_at(vec3 place) {
   return Corner(vec4(place.x / u.plane.x, -place.y / u.plane.y, u.eye.w, place.z), place);
 }
 
-// Returns a corner (±1, ±1) of a rectangle on the image plane, drawn at the depth that belongs to `distance`.
+// Returns the corner `side` (±1, ±1) of a rectangle on the image plane, at the depth of a surface at this distance.
 Corner corner_on_image(vec2 low, vec2 high, vec2 side, float distance) {
   vec2 place = mix(low, high, 0.5 * side + 0.5);
   return Corner(vec4(place.x / u.plane.x, -place.y / u.plane.y, tri_depth(u.eye.w, distance), 1.0),
                 vec3(place, 1.0));
 }
 
-// Returns a corner for a sprite that covers no pixel, because all its corners are at the same point outside the
+// Returns the corner of a degenerate sprite that covers no pixel: all its corners are the same point outside the
 // view.
 Corner nowhere() { return Corner(vec4(2.0, 2.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0)); }
 
@@ -46,8 +46,8 @@ float point_size(vec2 low, vec2 high) {
   return max(pixels.x, pixels.y);
 }
 
-// Computes the rectangle of the paper's screen-aligned quad: the rectangle around the silhouette if it exists, or
-// the whole viewport if the sphere reaches the plane of the eye. low > high if nothing is visible.
+// Computes the paper's screen-aligned quad, which is the rectangle around the silhouette or, if the sphere reaches
+// the plane of the eye and thus has no bounded silhouette, the whole viewport. low > high if nothing is visible.
 void screen_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   image_bounds(sphere, low, high);
   if (tri_eye_plane(sphere.z, sphere.w) == 1) {
@@ -56,8 +56,8 @@ void screen_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   }
 }
 
-// Returns a corner of a rectangle at the depth of the sphere's front. TRI_SPRITE_GROWTH: additional pixels on each
-// side, for devices with a coarse vertex grid.
+// Returns the corner `side` of a rectangle at the depth of the sphere's front. TRI_SPRITE_GROWTH: additional pixels
+// on each side, for devices with a coarse vertex grid.
 Corner front_corner(vec4 sphere, vec2 low, vec2 high, vec2 side) {
   if (TRI_SPRITE_GROWTH > 0.0) {
     low -= TRI_SPRITE_GROWTH * u.plane.zw;
@@ -84,13 +84,13 @@ Frame sprite_frame(vec4 sphere) {
   vec3 right = normalize(cross(v, reference));
   float plane = tri_sprite_plane(d, sphere.w);
   float radius = tri_sprite_radius(d, sphere.w, plane, max(u.plane.z, u.plane.w), u.eye_rest.w);
-  if (TRI_SPRITE_GROWTH > 0.0) {  // pixels are at least as large here as on the plane
+  if (TRI_SPRITE_GROWTH > 0.0) {  // a pixel is at least as large at depth sphere.z as on the plane
     radius += TRI_SPRITE_GROWTH * max(u.plane.z, u.plane.w) * max(sphere.z, 0.0);
   }
   return Frame(v * plane, radius * right, radius * cross(right, v), tri_surrounds(d2, sphere.w));
 }
 
-// Returns the corner (±1, ±1) of the square.
+// Returns the corner `side` (±1, ±1) of the square.
 Corner quad_corner(Frame frame, vec2 side) {
   if (frame.everywhere == 1) return corner_on_image(-u.plane.xy, u.plane.xy, side, u.eye.w);
   return corner_at(frame.centre + side.x * frame.right + side.y * frame.up);

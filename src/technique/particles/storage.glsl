@@ -1,5 +1,5 @@
-// The particles in storage buffers, for the techniques without a vertex buffer. A file that fetches the words of
-// colours in another way defines TRI_COLOUR_WORD(n) before it includes this file; then no buffers are declared here.
+// Declares storage buffers with the particles, for techniques without a vertex buffer. A shader that fetches colours
+// in a different way defines TRI_COLOUR_WORD(n) before it includes this file, which then declares no buffers.
 #ifndef TRI_COLOUR_WORD
 layout(std430) TRI_BINDING(3) readonly buffer Spheres { vec4 spheres[]; };
 layout(std430) TRI_BINDING(4) readonly buffer Colours { uint colour_words[]; };  // 1 or 4 words per particle

@@ -13,14 +13,14 @@
 namespace triptych::technique {
 namespace {
 
-// Upper bounds on the resources that spheres need.
+// Upper bounds on the resources required by a number of spheres.
 struct Need {
   double pixels = 0;   // number of pixels that are drawn
   double entries = 0;  // number of (tile, large sphere) pairs
   std::uint64_t large = 0;
   bool small = false;  // whether some sphere may be small
-  // The largest number of loop iterations of any invocation, over the pixels of small spheres and
-  // the tiles of large spheres.
+  // The maximum number of loop iterations in one invocation. The loops run over the pixels of small
+  // spheres and the tiles of large spheres.
   double passes = 0;
 
   void add(const Need& more) {
@@ -49,7 +49,7 @@ class NeedBound {
     for (std::size_t k = 0; k < cell.count; ++k) {
       const Need need = of(arrangement.sphere(cell.begin + k));
       all.add(need);
-      // The entries of a sphere count twice, because an invocation of tiles_fill processes two
+      // The entries of a sphere count twice, because an invocation of tiles_fill may process two
       // spheres.
       all.passes = std::max(all.passes, 2 * need.entries);
       passes[k % passes.size()] += 1 + need.entries + (need.small ? small_edge * small_edge : 0);
@@ -83,10 +83,10 @@ class NeedBound {
     return {.pixels = pixels, .entries = columns * rows, .large = 1, .small = small};
   }
 
-  // Returns the number of pixels along one axis between the two tangents of the sphere, which meet
-  // the image plane at (a·z ± r·√(a² + z² − r²))/(z² − r²), clipped to ±half. Three pixels are
-  // added for the margin and for rounding, so the result exceeds the size of a small sphere by less
-  // than `slack`. The result is not positive if the sphere is not visible.
+  // Returns the number of pixels along one axis between the two tangents of the sphere, which
+  // intersect the image plane at (a·z ± r·√(a² + z² − r²))/(z² − r²), clipped to ±half. Three
+  // pixels are added for the margin and for rounding, so the result exceeds the size of a small
+  // sphere by less than `slack`. The result is not positive if the sphere is not visible.
   [[nodiscard]] double extent(double a, double z, double r, double half) const {
     const double k2 = (z - r) * (z + r);
     const double reach = r * std::sqrt(a * a + k2);
@@ -146,8 +146,8 @@ std::optional<std::string> passes_reason(const TileRounds& rounds) {
   constexpr std::uint64_t most = 65'000;
   if (rounds.passes <= most) return std::nullopt;
   return fmt::format(
-      "tiles would need {} loop iterations, because the spheres cover so many tiles. Some drivers "
-      "end such long loops early: use a smaller viewport or another technique",
+      "tiles would need {} loop iterations in one invocation because the spheres cover many tiles, "
+      "and some drivers silently end such long loops; use a smaller viewport or another technique",
       rounds.passes);
 }
 

@@ -23,13 +23,13 @@ struct TileRound {
 };
 
 struct TileRounds {
-  std::vector<TileRound> rounds;  // contain all cells, front to back
+  std::vector<TileRound> rounds;  // together contain all cells, front to back
   std::uint64_t entries = 0;      // largest number of (tile, large sphere) pairs in a round
   bool small = false;             // whether there may be small spheres
-  bool at_once = false;      // a single round, with so few entries that the last pass draws them
-  std::uint64_t passes = 0;  // most loop iterations of an invocation of tiles_bin or tiles_fill
+  bool at_once = false;      // one round with little overdraw, which the last pass draws
+  std::uint64_t passes = 0;  // maximum loop iterations per invocation of tiles_bin or tiles_fill
 
-  // Whether passes before the last one draw large spheres.
+  // Returns whether large spheres are drawn by passes before the last one.
   [[nodiscard]] bool resolved() const noexcept { return entries > 0 && !at_once; }
   // Returns the value of TRI_SPHERES (tile_grid.glsl).
   [[nodiscard]] int spheres() const noexcept {
@@ -37,16 +37,17 @@ struct TileRounds {
   }
 };
 
-// The number of work groups (of 64 invocations) that together process a list of up to this many
-// particles. Each invocation loops until the end of the list.
+// Returns the number of work groups, of 64 invocations each, that process a list of up to this many
+// particles. If the list is longer than the number of invocations, each invocation processes
+// several particles in a loop.
 [[nodiscard]] constexpr std::uint32_t list_groups(std::uint64_t particles) noexcept {
   constexpr std::uint64_t most = 256;
   const std::uint64_t groups = (particles + 63) / 64;
   return static_cast<std::uint32_t>(groups < most ? groups : most);
 }
 
-// The largest number of large spheres in a round, unless a single cell has more. With this limit,
-// the loop over a tile's entries ends before Mesa ends it (docs/accuracy.md).
+// The maximum number of large spheres in a round, unless a single cell has more. It keeps the loop
+// over a tile's entries below Mesa's limit on loop iterations (docs/accuracy.md).
 inline constexpr std::uint64_t most_large_spheres = 32000;
 
 // Divides the cells into rounds. Early rounds hide spheres of later rounds, but each round costs a

@@ -11,11 +11,11 @@
 // At the end of the frame
 //   tiles_index    finds, among the small spheres at each pixel's depth, the particle with the lowest index,
 //   tiles_show     colours every pixel once, as a fragment shader on blocks of tiles that are not empty.
-// If there are few spheres, tiles_resolve and tiles_settle are not run, and tiles_show loops over the entries
-// itself. An empty tile costs nothing. No pass waits within a work group. Pixels are written as vectors, through
-// images and the rasterizer, because devices without vector loads access storage buffers word by word. A pixel
-// stores a maximum of depth keys and a minimum of particle keys, so the image does not depend on the order of
-// processing.
+// If there are few spheres, tiles_resolve and tiles_settle are not run, and tiles_show loops over the entries itself.
+// An empty tile costs nothing. No pass uses work-group barriers. Pixels are written as vectors, through images and
+// the rasterizer, because devices without vector loads access storage buffers word by word. A pixel stores the
+// maximum of the depth keys and the minimum of the particle keys at that depth, so the image does not depend on the
+// order of processing.
 //
 // The backend defines TRI_ROUND, a uvec2 with the index of the first cell and the number of cells, and TRI_CULLING
 // (technique::Culling). Both may be run-time values.
@@ -28,7 +28,7 @@ struct Tile {
   uint farthest;
   uint flags;
   uint coming;    // value of `farthest` after this round
-  uint listed;    // entry n: the n-th tile that this round draws into
+  uint listed;    // in element n: the index of the n-th tile that this round draws into
   uint no_state[2];
 };
 
@@ -49,9 +49,9 @@ layout(std430) TRI_BINDING(11) buffer Pixels { uint pixels[]; };
 uint large_place(uint n) { return uint(kept.length()) - 1u - n; }
 uint depth_seen(ivec2 pixel) { return texelFetch(pixel_texels, pixel_index(pixel)).x; }
 
-// Returns the rectangle of pixels (x, y, width, height) whose centres the sphere's silhouette may cover; the width
-// is 0 if there are no such pixels. The arithmetic is `precise`, as in front_key, because tiles_fill has room only
-// for the entries that tiles_bin counted.
+// Returns the rectangle of pixels (x, y, width, height) whose centres the sphere's silhouette may cover; the width is
+// 0 if there are no such pixels. The arithmetic is `precise`, as in front_key, so that tiles_fill writes exactly the
+// entries that tiles_bin counted, for which space is reserved.
 ivec4 pixel_rectangle(vec4 sphere) {
   vec2 low;
   vec2 high;
@@ -70,8 +70,8 @@ ivec4 pixel_rectangle(vec4 sphere) {
   return extent.x > 0 && extent.y > 0 ? ivec4(begin, extent) : ivec4(0);
 }
 
-// Returns a depth key that no point of the sphere's surface exceeds. A device's depth has an error of a few 2⁻²⁴ of
-// the distance to the farthest part (tri_sphere_distance), so 2⁻¹⁶ is more than enough.
+// Returns a depth key that no point of the sphere's surface exceeds. Depths computed on a device have an error of a
+// few 2⁻²⁴ of the distance to the sphere's farthest part (tri_sphere_distance), so 2⁻¹⁶ is more than enough.
 uint front_key(vec4 sphere) {
   if (TRI_FAULT == 3) return TRI_LARGEST_KEY;  // nothing is skipped
   TRI_PRECISE float rounding = 1.5259e-5 * (abs(sphere.x) + abs(sphere.y) + abs(sphere.z) + sphere.w);
@@ -79,7 +79,7 @@ uint front_key(vec4 sphere) {
   return front > 0.0 ? depth_key(tri_depth(u.eye.w, front)) : TRI_LARGEST_KEY;
 }
 
-// Returns the up to 2×2 tiles that a small rectangle overlaps. The same tile may occur more than once.
+// Returns the indices of the tiles, at most 2×2, that a small rectangle overlaps. An index may occur more than once.
 ivec4 tiles_around(ivec4 rectangle) {
   ivec2 a = rectangle.xy / TRI_TILE;
   ivec2 b = (rectangle.xy + rectangle.zw - 1) / TRI_TILE;

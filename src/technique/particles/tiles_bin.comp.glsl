@@ -1,10 +1,11 @@
-// One work group per cell, one invocation per particle. Draws small spheres and counts the entries of large spheres.
+// Each work group processes the particles of one cell. It draws small spheres and counts the entries of large
+// spheres.
 layout(local_size_x = 64) in;
 TRI_BINDING(17) uniform samplerBuffer sphere_texels;
 layout(std430) TRI_BINDING(12) readonly buffer CellEnds { uint cell_ends[]; };
 
-// Raises the depth keys of the pixels that the sphere covers. Returns whether any of them shows the sphere now, or
-// might show it. There is a single loop over all pixels of the rectangle, because with nested loops all lanes would
+// Raises the depth keys of the pixels that the sphere covers. Returns whether the sphere is, or may be, visible at
+// any of these pixels. A single loop visits all pixels of the rectangle, because with nested loops all lanes would
 // wait for the longest row each time.
 bool draw_small(vec4 sphere, ivec4 rectangle, int count) {
   bool seen = false;
@@ -12,7 +13,7 @@ bool draw_small(vec4 sphere, ivec4 rectangle, int count) {
   int right = rectangle.x + rectangle.z;
   for (int i = 0; i < count; ++i) {
     uint key = sphere_key(sphere, pixel_ray(pixel));
-    if (key > 0u && key >= depth_seen(pixel)) {  // depth_seen() may return an older depth
+    if (key > 0u && key >= depth_seen(pixel)) {  // depth_seen() may return an outdated depth
       atomicMax(pixels[pixel_index(pixel)], key);
       seen = true;
     }
@@ -61,8 +62,8 @@ void bin(uint particle) {
   bool small = covers && is_small(rectangle);
   int pixel_count = small && front >= farthest_around(rectangle) ? rectangle.z * rectangle.w : 0;
   ivec2 tile_span = (rectangle.xy + rectangle.zw - 1) / TRI_TILE - rectangle.xy / TRI_TILE + 1;
-  // Whether the tiles are used must not depend on whether the sphere is visible, because that depends on what other
-  // invocations have drawn so far. The amount of work would then not be repeatable.
+  // The tiles are marked as used even if the sphere turns out to be hidden. Its visibility depends on what other
+  // invocations have drawn so far, so the amount of work would otherwise vary from run to run.
   if (pixel_count > 0) use_tiles(rectangle);
   int tile_count = covers && !small ? tile_span.x * tile_span.y : 0;
   bool seen = draw_small(sphere, rectangle, pixel_count);

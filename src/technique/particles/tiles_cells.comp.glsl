@@ -1,11 +1,11 @@
-// One invocation per cell of the round. It writes the index at which the cell's particles end. If the cell is not
-// drawn because it is outside the view (TRI_CULLING ≥ 1) or behind what has been drawn (TRI_CULLING = 2), it writes
-// the index at which they begin.
+// Each invocation processes one cell of the round and writes the index at which the cell's particles end. If the
+// cell is not drawn because it is outside the view (TRI_CULLING ≥ 1) or behind everything drawn so far (TRI_CULLING
+// = 2), the invocation writes the index at which the cell's particles begin.
 layout(local_size_x = 64) in;
 layout(std430) TRI_BINDING(12) writeonly buffer CellEnds { uint cell_ends[]; };
 
-// The sphere around the box determines which tiles the cell may reach, and the box itself determines its smallest
-// distance.
+// Returns whether the cell is behind everything drawn so far. The bounding sphere of the cell's box determines
+// which tiles the cell may reach, and the box itself determines the cell's smallest distance.
 bool behind_everything(Cell cell) {
   vec3 middle = 0.5 * (cell.lo + cell.hi);
   vec3 half_size = 0.5 * (cell.hi - cell.lo) + 2.4e-7 * max(abs(cell.lo), abs(cell.hi));

@@ -1,6 +1,6 @@
-// Each listed tile has 32 invocations: eight for each quarter of the tile, one for each column of eight pixels. For
-// each pixel, they find the nearest of the quarter's entries, and then the farthest depth that the tile's pixels
-// show.
+// A work group of 32 invocations resolves each listed tile. There are eight invocations for each quarter of the
+// tile, and each of them processes a column of eight pixels. They find the nearest entry at each pixel, and then
+// the farthest depth among the tile's pixels.
 layout(local_size_x = 32) in;
 
 struct Column {  // eight pixels; each vector holds two, as a texel of large_pixels does
@@ -26,9 +26,9 @@ uvec4 with_sphere(uvec4 pair, vec4 sphere, uint particle, float right, float upp
                wins_below ? below : pair.z, wins_below ? particle : pair.w);
 }
 
-// Returns the next entry that reaches this quarter, or 0 if there is none. This needs its own loop, because on
-// lanes that run in lockstep only a loop can skip work. Its condition is at the end, because with a condition at
-// the beginning the lanes would execute one more idle iteration.
+// Returns the next entry that reaches this quarter, or 0 if there is none. A separate loop is necessary because
+// lanes that run in lockstep can skip work only in a loop. The condition is at the end of the loop, because a
+// condition at the beginning would cost the lanes one more idle iteration.
 uint next_entry(inout uint at, uint end, uint quarter) {
   uint found = 0u;
   do {
@@ -61,7 +61,8 @@ void draw_entries(uint at, uint end, uint quarter, ivec2 pixel, inout Column col
   } while (entry != 0u);
 }
 
-// Returns the depth key that a pixel shows, or the largest key if the pixel is outside the image.
+// Returns the depth key of the nearest sphere drawn at a pixel so far, or the largest key if the pixel is
+// outside the image.
 uint shown_key(ivec2 pixel, uint large) {
   bool inside = pixel.x < u.viewport.x && pixel.y < u.viewport.y;
   uint small = (TRI_SPHERES & TRI_SMALL) != 0 ? depth_seen(pixel) : 0u;

@@ -1,5 +1,5 @@
-// One instance of four vertices per block of tiles. They form the rectangle around those tiles of the block that
-// were drawn into, or an empty rectangle if there are none.
+// Each block of tiles is an instance with four vertices. They form the rectangle around the tiles of the block
+// that contain spheres, or an empty rectangle if there are none.
 
 void main() {
   ivec2 grid = tile_grid();
