@@ -263,7 +263,9 @@ ProbedFeature probe_indirect_draws(const Api& gl) {
 
 ProbedFeature probe_instances(const Api& gl) {
   constexpr GLuint count = 10'000'000;
-  if (gl.limit(GL_MAX_RENDERBUFFER_SIZE) < 4096) throw core::NotSupported("needs 4096 pixels");
+  if (gl.limit(GL_MAX_RENDERBUFFER_SIZE) < 4096) {
+    throw core::NotSupported("needs a GL_MAX_RENDERBUFFER_SIZE of 4096");
+  }
   return probe_points(gl, {4096, 2442}, count, count, fmt::format("{} instances", count),
                       [&] { gl.DrawArraysInstanced(GL_POINTS, 0, 1, count); });
 }

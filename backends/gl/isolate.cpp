@@ -84,7 +84,7 @@ Answer conclude(pid_t child, bool in_time, std::string text, std::chrono::millis
 Answer ask_in_child(const std::function<std::string()>& ask, std::chrono::milliseconds limit) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
-    return {{}, fmt::format("no pipe: {}", std::strerror(errno))};
+    return {{}, fmt::format("cannot create a pipe: {}", std::strerror(errno))};
   }
   const pid_t child = fork();
   if (child == 0) {

@@ -61,8 +61,8 @@ void bind_buffer(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                  vk::DescriptorType type, const Buffer& buffer) {
   const std::uint32_t most = gpu.properties.limits.maxStorageBufferRange;
   if (type == vk::DescriptorType::eStorageBuffer && buffer.size() > most) {
-    throw core::NotSupported(fmt::format("needs {} bytes in one buffer; maxStorageBufferRange = {}",
-                                         buffer.size(), most));
+    throw core::NotSupported(fmt::format(
+        "needs {} bytes in one buffer, but maxStorageBufferRange is {}", buffer.size(), most));
   }
   if (!gpu.executes) return;
   const vk::DescriptorBufferInfo info{.buffer = buffer.get(), .range = buffer.size()};
@@ -78,8 +78,8 @@ vk::raii::BufferView texel_view(const Gpu& gpu, const Buffer& buffer, vk::Format
   const vk::DeviceSize texels = buffer.size() / vk::blockSize(format);
   const vk::DeviceSize most = gpu.properties.limits.maxTexelBufferElements;
   if (texels > most) {
-    throw core::NotSupported(
-        fmt::format("needs {} texels in one buffer; maxTexelBufferElements = {}", texels, most));
+    throw core::NotSupported(fmt::format(
+        "needs {} texels in one buffer, but maxTexelBufferElements is {}", texels, most));
   }
   if (!gpu.executes) return nullptr;
   return {gpu.device, vk::BufferViewCreateInfo{

@@ -29,7 +29,7 @@ measure::ProbedFeature probe_points(const Gpu& gpu, PointGrid grid, std::uint32_
   if (!gpu.draws) throw core::NotSupported("the device has no graphics queue");
   const std::uint32_t most = gpu.properties.limits.maxImageDimension2D;
   if (std::max(grid.width, grid.height) > most) {
-    throw core::NotSupported(fmt::format("needs an image of {} x {}, but maxImageDimension2D = {}",
+    throw core::NotSupported(fmt::format("needs an image of {} x {}, but maxImageDimension2D is {}",
                                          grid.width, grid.height, most));
   }
   constexpr vk::Format format = vk::Format::eR32Uint;

@@ -44,7 +44,7 @@ std::uint32_t memory_type(const Gpu& gpu, const vk::MemoryRequirements& needed, 
     }
   }
   throw core::NotSupported(
-      fmt::format("needs {} bytes of device memory; the largest heap for this resource has {}",
+      fmt::format("needs {} bytes of device memory, but the largest heap for this resource has {}",
                   needed.size, largest));
 }
 
@@ -61,7 +61,7 @@ vk::raii::DeviceMemory allocate(const Gpu& gpu, const vk::MemoryRequirements& ne
     if (needed.size > gpu.most_allocated) {
       throw core::NotSupported(
           fmt::format("needs {} bytes in one allocation, which the device refused; "
-                      "maxMemoryAllocationSize = {}",
+                      "maxMemoryAllocationSize is {}",
                       needed.size, gpu.most_allocated));
     }
     rethrow(error, code_place,

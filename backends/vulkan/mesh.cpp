@@ -54,9 +54,9 @@ void check_mesh_limits(const Gpu& gpu, std::size_t cells) {
   }
   const std::size_t groups = (cells + cells_per_task_group - 1) / cells_per_task_group;
   if (groups > has.task_groups) {
-    throw core::NotSupported(fmt::format(
-        "{} cells of particles need {} task groups; maxTaskWorkGroupCount = {}", cells, groups,
-        has.task_groups));
+    throw core::NotSupported(
+        fmt::format("{} cells of particles need {} task groups, but maxTaskWorkGroupCount is {}",
+                    cells, groups, has.task_groups));
   }
 }
 

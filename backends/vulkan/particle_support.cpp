@@ -24,12 +24,12 @@ std::optional<std::string> storage_reason(const Gpu& gpu, const scene::ParticleS
   constexpr std::uint32_t buffers = 12;
   const vk::PhysicalDeviceLimits& limits = gpu.properties.limits;
   if (limits.maxPerStageDescriptorStorageBuffers < buffers) {
-    return fmt::format("needs {} storage buffers; maxPerStageDescriptorStorageBuffers = {}",
+    return fmt::format("needs {} storage buffers, but maxPerStageDescriptorStorageBuffers is {}",
                        buffers, limits.maxPerStageDescriptorStorageBuffers);
   }
   const std::uint64_t bytes = sphere_bytes * set.count();
   if (drawn.fetches_by_index && bytes > limits.maxStorageBufferRange) {
-    return fmt::format("{} particles need {} bytes in one buffer; maxStorageBufferRange = {}",
+    return fmt::format("{} particles need {} bytes in one buffer, but maxStorageBufferRange is {}",
                        set.count(), bytes, limits.maxStorageBufferRange);
   }
   return std::nullopt;
@@ -80,15 +80,16 @@ std::optional<std::string> picture_reason(const Gpu& gpu, int width, int height,
         std::min({limits.maxFramebufferWidth, limits.maxFramebufferHeight,
                   limits.maxImageDimension2D, std::ranges::min(limits.maxViewportDimensions)});
     if (static_cast<std::uint32_t>(std::max(width, height)) > limit) {
-      return fmt::format("a viewport of {}x{} exceeds the largest frame buffer of {}", width,
-                         height, limit);
+      return fmt::format("the image has {}x{} pixels, but the device can draw at most {}x{}", width,
+                         height, limit, limit);
     }
   }
   const std::uint64_t bytes =
       pixel_bytes * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   if (bytes <= limits.maxStorageBufferRange) return std::nullopt;
-  return fmt::format("a viewport of {}x{} needs {} bytes; maxStorageBufferRange = {}", width,
-                     height, bytes, limits.maxStorageBufferRange);
+  return fmt::format(
+      "an image of {}x{} pixels needs {} bytes in one buffer, but maxStorageBufferRange is {}",
+      width, height, bytes, limits.maxStorageBufferRange);
 }
 
 std::optional<std::string> memory_reason(const Gpu& gpu, std::uint64_t needed) {
@@ -103,7 +104,8 @@ std::optional<std::string> memory_reason(const Gpu& gpu, std::uint64_t needed) {
     largest = gpu.memory.memoryHeaps[heap].size;
   }
   if (needed <= largest) return std::nullopt;
-  return fmt::format("needs {} bytes of device memory; the largest heap has {}", needed, largest);
+  return fmt::format("needs {} bytes of device memory, but the largest heap has {}", needed,
+                     largest);
 }
 
 std::optional<std::string> particle_reason(const Gpu& gpu, const measure::ParticleWork& work,

@@ -37,8 +37,8 @@ vk::BuildAccelerationStructureFlagsKHR flags_of(Structure kind) {
 std::uint32_t checked_count(const Gpu& gpu, std::uint32_t particles) {
   if (particles > gpu.extensions.most_boxes) {
     throw core::NotSupported(
-        fmt::format("{} particles need as many boxes in an acceleration structure; "
-                    "maxPrimitiveCount = {}",
+        fmt::format("{} particles need as many boxes in an acceleration structure, "
+                    "but maxPrimitiveCount is {}",
                     particles, gpu.extensions.most_boxes));
   }
   return particles;

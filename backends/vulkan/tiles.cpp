@@ -89,9 +89,9 @@ technique::TileRounds rounds_of(const Gpu& gpu, const measure::ParticleWork& wor
       technique::tile_rounds(work.scene, arrangement, most_cells, std::min(most, enough_entries));
   if (const auto reason = technique::passes_reason(rounds)) throw core::NotSupported(*reason);
   if (rounds.entries > most) {
-    throw core::NotSupported(
-        fmt::format("one cell of particles needs {} entries in tiles; maxStorageBufferRange = {}",
-                    rounds.entries, gpu.properties.limits.maxStorageBufferRange));
+    throw core::NotSupported(fmt::format(
+        "one cell of particles needs {} entries in tiles, but maxStorageBufferRange is {}",
+        rounds.entries, gpu.properties.limits.maxStorageBufferRange));
   }
   return rounds;
 }

@@ -27,7 +27,7 @@ std::optional<std::string> volume_size_reason(const Gpu& gpu, const scene::Voxel
   const auto [nx, ny, nz] = grid.size;
   const int longest = in_parts ? std::max(nx, ny) : std::max({nx, ny, nz});
   if (static_cast<std::uint32_t>(longest) <= limit) return std::nullopt;
-  return fmt::format("a volume of {}x{}x{} voxels exceeds maxImageDimension3D = {}", nx, ny, nz,
+  return fmt::format("the volume has {}x{}x{} voxels, but maxImageDimension3D is {}", nx, ny, nz,
                      limit);
 }
 

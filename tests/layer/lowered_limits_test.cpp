@@ -26,9 +26,9 @@ struct Lowered {
 const std::vector<Lowered>& lowered() {
   static const std::vector<Lowered> all{
       {"maxImageDimension1D=4096", volume},
-      {"maxImageDimension2D=48", particles, 8, "exceeds the largest frame buffer of 48"},
-      {"maxImageDimension3D=16", volume, 2, "exceeds maxImageDimension3D = 16"},
-      {"maxFramebufferWidth=48", particles, 8, "exceeds the largest frame buffer of 48"},
+      {"maxImageDimension2D=48", particles, 8, "can draw at most 48x48"},
+      {"maxImageDimension3D=16", volume, 2, "maxImageDimension3D is 16"},
+      {"maxFramebufferWidth=48", particles, 8, "can draw at most 48x48"},
       {"maxStorageBufferRange=134217728", particles},
       {"maxUniformBufferRange=16384", particles},
       {"maxComputeSharedMemorySize=16384", particles},
@@ -69,7 +69,7 @@ const std::vector<Lowered>& lowered() {
       {"memoryHeapSize=150000", volume, 2, "the largest heap has 150000"},
       {"emptyHeap", volume},
       {"emptyHeap", particles},
-      {"maxMemoryAllocationSize=150000", volume, 2, "maxMemoryAllocationSize = 150000"},
+      {"maxMemoryAllocationSize=150000", volume, 2, "maxMemoryAllocationSize is 150000"},
   };
   return all;
 }

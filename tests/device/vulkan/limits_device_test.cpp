@@ -47,13 +47,13 @@ TEST(VulkanLimits, CountersAndBrickMapsAreCheckedAgainstLimits) {
       scene.grid = std::make_shared<const scene::VoxelGrid>(grid);
       scene.height = 128;
       EXPECT_THAT(reason(gpu, technique, scene, Skip::distance),
-                  AllOf(HasSubstr("brick map"), HasSubstr("maxStorageBufferRange = 1048576")));
+                  AllOf(HasSubstr("brick map"), HasSubstr("maxStorageBufferRange is 1048576")));
       EXPECT_EQ(reason(gpu, technique, scene, Skip::bricks), "");
       scene.height = 256;  // the largest height that fits, with 32 bytes of counters per pixel
       EXPECT_EQ(reason(gpu, technique, scene, Skip::bricks), "");
       scene.height = 257;
       EXPECT_THAT(reason(gpu, technique, scene, Skip::bricks),
-                  HasSubstr("maxStorageBufferRange = 1048576"));
+                  HasSubstr("maxStorageBufferRange is 1048576"));
     }
   });
 }

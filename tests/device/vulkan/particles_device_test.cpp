@@ -302,9 +302,9 @@ TEST(VulkanParticles, WorkFromAnotherSuiteIsRejected) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = generated("uniform", 10);
     EXPECT_THAT(device.unsupported(particle_work("raycast", scene, {})).value_or(""),
-                testing::HasSubstr("other suite"));
+                testing::HasSubstr("different suite"));
     EXPECT_THAT(device.unsupported(make_work("tiles", make_scene())).value_or(""),
-                testing::HasSubstr("other suite"));
+                testing::HasSubstr("different suite"));
     EXPECT_THAT(
         device.unsupported(particle_work("polygon_tess", scene, {.corners = 1 << 20})).value_or(""),
         testing::HasSubstr("maxTessellationGenerationLevel"));
