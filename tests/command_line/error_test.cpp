@@ -40,7 +40,7 @@ TEST(Error, IsMetByTheFastestCandidate) {
   EXPECT_EQ(kept.code, 0) << kept.output;
   EXPECT_NE(kept.output.find("midpoint meets the error with step"), std::string::npos) << kept.output;
   EXPECT_NE(kept.output.find("preintegrated meets the error with step"), std::string::npos);
-  EXPECT_EQ(kept.output.find("own keeps it"), std::string::npos) << kept.output;
+  EXPECT_EQ(kept.output.find("own meets the error"), std::string::npos) << kept.output;
   EXPECT_NE(kept.output.find("of 0.001:rms"), std::string::npos) << kept.output;
   EXPECT_NE(kept.output.find("% of the error of an empty image, covered"), std::string::npos)
       << kept.output;

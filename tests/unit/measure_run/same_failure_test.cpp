@@ -42,9 +42,9 @@ TEST(SameFailure, TwoEqualFailuresPredictOthersWithTheirLevels) {
   EXPECT_TRUE(end->reason.not_tried);
   EXPECT_TRUE(record::is_same_kind(end->reason, segv));
   EXPECT_EQ(end->reason.shared_levels, "data=ball");
-  EXPECT_FALSE(failures.foretold(raycast("cube", "3"))) << "it may be the data's";
+  EXPECT_FALSE(failures.foretold(raycast("cube", "3"))) << "the cause may lie in the data";
   failures.saw(raycast("cube", "1"), ended(Outcome::crashed, killed(SIGSEGV, "at 0x56")));
-  EXPECT_TRUE(failures.foretold(raycast("cube", "3"))) << "it is not the data's";
+  EXPECT_TRUE(failures.foretold(raycast("cube", "3"))) << "the cause does not lie in the data";
 }
 
 TEST(SameFailure, WithoutSharedLevelsNothingIsPredicted) {

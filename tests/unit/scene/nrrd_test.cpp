@@ -239,7 +239,7 @@ TEST(Nrrd, BrokenHeadersAreReportedWithTheirLine) {
       {with_line("type: long"), ":3: type 'long' is not supported; expected int8"},
       {with_line("type: "), ":3: type '' is not supported"},
       {with_line("type: block"), ":3: type 'block' is not supported"},
-      {with_line("dimension: 2"), ":3: dimension '2'; expected 3 axes"},
+      {with_line("dimension: 2"), ":3: the dimension is '2'; expected 3 axes"},
       {with_line("dimension: three"), ":3: dimension 'three'"},
       {with_line("sizes: 2 1"), ":3: expected 3 sizes, got 2"},
       {with_line("sizes: 2 1 1 1"), ":3: expected 3 sizes, got 4"},

@@ -129,7 +129,7 @@ TEST(LammpsData, RejectsBrokenFiles) {
                  ":15:", "expected the section to end after 1 atoms");
   expect_refused("a.lmp", data("Atoms", rows, "3"), ":15:", "the last of 3 atoms was expected");
   expect_refused("a.lmp", data("Atoms", rows + "\n", "3"),
-                 ":16:", "the section ends after 2 atoms, expected 3");
+                 ":16:", "the section ends after 2 atoms; expected 3 atoms");
   expect_refused("a.data", data("Atoms # hybrid", rows), ":12:", "found 'hybrid'");
   expect_refused("a.data", data("Atoms # full", rows), ":14:", "expected 7 or");
   expect_refused("a.data", data("Atoms", "1 1 0.5 1 2 3\n2 1 0.5 1 2 3\n"),
