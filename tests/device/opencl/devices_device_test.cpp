@@ -123,7 +123,8 @@ TEST(OpenClDevices, ExceededLimitsAreReportedWithBothNumbers) {
 
     grid.size = {4096, 4096, 4096};
     scene.grid = std::make_shared<const scene::VoxelGrid>(grid);
-    EXPECT_FALSE(device.unsupported(make_work("raycast", scene))) << "in parts";
+    EXPECT_FALSE(device.unsupported(make_work("raycast", scene)))
+        << "this volume can be drawn in parts";
     const auto large = device.unsupported(make_work("speed_of_light", scene));
     ASSERT_TRUE(large);
     const std::uint64_t bytes = 68'820'189'192 * scene::bytes_of(grid.format);  // 4098³ voxels

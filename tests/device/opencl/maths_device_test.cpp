@@ -138,7 +138,7 @@ TEST(OpenClPrograms, AFailedBuildReportsTheCompilerLog) {
     try {
       static_cast<void>(
           build(session, "__kernel void broken() { no_such_name; }", "-cl-std=CL1.2"));
-      ADD_FAILURE() << "it compiled";
+      ADD_FAILURE() << "the broken program was built";
     } catch (const core::ApiError& error) {
       EXPECT_EQ(error.call(), "clBuildProgram");
       EXPECT_EQ(error.code(), "CL_BUILD_PROGRAM_FAILURE");

@@ -93,7 +93,8 @@ TEST(ImageMetrics, ParticlesAreComparedByIdAndDepth) {
   core::Image image = particles();
   EXPECT_TRUE(compare(image, particles(), particle_bound()).within_bound());
   image.depth[1] = 3.25F;
-  EXPECT_TRUE(compare(image, particles(), particle_bound()).within_bound()) << "within its bound";
+  EXPECT_TRUE(compare(image, particles(), particle_bound()).within_bound())
+      << "the depth is within its bound";
   image.depth[1] = 3.75F;
   ImageComparison result = compare(image, particles(), particle_bound());
   EXPECT_FALSE(result.within_bound());

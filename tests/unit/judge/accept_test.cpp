@@ -280,7 +280,7 @@ TEST_F(AcceptTest, DataThatChangedSinceTheRunAreRejected) {
   };
   try {
     (void)accept_run("a", now("1b1b"));
-    FAIL() << "no error";
+    FAIL() << "no exception was thrown";
   } catch (const core::InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("content hash 0a0a, now 1b1b"));
   }
@@ -315,7 +315,7 @@ TEST_F(AcceptTest, DamagedBaselinesAreNotExtended) {
   add_run("b", [](record::Record& record, core::Image&) { record.counters["samples"] = 7; });
   try {
     (void)accept_run("b");
-    FAIL() << "no error";
+    FAIL() << "no exception was thrown";
   } catch (const core::InputError& error) {
     EXPECT_THAT(error.what(),
                 HasSubstr("was changed after it was accepted: restore it from version control"));

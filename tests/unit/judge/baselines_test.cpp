@@ -91,7 +91,7 @@ TEST_F(BaselinesTest, AWrongValueIsAnErrorWithItsLine) {
   rewrite("counters.json", "{\n \"x\": {\n  \"samples\": {\"gl:a\": \"many\"}}}\n");
   try {
     (void)gate("accepted");
-    FAIL() << "no error";
+    FAIL() << "no exception was thrown";
   } catch (const core::InputError& error) {
     EXPECT_EQ(error.place().line, 3);
     EXPECT_THAT(error.what(), AllOf(HasSubstr("counters.json"), HasSubstr("/x/samples/gl:a")));

@@ -273,7 +273,8 @@ TEST(Pairs, ADeviceWithoutCostIsOmitted) {
   }
   const CorrelationFindings result = world.judge();
   EXPECT_THAT(text(result), HasSubstr("skipped gl:llvmpipe-egl  : not_reported"));
-  EXPECT_EQ(result.pairs.size(), 1U) << "only times can be compared";
+  EXPECT_EQ(result.pairs.size(), 1U)
+      << "without a cost, only the times of the two devices can be compared";
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ TEST(Repeats, ContainTheWorstVerdictOfEachRepetition) {
   EXPECT_EQ(cases[0].images, 2U);
   EXPECT_TRUE(cases[0].flakes());
   EXPECT_EQ(cases[1].failures(), 3U);
-  EXPECT_FALSE(cases[1].flakes()) << "it always fails";
+  EXPECT_FALSE(cases[1].flakes()) << "a case that always fails is not a flake";
 }
 
 TEST(Repeats, AFlakeInALaterRepetitionIsReported) {
@@ -59,7 +59,7 @@ TEST(Repeats, AFlakeInALaterRepetitionIsReported) {
     EXPECT_EQ(each.check, Check::image);
   }
   EXPECT_EQ(flakes, 1U);
-  EXPECT_EQ(first.front().findings.size(), 4U) << "it replaces the pass of that check";
+  EXPECT_EQ(first.front().findings.size(), 4U) << "the flake must replace the finding that passed";
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ class RunResume : public RunTest {
       if (latest && store.records(latest->id).size() >= count) return;
       std::this_thread::sleep_for(milliseconds(10));
     }
-    FAIL() << "the supervisor stores nothing";
+    FAIL() << "the supervisor did not store enough records";
   }
 
   // Starts or resumes the run until a worker has been started for the first configuration, and then
@@ -174,7 +174,7 @@ TEST_F(RunAgain, AChangedPlanResumesOnlyItsOwnConfigurations) {
   larger.hash = "of the plan with more data";
   EXPECT_EQ(run(larger).run, first.run);
   Plan another = plan({{"technique", {"raycast"}}, {"data", {"ball"}}});
-  EXPECT_EQ(run(another).run, first.run) << "a part of the same plan";
+  EXPECT_EQ(run(another).run, first.run) << "a part of the same plan must resume the run";
   another.hash = "of another plan";
   EXPECT_THROW(run(another), core::InputError);
   options.resume = false;
@@ -206,7 +206,7 @@ TEST_F(RunTest, WorkersOfOneDeviceShareAPlan) {
   EXPECT_EQ(started_workers().size(), 3U);
   options.protocol.timed = true;
   EXPECT_EQ(run(small_plan()).measured, 4);
-  EXPECT_EQ(started_workers().size(), 4U) << "one, whose times nobody disturbs";
+  EXPECT_EQ(started_workers().size(), 4U) << "only one worker may measure times";
 }
 
 TEST_F(RunTest, WorkersOfOneDeviceResumeARun) {

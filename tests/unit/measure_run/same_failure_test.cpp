@@ -34,7 +34,8 @@ Configuration raycast(const std::string& data, const std::string& step,
 TEST(SameFailure, TwoEqualFailuresPredictOthersWithTheirLevels) {
   SameFailure failures({"data", "step"});
   failures.saw(raycast("ball", "1"), ended(Outcome::crashed, killed(SIGSEGV, "at 0x12")));
-  EXPECT_FALSE(failures.foretold(raycast("ball", "2"))) << "one is no rule";
+  EXPECT_FALSE(failures.foretold(raycast("ball", "2")))
+      << "a single failure must not predict others";
   failures.saw(raycast("ball", "2"), ended(Outcome::crashed, killed(SIGSEGV, "at 0x34")));
   const auto end = failures.foretold(raycast("ball", "3"));
   ASSERT_TRUE(end);
@@ -65,10 +66,12 @@ TEST(SameFailure, IrrelevantFactorsAreRemembered) {
   }
   failures.saw(raycast("ball", "1"), ended(Outcome::crashed, segv));
   failures.saw(raycast("ball", "2"), ended(Outcome::crashed, segv));
-  EXPECT_FALSE(failures.foretold(raycast("cube", "1"))) << "boxes are drawn";
+  EXPECT_FALSE(failures.foretold(raycast("cube", "1")))
+      << "boxes were drawn, so other data must be tried";
   failures.saw(raycast("cube", "1"), ended(Outcome::crashed, segv));
   EXPECT_TRUE(failures.foretold(raycast("cube", "2")));
-  EXPECT_FALSE(failures.foretold(raycast("torus", "1"))) << "boxes are drawn";
+  EXPECT_FALSE(failures.foretold(raycast("torus", "1")))
+      << "boxes were drawn, so other data must be tried";
 }
 
 TEST(SameFailure, AMeasurementRefutesAPrediction) {
@@ -123,7 +126,8 @@ TEST_F(SameFailureRun, OccursOnlyTwice) {
 
   options.resume = true;
   EXPECT_EQ(run(what).failed, 3);
-  EXPECT_EQ(started_workers().size(), 2U) << "a resumed run tries nothing anew";
+  EXPECT_EQ(started_workers().size(), 2U)
+      << "a resumed run must not try failed configurations again";
 }
 
 }  // namespace

@@ -81,7 +81,8 @@ TEST(OpenByQuads, DependOnTheDevicesLargestPoint) {
   EXPECT_TRUE(open_with(80).empty());
   EXPECT_GT(open_with(1).at("vertices"), 0);
   EXPECT_LE(open_with(1).at("vertices"), 300);
-  EXPECT_TRUE(suite->open_counts(configuration, {{"sub_pixel_bits", 8}}).empty()) << "not told";
+  EXPECT_TRUE(suite->open_counts(configuration, {{"sub_pixel_bits", 8}}).empty())
+      << "the device did not report its largest point";
 }
 
 }  // namespace

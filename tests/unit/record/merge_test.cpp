@@ -93,7 +93,8 @@ class Merge : public StoreTest {
   void expect_refused(const Files& files, const testing::Matcher<std::string>& message) const {
     EXPECT_THAT([&] { static_cast<void>(merge(files)); }, ThrowsMessage<core::InputError>(message));
     for (const auto& each : fs::directory_iterator(folder_)) {
-      EXPECT_THAT(each.path().filename().string(), testing::Not(HasSubstr("out"))) << "left behind";
+      EXPECT_THAT(each.path().filename().string(), testing::Not(HasSubstr("out")))
+          << "a temporary file was left";
     }
   }
 };
@@ -164,12 +165,12 @@ TEST_F(Merge, AnyOrderAndGroupingMakesTheSameBytes) {
       std::swap(files[j - 1],
                 files[static_cast<std::size_t>(random.uniform() * static_cast<double>(j))]);
     }
-    EXPECT_EQ(hash_of_merged(files, "all"), expected) << "in another order";
+    EXPECT_EQ(hash_of_merged(files, "all"), expected) << "merged in another order";
     const auto cut = files.begin() + 1 + i % 5;
     static_cast<void>(hash_of_merged({files.begin(), cut}, "left"));
     static_cast<void>(hash_of_merged({cut, files.end()}, "right"));
     EXPECT_EQ(hash_of_merged({folder_ / "right", folder_ / "left"}, "all"), expected)
-        << "in groups";
+        << "merged in groups";
     EXPECT_EQ(hash_of_merged({folder_ / "out", files[0], files[0], folder_ / "left"}, "all"),
               expected)
         << "again";
@@ -200,7 +201,7 @@ TEST_F(Merge, PrefersRecordsWithoutInjectedFaults) {
                     shard(3, {clean(failed(3)), record_of(4, 8)})};
   const RecordCounts counts = merge(files).plans.at(0).counts;
   EXPECT_EQ(counts.injected, 3U);
-  EXPECT_EQ(counts.not_chosen, 1U) << "two records with a fault";
+  EXPECT_EQ(counts.not_chosen, 1U) << "only configuration 4 has two records with a fault";
   EXPECT_EQ(counts.measured_anew, 0U);
   const std::vector<Record> records = merged_records();
   ASSERT_THAT(records, SizeIs(4));

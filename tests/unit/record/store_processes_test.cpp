@@ -38,7 +38,7 @@ TEST_F(StoreTest, ABusyStoreIsReportedAfterWaiting) {
   const auto start = std::chrono::steady_clock::now();
   try {
     store.add_run(sample_run("x"));
-    FAIL() << "was written";
+    FAIL() << "the run was written to a locked store";
   } catch (const core::IoError& error) {
     EXPECT_THAT(error.what(), HasSubstr("another process"));
   }

@@ -241,7 +241,8 @@ TEST_F(StoreTest, DocumentedColumnsExist) {
   EXPECT_EQ(row.getColumn(5).getString(), "0.5");
   SQLite::Statement none(database, "SELECT median_ns FROM record WHERE configuration = 'other'");
   ASSERT_TRUE(none.executeStep());
-  EXPECT_TRUE(none.getColumn(0).isNull()) << "no sample is not a time of zero";
+  EXPECT_TRUE(none.getColumn(0).isNull())
+      << "without samples, the median must be absent rather than zero";
   EXPECT_EQ(
       database.execAndGet("SELECT json_extract(limits, '$.max_image_3d') FROM device").getString(),
       "2048");

@@ -112,10 +112,12 @@ TEST(Nrrd, SpacingFollowsFromWhereAxesBeginAndEnd) {
   EXPECT_EQ(spacing(ends), (Lengths{0.5, 2, 4}));
   EXPECT_EQ(spacing(ends + "\ncenterings: cell ??? none"), (Lengths{0.5, 2, 4}));
   EXPECT_EQ(spacing(ends + "\ncenters: Node node cell"), (Lengths{1, 3, 4}));
-  EXPECT_EQ(spacing("axis mins: 2 3 4\naxis maxs: 1 -3 0"), (Lengths{0.5, 2, 4})) << "backwards";
+  EXPECT_EQ(spacing("axis mins: 2 3 4\naxis maxs: 1 -3 0"), (Lengths{0.5, 2, 4}))
+      << "the axes run backwards";
   EXPECT_EQ(spacing(ends + "\nspacings: 7 8 9"), (Lengths{7, 8, 9}));
   EXPECT_EQ(spacing(ends + "\nspace directions: (7,0,0) (0,8,0) (0,0,9)"), (Lengths{7, 8, 9}));
-  EXPECT_EQ(spacing("axis mins: 1 -3 0"), (Lengths{1, 1, 1})) << "no length";
+  EXPECT_EQ(spacing("axis mins: 1 -3 0"), (Lengths{1, 1, 1}))
+      << "without maxs, the length is unknown";
   EXPECT_EQ(spacing("axis mins: nan nan nan\naxis maxs: NaN nan nan"), (Lengths{1, 1, 1}));
 }
 

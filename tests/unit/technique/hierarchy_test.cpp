@@ -74,7 +74,8 @@ TEST(BoxMath, HilbertsCurveGoesFromNeighbourToNeighbour) {
         const int place = tri_hilbert_place(x, y, z);
         ASSERT_GE(place, 0);
         ASSERT_LT(place, 512);
-        EXPECT_EQ(at[static_cast<std::size_t>(place)][0], -1) << "place " << place << " twice";
+        EXPECT_EQ(at[static_cast<std::size_t>(place)][0], -1)
+            << "place " << place << " was assigned twice";
         at[static_cast<std::size_t>(place)] = {x, y, z};
       }
     }
