@@ -1,4 +1,4 @@
-// Tests choosing the longest step and the fastest case that meet a requested error.
+// Tests how the longest step size and the fastest case are found that meet a requested error.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,8 @@ TEST(LongestStep, OfASecondOrderErrorIsWithinAQuarterOctave) {
 }
 
 TEST(LongestStep, IsNotAnAccidentalMinimum) {
-  // The error has a dip at a step of 4 voxels, and follows its asymptotic order below 1.
+  // At a step size of 4 voxels, the error is small by chance. Only below 1 voxel does it follow its
+  // asymptotic order.
   const auto found =
       longest_step(1e-3, {}, [](double step) { return step == 4 ? 1e-4 : 2e-3 * step * step; });
   EXPECT_LT(found.step, 1);
@@ -47,7 +48,8 @@ TEST(LongestStep, IsAbsentIfTheShortestIsNotEnough) {
   EXPECT_FALSE(longest_step(1e-3, {}, [](double) { return std::nan(""); }).error <= 1e-3);
 }
 
-// A step that was found with few pixels can be too long for all pixels, so it has to be shortened.
+// The step size was found with only some of the pixels. For all pixels it may be too long, so it
+// has to be shortened.
 TEST(ShortenedStep, MeetsTheErrorAndIsOnlySlightlyShorter) {
   for (const double order : {1.0, 2.0, 4.0}) {
     int calls = 0;
@@ -104,8 +106,12 @@ TEST(RequestedError, IsParsedWithItsMetric) {
 TEST(PictureErrors, ContainEveryMetric) {
   core::Image limit(100, 20);
   core::Image picture = limit;
-  for (std::size_t i = 0; i < 20; ++i) limit.rgba[4 * i] = 0.5F;  // 1 % of the pixels
-  picture.rgba[0] = 1.0F;  // this pixel has the error 0.5, and all other pixels have the same error
+  for (std::size_t i = 0; i < 20; ++i) limit.rgba[4 * i] = 0.5F;  // This pixel has an error of 0.5
+                                                                  // because it is 1 instead of 0.5.
+                                                                  // The other 19 have the same
+                                                                  // error because they are 0.
+  // limit image.
+  picture.rgba[0] = 1.0F;
   const PictureErrors errors = errors_against(limit, picture);
   EXPECT_EQ(errors.covered, 20U);
   EXPECT_DOUBLE_EQ(errors.of(Metric::max), 0.5);

@@ -1,4 +1,5 @@
-// Tests orders, fronts and times to an error with numbers whose results are known.
+// Tests orders of convergence, Pareto fronts and times to an error with numbers whose results are
+// known.
 
 #include "accuracy/accuracy.hpp"
 
@@ -42,8 +43,9 @@ TEST(FitOrder, FindsTheOrderAndItsInterval) {
   EXPECT_NEAR(first->order, 1, 1e-12);
 }
 
-// Computed by hand: ln e = 2·ln h ± 0.1, with alternating signs over four halvings. The deviation
-// of the slope is Σ(x − x̄)d/Σ(x − x̄)², and the interval is t₀.₉₇₅(2) = 4.3027 standard errors.
+// The expected interval was computed by hand for ln e = 2·ln h ± 0.1, with alternating signs over
+// four step sizes. The slope deviates by Σ(x − x̄)d/Σ(x − x̄)², and the half width is t₀.₉₇₅(2) =
+// 4.3027 standard errors.
 TEST(FitOrder, TheIntervalUsesStudentsT) {
   const std::vector<double> steps{1, 0.5, 0.25, 0.125};
   double sign = 0.1;
@@ -52,8 +54,8 @@ TEST(FitOrder, TheIntervalUsesStudentsT) {
     return h * h * std::exp(sign);
   }));
   ASSERT_TRUE(order);
-  // The values x − x̄ in units of ln 2 are 1.5, 0.5, −0.5, −1.5, and the values d are −.1, .1, −.1,
-  // .1.
+  // In units of ln 2, the values of x − x̄ are 1.5, 0.5, −0.5 and −1.5. The values of d are −0.1,
+  // 0.1, −0.1 and 0.1.
   const double shift = (1.5 * -0.1 + 0.5 * 0.1 + -0.5 * -0.1 + -1.5 * 0.1) / 5 / std::log(2.0);
   EXPECT_NEAR(order->order, 2 + shift, 1e-12);
   const double residual = 4 * 0.01 - 5 * std::pow(shift * std::log(2.0), 2);
@@ -76,7 +78,7 @@ TEST(FitOrder, RoundingDoesNotReduceTheOrder) {
   const auto order = fit_order(errors_by(
       halvings, [&](double h) { return std::hypot(0.1 * h * h, floor); }, floor));
   ASSERT_TRUE(order);
-  EXPECT_EQ(order->points, 4U);  // the points 0.1, 0.025, 0.006 and 0.0016, but not 0.0004
+  EXPECT_EQ(order->points, 4U);  // the errors 0.1, 0.025, 0.006 and 0.0016, but not 0.0004
   EXPECT_NEAR(order->order, 2, 0.005);
   EXPECT_FALSE(fit_order(errors_by(
       halvings, [&](double) { return floor; }, floor)));
@@ -92,7 +94,7 @@ TEST(Front, ContainsTheCasesThatAreNotDominated) {
   const auto front = pareto_front(cases);
   EXPECT_EQ(front, (std::vector<std::size_t>{0, 1, 3}));
   const auto beaten = dominated(cases, front);
-  ASSERT_EQ(beaten.size(), 2U);  // a case that equals one on the front is not dominated by it
+  ASSERT_EQ(beaten.size(), 2U);  // a case that equals a case on the front is not dominated
   EXPECT_EQ(beaten[0].index, 2U);
   EXPECT_EQ(beaten[0].by, 1U);
   EXPECT_EQ(beaten[1].index, 5U);
@@ -136,8 +138,8 @@ TEST(SwitchedAlone, ChangesOneFactor) {
   EXPECT_EQ(switched[1].to, 1U);
 }
 
-// A setting that was tried with a single step size is compared with the best case of that step
-// size.
+// If a setting was tried with only one step size, it is compared with the best case of the same
+// step size.
 TEST(SwitchedAlone, UsesTheBestCaseWithACounterpart) {
   const std::vector<AccuracyCase> cases{at(9, 1, 0.5, "0"), at(5, 2, 1, "0"), at(5, 4, 1, "0.1")};
   const auto switched = switched_alone(cases);
@@ -154,7 +156,7 @@ TEST(SwitchedPicture, FindsTheCounterpartInAnotherScene) {
   for (AccuracyCase& each : others) each.factors["viewport"] = "96";
   const auto found = switched_picture(cases, others, "viewport");
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->from, 1U);  // the most accurate case has no such counterpart
+  EXPECT_EQ(found->from, 1U);  // the most accurate case has no counterpart
   EXPECT_EQ(found->to, 0U);
   EXPECT_FALSE(switched_picture(cases, others, "step"));
 }

@@ -1,4 +1,4 @@
-// Tests the area of a front for points whose decimal logarithms are integers.
+// Tests the area dominated by a Pareto front, with points whose decimal logarithms are integers.
 
 #include "accuracy/hypervolume.hpp"
 
@@ -48,7 +48,7 @@ TEST(Hypervolume, DependsOnlyOnTheFront) {
 TEST(Hypervolume, IgnoresCasesBeyondTheReferencePoint) {
   EXPECT_EQ(area_of({}), 0);
   EXPECT_EQ(area_of({case_at(1e6, 1)}), 0);     // no better than an empty image
-  EXPECT_EQ(area_of({case_at(2e9, 1e-4)}), 0);  // later than the limit of one second
+  EXPECT_EQ(area_of({case_at(2e9, 1e-4)}), 0);  // slower than the limit of one second
   EXPECT_NEAR(area_of({case_at(1e5, 2), case_at(1e6, 0.1), case_at(2e9, 1e-3)}), 3, 1e-12);
   AccuracyCase untimed = case_at(0, 1e-3);
   untimed.time_ns.reset();
@@ -61,8 +61,8 @@ TEST(Hypervolume, AnExactImageHasAFiniteArea) {
   EXPECT_EQ(area_of({case_at(1e6, 1e-9)}), area_of({case_at(1e6, 0)}));
 }
 
-// If all times are 2.5 times as long, the area over four decades of error becomes smaller by ln 2.5
-// per decade, and the factor 2.5 is reported.
+// If all times are 2.5 times as long, the area over four decades of error shrinks by ln 2.5 for
+// each decade, and the reported factor is 2.5.
 TEST(Hypervolume, ReportsHowManyTimesAsLongADeviceTakes) {
   const auto area_at = [](double factor) {
     const std::vector<AccuracyCase> cases{case_at(1e6 * factor, 1e-2), case_at(1e7 * factor, 1e-4)};

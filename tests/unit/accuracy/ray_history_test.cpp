@@ -31,7 +31,7 @@ ExpectedRay four_samples() {
   return ray;
 }
 
-// Returns what a device without faults would record.
+// Returns what a correct device would record.
 std::vector<TakenSample> taken_from(const ExpectedRay& ray) {
   std::vector<TakenSample> samples;
   TakenSample sample{.transmittance = 1};
@@ -60,8 +60,8 @@ TEST(RayHistory, HasNoDifferenceForWhatIsExpected) {
   for (const SampleRow& row : history.rows) EXPECT_TRUE(row.expected && row.taken);
 }
 
-// Each operation is changed alone in sample 2. The history must name that operation, and no earlier
-// operation.
+// Changes one operation at a time in sample 2. The history must name the changed operation as the
+// first that differs.
 TEST(RayHistory, NamesTheFirstOperationThatDiffers) {
   const ExpectedRay ray = four_samples();
   const auto changed = [&](auto change) {
@@ -86,8 +86,8 @@ TEST(RayHistory, DistinguishesMissingFromTransparentSamples) {
   ExpectedRay ray = four_samples();
   std::vector<TakenSample> taken = taken_from(ray);
   taken.erase(taken.begin() + 1);
-  // The samples that follow are consistent with this, because compositing starts from the recorded
-  // light.
+  // The later samples do not differ, because each comparison continues from the light that the
+  // device recorded.
   RayHistory history = compare(ray, taken);
   EXPECT_EQ(history.first, 1);
   EXPECT_EQ(history.rows[1].differs, Operation::take);
@@ -124,7 +124,7 @@ TEST(RayHistory, DoesNotCompareMergedSamples) {
   ray.merges = true;
   std::vector<TakenSample> taken = taken_from(ray);
   taken.erase(taken.begin() + 1, taken.begin() + 3);
-  taken[0].place[0] += 1;  // in the middle of three steps
+  taken[0].place[0] += 1;  // at the middle of three merged steps
   taken[0].length = 6;
   const RayHistory history = compare(ray, taken);
   EXPECT_EQ(history.first, 3) << "the light after the last sample is that of another ray";

@@ -62,7 +62,7 @@ TEST(ComparisonScreen, ShowsTheVariablesOfASide) {
               HasSubstr("WIDTH=128\nb: the same, but WIDTH=256\n"));
 }
 
-// There is one configuration, which neither side supports.
+// The only configuration is supported by neither side.
 TEST(ComparisonScreen, ExplainsWhyNothingWasCompared) {
   ComparisonResult result;
   Compared skipped;
@@ -76,7 +76,7 @@ TEST(ComparisonScreen, ExplainsWhyNothingWasCompared) {
                     Not(HasSubstr("no differences"))));
 }
 
-// The shift is 0 because no time was measured, so the screen must not divide it by the work.
+// Without a measured time, the shift is 0 and must not be divided by the work.
 TEST(ComparisonScreen, HasNoTimePerWorkWithoutAMeasuredTime) {
   ComparisonResult result;
   result.timed = true;

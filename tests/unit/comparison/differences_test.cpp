@@ -48,7 +48,7 @@ class Differences : public testing::Test {
     return find_differences({record_a, device_a, image_a, &truth, {}, open_counts},
                             {record_b, device_b, image_b, &truth, {}, open_counts}, same_setup);
   }
-  // Returns the only difference; fails unless there is exactly one.
+  // Returns the only difference. The test fails unless there is exactly one.
   [[nodiscard]] Difference only(bool same_setup = true) const {
     const Comparison found = find(same_setup);
     EXPECT_EQ(found.differences.size(), 1U);
@@ -104,7 +104,7 @@ TEST_F(Differences, ALostCounterIsARegressionOnlyOnTheSameDriver) {
 
 TEST_F(Differences, AStatisticIsComparedAsExactlyAsItsDriversCount) {
   record_b.statistics["fragment_invocations"] = 160;
-  // the same driver reports two different numbers
+  // The two numbers come from the same driver.
   EXPECT_EQ(only().kind, DifferenceKind::regression);
   use_another_driver();
   // The API does not define this number, although both drivers count exactly.
@@ -246,7 +246,8 @@ TEST(DeviceDifferences, LimitsAreGainedLostAndChanged) {
   b.limits = {{"x", "2"}, {"z", "1"}};
   a.statistics_calibration = {{"fragment_invocations", {.worth = record::Worth::inflated}}};
   b.statistics_calibration = {{"fragment_invocations", {}},
-                              {"compute_invocations", {}}};  // the run of a drew none of these
+                              // The run on device a measured none of these.
+                              {"compute_invocations", {}}};
   const auto found = find_differences(a, b);
   ASSERT_EQ(found.size(), 4U);
   using Facts = std::map<std::string, std::string>;
@@ -258,7 +259,7 @@ TEST(DeviceDifferences, LimitsAreGainedLostAndChanged) {
   EXPECT_THAT(find_differences(a, b), IsEmpty());
 }
 
-// OpenCL sorts spheres into bins, whereas Vulkan and GL draw them directly.
+// OpenCL sorts spheres into bins before drawing, whereas Vulkan and OpenGL draw them directly.
 TEST_F(Differences, ACounterThatIsSpecificToAnApiIsNotComparedAcrossApis) {
   use_another_driver();
   record_a.counters["bin_entries"] = 44;

@@ -15,8 +15,8 @@ namespace {
 
 using test::normal;
 
-// Hollander & Wolfe (1973), p. 29f.: depression scale at the first and second visits. R's
-// wilcox.test gives V = 40, one-sided p = 0.01953, and the estimate 0.46.
+// Hollander & Wolfe (1973), p. 29f.: a depression scale at two visits. For these data, R's
+// wilcox.test gives V = 40, a one-sided p of 0.01953, and an estimate of 0.46.
 std::vector<double> depression_scale() {
   const std::vector<double> first{1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30};
   const std::vector<double> second{0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29};
@@ -33,8 +33,8 @@ TEST(SignedRank, GivesThePublishedValues) {
   EXPECT_NEAR(estimate_shift(depression_scale(), 0.025).estimate, 0.46, 1e-12);
 }
 
-// Enumerates every assignment of signs to the differences, which is the definition of the null
-// distribution.
+// Enumerates all assignments of signs to the differences, which is how the null distribution is
+// defined.
 TEST(SignedRank, IsTheEnumeratedNullDistributionWithAndWithoutTies) {
   core::Random random(3);
   for (std::size_t n = 1; n <= 10; ++n) {
@@ -69,7 +69,7 @@ TEST(SignedRank, ZerosAreIgnored) {
   EXPECT_EQ(wilcoxon_signed_rank(std::vector<double>(30, 0.5), 0.5).p_greater, 1);
 }
 
-// Returns n differences of distinct sizes. The sum of the ranks of the positive ones is
+// Returns n differences of distinct sizes, of which the positive differences have the rank sum
 // `statistic`.
 std::vector<double> differences_with(std::size_t n, std::size_t statistic) {
   std::vector<double> values;
@@ -81,9 +81,9 @@ std::vector<double> differences_with(std::size_t n, std::size_t statistic) {
   return values;
 }
 
-// The first term that the normal approximation omits (Edgeworth; V is symmetric) is φ(z)(3z −
-// z³)·κ₄/(24σ⁴) with κ₄ = −Σi⁴/8, and φ(z)(3z − z³) ≤ 0.551. A tenth is added for the terms that
-// follow.
+// The normal approximation omits the following terms of the Edgeworth series. Because V is
+// symmetric, the first of them is φ(z)(3z − z³)·κ₄/(24σ⁴) with κ₄ = −Σi⁴/8 and φ(z)(3z − z³) ≤
+// 0.551. Another 10 % are allowed for all further terms.
 TEST(SignedRank, TheApproximationErrsByItsNextTermAtMost) {
   constexpr std::size_t n = most_for_exact + 1;
   std::vector<double> share{1};
@@ -109,13 +109,15 @@ TEST(SignedRank, TheApproximationErrsByItsNextTermAtMost) {
   }
 }
 
-// For 40 differences of two sizes, the variance is n(n+1)(2n+1)/24 − (20³−20)·2/48 = 5203.75…,
-// computed by hand.
+// For 40 differences of two sizes, a manual computation of the variance gives n(n+1)(2n+1)/24 −
+// (20³−20)·2/48 = 5203.75….
 TEST(SignedRank, TiesNarrowTheApproximation) {
   std::vector<double> values(20, 1.0);
   values.insert(values.end(), 20, -2.0);
   const double variance = 40.0 * 41 * 81 / 24 - 2 * (8000.0 - 20) / 48;
-  const double z = (210.0 - 410 + 0.5) / std::sqrt(variance);  // ranks 1…20 are positive
+  // The positive differences have the 20 smallest magnitudes, so their ranks add up to 210. The
+  // expected sum is 410.
+  const double z = (210.0 - 410 + 0.5) / std::sqrt(variance);
   EXPECT_NEAR(wilcoxon_signed_rank(values).p_less, estimation::student_t_upper_tail(-z, INFINITY),
               1e-12);
 }
@@ -142,13 +144,13 @@ TEST(Shift, TooFewDifferencesHaveAnInfiniteInterval) {
   EXPECT_TRUE(std::isnan(estimate_shift({}, 0.01).estimate));
 }
 
-// Simulates a comparison on one machine. Both sides share a slow drift (AR(1) from batch to batch),
-// each batch has its own noise, and some batches are disturbed by another program.
+// Simulates a comparison on one machine. Both sides share a slow drift, which is AR(1) from batch
+// to batch. Each batch has its own noise, and other programs disturb some batches.
 struct Machine {
   double noise = 0.01;
   double drift = 0.01;        // standard deviation of the drift
   double persistence = 0.98;  // correlation of the drift from one batch to the next
-  double disturbed = 0.02;    // share of batches that take half as long again
+  double disturbed = 0.02;    // share of batches that take 1.5 times as long
 
   [[nodiscard]] std::vector<double> blocks(double shift, int count, core::Random& random) const {
     std::vector<double> differences;
@@ -199,8 +201,8 @@ Outcomes repeat(const Machine& machine, double shift, int times, std::uint64_t s
   return outcomes;
 }
 
-// The design has an error rate of α = .01 on each side. With 300 repetitions, 8 or fewer errors
-// occur with a probability above .99.
+// By design, at most a share α = 0.01 of the comparisons is wrong on each side. Among 300
+// repetitions, there are then at most 8 errors with a probability above 0.99.
 constexpr int repetitions = 300;
 constexpr int most_errors = 8;
 
@@ -240,7 +242,8 @@ TEST(Sequential, LooksFollowOneAnother) {
   const SequentialDesign design = SequentialDesign::standard();
   EXPECT_EQ(design.next_look(0), 12);
   EXPECT_EQ(design.next_look(12), 24);
-  EXPECT_EQ(design.next_look(20), 24);  // the design evaluates the data when the budget ends
+  // If the budget ends early, the data so far are evaluated at the next look.
+  EXPECT_EQ(design.next_look(20), 24);
   EXPECT_EQ(design.next_look(384), 0);
   EXPECT_NEAR(design.alpha_of_a_look(), 0.01 / 6, 1e-15);
 }
@@ -270,7 +273,7 @@ TEST(Confirm, ASlowdownInOneProcessRunIsNotConfirmed) {
             PairVerdict::undecided);
 }
 
-// A configuration that is no longer suspected is not tested further, so nothing is stated about it.
+// Because 1000 more suspects are tested, the evidence against the first suspect must be stronger.
 TEST(Confirm, CountsTheSuspectsAsHypotheses) {
   std::vector<Suspect> suspects{{{0.0135, 0.0175, 0.0095, 0.0155, 0.0115}, true}};
   EXPECT_EQ(confirm(suspects, 0.05, SequentialDesign::standard())[0].verdict, PairVerdict::slower);
@@ -299,7 +302,7 @@ TEST(Confirm, OneProcessRunHasNoScatter) {
   EXPECT_EQ(confirmed[2].verdict, PairVerdict::slower);
 }
 
-// Returns the process runs of each suspect one by one.
+// Provides given results of process runs to the confirmation, one process run at a time.
 struct ProcessRuns {
   std::vector<std::vector<double>> process_runs;
   std::vector<std::vector<std::size_t>> asked;  // the suspects that each process run measured
@@ -321,7 +324,7 @@ struct ProcessRuns {
   }
 };
 
-// Five process runs decide the obvious cases. The undecided cases are run five more times.
+// The first five process runs decide the obvious cases. Only the undecided case gets five more.
 TEST(ConfirmInLooks, RepeatsOnlyUndecidedConfigurations) {
   core::Random random(21);
   std::vector<double> scattered{0.05, 0.01, 0.06, 0.012, 0.05, 0.035, 0.03, 0.04, 0.036, 0.03};
@@ -348,10 +351,10 @@ TEST(ConfirmInLooks, StopsAtTheLastProcessRun) {
 }
 
 // A process run shifts all of its blocks, so the interval from a single process run is far too
-// narrow. A slowdown in a single process run must not be reported. There are 200 families of 24
-// configurations, none of which is slower by more than the tolerance. At most a share q of the
-// families may have false discoveries: with q = .02, more than 10 occur with a probability below
-// .003.
+// narrow. Therefore, a slowdown that only one process run shows must not be reported. Of 200
+// families with 24 configurations each, none is slower than tolerated. At most a share q of the
+// families may have false discoveries: for q = 0.02, more than 10 such families have a probability
+// below 0.003.
 TEST(ConfirmInLooks, ProcessRunEffectsRarelyCauseFalseDiscoveries) {
   const SequentialDesign design = SequentialDesign::standard();
   const double between = 0.01;
@@ -362,7 +365,7 @@ TEST(ConfirmInLooks, ProcessRunEffectsRarelyCauseFalseDiscoveries) {
   for (int family = 0; family < families; ++family) {
     ProcessRuns given;
     for (int i = 0; i < 24; ++i) {
-      // Only this process run suggests a slowdown.
+      // Only configurations become suspects whose first process run appears slower.
       if (between * normal(random) < 0.015) continue;
       given.process_runs.emplace_back();
       for (int process_run = 0; process_run < 10; ++process_run) {

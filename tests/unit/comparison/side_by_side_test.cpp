@@ -30,7 +30,7 @@ TEST(SideBySide, IsTheGeometricMeanOverWhatAllMeasured) {
   std::vector<record::Record> records{
       measured("gl:x", "a", "1", 100), measured("vulkan:y", "a", "1", 200),
       measured("gl:x", "a", "2", 100), measured("vulkan:y", "a", "2", 80),
-      measured("gl:x", "a", "3", 1),  // no other device measured it, so it is not compared
+      measured("gl:x", "a", "3", 1),  // measured by no other device, so not compared
       measured("gl:x", "b", "1", 30),  measured("vulkan:y", "b", "1", 10)};
   records[1].counters["samples"] = 150;
   const auto table = side_by_side(records);
@@ -61,8 +61,8 @@ TEST(SideBySide, UsesTimesIfNothingWasCountedAndReportsOmissions) {
   EXPECT_THAT(report::screen_of(*table), HasSubstr("\nbest  a 10 ms  a 20 ms  b 20 ms  \n"));
 }
 
-// The device's clock reports less time for a frame than the wall clock, so devices with different
-// clocks are not compared.
+// Device clocks report shorter times than the wall clock, so times are compared only if they come
+// from the same kind of clock.
 TEST(SideBySide, ComparesTimesOnOneClock) {
   std::vector<record::Record> records{measured("gl:x", "a", "1", 10),
                                       measured("gl:y", "a", "1", 20)};

@@ -30,8 +30,8 @@ TEST(ApiError, NamesCallCodeAndPlace) {
   EXPECT_EQ(error.code(), "CL_OUT_OF_RESOURCES");
 }
 
-// Errors are caught in one place for each configuration. Therefore all of them must derive from
-// Error, and a lost device must derive from API errors.
+// All errors of a configuration are caught in one place. Therefore, they must all derive from
+// Error, and a lost device must count as an API error.
 TEST(Errors, AllDeriveFromError) {
   static_assert(std::is_base_of_v<Error, InputError>);
   static_assert(std::is_base_of_v<Error, IoError>);

@@ -67,7 +67,7 @@ TEST(File, TextsHaveALargestSize) {
   EXPECT_EQ(read_text(file, 10), std::string(10, 'x'));
   EXPECT_THAT([&] { (void)read_text(file, 9); },
               ThrowsMessage<InputError>(HasSubstr("a.txt: is too large; the limit is 9 bytes")));
-  // The limit applies also to a file that reports no size.
+  // The limit also applies to files that report no size.
   EXPECT_THAT([&] { (void)read_text("/proc/self/status", 100); },
               ThrowsMessage<InputError>(HasSubstr("is too large")));
 }
@@ -87,8 +87,8 @@ TEST(File, ReportsAFullDisk) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
-// Limits the size of files to `bytes` while this object exists. This simulates a full disk, and
-// applies even to root.
+// While an object exists, no file may become larger than `bytes`. This simulates a full disk, even
+// for root.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

@@ -28,8 +28,8 @@ TEST(ContentHash, DistinguishesContents) {
   EXPECT_EQ(content_hash(text).size(), 32U);
 }
 
-// Every machine must compute these values from these parts, because they identify things in stores
-// and baselines.
+// These hashes must be the same on every machine, because they identify entries in stores and
+// baselines.
 TEST(HashBuilder, IsTheSameEverywhere) {
   const auto of_parts = [](std::int64_t number, double real, std::string_view text) {
     return HashBuilder("kind").add(number).add(real).add(text).hash();

@@ -76,7 +76,7 @@ TEST(Exr, FileAndMemoryAgree) {
   expect_same(read_exr(folder.path() / "a.exr"), image);
 }
 
-// The file is read with OpenEXR's own reader, as other programs would do.
+// Reads the file with OpenEXR's own reader, as other programs do.
 TEST(Exr, CanBeReadByOtherPrograms) {
   const TemporaryFolder folder;
   Image image(3, 2);
@@ -99,7 +99,8 @@ TEST(Exr, CanBeReadByOtherPrograms) {
 TEST(Exr, ReadsHalfFloatsAndShiftedWindows) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "half.exr";
-  // Of a frame with 5 columns and 7 rows, only the lower right 3×2 pixels are written to the file.
+  // The frame has 5 columns and 7 rows, but only its lower right 3×2 pixels are written to the
+  // file.
   std::vector<Imf::Rgba> frame(5 * 7);
   frame[5 * 5 + 3] = Imf::Rgba(0, 1, 0, 1);
   frame[5 * 6 + 4] = Imf::Rgba(0, 0, 0.5F, 0.5F);
@@ -138,7 +139,7 @@ TEST(Exr, EveryTruncationIsReportedInOneLine) {
   }
 }
 
-// Whichever byte is wrong, the result must be an image or a typed error, never a crash or an
+// Whichever byte is damaged, the result must be an image or a typed error, but never a crash or an
 // infinite loop.
 TEST(Exr, DamagedBytesLeadToAnImageOrATypedError) {
   const std::vector<std::byte> bytes = encode_exr(noise(8, 20, false));
@@ -152,7 +153,7 @@ TEST(Exr, DamagedBytesLeadToAnImageOrATypedError) {
   }
 }
 
-// OpenEXR would allocate two gigabytes for a header of some hundred bytes.
+// Given this header of a few hundred bytes, OpenEXR would allocate two gigabytes.
 TEST(Exr, AnAttributeBeyondTheFileIsRejectedBeforeAllocating) {
   std::vector<std::byte> bytes = encode_exr(noise(8, 20, false));
   const std::string_view name("channels\0chlist", 15);

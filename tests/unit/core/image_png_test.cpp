@@ -40,8 +40,7 @@ Image row(const std::vector<std::array<float, 4>>& pixels) {
   return image;
 }
 
-// Values of the sRGB curve from independent sources: linear 0.2140 is 127.5 of 255, and linear 0.5
-// is 188.
+// Known values of the sRGB curve: linear 0.2140 corresponds to 127.5 of 255, and linear 0.5 to 188.
 TEST(Png, EncodesTheSrgbCurve) {
   const Image image =
       row({{0, 0.5F, 1, 1}, {0.001F, 0.2122F, 0.2158F, 1}, {-1, 2, 0.0031308F, 0.25F}});

@@ -21,7 +21,7 @@ class JsonFileTest : public testing::Test {
     core::write_file(text, folder_.path() / "file.json");
     return *JsonFile::read(folder_.path() / "file.json");
   }
-  // Returns the error that `use` throws for this JSON text.
+  // Returns the error that `use` throws for this JSON input.
   core::InputError error_of(std::string_view text,
                             const std::function<void(const JsonNode&)>& use) {
     try {

@@ -20,11 +20,11 @@ TEST(ShellQuoted, LeavesPlainWordsUnchanged) {
   EXPECT_EQ(shell_quoted("a b"), "'a b'");
   EXPECT_EQ(shell_quoted("it's"), R"('it'\''s')");
   EXPECT_EQ(shell_quoted("vulkan:*"), "'vulkan:*'");
-  EXPECT_EQ(shell_quoted("=ls"), "'=ls'");  // zsh would replace it by the path of a program
+  EXPECT_EQ(shell_quoted("=ls"), "'=ls'");  // zsh would replace it with the path of a program
   EXPECT_EQ(shell_quoted("a\x1b'\n"), "\"$(printf 'a\\033\\047')\"'\n'");
 }
 
-// Words that a shell could execute, or that it could split or truncate.
+// Words that a shell could execute, split or truncate.
 const std::vector<std::string> hostile_words{"ev$(touch x)`id`",
                                              "a;b|c&d>e<f",
                                              "it's \"both\"",
@@ -77,8 +77,7 @@ TEST(ShellQuoted, EveryShellReadsTheWordAndRunsNothing) {
   }
 }
 
-// The quoted word must not contain characters that a terminal hides, except line ends at the end of
-// a word.
+// Quoted words must not contain characters that a terminal hides, except line breaks at their end.
 TEST(ShellQuoted, ContainsNoHiddenCharacters) {
   for (const std::string& word : hostile_words) {
     if (word.ends_with('\n')) continue;
@@ -90,7 +89,7 @@ TEST(ShellEnvironment, IsReadByEveryShellWhateverTheNames) {
   for (const std::string& shell : shells()) {
     for (const std::string& hostile : hostile_words) {
       if (hostile.find('=') != std::string::npos || hostile.size() > 1000) continue;
-      // `env` does not mistake a variable for an option, because each entry contains a '='.
+      // Each entry contains a '=', so `env` does not mistake it for an option.
       const std::string name = "V" + hostile;
       const std::array words{std::string("printenv"), name};
       EXPECT_EQ(read_back(shell, shell_environment({{"A", "1"}, {name, hostile}}) +
@@ -112,12 +111,13 @@ TEST(Printable, EscapesControlCharacters) {
   EXPECT_EQ(printable("µ\xff\u0085"), "µ\uFFFD\\u{0085}");
 }
 
-// These characters make a name look like another one: some change the text direction, and others
-// are invisible.
+// These characters can make a name look like another name: some change the direction of text, and
+// some are invisible.
 TEST(Printable, EscapesDirectionMarks) {
   EXPECT_EQ(printable("\u202Egnp.exe\u2069\u200F"), "\\u{202e}gnp.exe\\u{2069}\\u{200f}");
   EXPECT_EQ(printable("a\u200Bb\uFEFF\U000E0041"), "a\\u{200b}b\\u{feff}\\u{e0041}");
-  EXPECT_EQ(printable("\u0645\u200C\u0627"), "\u0645\u200C\u0627");  // joins letters
+  // This character joins letters, so it is kept.
+  EXPECT_EQ(printable("\u0645\u200C\u0627"), "\u0645\u200C\u0627");
 }
 
 TEST(Printable, KeepsLineEnds) {

@@ -33,7 +33,7 @@ TEST(Random, UniformFillsItsInterval) {
   }
   EXPECT_LT(lowest, 2.001);
   EXPECT_GT(highest, 4.999);
-  // Five standard errors of the mean of 1e5 values are 5·(3/√12)/√1e5.
+  // The tolerance is five standard errors of the mean of 1e5 values, 5·(3/√12)/√1e5.
   EXPECT_NEAR(sum / draws, 3.5, 0.0137);
 }
 

@@ -1,4 +1,4 @@
-// Fits lines to data sets with published results.
+// Fits lines to data sets for which the results have been published.
 
 #include "estimation/regression.hpp"
 
@@ -38,7 +38,7 @@ const Values star_light{5.23, 5.74, 4.93, 5.74, 5.19, 5.46, 4.65, 5.27, 5.57, 5.
                         5.10, 5.22, 5.18, 5.57, 4.62, 5.06, 5.34, 5.34, 5.54, 4.98, 4.50};
 
 // Rousseeuw & Leroy (1987), table 1: international calls from Belgium in tens of millions, 1950 to
-// 1973. Six years were reported in minutes.
+// 1973. For six of these years, minutes were reported instead of calls.
 const Values calls{0.44, 0.47, 0.47, 0.59, 0.66, 0.73, 0.81, 0.88, 1.06, 1.20, 1.35, 1.49,
                    1.61, 2.12, 11.9, 12.4, 14.2, 15.9, 18.2, 21.2, 4.30, 2.40, 2.70, 2.90};
 Values call_years() {
@@ -54,7 +54,7 @@ TEST(LeastSquares, FitsTheSameLineToAnscombesFourSets) {
     EXPECT_NEAR(fit.line.intercept, 3.00, 0.005) << set;
     EXPECT_NEAR(fit.line.slope, 0.500, 0.0005) << set;
     EXPECT_NEAR(pearson_r(x, anscombe_y[set]), 0.816, 0.0011) << set;
-    EXPECT_NEAR(fit.slope_error, 0.118, 0.0005) << set;  // the value that Anscombe gives
+    EXPECT_NEAR(fit.slope_error, 0.118, 0.0005) << set;  // the value given by Anscombe
   }
 }
 
@@ -69,8 +69,8 @@ TEST(LeastSquares, IsAffectedByOutliers) {
 }
 
 TEST(RobustLine, FollowsTheMainSequenceOfTheStars) {
-  // The MM-estimate with the same two bisquare functions, from R's package robustbase for the data
-  // set starsCYG.
+  // MM-estimates with the same two bisquare functions, from R's package robustbase for its data set
+  // starsCYG.
   const RobustLine fit = robust_line(star_temperature, star_light);
   EXPECT_NEAR(fit.line.slope, 2.253, 0.001);
   EXPECT_NEAR(fit.line.intercept, -4.969, 0.005);
@@ -82,8 +82,8 @@ TEST(RobustLine, FollowsTheMainSequenceOfTheStars) {
 }
 
 TEST(RobustLine, IgnoresTheYearsInMinutes) {
-  // Venables & Ripley (2002), "Modern Applied Statistics with S", section 6.5: the MM-estimates
-  // 1.1009 and −52.42 in millions.
+  // Venables & Ripley (2002), "Modern Applied Statistics with S", section 6.5: MM-estimates of
+  // 1.1009 and −52.42, in millions of calls.
   const RobustLine fit = robust_line(call_years(), calls);
   EXPECT_NEAR(fit.line.slope, 0.1101, 0.0002);
   EXPECT_NEAR(fit.line.intercept, -5.242, 0.01);
@@ -91,7 +91,7 @@ TEST(RobustLine, IgnoresTheYearsInMinutes) {
 }
 
 TEST(RobustLine, IsLeastSquaresWithoutOutliers) {
-  // Points without a trend.
+  // A line with small deviations that show no trend.
   Values x;
   Values y;
   for (int i = 0; i < 20; ++i) {
@@ -104,7 +104,7 @@ TEST(RobustLine, IsLeastSquaresWithoutOutliers) {
   EXPECT_NEAR(robust.slope_error, plain.slope_error, 0.25 * plain.slope_error);
   double sum = 0;
   for (const double h : robust.leverages) sum += h;
-  EXPECT_NEAR(sum, 2, 0.2);  // the number of parameters, except for the effect of the weights
+  EXPECT_NEAR(sum, 2, 0.2);  // the number of parameters, apart from the effect of the weights
 }
 
 TEST(RobustLine, AnExactLineHasNoScale) {
@@ -135,7 +135,7 @@ TEST(RobustLine, WithstandsAlmostHalfOutliers) {
 TEST(Lines, TheilAndSenFindTheSlope) {
   Values x;
   Values y;
-  for (int i = 0; i < 26; ++i) {  // there are 325 pairs, so the median is one of them
+  for (int i = 0; i < 26; ++i) {  // there are 325 pairs, so the median slope is that of one pair
     x.push_back(0.2 * i + 0.03 * std::cos(5.0 * i));
     y.push_back(0.4 + 0.18 * i + 0.03 * std::sin(9.0 * i));
   }

@@ -27,7 +27,7 @@ TEST(Statistics, SampleVariance) {
   EXPECT_TRUE(std::isnan(sample_variance(std::array{1.0})));
 }
 
-// The upper 5 % and 2.5 % points in published tables of the t distribution.
+// Upper 5 %, 2.5 % and 1 % points from published tables of the t distribution.
 TEST(Statistics, StudentTAsTabulated) {
   EXPECT_NEAR(student_t_upper_quantile(0.05, 5), 2.015, 5e-4);
   EXPECT_NEAR(student_t_upper_quantile(0.025, 10), 2.228, 5e-4);
@@ -36,7 +36,7 @@ TEST(Statistics, StudentTAsTabulated) {
   EXPECT_NEAR(student_t_upper_tail(2.015048, 5), 0.05, 1e-7);
 }
 
-// Values from a numerical integration of the density with 20 digits.
+// The expected values come from a numerical integration of the density with 20 digits.
 TEST(Statistics, StudentTByQuadrature) {
   EXPECT_NEAR(student_t_upper_tail(2, 7), 0.042809664281488038, 1e-14);
   EXPECT_NEAR(student_t_upper_tail(3.5, 12.5), 0.0020675705228806399, 1e-15);
@@ -55,8 +55,8 @@ TEST(Statistics, BenjaminiHochbergAsPublished) {
   EXPECT_TRUE(rejected[3]);
 }
 
-// If a larger p is below its threshold, all smaller p are rejected too, even if they are above
-// their thresholds. The order of the input does not matter.
+// If a larger p-value is below its threshold, all smaller p-values are rejected as well, even those
+// above their own thresholds. The order of the input does not matter.
 TEST(Statistics, BenjaminiHochbergStepsUp) {
   EXPECT_THAT(benjamini_hochberg(std::array{0.049, 0.5, 0.03, 0.05, 0.04}, 0.0625),
               testing::ElementsAre(true, false, true, true, true));
@@ -73,7 +73,7 @@ TEST(Statistics, InverseTrigammaOfKnownValues) {
   EXPECT_NEAR(inverse_trigamma(1e-9), 1e9, 1);
 }
 
-// The two moment equations were solved with 20 digits.
+// The expected values were computed by solving the two moment equations with 20 digits.
 TEST(Statistics, VariancePriorByMoments) {
   const std::array variances{0.0004, 0.0009, 0.0001, 0.0016, 0.0025, 0.0002, 0.0100, 0.00005};
   const std::array degrees{7.0, 7.0, 5.0, 7.0, 9.0, 7.0, 7.0, 4.0};

@@ -1,4 +1,4 @@
-// Tests child processes that behave like the worst possible drivers.
+// Tests how child processes are handled that crash, hang or exit as drivers might.
 #include "backends/gl/isolate.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Tests that Triptych also runs on a machine without a driver, where libraries are missing.
+// Tests that Triptych also runs on machines without drivers, on which libraries are missing.
 #include "backends/gl/library.hpp"
 
 #include <gmock/gmock.h>

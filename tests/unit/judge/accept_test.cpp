@@ -131,7 +131,7 @@ TEST_F(AcceptTest, SkippedConfigurationsAreDroppedOnRequest) {
 }
 
 // With `drop`, accepting removes only the values of configurations that are skipped now. All other
-// values in these files remain as they were accepted last; they are not reset to an earlier state.
+// values in these files remain as they were last accepted, and are not reset to an earlier state.
 TEST_F(AcceptTest, DroppingKeepsOtherAcceptedValues) {
   add_run("b", [&](record::Record& record, core::Image&) {
     record.counters["samples"] = 7;
@@ -213,7 +213,7 @@ TEST_F(AcceptTest, TimesComeFromOneRun) {
   EXPECT_NEAR(median("opencl") / opencl, 2, 0.05);
 }
 
-// The plan's checks decide whether images and times are stored; its name does not matter.
+// The checks of the plan decide whether images and times are stored. Its name does not matter.
 TEST_F(AcceptTest, ImagesAndTimesAreStoredIfThePlanChecksThem) {
   checks_ = {Check::image, Check::timing};
   accept_first();

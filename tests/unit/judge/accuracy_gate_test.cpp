@@ -48,8 +48,7 @@ class AccuracyGateTest : public JudgeTest {
     (void)accept(store_, run, folder_.path() / "baselines", request);
   }
 
-  // Returns a reference image that is nine hundredths closer to the limit image than the drawn
-  // image is.
+  // Returns a reference image that lies 9 % of the way from the drawn image to the limit image.
   core::Image nearer_truth(const record::Record& record) {
     core::Image image = core::decode_exr(store_.image(record.image));
     const core::Image& limit = limit_of(record)->image;
@@ -122,8 +121,8 @@ TEST_F(AccuracyGateTest, AcceptedErrorsPass) {
   EXPECT_EQ(json.at("configurations")[1].at("rmse"), result.accuracies[0].cases[1].rmse);
 }
 
-// Times are those of the device clock only if the clock is trusted for all work that the device
-// did.
+// The times of a device come from its own clock only if the clock is trusted for all work of the
+// device. Otherwise, they come from the wall clock.
 TEST_F(AccuracyGateTest, TimesOfADeviceComeFromOneClock) {
   const auto timed = [](bool all) {
     return [all](record::Record& record, core::Image&) {
@@ -192,8 +191,8 @@ TEST_F(AccuracyGateTest, ANewDeviceIsComparedWithTheWorstAcceptedError) {
   EXPECT_TRUE(with(gate("c"), Verdict::regression, Check::accuracy).empty());
 }
 
-// If the order falls to 1.95, the error of the finest step grows by 15 %. That alone would be
-// within the accepted rounding.
+// If the order falls to 1.95, the error of the finest step size grows by 15 %. That growth alone
+// would be within the rounding that was accepted.
 TEST_F(AccuracyGateTest, ALowerOrderIsARegression) {
   request_.truth = [this](const record::Record& record) {
     const core::Image truth = nearer_truth(record);
@@ -225,7 +224,8 @@ TEST_F(AccuracyGateTest, ALowerOrderIsARegression) {
   EXPECT_EQ(lost[0].cause, Cause::no_order);
 }
 
-// If one configuration cannot be judged, the verdicts on all others remain.
+// If one configuration cannot be judged, the verdicts on all other configurations must remain the
+// same.
 TEST_F(AccuracyGateTest, ConfigurationsThatCannotBeJudgedAreReported) {
   add_run("a");
   accept_with_errors("a");

@@ -31,7 +31,7 @@ class AsBegunTest : public GateTest {
     begun.host = "host1";
     store_.begin(run, begun, configurations_);
   }
-  // Adds a run that began like this.
+  // Adds a run whose beginning is recorded as `begun`.
   void add_begun(const std::string& run, const record::Beginning& begun = {}) {
     add_run(run);
     begin(run, begun);
@@ -46,7 +46,7 @@ class AsBegunTest : public GateTest {
   void write_absent(const std::string& text) {
     core::write_file(text, folder_.path() / "baselines" / "absent.json");
   }
-  // Returns the findings that cannot be judged, each as "DEVICE CAUSE NAMES".
+  // Returns the findings that could not be judged, each as "DEVICE CAUSE NAMES".
   static std::vector<std::string> undecided(const GateResult& result) {
     std::vector<std::string> lines;
     for (const Finding& each : with(result, Verdict::cannot_judge)) {
@@ -188,8 +188,8 @@ TEST_F(AsBegunTest, AFailedListingCannotBeJudgedAndIsShown) {
                        .unusable = {crashed}});
   // This run requested no Vulkan devices.
   EXPECT_EQ(gate("others").exit_code(), core::ExitCode::pass);
-  // A run that names a device in full and finds it is complete. A run that names devices by a glob
-  // may lack some.
+  // If a run names a device in full and finds it, no device can be missing. If it names devices by
+  // a glob, some may be.
   for (const bool whole : {true, false}) {
     const std::string run = whole ? "named" : "glob";
     add_begun(run, {.asked = {whole ? "vulkan:lavapipe" : "vulkan:*"},
@@ -220,7 +220,7 @@ TEST_F(AsBegunTest, InjectedFaultsAreCountedWhateverTheVerdict) {
   EXPECT_EQ(gate("run").injected, (std::map<std::string, std::size_t>{{"slowdown", 4}}));
 }
 
-// The manifest describes the other files, so its statements must agree with their content.
+// The manifest describes the other files, so it must agree with their content.
 TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
   accept_begun();
   const std::string whole = folder_.read(baseline("manifest.json"));
@@ -239,7 +239,7 @@ TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
               HasSubstr("is outside the folder"));
   EXPECT_THAT(changed([](core::Json& json) { json["configurations"] = 3; }),
               HasSubstr("states 3 configurations, but counters.json contains 4"));
-  // No other file contains these statements, so the history contains their hash.
+  // No other file contains this information, so the history contains its hash.
   for (const char* name : {"plan_hash", "checks"}) {
     EXPECT_THAT(changed([&](core::Json& json) { json[name] = "memory"; }),
                 HasSubstr("is not the one that was accepted last"))
@@ -295,8 +295,8 @@ TEST_F(AsBegunTest, AWaiverThatMatchesEverythingIsRejected) {
   EXPECT_NO_THROW(static_cast<void>(gate("run")));
   write_waivers("2026-12-31", "gl:*", "*", "*");
   EXPECT_NO_THROW(static_cast<void>(gate("run")));
-  // These globs match everything: every device id contains a colon, every configuration an equals
-  // sign, and every test id dots.
+  // These globs match everything, because every device id contains a colon, every configuration an
+  // equals sign, and every test id at least two dots.
   write_waivers("2026-12-31", "*:*", "*=*", "*.*.*");
   EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
   write_absent(R"([{"device": "*:*", "reason": "all"}])");

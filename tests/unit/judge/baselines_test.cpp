@@ -46,7 +46,7 @@ class BaselinesTest : public JudgeTest {
 
 TEST_F(BaselinesTest, UnchangedFilesPass) {
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
-  // The plan's files, and the files in the folders for images, cost, times and statistics.
+  // Files of the plan itself, and files in the folders for images, cost, times and statistics.
   EXPECT_GE(names().size(), 4U + 2 + 3 + 3 + 2);
 }
 
@@ -86,7 +86,7 @@ TEST_F(BaselinesTest, ABrokenManifestIsReportedWithItsLine) {
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
 }
 
-// A careless merge of two branches can leave such a value, with a corrected checksum.
+// A careless merge of two branches can leave such a value, even with a corrected checksum.
 TEST_F(BaselinesTest, AWrongValueIsAnErrorWithItsLine) {
   rewrite("counters.json", "{\n \"x\": {\n  \"samples\": {\"gl:a\": \"many\"}}}\n");
   try {
@@ -118,7 +118,7 @@ TEST(OurBaselines, AreComplete) {
   EXPECT_GE(plans, 10);
 }
 
-// If a stored error were NaN or infinite, any error would be within it.
+// If a stored error were NaN or infinite, any error would pass.
 TEST_F(BaselinesTest, NumbersThatAreNotFiniteAreRejected) {
   for (const char* number : {"NaN", "nan", "1e999", "-1", "null", "\"0.1\""}) {
     rewrite("accuracy.json", fmt::format(R"({{"{}": {{"gl:x": {{"rmse": {}, "arithmetic": 0}}}}}})",

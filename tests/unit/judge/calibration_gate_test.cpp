@@ -1,4 +1,4 @@
-// Statistics of a new driver version are compared according to the calibrations of that version and
+// Tests how statistics of a new driver version are compared, given the calibrations of the new and
 // of the stored versions.
 
 #include <gmock/gmock.h>
@@ -106,7 +106,7 @@ TEST_F(CalibrationGateTest, ARunWithoutCalibrationKeepsTheStoredOne) {
       stored.statistics_calibration(device_file("statistics", "vulkan").stem().string()).empty());
 }
 
-// A run of a part of a plan need not contain all statistics.
+// A run of a part of the plan calibrates only some statistics.
 TEST_F(CalibrationGateTest, APartialCalibrationKeepsTheOtherStatistics) {
   calibrations_["gl:llvmpipe-egl"] = {{"compute_invocations", {}}, {"fragment_invocations", {}}};
   add_run("a");

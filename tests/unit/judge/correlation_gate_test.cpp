@@ -121,8 +121,8 @@ TEST(AcceptedDevices, LessIsAnImprovement) {
   EXPECT_EQ(found[0].verdict, Verdict::improved);
 }
 
-// If a change of the program affects both devices equally, it does not change their residual. The
-// check of cost finds it instead.
+// If a code change affects both devices equally, it does not change their residual. The check
+// `cost` finds it instead.
 TEST(AcceptedDevices, EqualChangesLeaveTheResidualUnchanged) {
   CorrelationWorld world(7);
   world.add_device(lavapipe, true, 0.02, {}, on_configuration(chosen, 1.5));
@@ -178,9 +178,10 @@ Trials new_devices(const CorrelationWorld::Change& injected, const std::string& 
   return trials;
 }
 
-// q permits one false report in 100 trials on average, so four would indicate a fault. With a
-// normal scatter of 2 %, 10 % are 4.8 standard deviations. 4 are required so that only 1 % of the
-// reports are false. With a scatter of 1.5 %, almost all slowdowns are found.
+// q permits one false report in 100 trials on average, so four would indicate a fault. If the
+// scatter is normally distributed with 2 %, a slowdown of 10 % is 4.8 standard deviations. To keep
+// 99 % of the reports correct, 4 standard deviations are required. With a scatter of 1.5 %, almost
+// all slowdowns are found.
 TEST(NewDevice, TenPercentOfOneConfiguration) {
   const Trials wide = new_devices(on_configuration(chosen, 1.1), chosen, "", 0.02);
   EXPECT_GE(wide.found, 60);
@@ -196,7 +197,8 @@ TEST(NewDevice, ThreePercentOfALevel) {
   EXPECT_LE(trials.wrong, 3);
 }
 
-// At 1 %, 5 false reports in 500 trials are expected. An earlier experiment had 14 in 1,500.
+// At 1 %, 5 false reports are expected in 500 trials. An earlier experiment had 14 false reports in
+// 1,500 trials.
 TEST(NewDevice, NothingInjected) {
   const Trials trials = new_devices({}, "none", "none", 0.02, 500);
   EXPECT_LE(trials.wrong, 10);

@@ -22,7 +22,8 @@ class CorrelationWorld {
 
   bool with_times = false;
 
-  // Returns the factor by which the cost of a configuration changed since it was accepted.
+  // A function that returns the factor by which the cost of a configuration changed since it was
+  // accepted.
   using Change = std::function<double(const record::Record&)>;
 
   // Returns a number that is uniformly distributed between −1 and 1.
@@ -34,8 +35,8 @@ class CorrelationWorld {
   }
 
   // Adds the current counts of a device: its made-up costs, with the given changes and with driver
-  // jitter within the bounds. If `accepted` is true, stores the unchanged costs as accepted, with
-  // different jitter.
+  // jitter within the bounds. If `accepted` is true, also stores the unchanged costs as accepted
+  // costs, with different jitter.
   void add_device(const std::string& id, bool accepted, double scatter = 0.02,
                   const Change& device_code = {}, const Change& driver = {}) {
     record::Device device;

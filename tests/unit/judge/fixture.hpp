@@ -25,7 +25,7 @@ class JudgeTest : public testing::Test {
   static constexpr const char* plan = "volume/quick";
   static constexpr float bound = 1e-3F;
 
-  // Changes a record and its image before they are stored.
+  // A function that changes a record and its image before they are stored.
   using Tweak = std::function<void(record::Record&, core::Image&)>;
 
  protected:
@@ -49,12 +49,13 @@ class JudgeTest : public testing::Test {
                                                   const std::string& start) const;
 
   [[nodiscard]] static core::Image truth_of(const std::string& scene);
-  // Returns the findings with one verdict, or only those from one check.
+  // Returns the findings with one verdict (optionally only those from one check), or with one
+  // cause.
   [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Verdict verdict);
   [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Verdict verdict,
                                                  Check check);
   [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Cause cause);
-  // Returns all findings of a result as a string, for failing expectations.
+  // Returns all findings of a result as a string, for the messages of failed expectations.
   [[nodiscard]] static std::string text(const GateResult& result);
 
   static inline const std::string plain_ = "camera=front,data=ball,technique=raycast";

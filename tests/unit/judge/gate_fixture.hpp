@@ -1,5 +1,5 @@
 #pragma once
-// Additions to the fixture that all tests of the gate share.
+// Additions to the fixture for tests of the gate.
 
 #include "core/file.hpp"
 #include "core/json.hpp"

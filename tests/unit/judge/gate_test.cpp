@@ -89,8 +89,7 @@ TEST_F(GateTest, AnotherVersionOfADriverMayDifferByOneInTenThousand) {
   EXPECT_EQ(gate("lost").exit_code(), ExitCode::regression);
 }
 
-// Where the edges of a sprite lie depends on the driver, but which fragments hit the sphere does
-// not.
+// The driver decides where the edges of a sprite lie, but not which fragments hit the sphere.
 TEST_F(GateTest, AnotherVersionOfADriverMayMoveTheEdgesOfSprites) {
   const auto fragments = [](std::uint64_t discarded, std::uint64_t kept) {
     return [=](record::Record& record, core::Image&) {
@@ -137,7 +136,7 @@ TEST_F(GateTest, AnotherDeviceMustBeWithinTheAcceptedRange) {
   EXPECT_EQ(change.accepted, (std::map<std::string, double>{{"llvmpipe", 1e6}, {"pocl", 9e5}}));
 }
 
-// Only if counters differ does the suite compute how far rounding can change them in the scene.
+// The suite computes how far rounding can change counters in a scene, but only if counters differ.
 TEST_F(GateTest, TheSuiteStatesHowManyCountsMayDifferOnAnotherDriver) {
   accept_first([](record::Record& record, core::Image&) {
     record.counters["samples"] = 1000;

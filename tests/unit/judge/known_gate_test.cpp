@@ -22,7 +22,7 @@ class KnownGateTest : public GateTest {
     (void)accept_run("accepted");
   }
 
-  // Returns the known failures after a run, written to a file and read back.
+  // Writes the known failures of a result to a file, and reads them back.
   [[nodiscard]] std::vector<Waiver> written_by(const GateResult& result) const {
     const auto file = folder_.path() / "known.json";
     core::write_file(
@@ -87,7 +87,7 @@ TEST_F(KnownGateTest, AnUnexpectedSkipDoesNotPass) {
   ASSERT_THAT(*request_.known, SizeIs(1));
   EXPECT_EQ(request_.known->front().known, Known::skip);
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
-  // If a known skip is drawn, it counts as improved.
+  // If a configuration with a known skip is drawn, it counts as improved.
   EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(1));
   request_.known->clear();
   EXPECT_EQ(gate("b").exit_code(), ExitCode::cannot_judge);
@@ -135,7 +135,7 @@ TEST_F(KnownGateTest, AFailureThatDoesNotRepeatIsAFlakeAndDoesNotPass) {
   EXPECT_EQ(known[0].known, Known::flake);
   request_.known = known;
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass);  // the flaky configuration fails this time
-  // If a known flake passes, this is not unexpected.
+  // It is not unexpected that a known flake passes.
   EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(0));
 }
 

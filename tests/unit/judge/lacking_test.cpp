@@ -38,8 +38,8 @@ class LackingTest : public JudgeTest {
   }
 };
 
-// Counters are stored per device. They are not expected from a driver version that was accepted
-// without the feature, but they are expected from a version that was accepted with it.
+// Counters are stored per device. A driver version that was accepted without the feature need not
+// report them, but a version that was accepted with the feature must.
 TEST_F(LackingTest, IsNotedForTheDriverVersion) {
   add_without("22", "22", record::Cause::not_supported);
   EXPECT_EQ(verdict_of_skip("22"), Verdict::cannot_judge);

@@ -25,8 +25,8 @@ TEST(ReferenceHash, LastBitsDoNotChangeTheHash) {
     const core::Image image = picture(seed);
     core::Image other = image;
     core::Random random(1000 + seed);
-    // With a different math library, about one of a few thousand values is rounded to a different
-    // float. Here, one of a thousand is.
+    // A different math library changes the float that results from about one of a few thousand
+    // values. Here, one of a thousand floats changes.
     for (float& value : other.rgba) {
       if (random.uniform() < 1e-3) value = std::nextafter(value, 2.0F);
     }

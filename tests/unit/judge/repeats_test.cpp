@@ -17,8 +17,8 @@ Finding finding(const std::string& configuration, Check check, Verdict verdict) 
   return made;
 }
 
-// Returns a repetition in which the image of configuration "a" has this verdict, and the image of
-// "b" is always wrong. All counters are correct.
+// Returns one repetition of a plan. The image of configuration "a" has the given verdict, and the
+// image of "b" is always wrong. All counters are correct.
 Repetition repetition(Verdict verdict, const std::string& image) {
   GateResult result{.plan = "volume/quick", .run = "1", .findings = {}};
   result.findings = {finding("a", Check::image, verdict),

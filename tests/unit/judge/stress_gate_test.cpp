@@ -190,7 +190,7 @@ TEST_F(StressGateTest, DifferentBitsLoseAPoint) {
   EXPECT_EQ(finding.because[0].number("x"), 1);
 }
 
-// A shard may contain only one of two configurations that are to be compared.
+// A shard may contain only one of two configurations whose images are to be compared.
 TEST_F(StressGateTest, APartOfAPlanNeedsNoOtherImages) {
   add_run("a");
   accept_scores("a");

@@ -53,7 +53,8 @@ TEST_F(TimingGateTest, EveryRatioIsReported) {
   add_run("b", times(1.5));
   for (const Finding& each : with(gate("b"), Verdict::pass, Check::timing)) {
     EXPECT_NEAR(each.numbers.at("ratio"), 1.5, 0.04);
-    // The interval for the ratio of two runs, each with a scatter of at least 0.5 %.
+    // Two runs are compared, each with a scatter of at least 0.5 %, so the interval cannot be
+    // narrower than this.
     EXPECT_GE(each.numbers.at("half_width"), 1.96 * std::hypot(0.005, 0.005) - 1e-9);
     EXPECT_LT(each.numbers.at("half_width"), 0.06);
     EXPECT_NEAR(each.numbers.at("median_ns") / each.numbers.at("baseline_ns"), 1.5, 0.04);
@@ -76,7 +77,8 @@ TEST_F(TimingGateTest, OnRequestASlowerConfigurationIsARegression) {
   EXPECT_EQ(with(gate("c"), Verdict::improved).size(), 3U);
 }
 
-// Tests times close to the limit: the ratio minus its interval has to exceed 2 %.
+// Tests times close to the limit: a slowdown is reported only if the ratio minus its interval
+// exceeds 2 %.
 TEST_F(TimingGateTest, AnUncertainSlowdownIsNotARegression) {
   const auto steady = [](double factor) {
     return
@@ -94,7 +96,7 @@ TEST_F(TimingGateTest, AnUncertainSlowdownIsNotARegression) {
 TEST_F(TimingGateTest, SpreadIncludesFramesAndClock) {
   EXPECT_DOUBLE_EQ(log_spread({100, 100, 100}), 0.005);
   EXPECT_NEAR(log_spread({90, 95, 100, 105, 110}), 1.4826 * std::log(105.0 / 100), 1e-2);
-  // The clock is coarse: all frames but one last the same number of clock steps.
+  // The clock is coarse: all frames except one last the same number of clock ticks.
   EXPECT_NEAR(log_spread({10, 10, 10, 10, 11}), std::log(1.1), 1e-12);
 }
 

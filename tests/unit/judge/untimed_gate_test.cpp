@@ -80,8 +80,8 @@ TEST_F(UntimedGateTest, MissingTimesAreNotAccepted) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
 }
 
-// Times that were never stored cannot be missing. This holds for a device without any stored times,
-// and for a device with times of only one configuration.
+// A time that was never stored is new, not missing. This is tested for devices without any stored
+// times, and for devices with a stored time of only one configuration.
 TEST_F(UntimedGateTest, LaterTimesAreNewAndOnlyAdvisory) {
   add_run("a", untimed);
   (void)accept_run("a");

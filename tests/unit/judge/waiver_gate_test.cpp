@@ -98,7 +98,8 @@ TEST_F(GateTest, AWaiverNeedsReasonAndDate) {
   }
 }
 
-// A waiver may last at most a year, so that someone reviews it. The fixture judges on 2026-03-01.
+// A waiver may last at most a year, so that someone reviews it regularly. The fixture's current
+// date is 2026-03-01.
 TEST_F(GateTest, AWaiverThatLastsTooLongIsRejected) {
   add_run("a");
   (void)accept_run("a");

@@ -79,8 +79,8 @@ TEST(AmdAssembly, TwoSamplingLoopsAreAmbiguous) {
   EXPECT_EQ(counts->sampling_loops, 2);
 }
 
-// The blocks are named as LLVM does. The loop is nested in an outer loop, which must not be
-// counted.
+// The blocks have names as in LLVM's output. The sampling loop is nested in an outer loop, which
+// must not be counted.
 TEST(AmdAssembly, TheInnermostLoopCounts) {
   const auto counts = count_amd_instructions(
       "main:\nBB0_1:\n\ts_mov_b32 s0, 1 ; BE800301\nBB0_2:\n"

@@ -1,4 +1,4 @@
-// Tests how technique=auto is resolved. The choice depends only on records.
+// Tests how technique=auto is resolved, which depends only on records.
 
 #include "measure/request/fastest.hpp"
 

@@ -160,7 +160,7 @@ TEST_F(PlanTest, TooManyCombinations) {
   std::string list = "[1";
   for (int i = 2; i <= 101; ++i) list += ", " + std::to_string(i);
   list += "]\n";
-  // 101³ combinations.
+  // 101³ combinations are more than a plan may have.
   const std::string yaml = "suite: fake\ndata: " + list + "camera: " + list + "viewport: " + list;
   EXPECT_THAT(refusal(yaml), AllOf(StartsWith(at(3, 1)), HasSubstr("1000000 combinations")));
 }

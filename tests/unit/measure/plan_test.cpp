@@ -67,7 +67,8 @@ TEST_F(PlanTest, AutoIsEveryTechniqueThatDraws) {
 TEST_F(PlanTest, AutoIsReplacedByANamedLevel) {
   const std::string yaml = "suite: fake\ntechnique: auto\n";
   EXPECT_THAT(load(yaml, {{"technique", {"raycast"}}}).automatic, IsEmpty());
-  // A level `auto` that stands for the device's default path does not depend on times.
+  // For this factor, `auto` stands for the device's default path, which does not have to be
+  // measured.
   EXPECT_THAT(load("suite: fake\nsampler: auto\n").automatic, IsEmpty());
 }
 
@@ -153,7 +154,7 @@ TEST_F(PlanTest, OverridesSelectLevelsOfThePlan) {
   }
   EXPECT_THAT(values(load(yaml, {{"step", {"8"}}}), "step"), testing::Each("8"));
   EXPECT_EQ(values(load(yaml, {{"step", {"8"}}}), "data").size(), 5U);
-  // No single block contains both values, so they replace the values of all blocks.
+  // No block contains both levels, so they replace the levels of all blocks.
   EXPECT_THAT(values(load(yaml, {{"ert", {"0.5"}}, {"step", {"4"}}}), "step"), testing::Each("4"));
 }
 
@@ -281,8 +282,8 @@ TEST_F(PlanTest, LargePlansAreListedAndShardedWithoutStoringThem) {
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 20 << 10) << "KiB";
 }
 
-// A plan with 10¹² combinations can neither be run nor listed, so it must be rejected before the
-// first combination.
+// A plan with 10¹² combinations can be neither run nor listed, so it must be rejected before the
+// first combination is generated.
 TEST_F(PlanTest, TooManyCombinationsAreRejectedBeforeListing) {
   std::string values;
   for (int i = 1; i <= 1000; ++i) values += std::to_string(0.01 * i) + ", ";

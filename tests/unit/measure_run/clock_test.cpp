@@ -113,7 +113,7 @@ TEST(Plausible, ToleratesLaunchesAndLateWakeUpsButNotMissingWork) {
   EXPECT_FALSE(plausible(device_ns, wall_ns));
 }
 
-// A device whose frames last 0.1 ms divided by the step size, so that finer steps make frames
+// A device whose frames take 0.1 ms divided by the step size, so frames with a finer step take
 // longer.
 class GrowingDevice final : public Device {
  public:

@@ -56,8 +56,10 @@ TEST_F(EnergyMetersTest, DuplicateAndUnreadableMetersAreIgnored) {
   zone("intel-rapl:0/intel-rapl:0:1", "dram", "1");
   zone("intel-rapl:1", "psys", "1");
   zone("intel-rapl-mmio:0", "package-0", "1");
-  zone("intel-rapl:2", "package-1", "");   // like a file that only root may read
-  zone("intel-rapl:3", "package-2", "0");  // like the file in a virtual machine
+  // As if only root could read the file.
+  zone("intel-rapl:2", "package-1", "");
+  // As in a virtual machine.
+  zone("intel-rapl:3", "package-2", "0");
   write("hwmon/hwmon0/name", "coretemp");
   write("hwmon/hwmon0/energy1_input", "1");
   write("hwmon/hwmon1/name", "xe");

@@ -1,4 +1,4 @@
-// Tests that drivers are found out if they report frames as finished without having drawn them.
+// Tests that drivers are detected that report frames as finished without having drawn them.
 #include "measure/protocol/frame_proof.hpp"
 
 #include <gmock/gmock.h>
@@ -83,7 +83,7 @@ TEST(FrameProof, FindsAnImageThatIsNeverDrawn) {
   }
 }
 
-// If a frame computes NaNs, it has drawn them. Whether they are correct is decided by the
+// If a frame computes NaNs, it did draw the image. Whether NaNs are correct is left to the
 // comparison with the reference image.
 TEST(FrameProof, AcceptsNaNsThatAFrameComputed) {
   // The NaN that a processor computes for 0/0.

@@ -101,7 +101,7 @@ void (*loop_in_memory(std::uint32_t loops))() {
   return in_memory<void()>(code);
 }
 
-// Counts `act` three times, and prints the counts on one line each.
+// Counts `act` three times, and prints the counts in one line each time.
 template <typename Act>
 void print_counts(const measure::InstructionCounter& counter, const std::vector<std::string>& names,
                   Act act) {
@@ -129,7 +129,7 @@ int count_stride(unsigned char stride) {
   return 0;
 }
 
-// If `busy`, another thread has much to do at first, like a driver thread that writes a cache.
+// If `busy` is true, another thread is busy at first, like a driver thread that writes a cache.
 int count_loop(std::uint32_t loops, bool busy) {
   const auto counter = measure::InstructionCounter::of_this_process();
   if (!counter) return 2;

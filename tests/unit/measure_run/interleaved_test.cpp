@@ -206,7 +206,8 @@ TEST_F(TurnsTest, AnEnvironmentThatChangesTheWorkIsRejected) {
 }
 
 TEST(TurnDifferences, ADriftThatIsLinearOverABlockCancels) {
-  // The four batches have the times ln t = 0, 0.1, 0.2, 0.3, except that b is slower by 0.05.
+  // The logarithms of the four batch times are 0, 0.1, 0.2 and 0.3, and b is slower by another
+  // 0.05.
   const Block abba{.b_first = false,
                    .a = {.wall_ns = {1e6, 1e6 * std::exp(0.3)}, .device_ns = {}},
                    .b = {.wall_ns = {1e6 * std::exp(0.15), 1e6 * std::exp(0.25)}, .device_ns = {}}};

@@ -17,7 +17,7 @@ using ::testing::Field;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-// Reports progress of loading at known times.
+// Reports loading progress at known times.
 class PacedLoading : public testing::Test {
  protected:
   // Sends `steps` + 1 reports: the first (share 0) now, and the last (share 1) after `length`.

@@ -61,7 +61,7 @@ TEST(Process, PassesOnlyTheGivenDescriptorsAndEnvironment) {
   const FileDescriptor stray(::dup2(opened.get(), 40));  // neither descriptor is close-on-exec
   ASSERT_EQ(::setenv("TRIPTYCH_STRAY", "1", 1), 0);
   Process process = shell("for fd in /proc/$$/fd/*; do echo ${fd##*/}; done; echo $TRIPTYCH_STRAY");
-  // The child has no other open descriptors. It opened 5 itself to read the list.
+  // The child has no other open descriptors. It opened descriptor 5 itself to read the list.
   EXPECT_EQ(all_from(process.log_fd()), "0\n1\n2\n3\n4\n5\n\n");
 }
 
@@ -92,7 +92,7 @@ TEST(Process, DestructionKillsTheWholeGroupAndLeavesNoZombie) {
   EXPECT_EQ(errno, ECHILD);
 }
 
-// Starts a daemon in its own session, and prints the daemon's process id.
+// A shell script that starts a daemon in its own session and prints the daemon's process id.
 constexpr const char* starts_a_daemon =
     "setsid sh -c 'echo $$ >&4; exec sleep 100 4>&-' & exec 4>&-; ";
 

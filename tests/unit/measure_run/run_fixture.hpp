@@ -32,12 +32,12 @@ class RunTest : public testing::Test {
     return {scratch.path() / "store.sqlite", record::Store::Mode::append};
   }
 
-  // Returns the plan fake/quick with these levels. All other factors keep the plan's levels.
+  // Returns the plan fake/quick with these levels. The other factors keep the levels of the plan.
   [[nodiscard]] Plan plan(const Overrides& overrides) {
     return load_plan("fake/quick", overrides, find());
   }
-  // Returns four configurations: step 0.5 and 1, each with two cameras, with technique raycast and
-  // data cube.
+  // Returns four configurations of technique raycast with the data cube: two step sizes, each with
+  // two cameras.
   [[nodiscard]] Plan small_plan() { return plan({{"technique", {"raycast"}}, {"data", {"cube"}}}); }
 
   RunResult run(const Plan& what, std::vector<std::string> devices = {"null:scripted"}) {

@@ -57,8 +57,8 @@ TEST(SameFailure, WithoutSharedLevelsNothingIsPredicted) {
   EXPECT_EQ(reason.shared_levels, "");
 }
 
-// If a factor turned out not to matter for one failure, it is assumed not to matter for the next
-// failure, which then has to be tried only once.
+// If a factor turned out to be irrelevant to one failure, it is assumed to be irrelevant to the
+// next failure as well, so the next failure needs to be tried only once.
 TEST(SameFailure, IrrelevantFactorsAreRemembered) {
   SameFailure failures({"data", "step"});
   for (const char* step : {"1", "2", "3"}) {
@@ -104,7 +104,7 @@ TEST(SameFailure, UntriedConfigurationsProveNothing) {
 
 class SameFailureRun : public RunTest {};
 
-// Of six configurations with two data sets, the three with the cube crash their worker.
+// Six configurations use two data sets. The three configurations with the cube crash their worker.
 TEST_F(SameFailureRun, OccursOnlyTwice) {
   const Plan what = plan({{"technique", {"raycast"}},
                           {"data", {"ball", "cube"}},

@@ -17,7 +17,8 @@ inline constexpr double ms = 1e6;  // one millisecond in nanoseconds
 
 class ScriptedPrepared final : public Prepared {
  public:
-  // Returns the result of the n-th frame, counted from 0, regardless of its purpose.
+  // A function that returns the result of the n-th frame, counted from 0, regardless of its
+  // purpose.
   using Script = std::function<Frame(int n)>;
   explicit ScriptedPrepared(Script script) : script_(std::move(script)) {}
 

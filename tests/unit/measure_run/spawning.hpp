@@ -1,7 +1,7 @@
 #pragma once
-// Tells whether posix_spawn reports a missing program. Under QEMU's user-mode emulation it does
-// not, because a vforked child does not share memory with its parent there, and exits with code 127
-// instead.
+// Whether posix_spawn reports that a program is missing. It does not under QEMU's user-mode
+// emulation, in which the child of a vfork does not share memory with its parent, and exits with
+// code 127 instead.
 
 #include <spawn.h>
 #include <sys/types.h>

@@ -1,5 +1,5 @@
-// Compares the computed number of fragments that growing ray-aligned sprites adds with their areas
-// in the image.
+// Tests the computed number of fragments that are added when ray-aligned sprites grow, by comparing
+// it with the areas of the sprites in the image.
 
 #include "suites/particles/grown_sprites.hpp"
 
@@ -23,10 +23,10 @@ scene::ParticleScene one(double x, double z, double radius, double fov_y_deg) {
   return scene;
 }
 
-// A square on the axis, whose half edge is h pixels, grows by g pixels on each side. This adds
-// 8·h·g + 4·g² fragments, give or take at most one pixel along each border. With a field of view of
-// 90°, a pixel has a size of 1/100 at distance 1. The plane of the sprite is in front of the centre
-// of the sphere.
+// A square on the axis with a half edge of h pixels grows by g pixels on each side. This adds 8·h·g
+// + 4·g² fragments, give or take one pixel along each border. With a field of view of 90° and 200
+// pixels, a pixel has a size of 1/100 at distance 1. The plane of the sprite lies in front of the
+// centre of the sphere by the radius.
 TEST(GrownSprites, OnTheAxisAnEdgeMovesByTheGrowth) {
   const double growth = 3;
   const double plane = 10 - 0.5;
@@ -36,8 +36,8 @@ TEST(GrownSprites, OnTheAxisAnEdgeMovesByTheGrowth) {
   EXPECT_NEAR(fragments_of_growth(one(0, 10, 0.5, 90), growth), expected, 8 * grown);
 }
 
-// At 70° from the axis, lengths in the radial direction cover 1/cos 70° times as many pixels. This
-// makes two edges of the square longer.
+// At 70° from the axis, a length in the radial direction covers 1/cos 70° times as many pixels, so
+// two edges of the sprite become much longer.
 TEST(GrownSprites, AwayFromTheAxisEdgesMoveMuchFurther) {
   const double sideways = 10 * std::tan(70 * std::acos(-1.0) / 180);
   const double near_axis = fragments_of_growth(one(0, 10, 1, 150), 1);

@@ -48,10 +48,10 @@ Seen see(const std::string& data, bool before = false) {
   return seen;
 }
 
-// If most pixels of an image were uncertain, it would test nothing. Surface edges are uncertain
-// within 1/256 pixel on either side. If every pixel contained edges 2.5 times as long as itself,
-// this would be a fiftieth of the image. The tolerance is twice that, because small images have
-// large random variations.
+// If most of an image were uncertain, it would test nothing. Surface edges are uncertain within
+// 1/256 pixel on either side. If every pixel contained edges 2.5 times as long as the pixel itself,
+// a fiftieth of the image would be uncertain. The tolerance is twice that, because the number of
+// uncertain pixels varies randomly in small images.
 TEST(StressScenes, AreCertainNearlyEverywhere) {
   for (const StressCase& each : stress_cases()) {
     for (std::size_t i = 0; i < std::max<std::size_t>(each.variants.size(), 1); ++i) {

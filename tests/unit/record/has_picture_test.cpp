@@ -1,5 +1,6 @@
 // Records know their technique only by name, because this room must not depend on the catalogue of
-// techniques. Therefore, this test checks that both agree on which techniques draw images.
+// techniques. Therefore, this test checks that has_picture() and the catalogue agree on which
+// techniques draw images.
 
 #include "record/has_picture.hpp"
 

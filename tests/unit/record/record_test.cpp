@@ -21,7 +21,7 @@ using ::testing::MatchesRegex;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-// --- Statistics of samples
+// Statistics of samples
 
 TEST(Percentile, InterpolatesBetweenOrderStatistics) {
   EXPECT_EQ(percentile({4, 1, 3, 2}, 0), 1);
@@ -50,7 +50,7 @@ TEST(Summarise, QuartilesOrNothing) {
   EXPECT_FALSE(summarise({nan, nan}));
 }
 
-// --- Clocks and names
+// Clocks and names
 
 TEST(RecordTest, DeviceTimeIsUsedOnlyIfTrustedAndPresent) {
   Record record = sample_record();
@@ -162,7 +162,7 @@ TEST(DeviceTest, TheStatisticsKeyCoversOnlyIdAndDriver) {
   EXPECT_NE(other.statistics_key(), device.statistics_key());
 }
 
-// --- JSON
+// JSON
 
 template <typename T>
 Json round_trip(const T& value) {

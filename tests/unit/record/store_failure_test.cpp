@@ -41,7 +41,7 @@ std::string refusal(const std::filesystem::path& file, Mode mode) {
   }
 }
 
-// --- Files that are not stores
+// Files that are not stores
 
 TEST_F(StoreTest, NotASqliteFile) {
   std::ofstream(file_) << std::string(5000, 'x');
@@ -204,7 +204,7 @@ TEST_F(StoreTest, AnInvalidImageIsReported) {
                   StartsWith(file_.string()), HasSubstr("image '0123': not a usable EXR image"))));
 }
 
-// --- Access rights
+// Access rights
 
 TEST_F(StoreTest, ReadOnlyFile) {
   make_store(file_);
@@ -282,7 +282,7 @@ TEST_F(StoreTest, AFileNeedsAName) {
   }
 }
 
-// --- Kills and full disks
+// Kills and full disks
 
 TEST_F(StoreTest, KilledWriterLosesAtMostTheRecordInFlight) {
   std::array<int, 2> ends{};
@@ -293,7 +293,7 @@ TEST_F(StoreTest, KilledWriterLosesAtMostTheRecordInFlight) {
     store.add_run(sample_run());
     for (int i = 0;; ++i) {
       store.add_record(sample_record(std::to_string(i)));
-      // Reports to the parent that record i is stored.
+      // Tells the parent that record i is stored.
       if (write(ends[1], &i, sizeof i) != sizeof i) std::_Exit(1);
     }
   }

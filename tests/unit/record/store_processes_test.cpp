@@ -21,7 +21,7 @@
 namespace triptych::record {
 namespace {
 
-// Time limit of the test's own connection. It must be able to wait, because the late writer may
+// Time limit of the test's own connection. The connection must wait, because the late writer may
 // access the file at any time, even during a commit.
 constexpr int patience_ms = 10'000;
 

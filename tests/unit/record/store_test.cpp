@@ -138,7 +138,7 @@ TEST_F(StoreTest, RunsInTheOrderTheyWereAdded) {
   EXPECT_EQ(store.latest_run("fake/quick")->id, "a");
   EXPECT_EQ(store.latest_run("fake/other")->id, "c");
 
-  // Adding a run again when it is resumed keeps its position and its records.
+  // If a run is resumed, it is added again, but keeps its position and its records.
   store.add_record(sample_record("x", "d", "b"));
   record::Run again = sample_run("b");
   again.system["resumed"] = "yes";

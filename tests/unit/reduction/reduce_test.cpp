@@ -23,8 +23,8 @@ class Reduce : public testing::Test {
   [[nodiscard]] Configuration configuration(const measure::Overrides& overrides) const {
     return measure::default_plan(*suite, overrides).configurations.front();
   }
-  // Reduces `start`, where every configuration for which `fails` returns true fails in the same
-  // way.
+  // Reduces `start`. Exactly the configurations for which `fails` returns true fail, all in the
+  // same way.
   [[nodiscard]] Reduction reduce_from(const Configuration& start,
                                       const std::function<bool(const Configuration&)>& fails,
                                       int most_frames = 1000) const {

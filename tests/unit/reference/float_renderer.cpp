@@ -223,9 +223,8 @@ ErrorModel float_model(const scene::VolumeScene& scene, const FloatOptions& opti
   const glm::dvec3 spacing{grid.spacing[0], grid.spacing[1], grid.spacing[2]};
   const glm::dvec3 size{grid.size[0], grid.size[1], grid.size[2]};
   const glm::dvec3 eye = scene.camera.eye / spacing;
-  // Multiplying the direction by the distance, which is itself a quotient of direction components,
-  // takes about 20 operations in total. Computing the position of a sample from it adds another 10
-  // products and sums.
+  // About 20 operations multiply the direction by the distance, which is itself a quotient of
+  // direction components. Computing a sample's position from the result adds 10 products and sums.
   const double reach = glm::length(glm::max(glm::abs(eye), glm::abs(eye - size)));
   ErrorModel model;
   model.position_error_voxels = unit * (glm::length(eye) + 50 * reach);

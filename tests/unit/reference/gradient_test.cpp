@@ -18,8 +18,8 @@ namespace triptych::reference {
 namespace {
 
 constexpr int voxels = 24;
-// A gradient steeper than that of any field below. Relative to it, a white opaque sample is as
-// bright as its field is steep.
+// This gradient is steeper than that of any field below. A white, opaque sample is as bright as the
+// ratio of its gradient to this one.
 constexpr double steeper = 0.25;
 
 // Returns a scene with a cube of voxels that store value(z), where z is in voxels. The transfer

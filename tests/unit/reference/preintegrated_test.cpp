@@ -26,8 +26,8 @@ Segment segment(const Table& table, double from, double to, double length) {
                                       {length, length, length});
 }
 
-// Between two opaque entries, only the colour of the front entry is visible. In a cell with only
-// one opaque entry, both colours are visible.
+// If a path starts between two opaque entries, only the colour at its start is visible. If it
+// starts in a cell with only one opaque entry, the colours of both entries are visible.
 TEST(PreintegratedStep, EndsWhereItsPathIsOpaque) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {

@@ -1,5 +1,5 @@
 #pragma once
-// Creates particle scenes by hand, and contains a renderer that tests every sphere for every pixel.
+// Particle scenes built by hand, and a renderer that tests every sphere for every pixel.
 
 #include <array>
 #include <cstddef>

@@ -188,7 +188,7 @@ TEST(CommandOf, RendersTheConfiguration) {
       regression, "gl:x", "step=1",
       ended(record::Outcome::hung, {.cause = record::Cause::timeout, .numbers = {{"limit_s", 2}}}));
   EXPECT_THAT(command_of(hung, quick), HasSubstr(" --limit 2 --truth --out"));
-  hung.reason.numbers["limit_s"] = 60;  // 60 s is the default limit of `render`.
+  hung.reason.numbers["limit_s"] = 60;  // the default limit of `render`
   EXPECT_THAT(command_of(hung, quick), Not(HasSubstr("--limit")));
 }
 

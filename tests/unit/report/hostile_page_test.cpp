@@ -320,8 +320,8 @@ TEST(HostilePage, EveryStringOfAHistoryStaysText) {
   }
 }
 
-// If an element were inserted, its script would still not run, because the policy allows only the
-// script with the hash of the page's own.
+// Even if an element were inserted, its script would not run, because the policy allows only the
+// script with the hash of the page's own script.
 TEST(HostilePage, ThePolicyAllowsOnlyThePagesScript) {
   const std::string drawn = page_of("x");
   EXPECT_THAT(drawn, testing::HasSubstr("<meta http-equiv=\"Content-Security-Policy\" content=\""

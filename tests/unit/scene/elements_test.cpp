@@ -72,7 +72,7 @@ TEST(Elements, FollowFromNamesAndResidues) {
       {"K", "K", "K", false},
       {"CD", "CD", "Cd", false},
       {"FE", "FE2", "Fe", false},
-      // Residues that are in no table, so the element is guessed.
+      // The tables do not contain these residues, so the element is guessed from the atom name.
       {"CL1", "LIG", "Cl", true},
       {"BR", "LIG", "Br", true},
       {"SI", "LIG", "Si", true},

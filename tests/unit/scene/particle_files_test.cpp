@@ -162,7 +162,7 @@ TEST(Mmcif, RejectsATruncatedLoop) {
   expect_refused("a.cif", closing, ":15:", "the file ends here, where '#' was expected");
   EXPECT_EQ(load("a.cif", closing + "#\n").count(), 2U);
   EXPECT_EQ(load("a.cif", closing + "_entry.more 1\n").count(), 2U);
-  // If the file has only a few such marks, the reader only adds a note.
+  // If the file contains only a few '#' lines, the reader only adds a note.
   const ParticleSet unsure = load("a.cif", "data_X\n#\n_entry.id X\n#\n" + loop);
   EXPECT_THAT(unsure.facts.notes, ElementsAre(HasSubstr("the file may be truncated")));
   // Some programs write '#' only between sections, or not at all.

@@ -86,7 +86,8 @@ TEST(PdbElements, ComeFromTheColumnsIfNamesAreRightAligned) {
   EXPECT_THAT(set.facts.notes, IsEmpty());
 }
 
-// The columns of the element may contain the end of a word, which must not be read as an element.
+// The last columns of a line, meant for the element, may contain part of a word. It must not be
+// read as an element.
 TEST(PdbElements, AreNotPartOfAWord) {
   const ParticleSet set = load(
       "a.pdb", pdb_atom(" C1 ", "POPC", here, "  1.00  0.00      MEMBRANE").replace(21, 1, "") +
@@ -208,7 +209,7 @@ TEST(Pqr, HasItsOwnRadii) {
   expect_refused("a.pqr", "ATOM1 N ALA 1 1 2 3 0 1\n", ":1:", "expected a blank after ATOM");
 }
 
-// A file in a data folder outside the project, and another file with the expected content.
+// A file in a data folder outside the project, and the file to compare it with.
 struct Row {
   const char* file;
   // The file with the same content, or nullptr if `file` only has to be readable.

@@ -114,8 +114,8 @@ double half_at(const VoxelGrid& grid, std::size_t index) {
   return static_cast<double>(half);
 }
 
-// Tests signed 12-bit values of a scanner, bytes in a window that is larger than their range, and
-// even numbers up to the largest half float.
+// Tests three cases: signed 12-bit values of a scanner, bytes in a window larger than their range,
+// and even numbers up to the largest half float.
 TEST(Encode, HalvesStoreElevenBitIntegersExactly) {
   expect_exact<std::uint8_t>(VoxelFormat::f16, -3.5, 260);
   expect_exact<std::int8_t>(VoxelFormat::f16, -128, 127);

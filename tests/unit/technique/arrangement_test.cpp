@@ -49,7 +49,8 @@ std::vector<std::byte> gathered(const Arrangement& arranged, Property property) 
   return gathered(arranged, property, arranged.bytes(property));
 }
 
-// Returns the bytes of value(index in the set) for all particles, in the order of the arrangement.
+// Returns the bytes of value(i) for all particles in the order of the arrangement, where i is the
+// particle's index in the set.
 template <typename Value>
 std::vector<std::byte> expected(const Arrangement& arranged, const Value& value) {
   std::vector<decltype(value(0U))> values;

@@ -189,8 +189,8 @@ TEST(BrickKinds, AnOpaqueBrickIsNotMerged) {
   EXPECT_EQ(brick_kinds(one_brick(0.2F, 0.4F), scene, 0.5)[0], sampled);
 }
 
-// Shading can change the brightness of a brick by as much as its range of values permits steep
-// gradients.
+// Shading can change the brightness of a brick. The wider the range of its values, the steeper its
+// gradients can be, and the larger this change can be.
 TEST(BrickKinds, ShadingCountsAsColour) {
   scene::VolumeScene scene = generated_volume("uniform_box", "haze");
   scene.transfer_function.entries.fill({0.5F, 0.5F, 0.5F, 0.25F});

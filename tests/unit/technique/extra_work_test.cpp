@@ -48,8 +48,8 @@ TEST(ExtraWork, NoPixelIsDrawnTwiceAndTheShareIsAsAsked) {
       EXPECT_EQ(once.size(), pixels.size());
       const double tiles = size * size / 128.0;
       const double share = static_cast<double>(pixels.size()) / (size * size);
-      // Multiples of the golden ratio distribute up to 64 rows evenly, with a deviation of at most
-      // three tiles.
+      // From row to row, the repeated tiles are shifted by the golden ratio. This distributes them
+      // so evenly that, for up to 64 rows, their number is off by at most three.
       EXPECT_NEAR(share, 1.0 / stride, 3 / tiles + 1e-12) << size << " pixels, stride " << stride;
     }
   }

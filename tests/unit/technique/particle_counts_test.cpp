@@ -18,8 +18,7 @@ core::Image picture_of(std::vector<std::uint32_t> ids) {
   return image;
 }
 
-// Returns sums in which the first row counts ten times the number of each counter, and the last row
-// counts 1.
+// Returns sums in which the first row contains 10, 20, 30, …, and the last row contains only ones.
 std::vector<std::uint32_t> two_rows() {
   std::vector<std::uint32_t> sums(particle_counter_rows * particle_counter_columns);
   for (std::uint32_t column = 0; column < particle_counter_columns; ++column) {

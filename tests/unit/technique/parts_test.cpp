@@ -50,7 +50,8 @@ TEST(Parts, ContainEveryCellOnceWithItsSamples) {
           for (int cell = part.begin; cell < part.end; ++cell)
             ++taken[static_cast<std::size_t>(cell)];
         }
-        // The slices that border on the first part are also part of it.
+        // The first part also takes the samples of one more cell on either side. These two cells
+        // are counted twice.
         const Part& first = parts.front();
         for (const int beside : {first.begin, first.end - 1}) {
           int& times = taken[static_cast<std::size_t>(beside)];

@@ -15,8 +15,8 @@
 namespace triptych::volume_suite {
 namespace {
 
-// Returns a scene with a flat box. If the eye is just above the box, rays enter it as far away as
-// its far edge.
+// Returns a scene with a flat box. If the eye is just above the box, the farthest point at which a
+// ray can enter is at the far edge.
 scene::VolumeScene plate(const glm::dvec3& eye) {
   scene::VolumeScene scene =
       reference::random_scene(5, reference::Character::rough, scene::VoxelFormat::f32);

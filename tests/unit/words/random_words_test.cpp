@@ -102,9 +102,9 @@ class RandomWords : public GateTest {
     return text;
   }
 
-  // Judges a run with failures as `gate` and `validate` do: first as it is, then after the failures
-  // are drawn again, then with the failures as expected ones. Finally reduces and compares the run,
-  // as `reduce`, `compare` and `diff` do.
+  // Judges a run with failures as `gate` and `validate` do: first as it is, then after the failing
+  // configurations were run again, then with these failures as expected ones. Finally reduces and
+  // compares the run as `reduce`, `compare`, and `diff` do.
   std::string everything(const std::string& name, Words* words) {
     add_failing_run(name, words);
     add_run(name + "-again", steady);
@@ -127,7 +127,8 @@ class RandomWords : public GateTest {
     return text;
   }
 
-  // Returns which failures of the run are of the same kind. `reduce` starts from these failures.
+  // Returns for every pair of failures of the run whether they are of the same kind ('=') or not
+  // ('-').
   std::string failures(const std::string& run) {
     const reduction::Evidence evidence{
         .truth = request_.truth,
