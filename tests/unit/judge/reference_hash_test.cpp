@@ -25,8 +25,8 @@ TEST(ReferenceHash, LastBitsDoNotChangeTheHash) {
     const core::Image image = picture(seed);
     core::Image other = image;
     core::Random random(1000 + seed);
-    // A different math library changes the float that results from about one of a few thousand
-    // values. Here, one of a thousand floats changes.
+    // A different math library changes about one float in a few thousand. Here, about one in a
+    // thousand changes.
     for (float& value : other.rgba) {
       if (random.uniform() < 1e-3) value = std::nextafter(value, 2.0F);
     }

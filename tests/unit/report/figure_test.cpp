@@ -202,7 +202,7 @@ TEST(Figure, LabelsDoNotCoverEachOther) {
   EXPECT_THAT(figure.svg().text(), Not(HasSubstr("second")));
 }
 
-// As with lists of factors, long names may differ only in the middle.
+// Long names, such as lists of factors, may differ only in the middle.
 TEST(Figure, ALegendDistinguishesLongNames) {
   Figure figure("", {}, {}, 100, 100);
   figure.point({1, 1}, {}, "");
