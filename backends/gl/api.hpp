@@ -61,11 +61,12 @@ struct Api : GladGLContext {
 
   measure::MemoryLedger held;  // memory of the textures, renderbuffers and buffers of this context
 
-  // result of glGetString; empty if that is null
+  // Returns the result of glGetString, or an empty string if the result is null.
   [[nodiscard]] std::string text(GLenum name) const;
   [[nodiscard]] std::int64_t limit(GLenum name) const;
   [[nodiscard]] std::int64_t limit(GLenum name, GLuint index) const;
-  // Returns b, where the rasterizer rounds vertices to a grid with a spacing of 2⁻ᵇ pixels.
+  // Returns the number b of subpixel bits. The rasterizer rounds vertices to a grid with a spacing
+  // of 2⁻ᵇ pixels.
   [[nodiscard]] int sub_pixel_bits() const { return static_cast<int>(limit(GL_SUBPIXEL_BITS)); }
   [[nodiscard]] bool at_least(int major, int minor) const;
 

@@ -35,13 +35,13 @@ struct Opened {
   std::unique_ptr<Context> context;
 };
 
-// Opens the devices of a window system one after another, and gives each its id.
+// Opens the devices of a window system one after another, and assigns an id to each of them.
 class Walk {
  public:
   explicit Walk(const WindowSystem& system) : system_(system), candidates_(system.candidates()) {}
 
-  // Returns the next device that can be opened, or nothing at the end. For every device that fails
-  // to open, adds the reason to `broken`.
+  // Returns the next device that can be opened, or nullopt if there are no more devices. For every
+  // device that fails to open, adds the reason to `broken`.
   std::optional<Opened> next(bool debug, std::vector<measure::Broken>& broken) {
     while (at_ < candidates_.size()) {
       const Candidate& candidate = candidates_[at_++];
@@ -62,8 +62,8 @@ class Walk {
   }
 
  private:
-  // Returns true for the second occurrence of the platform's default device, which comes first and
-  // then again among the enumerated devices.
+  // Returns true for the second occurrence of the platform's default device. This device is opened
+  // first, and is listed again among the enumerated devices.
   bool is_repeated(const record::Device& info) {
     if (at_ == 1) {
       first_ = info;
@@ -165,8 +165,8 @@ class GlBackend final : public measure::Backend {
   }
 
  private:
-  // Returns whether the device can belong to this window system, because opening a device must not
-  // load the libraries of other window systems.
+  // Returns whether the device can belong to this window system. Other window systems are skipped
+  // when a device is opened, because their libraries must not be loaded.
   static bool may_have(const WindowSystem& system, std::string_view device_id) {
     const bool osmesa = device_id.find("-osmesa") != std::string_view::npos;
     return osmesa == (system.suffix == "-osmesa");

@@ -21,7 +21,8 @@ using measure::Purpose;
 using technique::Structure;
 
 constexpr GLuint binding_traced_pixels = 11;
-constexpr GLuint first_shown_texels = 16;  // the texture units of pixels, spheres, colours and ids
+// The first of the texture units for pixels, spheres, colours and ids.
+constexpr GLuint first_shown_texels = 16;
 
 // The passes that build the hierarchy, in the same order as `build_passes`.
 enum class BuildPass : std::uint8_t { keys, count, rows, totals, scatter, leaves, level };

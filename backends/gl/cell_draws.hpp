@@ -28,7 +28,8 @@ class CellDraws {
   Buffer commands_;
 };
 
-// Returns the cells with only about one in `stride` particles of each, evenly distributed.
+// Returns the cells with their particle counts reduced by the factor `stride`. The counts are
+// rounded so that all cells together contain one in `stride` of the particles.
 [[nodiscard]] std::vector<technique::Cell> thinned(std::span<const technique::Cell> cells,
                                                    int stride);
 

@@ -20,7 +20,7 @@ class Context {
   [[nodiscard]] const Api& gl() const { return *gl_; }
   // Calls Api::only_compile().
   void only_compile() { gl_->only_compile(); }
-  // Returns whether the window system reports that the context renders on the processor.
+  // Returns whether the window system reports that the context renders on the CPU.
   [[nodiscard]] virtual bool computes_on_the_processor() const = 0;
 
  protected:

@@ -102,7 +102,8 @@ class EglContext final : public Context {
   [[noreturn]] void refuse_context() {
     const core::ApiError error = egl_.error("eglCreateContext");
     // EGL returns this error if the driver does not support the version or profile.
-    if (error.code() == "EGL_BAD_MATCH") throw core::NotSupported("no OpenGL 3.3 core context");
+    if (error.code() == "EGL_BAD_MATCH")
+      throw core::NotSupported("the driver cannot create an OpenGL 3.3 core context");
     throw error;
   }
 

@@ -44,7 +44,8 @@ class OsmesaContext final : public Context {
                                     3,
                                     0};
     handle_ = osmesa_.create(attributes.data(), nullptr);
-    if (handle_ == nullptr) throw core::NotSupported("no OpenGL 3.3 core context");
+    if (handle_ == nullptr)
+      throw core::NotSupported("the driver cannot create an OpenGL 3.3 core context");
     try {
       const Current current(*this);
       load(osmesa_.get_proc_address, debug);

@@ -69,22 +69,27 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
 
   [[nodiscard]] std::optional<std::string> unsupported(const measure::Work& work) const override {
     const Entry* entry = find(work.technique);
-    if (entry == nullptr) return fmt::format("OpenGL has no technique '{}'", work.technique);
+    if (entry == nullptr)
+      return fmt::format("technique '{}' is not implemented for OpenGL", work.technique);
     if (is_software(info_) && std::getenv("LP_PERF") != nullptr) {
-      return "LP_PERF is set, which makes the driver skip work";
+      return "the environment variable LP_PERF is set, which makes the driver skip work; unset it";
     }
     const Current current(*context_);
     const Api& gl = context_->gl();
     const auto* volume = std::get_if<measure::VolumeWork>(&work.scene);
     const auto* particles = std::get_if<measure::ParticleWork>(&work.scene);
     if (const auto* raycaster = std::get_if<VolumeTechnique>(&entry->technique)) {
-      if (volume == nullptr) return fmt::format("{} draws only volumes", work.technique);
+      if (volume == nullptr)
+        return fmt::format("technique {} draws only volumes, but the scene contains particles",
+                           work.technique);
       auto reason = technique::raycast_reason(work.technique, volume->scene, volume->options);
       if (!reason) reason = volume_unsupported(gl, work.technique, *volume);
       if (!reason) reason = raycaster->unsupported(gl, *volume);
       return reason;
     }
-    if (particles == nullptr) return fmt::format("{} draws only particles", work.technique);
+    if (particles == nullptr)
+      return fmt::format("technique {} draws only particles, but the scene contains a volume",
+                         work.technique);
     auto reason = technique::option_reason(work.technique, particles->options,
                                            technique::SpriteRasterizer::of_the_api);
     if (!reason) {
@@ -136,8 +141,9 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
     const Api& gl = context_->gl();
     if (!gl.can_keep_reports()) {
       throw core::NotSupported(
-          "the driver does not report the code that it generates: the context lacks KHR_debug, or "
-          "is not a debug context (TRIPTYCH_GL_DEBUG=1 requests one)");
+          "the driver does not report the code that it generates, because the context lacks "
+          "KHR_debug or is not a debug context; set TRIPTYCH_GL_DEBUG=1 to request a debug "
+          "context");
     }
     gl.keep_reports();
     try {

@@ -19,7 +19,7 @@ struct Api;
 // Returns the version in one line. For a layered driver, the line ends with the driver below it.
 [[nodiscard]] std::string driver_version(const std::string& version, const std::string& renderer);
 
-// Returns whether the renderer runs on the processor.
+// Returns whether the renderer runs on the CPU.
 [[nodiscard]] bool is_software(const record::Device& info);
 
 }  // namespace triptych::gl_backend

@@ -75,7 +75,8 @@ double interpolated(const scene::VoxelGrid& grid, const Point& point) {
   return value;
 }
 
-// Draws points, each of which stores the fetched value.
+// Samples the volume on the device at the position of each point, and stores the sampled values in
+// the points.
 void fetch(const Api& gl, const scene::VoxelGrid& grid, std::vector<Point>& points) {
   const Stage stage = plain_stage(gl, GL_COMPUTE_SHADER, "filter_probe.comp");
   const Program program = link(gl, std::span(&stage, 1));

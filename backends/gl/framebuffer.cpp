@@ -18,7 +18,7 @@ std::uint64_t bytes_of(GLenum format) {
     case GL_RGBA32F:
       return 16;
     default:
-      return 4;  // one channel, depth
+      return 4;  // formats with one channel, and depth formats
   }
 }
 

@@ -6,9 +6,9 @@
 namespace triptych::gl_backend {
 
 struct Answer {
-  std::string text;  // the text that the child returned
+  std::string text;  // the result of `ask`
   std::string
-      failure;  // why there is no text, such as "crashed: Segmentation fault"; otherwise empty
+      failure;  // why there is no result, such as "crashed: Segmentation fault"; otherwise empty
 };
 
 // Runs `ask` in a child process, so that a library that `ask` loads can neither crash the caller

@@ -27,7 +27,8 @@ void* Library::symbol(const char* name) const {
 
 void* Library::required(const char* name) const {
   void* found = symbol(name);
-  if (found == nullptr) throw core::NotSupported(fmt::format("{} has no {}", name_, name));
+  if (found == nullptr)
+    throw core::NotSupported(fmt::format("{} lacks the function {}", name_, name));
   return found;
 }
 

@@ -14,10 +14,11 @@ class Occlusion {
  public:
   Occlusion(const Api& gl, const measure::ParticleWork& work, std::size_t cells);
 
-  // Call before the first draw of a frame. What was visible in the previous frame becomes the
-  // "before" state.
+  // Must be called before the first draw of a frame. The cells that were visible in the previous
+  // frame become the "before" set of occlusion.glsl.
   void start_frame(const Api& gl);
-  // Call between the two draws. Computes the farthest depths of the image drawn so far.
+  // Must be called between the two draws of a frame. Computes the farthest depth in each block of
+  // the image drawn so far.
   void find_farthest(const Api& gl, GLuint depth_texture) const;
   [[nodiscard]] const std::string& source() const { return source_; }
 

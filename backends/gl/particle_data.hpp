@@ -23,7 +23,7 @@ class ParticleData {
   [[nodiscard]] const Buffer& colours() const noexcept { return colours_; }
   [[nodiscard]] const Buffer& ids() const noexcept { return ids_; }
 
-  // From now on, draws frames with the camera of this scene.
+  // Uses the camera of this scene for all later frames.
   void look_from(const Api& gl, const measure::ParticleWork& work,
                  const technique::Arrangement& arrangement) const;
 

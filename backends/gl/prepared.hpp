@@ -1,5 +1,5 @@
 #pragma once
-// What the techniques of both suites have in common: frames that consist of drawing calls.
+// The part that the techniques of both suites share: frames that consist of drawing calls.
 
 #include <memory>
 #include <span>

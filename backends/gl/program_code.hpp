@@ -1,5 +1,5 @@
 #pragma once
-// Drivers report the generated code of programs that they link through KHR_debug messages. Mesa's
+// When a driver links a program, it reports the generated code in KHR_debug messages. Mesa's
 // shader-db reads the same messages.
 
 #include <span>

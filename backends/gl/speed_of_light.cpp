@@ -1,5 +1,5 @@
-// Does only the fetches and table look-ups of raycast: the same pass with a compile-time constant
-// that removes the rest.
+// Performs only the fetches and table look-ups of raycast. It is the same pass, in which a
+// compile-time constant removes all other work.
 #include "backends/gl/compute_pass.hpp"
 #include "backends/gl/techniques.hpp"
 #include "backends/gl/volume_prepared.hpp"

@@ -195,8 +195,8 @@ class SpriteDrawing final : public Drawing {
     };
     for (const SpriteDraw& draw : sprites_) {
       Programs::Draw made;
-      // Only the culling of the first draw counts, because the culling passes of other draws test
-      // the same cells.
+      // Only the culling passes of the first draw are counted, because the culling passes of the
+      // other draws test the same cells.
       ParticleConstants culling = constants;
       culling.count = constants.count && programs.draws.empty();
       for (const int pass : passes_of(options_.culling)) {

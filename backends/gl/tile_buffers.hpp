@@ -17,7 +17,7 @@ namespace triptych::gl_backend {
 // The buffers through which the passes of tiles.glsl exchange data.
 class TileBuffers {
  public:
-  // The number of entries that a round should not exceed. They need 64 MiB.
+  // The number of entries that a round should not exceed. This many entries occupy 64 MiB.
   static constexpr std::uint64_t wanted_entries = std::uint64_t{1} << 24U;
   enum class Cells : std::uint8_t { all, thinned };
 

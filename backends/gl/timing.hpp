@@ -17,8 +17,9 @@ struct Elapsed {
 // When the device takes its timestamps:
 enum class Stamps : std::uint8_t {
   in_stream,  // immediately before and after the work, as on GPUs
-  finished    // the second one after the work has finished: software renderers run compute work and
-            // take stamps on different threads, so that stamps in the stream measure almost nothing
+  finished  // the second timestamp after the work has finished. Software renderers run compute work
+            // and take timestamps on different threads, so timestamps in the stream measure almost
+            // nothing.
 };
 
 // Measures work by the wall clock and by the device's clock.

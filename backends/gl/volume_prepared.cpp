@@ -158,7 +158,8 @@ std::optional<std::string> texture_reason(const Api& gl, const scene::VoxelGrid&
   }
   if (!in_parts && !holds_whole(gl, grid.size, grid.format)) {
     return fmt::format(
-        "the driver rejects a texture of {}x{}x{} {} ({} bytes), according to GL_PROXY_TEXTURE_3D",
+        "the driver rejects a texture of {}x{}x{} voxels of format {} ({} bytes), according to "
+        "GL_PROXY_TEXTURE_3D",
         nx, ny, nz, scene::name_of(grid.format), grid.data.size());
   }
   return std::nullopt;
@@ -206,7 +207,7 @@ std::optional<std::string> volume_unsupported(const Api& gl, std::string_view te
   // Doubles were introduced in GL 4.0, but below 4.3 the sources are compiled as GLSL 3.30
   // (program.cpp).
   if (work.options.precision == technique::Precision::fp64 && gl.VERSION_4_3 == 0) {
-    return "precision fp64 needs OpenGL 4.3";
+    return "precision=fp64 requires OpenGL 4.3";
   }
   technique::RaycastBuffers buffers = technique::raycast_buffers(work.scene, work.options);
   const technique::Cut cut = cut_of(gl, technique, work);

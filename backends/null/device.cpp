@@ -22,9 +22,9 @@
 namespace triptych::null_backend {
 namespace {
 
-// The calibration of a clock draws ever larger images until a frame takes long enough. Scripted
-// frames do not take longer for larger images, so it would go on to the largest image that a device
-// supports, which takes seconds to read.
+// The clock calibration draws ever larger images until a frame takes long enough. The time of a
+// scripted frame need not grow with the image, so the calibration would continue up to the largest
+// image that the device supports, which takes seconds to read.
 constexpr int largest_image = 2048;
 
 // Returns a nearly normally distributed number with mean 0 and variance 1, computed from twelve
@@ -142,7 +142,7 @@ class NullPrepared final : public measure::Prepared {
   double device_factor_;
   int frames_ = 0;
   bool overwritten_ = false;  // whether poison() was called
-  bool drawn_ = false;        // whether a frame was drawn since then
+  bool drawn_ = false;        // whether a frame was drawn since poison() was called
   std::optional<core::Image> image_;
   std::optional<FailureKind> failure_;
 };
@@ -176,7 +176,7 @@ class NullDevice final : public measure::Device {
   }
 
   measure::VolumePath default_path(const measure::VolumeKind& volume) const override {
-    // As on other devices, the samplers of samples and of cells may differ.
+    // As on other devices, the default sampler may depend on whether one filtered value suffices.
     return {.voxel = volume.native,
             .sampler =
                 volume.filter_suffices ? technique::Sampler::manual : technique::Sampler::packed};

@@ -88,7 +88,8 @@ Failure parse_failure(const Json& json) {
       refuse(key, "one of the keys kind, at, frame, only, once in a failure");
     }
   }
-  if (of_image && failure.at != Place::image) refuse("at", "\"image\" for a failure of images");
+  if (of_image && failure.at != Place::image)
+    refuse("at", "\"image\" for a failure that affects the image");
   return failure;
 }
 

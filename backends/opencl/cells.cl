@@ -31,7 +31,7 @@ TRI_FN float least(float3 v) {
   return two < v.z ? two : v.z;
 }
 
-// Returns, for each component, 1 if `a` is not after t, and 0 otherwise.
+// Returns, for each component of `a`, 1 if it is at most t, and 0 otherwise.
 TRI_FN int3 not_after(float3 a, float t) { return -(a <= (float3)(t)); }
 
 TRI_FN int3 cell_behind(const Way* way, int3 planes, float3 at) {
@@ -98,8 +98,8 @@ TRI_FN float4 kink_row(__global const float4* kinks, float i) {
 
 TRI_FN float table_end(float position) { return position > 0.0f ? (position < 255.0f ? position : 255.0f) : 0.0f; }
 
-// Returns whether any position along the path has opacity, judging by the Bernstein coefficients of
-// the cubic.
+// Returns whether any position along the path may have opacity. The Bernstein coefficients of the
+// cubic bound the positions in the table.
 TRI_FN int shows(__global const float4* kinks, float4 c) {
   float b1 = c.x + c.y / 3.0f;
   float b2 = c.x + (2.0f * c.y + c.z) / 3.0f;
@@ -223,7 +223,8 @@ TRI_FN void add_cell(const Surroundings* in, const Way* way, int3 cell, float be
   }
 }
 
-// Returns whether the cell's brick is visible, and the planes within which this remains true.
+// Returns whether the cell's brick is visible. Sets `planes` to the next planes along the ray, up
+// to which the visibility does not change.
 TRI_FN int look_around(__constant Parameters* u, __global const int* brick_map, const Way* way,
                        int3 cell, int3* planes) {
   int edge = u->brick_grid.w;

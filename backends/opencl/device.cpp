@@ -67,7 +67,7 @@ class Device final : public measure::Device, public measure::ProbesFeatures {
   }
 
  private:
-  // Returns the error that the probe measured.
+  // Returns the sampler error that the probe measured.
   [[nodiscard]] double sampler_error(scene::VoxelFormat format) const;
   [[nodiscard]] std::optional<std::string> half_defect(scene::VoxelFormat format) const;
   [[nodiscard]] std::optional<std::string> image_defect(const scene::VoxelGrid& grid) const;
@@ -90,8 +90,8 @@ std::optional<std::string> Device::half_defect(scene::VoxelFormat format) const 
   const double allowed = technique::allowed_filter_error(technique::least_weight_bits, format);
   if (error <= allowed) return std::nullopt;
   return fmt::format(
-      "sampler hardware: the device reads images of half floats with an error of {:.3g}; at most "
-      "{:.3g} is allowed",
+      "sampler=hardware: the device reads images of half floats with an error of {:.3g}, but at "
+      "most {:.3g} is allowed",
       error, allowed);
 }
 
@@ -100,10 +100,10 @@ std::optional<std::string> Device::image_defect(const scene::VoxelGrid& grid) co
   return checked([&]() -> std::optional<std::string> {
     const cl::Device& device = session_.device;
     if (device.getInfo<CL_DEVICE_IMAGE_SUPPORT>() == CL_FALSE) {
-      return "sampler hardware: CL_DEVICE_IMAGE_SUPPORT is false";
+      return "sampler=hardware: CL_DEVICE_IMAGE_SUPPORT is false";
     }
     if (!image_format(session_, grid.format)) {
-      return fmt::format("sampler hardware: no 3D image format for voxel {}",
+      return fmt::format("sampler=hardware: the device has no 3D image format for voxel={}",
                          scene::name_of(grid.format));
     }
     if (auto defect = half_defect(grid.format)) return defect;
@@ -142,7 +142,8 @@ std::optional<std::string> Device::size_defect(std::string_view technique,
   const std::uint64_t all = bordered_layers(*work.scene.grid).room_for(cut.parts) + buffers.all();
   const auto total = checked([&] { return session_.device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>(); });
   if (all > total) {
-    return fmt::format("{} bytes are needed, but CL_DEVICE_GLOBAL_MEM_SIZE is {}", all, total);
+    return fmt::format("needs {} bytes of device memory, but CL_DEVICE_GLOBAL_MEM_SIZE is {}", all,
+                       total);
   }
   return std::nullopt;
 }
@@ -150,13 +151,13 @@ std::optional<std::string> Device::size_defect(std::string_view technique,
 std::optional<std::string> Device::unsupported(const measure::Work& work) const {
   if (!volume_techniques.contains(work.technique) &&
       !particle_techniques.contains(work.technique)) {
-    return fmt::format("OpenCL has no technique '{}'", work.technique);
+    return fmt::format("technique '{}' is not implemented for OpenCL", work.technique);
   }
   const auto* particles = std::get_if<measure::ParticleWork>(&work.scene);
   const auto* volume = std::get_if<measure::VolumeWork>(&work.scene);
   const bool draws_particles = particle_techniques.contains(work.technique);
   if (draws_particles ? particles == nullptr : volume == nullptr) {
-    return fmt::format("'{}' draws {}, but the scene has none", work.technique,
+    return fmt::format("technique '{}' draws {}, but the scene contains none", work.technique,
                        draws_particles ? "particles" : "volumes");
   }
   if (particles != nullptr) return particle_defect(session_, work.technique, *particles);
@@ -164,11 +165,11 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
     return reason;
   }
   if (volume->options.precision == technique::Precision::fp64 && !has_doubles_) {
-    return "precision fp64 needs cl_khr_fp64, which the device lacks";
+    return "precision=fp64 requires cl_khr_fp64, which the device lacks";
   }
   if (volume->options.sampler == Sampler::packed) {
-    return "sampler packed needs texel buffers, which OpenCL C does not have: use sampler manual, "
-           "which reads voxels in pairs";
+    return "sampler=packed requires texel buffers, which OpenCL C lacks; use sampler=manual, which "
+           "reads voxels in pairs";
   }
   if (volume->options.sampler == Sampler::hardware) {
     if (auto defect = image_defect(*volume->scene.grid)) return defect;
@@ -178,9 +179,9 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
 
 // Unless the hardware sampler is exact, voxels are read from a buffer and interpolated in the
 // kernel. On PoCL 3.1 that is also nine times faster than the sampler (speed_of_light: 405 versus
-// 44 million samples per second on two cores). The voxel format is the volume's own: u8, u16 and
-// f32 are equally fast there as long as the volume fits into the caches (409, 413 and 446 million
-// samples per second at 128³), and larger volumes fit in smaller formats.
+// 44 million samples per second on two cores). The voxel format is the volume's native format,
+// because u8, u16 and f32 are equally fast on PoCL as long as the volume fits into the caches (409,
+// 413 and 446 million samples per second at 128³), and larger volumes fit in smaller formats.
 measure::VolumePath Device::default_path(const measure::VolumeKind& volume) const {
   const scene::VoxelFormat native = volume.native;
   const measure::VolumePath hardware{native, Sampler::hardware};

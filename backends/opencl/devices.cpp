@@ -27,8 +27,8 @@ constexpr auto variables = std::to_array<std::string_view>(
 
 std::map<std::string, std::string> environment() {
   auto set = measure::set_variables(variables);
-  // Workers are started with this variable set to 1. It is left out, because the device is the same
-  // as the one listed outside of a worker.
+  // Triptych itself sets this variable to 1 for its workers. It is omitted, so that the same device
+  // has the same description inside and outside of a worker.
   if (const auto found = set.find("POCL_PTHREAD_MIN_WGS");
       found != set.end() && found->second == "1") {
     set.erase(found);
@@ -112,7 +112,7 @@ std::string defect_of(const cl::Device& device) {
     }
     const std::string version = device.getInfo<CL_DEVICE_VERSION>();
     if (version.starts_with("OpenCL 1.0") || version.starts_with("OpenCL 1.1")) {
-      return fmt::format("{}: 1.2 is needed", one_line(version));
+      return fmt::format("the device supports only {}; OpenCL 1.2 is required", one_line(version));
     }
     return {};
   });

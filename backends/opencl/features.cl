@@ -1,6 +1,6 @@
 // Kernels of the feature probes (features.cpp).
 
-// Each work group writes the number after its own.
+// Each work group writes its own number plus 1.
 __kernel void write_groups(__global uint* numbers) {
   uint group = get_group_id(0) + get_num_groups(0) * (get_group_id(1) + get_num_groups(1) * get_group_id(2));
   numbers[group] = group + 1;

@@ -60,14 +60,14 @@ class FrameRun {
  public:
   // Runs the launches in the given order and waits without spinning. The launches must exist until
   // check() is called. Returns the wall time of the frame and, for Purpose::timing, also the device
-  // time, from the beginning of the first command to the end of the last one. As for the other
+  // time, from the beginning of the first command to the end of the last command. As with the other
   // APIs, device time includes the time between commands. Throws core::ApiError or
   // core::DeviceLost.
   [[nodiscard]] measure::Frame draw(const Session& session, const std::vector<Launch>& launches,
                                     measure::Purpose purpose,
                                     core::CodePlace place = core::CodePlace::current());
-  // Draws a frame that consists of other commands than kernel launches alone. `enqueue` receives a
-  // list to fill with one event per command, and must wait until the queue has finished.
+  // Draws a frame that does not consist of kernel launches alone. `enqueue` receives a list to fill
+  // with one event per command, and must wait until the queue has finished.
   template <typename Enqueue>
   [[nodiscard]] measure::Frame draw(measure::Purpose purpose, const Enqueue& enqueue) {
     launches_ = nullptr;
@@ -89,7 +89,8 @@ class FrameRun {
   [[nodiscard]] std::optional<double> device_ns() const;  // nullopt if the device reports no time
 
   std::vector<cl::Event> events_;
-  const std::vector<Launch>* launches_ = nullptr;  // null if the frame consists of other commands
+  // Null if the most recent frame did not consist of kernel launches alone.
+  const std::vector<Launch>* launches_ = nullptr;
 };
 
 }  // namespace triptych::opencl_backend

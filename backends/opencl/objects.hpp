@@ -1,7 +1,7 @@
 #pragma once
-// OpenCL objects are those of Khronos' C++ bindings, which count references through the API.
-// Exceptions of these bindings contain neither the name of the error code nor the source location
-// of the call; checked() adds both.
+// OpenCL objects are represented by the classes of Khronos' C++ bindings, which count references
+// through the API. The exceptions of these bindings contain neither the name of the error code nor
+// the source location of the call; checked() adds both.
 
 #define CL_HPP_ENABLE_EXCEPTIONS
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120

@@ -1,4 +1,4 @@
-// Makes an ordered list of the visible cells, with the same test as cull.comp.glsl.
+// Creates an ordered list of the visible cells, with the same test as cull.comp.glsl.
 
 TRI_FN bool beyond(float nx, float ny, float nz, const float* lo, const float* hi) {
   float lx = nx * lo[0], hx = nx * hi[0];
@@ -129,7 +129,7 @@ __kernel void test_cells(__global const Particles* parameters, __global const Ce
 }
 
 // Runs a single work item. Writes every stride-th of the cells that have this state, in order,
-// beginning at list[1]. list[0] is their number.
+// beginning at list[1]. list[0] is the number of cells in the list.
 __kernel void list_cells(__global const Particles* parameters, __global const uint* states,
                          uint state, uint stride, __global uint* list) {
   uint seen = 0;

@@ -14,13 +14,13 @@ struct ParticleData {
   std::size_t cell_count = 0;
   cl::Buffer parameters;  // technique::ParticleParameters
   cl::Buffer spheres;     // float4
-  cl::Buffer colours;     // one or four words per particle, depending on the kind of colour
+  cl::Buffer colours;     // one or four words per particle, depending on the colour format
   cl::Buffer ids;
   cl::Buffer cells;  // technique::Cell
   cl::Buffer table;  // the table of the transfer function
 };
 
-// From now on, draws frames with the camera of this scene. Returns when the upload has finished.
+// Uses the camera of this scene for all later frames. Returns when the upload has finished.
 void look_from(const Session& session, const ParticleData& data, const measure::ParticleWork& work);
 
 // Arranges the particles and uploads them. Returns when the upload has finished.

@@ -1,4 +1,4 @@
-// The passes that compute vertices, for techniques that have separate stages for this on other
+// The passes that compute vertices, for techniques that use separate stages for this with the other
 // APIs. Each pass goes through the listed cells in the same way as binning. The binning and tile
 // passes then read the vertices.
 
@@ -99,7 +99,7 @@ __kernel void evaluate_patches(__global const Particles* restrict parameters,
 #if TRI_SPRITE == TRI_POINT
 // Corresponds to a vertex stage for points: writes the position of the square's centre on the
 // image, and its size in pixels. A square larger than TRI_LARGEST_POINT is drawn as a
-// screen-aligned quad, as on the other APIs.
+// screen-aligned quad, as with the other APIs.
 __kernel void project_points(__global const Particles* restrict parameters,
                              __global const float* restrict spheres,
                              __global const Cell* restrict cells, __global const uint* restrict list,

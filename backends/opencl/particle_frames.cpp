@@ -58,7 +58,7 @@ measure::Frame ParticleFrames::frame(measure::Purpose purpose) {
 }
 
 // The set of hidden cells depends on the previous frames. The counted frame is the second frame
-// after a reset, because all later frames are like it.
+// after a reset, because the same cells are hidden in all later frames.
 void ParticleFrames::prepare_counting() {
   if (counting_.empty()) {
     ParticleConstants constants = constants_;

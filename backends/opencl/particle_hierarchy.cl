@@ -1,6 +1,6 @@
 // Builds the hierarchy of technique/particles/hierarchy.glsl with the same passes, which produce
-// the same tree. `shape` contains the number of particles, of levels, of particles in a leaf, and
-// of leaves that contain one more particle.
+// the same tree. `shape` contains the number of particles, the number of levels, the smallest
+// number of particles in a leaf, and the number of leaves that contain one more particle than this.
 #define TRI_DIGITS 256u
 
 // Returns the index at which the k-th of `parts` runs of n elements begins.
@@ -17,8 +17,8 @@ TRI_FN float8 union_of(float8 a, float8 b) {
   return (float8)(a.lo < b.lo ? a.lo : b.lo, a.hi > b.hi ? a.hi : b.hi);
 }
 
-// Runs one work item per particle. `origin` is the origin of the curve's grid, and the number of
-// cells per unit.
+// Runs one work item per particle. origin.xyz is the origin of the grid of the Hilbert curve, and
+// origin.w is the number of grid cells per unit of length.
 __kernel void find_places(float4 origin, uint4 shape, __global const float* restrict spheres,
                           __global uint2* restrict sorted) {
   uint i = (uint)get_global_id(0);
@@ -29,8 +29,9 @@ __kernel void find_places(float4 origin, uint4 shape, __global const float* rest
   sorted[i] = (uint2)((uint)place, i);
 }
 
-// Runs one work item per run of particles, which counts how many of them have each digit (the eight
-// bits that begin at bit `shift`). `from` is the index at which the list begins.
+// Runs one work item per run of particles, which counts the particles with each digit. A digit
+// consists of the eight bits that begin at bit `shift`. `from` is the index at which the list
+// begins.
 __kernel void count_digits(uint4 shape, uint shift, uint from, __global const uint2* restrict sorted,
                            __global uint* restrict scratch) {
   uint run = (uint)get_global_id(0);
@@ -44,7 +45,8 @@ __kernel void count_digits(uint4 shape, uint shift, uint from, __global const ui
   for (uint digit = 0; digit < TRI_DIGITS; ++digit) scratch[digit * runs + run] = counts[digit];
 }
 
-// Runs a single work item, which computes where the particles of each run with each digit go.
+// Runs a single work item. For each run and each digit, it computes the position to which the run's
+// first particle with this digit is moved.
 __kernel void place_digits(uint runs, __global uint* restrict scratch) {
   uint sum = 0;
   for (uint at = 0; at < TRI_DIGITS * runs; ++at) {
@@ -54,7 +56,8 @@ __kernel void place_digits(uint runs, __global uint* restrict scratch) {
   }
 }
 
-// Runs one work item per run, which moves its particles to their places in the other list.
+// Runs one work item per run, which moves the particles of the run to their places in the other
+// list.
 __kernel void move_to_places(uint4 shape, uint shift, uint from, __global uint2* restrict sorted,
                              __global const uint* restrict scratch) {
   uint run = (uint)get_global_id(0);
@@ -89,8 +92,8 @@ __kernel void fit_leaves(uint4 shape, uint moved, __global const float* restrict
   vstore8(box, leaves + leaf, boxes);
 }
 
-// Runs one work item per node of a level. The first node of a level has the same number as the
-// level has nodes.
+// Runs one work item per node of a level. The nodes of a level with n nodes have the numbers n to
+// 2n − 1.
 __kernel void fit_level(uint first, __global float* restrict boxes) {
   uint n = (uint)get_global_id(0);
   if (n >= first) return;

@@ -65,7 +65,8 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
   const std::uint64_t all =
       (16 + 16 + 8 + 16 + 4 + 4 * 28) * count + 20 * pixels + passes * (8 * pixels + table);
   if (all > total) {
-    return fmt::format("{} bytes are needed, but CL_DEVICE_GLOBAL_MEM_SIZE is {}", all, total);
+    return fmt::format("needs {} bytes of device memory, but CL_DEVICE_GLOBAL_MEM_SIZE is {}", all,
+                       total);
   }
   return std::nullopt;
 }

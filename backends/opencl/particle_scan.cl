@@ -1,4 +1,5 @@
-// Computes where the entries of each bin begin, from the number of entries of each bin.
+// Computes the position at which the entries of each bin begin from the number of entries in each
+// bin.
 
 // Runs one work item per bin. Replaces counts by positions within the bin, and writes the length of
 // the bin to totals[bin].

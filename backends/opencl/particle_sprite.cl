@@ -1,7 +1,7 @@
 // Generates sprites like sprite.glsl: first the frame at the centre, then the corners in clip
-// space, which are clipped and projected to the grid of the rasterizer. Depth does not matter here:
-// with an infinite far plane, z is `near` at every corner, and w is the distance along the view
-// axis.
+// space, which are clipped and projected to the grid of the rasterizer. Depth need not be computed
+// here, because with an infinite far plane, z is `near` at every corner, and w is the distance
+// along the view axis.
 
 #define TRI_SCREEN_QUAD 1
 #define TRI_RAY_QUAD 2
@@ -23,7 +23,7 @@
 #endif
 // Each of the five clipping planes may add a corner.
 #define TRI_MOST_CORNERS (TRI_SPRITE_CORNERS + 5)
-// The number of fractional bits of a position on the grid, as on the other APIs.
+// The number of fractional bits of a position on the grid, as with the other APIs.
 #define TRI_SUBPIXEL_BITS 8
 #define TRI_SUBPIXELS (1 << TRI_SUBPIXEL_BITS)
 
@@ -101,8 +101,8 @@ TRI_FN void add_rectangle(const Particles* u, float2 low, float2 high, Outline* 
   add_corner(u, (float3)(low.x, high.y, 1.0f), outline);
 }
 
-// Makes a screen-aligned sprite: the rectangle around the silhouette, clipped to the viewport. Adds
-// no corners if nothing is visible.
+// Creates a screen-aligned sprite: the rectangle around the silhouette, clipped to the viewport.
+// Adds no corners if nothing is visible.
 TRI_FN void screen_outline(const Particles* u, float4 sphere, Outline* outline) {
   float2 x = covered(sphere.x, sphere.z, sphere.w, u->plane.z, u->eye_rest.w);
   float2 y = covered(sphere.y, sphere.z, sphere.w, u->plane.w, u->eye_rest.w);
@@ -128,7 +128,7 @@ TRI_FN int sprite_corners(const Particles* u, float4 sphere) {
 #endif
 }
 
-// Makes a ray-aligned sprite. Returns false if clipping planes must not cut it: a sprite that
+// Creates a ray-aligned sprite. Returns false if clipping planes must not cut it: a sprite that
 // covers the whole viewport is drawn at w = 1, and `near` may be larger than that.
 TRI_FN bool ray_outline(const Particles* u, float4 sphere, Outline* outline) {
   Frame frame = sprite_frame(u, sphere);
@@ -272,8 +272,8 @@ TRI_FN void snap_outline(const Particles* u, const Outline* outline, Polygon* po
 }
 
 #if TRI_SPRITE == TRI_POINT
-// Makes the square around the centre, with centre and size rounded to the grid. Returns the number
-// of vertices with which the sphere was drawn.
+// Creates the square around the centre, with centre and size rounded to the grid. Returns the
+// number of vertices with which the sphere was drawn.
 TRI_FN int stored_polygon(const Particles* u, __global const float* stored, size_t particle,
                           Polygon* polygon) {
   float4 point = vload4(2 * particle, stored);
@@ -321,8 +321,8 @@ TRI_FN int stored_polygon(const Particles* u, __global const float* stored, size
   return 4;
 }
 #else
-// Makes the sprite on the grid. Returns the number of its corners before clipping; 0 if there is no
-// sprite.
+// Creates the sprite on the grid. Returns the number of its corners before clipping; 0 if there is
+// no sprite.
 TRI_FN int make_polygon(const Particles* u, float4 sphere, Polygon* polygon) {
   Outline outline;
   outline.n = 0;
@@ -347,9 +347,9 @@ TRI_FN int pixel_from(int place) {
   return (place - TRI_SUBPIXELS / 2 + TRI_SUBPIXELS - 1) >> TRI_SUBPIXEL_BITS;
 }
 
-// Returns the pixels of row y that the polygon covers, as the first pixel and the one after the
+// Returns the pixels of row y that the polygon covers, as the first pixel and the pixel after the
 // last. Left and upper edges are inside; right and lower edges are not. This is the fill rule of
-// the other APIs, with which the triangles of a sprite cover each of its pixels exactly once.
+// the other APIs. With this rule, the triangles of a sprite cover each of its pixels exactly once.
 TRI_FN int2 covered_row(const Polygon* polygon, int y) {
   int at = y * TRI_SUBPIXELS + TRI_SUBPIXELS / 2;
   int first = INT_MAX;

@@ -82,7 +82,7 @@ Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride)
             .depths = make_buffer(pixels_),
             .winners = make_buffer(pixels_)};
   // The buffers are made large enough for all visible cells regardless of the stride, because later
-  // passes draw fewer cells, but not always the same ones.
+  // passes draw fewer cells, but not always the same cells.
   Pass whole = pass;
   whole.stride = 1;
   std::vector<Launch> launches{cull(programs)};
@@ -110,8 +110,8 @@ void ParticleStages::poison(const Pass& pass) const {
   for (const cl::Buffer* each : {&image_, &ids_, &pass.depths, &camera_}) {
     fill(*each, measure::poison_word);
   }
-  // Kernels count or index with these numbers. They are set to 0 instead, which makes the kernels
-  // draw nothing.
+  // Kernels use these numbers as counts and indices, so they are set to 0 instead of the poison
+  // value. The kernels then draw nothing.
   for (const cl::Buffer* each : {&pass.list, &pass.begins, &pass.totals, &rectangles_}) {
     fill(*each, 0);
   }

@@ -20,7 +20,7 @@ typedef struct {
   // the tile's last pixel within the image, relative to the first
   int last_x, last_y;
   float farthest;  // no visible surface in the tile is farther away than this along the view axis
-  int drawn;       // number of entries drawn since then
+  int drawn;       // number of entries drawn since `farthest` was computed
 } Tile;
 
 #if TRI_REVERSED_DEPTH

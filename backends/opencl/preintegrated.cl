@@ -5,7 +5,7 @@
 
 // Composites a piece of the step behind `gathered`, which is premultiplied colour and opacity.
 // `depth` is the optical depth of the piece in powers of two. a0 … a2 are the coefficients of its
-// colour as a function of the fraction of that depth that has been passed.
+// colour as a quadratic function of the fraction of that depth.
 TRI_FN float4 with_piece(float4 gathered, float depth, float3 a0, float3 a1, float3 a2) {
   float opacity = tri_1m_exp2(-depth);
   float z = 0.3465735903f * depth;
@@ -40,9 +40,10 @@ TRI_FN bool are_too_deep(__global const float4* pairs, int first, int last, floa
   return abs(last - first) > 1 && per_cell * pairs[3 * (256 * first + last)].x > TRI_DEEPEST_CHUNK;
 }
 
-// Returns the entry up to which cells that are too deep are processed at once. Starts with as many
-// cells as would not be too deep if all cells were equal, then halves their number until they are
-// not too deep, but processes at least one cell.
+// Returns the entry up to which cells are processed in one chunk, if the optical depth of all
+// remaining cells exceeds TRI_DEEPEST_CHUNK. Starts with the number of cells that would reach this
+// depth if all cells were equally deep, and halves the number until the chunk is not too deep. A
+// chunk contains at least one cell.
 TRI_FN int end_of_chunk(__global const float4* pairs, int first, int last, float per_cell) {
   int direction = last > first ? 1 : -1;
   float share = TRI_DEEPEST_CHUNK / (per_cell * pairs[3 * (256 * first + last)].x);
@@ -66,7 +67,7 @@ TRI_FN float4 preintegrated(__constant float4* table, __global const float4* pai
     return with_part_of_cell(table, gathered, first_cell, from, to, length);
   }
   bool rising = last_cell > first_cell;
-  // first of the table entries that the step passes
+  // the first table entry that the step passes
   int first = rising ? first_cell + 1 : first_cell;
   int last = rising ? last_cell : last_cell + 1;
   float per_cell = length / fabs(to - from);

@@ -45,8 +45,8 @@ struct Constants {
 
 struct CapturedProgram {
   cl::Program program;
-  std::string printed;  // the text that the driver wrote to standard error during the build; empty
-                        // if it was not captured
+  std::string printed;  // the driver's output on standard error during the build; empty if it was
+                        // not captured
 };
 
 // The compiled programs, by source and options.

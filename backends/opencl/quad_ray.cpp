@@ -1,4 +1,4 @@
-// Draws ray-aligned quads whose vertices are written by a separate pass. On the other APIs, a
+// Draws ray-aligned quads whose vertices are written by a separate pass. With the other APIs, a
 // geometry shader generates them.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"

@@ -1,5 +1,5 @@
-// Draws screen-aligned quads around the silhouettes. On the other APIs, a geometry shader generates
-// them.
+// Draws screen-aligned quads around the silhouettes. With the other APIs, a geometry shader
+// generates them.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"
 

@@ -1,4 +1,4 @@
-// Draws ray-aligned quads that are evaluated at the domain coordinates of patches. On the other
+// Draws ray-aligned quads that are evaluated at the domain coordinates of patches. With the other
 // APIs, tessellation shaders do that.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"

@@ -16,7 +16,7 @@ typedef struct {
   real3 d;     // unit direction in world space
   real steps;  // length inside the box, in steps
 #if TRI_TRACE
-  __global uint* trace;  // where the records of the traced pixel are written; null for other pixels
+  __global uint* trace;  // where the ray's records are written; null unless the pixel is traced
 #endif
 } Ray;
 
@@ -153,9 +153,9 @@ TRI_FN int samples_before(const Walk* walk, int limit) {
   return clamp((int)tri_ceil(walk->leave - 0.5f), 0, limit);
 }
 
-// Narrows [begin, end) to the next run at or after `begin` of samples in visible bricks of the same
-// kind. The result is empty at the end of the ray. A brick of kind KIND_MERGED is always a run of
-// its own.
+// Narrows [begin, end) to the next run of samples, at or after `begin`, that lie in visible bricks
+// of the same kind. The result is empty at the end of the ray. A brick of kind KIND_MERGED is
+// always a run of its own.
 TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_map, Walk* walk,
                      const Ray* ray, int begin, int end, Counts* counts) {
   int here = kind(u, brick_map, walk);
@@ -180,9 +180,9 @@ TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_map, Wa
 
 #else
 
-// The data of a ray that leaps use.
+// The data of a ray that are needed for leaps.
 typedef struct {
-  real3 p0;  // where the ray enters, relative to where the bricks begin (technique::BrickLayout::of_cells)
+  real3 p0;  // where the ray enters, relative to the corner of the brick grid (technique::BrickLayout::of_cells)
   real3 inverse_g;
   real edge;  // edge of a brick, in voxels
   real inverse_edge;

@@ -221,8 +221,8 @@ typedef struct {
 } Pause;
 #define TRI_PAUSES , __global Pause* pauses
 
-// Returns whether the next position lies in the part. It is a sample, a step, or the middle of a
-// run to be merged.
+// Returns whether the next position lies in the part. The position is that of a sample, of a step,
+// or of the middle of a run to be merged.
 TRI_FN int next_is_here(__constant Parameters* u, const Ray* ray, const Walk* walk, int i, int stop) {
   real along = (real)i + (TRI_PREINTEGRATED ? 0.0f : 0.5f);
 #if TRI_ADAPT
@@ -270,7 +270,7 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
 #if TRI_PARTS
   __global Pause* own =
       pauses + tri_output_place(x, y, u->viewport.x, u->viewport.y, u->viewport.w, (int)get_global_size(0));
-  int begun = 0;  // the end of the run that has begun
+  int begun = 0;  // the end of the run that an earlier pass has begun
   if (u->pass.x > 0) {
     Pause pause = *own;
     gathered = pause.gathered;

@@ -1,8 +1,8 @@
 // Fetches normalised values from the volume, for up to TRI_BATCH positions at a time.
 //
 // The work is arranged as plain loops over small arrays, with one simple operation per loop. A
-// compiler for processors turns each loop into vector instructions, up to 16 samples wide. With
-// TRI_BATCH 1, which GPUs use, nothing remains of the loops.
+// compiler for CPUs turns each loop into vector instructions, up to 16 samples wide. GPUs use a
+// TRI_BATCH of 1, with which the loops disappear.
 //
 // Compile-time constants: TRI_MANUAL_SAMPLER, TRI_VOXEL (the stored type), TRI_FAULT, TRI_BATCH,
 // TRI_PARTS (technique::Part).
@@ -19,8 +19,8 @@
 #define FAULT_COARSE_FILTER 5
 
 #if TRI_MANUAL_SAMPLER
-// The voxels, with a border on every side that repeats the outermost layer once. The eight
-// neighbours of a position are therefore four pairs at fixed distances.
+// The voxels, with a border on every side that repeats the outermost layer once. The eight voxels
+// around any position are therefore four pairs of adjacent voxels at fixed offsets.
 #define TRI_VOLUME __global const TRI_VOXEL*
 #define TRI_FOUR_(type) type##4
 #define TRI_FOUR(type) TRI_FOUR_(type)

@@ -67,7 +67,7 @@ std::vector<std::byte> as_rgba(std::span<const std::byte> voxels, std::size_t by
 
 cl::Image3D upload_image(const Session& session, const scene::VoxelGrid& grid) {
   const auto format = image_format(session, grid.format);
-  if (!format) throw core::NotSupported("no 3D image format for these voxels");
+  if (!format) throw core::NotSupported("the device has no 3D image format for these voxels");
   const std::array<std::size_t, 3> size{to_size(grid.size[0]), to_size(grid.size[1]),
                                         to_size(grid.size[2])};
   const cl::Image3D image = make_image(session, *format, size);

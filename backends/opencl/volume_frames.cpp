@@ -31,7 +31,7 @@ std::vector<std::string_view> source_files(const Constants& constants) {
 }
 
 // The size of a work group in pixels. It is large enough for a GPU's waves, and makes no difference
-// on a processor.
+// on a CPU.
 constexpr std::size_t group_width = 16;
 constexpr std::size_t group_height = 4;
 

@@ -42,7 +42,8 @@ class Backend final : public measure::Backend {
       if (each.info.id != device_id) continue;
       if (!each.reason.empty()) throw core::NotSupported(each.reason);
       if (std::getenv("LP_PERF") != nullptr && each.info.driver == "llvmpipe") {
-        throw core::NotSupported("LP_PERF is set, which makes the driver skip work");
+        throw core::NotSupported(
+            "the environment variable LP_PERF is set, which makes the driver skip work; unset it");
       }
       return translated(
           [&] { return std::make_unique<Device>(std::move(instance), std::move(each)); });

@@ -68,7 +68,8 @@ std::vector<measure::FeatureProbe> Device::feature_probes() {
 std::optional<std::string> Device::unsupported(const measure::Work& work) const {
   return translated([&]() -> std::optional<std::string> {
     const Entry* entry = find_entry(work.technique);
-    if (entry == nullptr) return fmt::format("Vulkan has no technique '{}'", work.technique);
+    if (entry == nullptr)
+      return fmt::format("technique '{}' is not implemented for Vulkan", work.technique);
     if (entry->prepare.index() != work.scene.index()) {
       return fmt::format("technique {} belongs to a different suite than the scene",
                          work.technique);
@@ -111,7 +112,7 @@ double Device::filter_weight_error(const measure::VolumePath& path) const {
   const std::optional<double> error = hardware_error(path.voxel);
   // Limits the error to the allowed error, because a faulty filter must not widen the bound.
   if (error) return std::min(*error, allowed_filter_error(gpu_, path.voxel));
-  throw core::NotSupported(fmt::format("cannot filter images of format {} linearly",
+  throw core::NotSupported(fmt::format("the device cannot filter images of format {} linearly",
                                        vk::to_string(texture_format(path.voxel))));
 }
 

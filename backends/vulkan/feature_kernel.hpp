@@ -1,5 +1,5 @@
 #pragma once
-// What the feature probes have in common.
+// Helpers that the feature probes share.
 
 #include <array>
 #include <cstdint>

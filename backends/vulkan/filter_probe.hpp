@@ -12,8 +12,8 @@ namespace triptych::vulkan_backend {
 
 // Returns the largest error of the device's trilinear filter, found at several thousand random
 // positions in a volume of random black and white voxels. The error is measured against double
-// precision, and is a fraction of the difference between black and white. Empty if the format
-// cannot be filtered.
+// precision, and is a fraction of the difference between black and white. Returns nullopt if the
+// format cannot be filtered.
 [[nodiscard]] std::optional<double> probe_filter(const Gpu& gpu, scene::VoxelFormat format);
 
 // Returns technique::allowed_filter_error for the weight precision that the device reports.

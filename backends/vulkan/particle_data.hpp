@@ -68,7 +68,7 @@ class ParticleData {
   // index, because a vertex buffer may be larger than a storage buffer.
   void bind(vk::DescriptorSet set, Fetch fetch) const;
 
-  // From now on, draws frames with the camera of this scene.
+  // Uses the camera of this scene for all later frames.
   void look_from(const measure::ParticleWork& work) const;
 
   void poison_counters() const;

@@ -33,7 +33,8 @@ std::map<std::string, double> statistics_of(const Gpu& gpu,
   return statistics;
 }
 
-// Drivers also return intermediate languages. The disassembly comes last, and its name says so.
+// Returns whether a representation is the disassembly. Drivers also return code in intermediate
+// languages, but only the name of the disassembly contains "assembly" or "SASS".
 bool is_disassembly(const vk::PipelineExecutableInternalRepresentationKHR& each) {
   const std::string_view name = each.name.data();
   return each.isText == VK_TRUE && (name.find("ssembly") != std::string_view::npos ||

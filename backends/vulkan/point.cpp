@@ -36,7 +36,7 @@ bool may_be_large(const scene::ParticleScene& scene, const std::array<float, 4>&
   return phi + alpha > 1.5 || wide / pixel > safety * largest - 1;
 }
 
-// Returns runs of particles that contain all large ones. Runs that are close to each other are
+// Returns runs of particles that contain all large particles. Runs that are close to each other are
 // joined, because a draw call costs more than a few vertices.
 std::vector<ParticleRun> large_runs(const scene::ParticleScene& scene,
                                     const technique::Arrangement& arrangement, double largest) {

@@ -1,5 +1,5 @@
-// Does only the fetches and table look-ups of raycast: the same kernel, specialised to sum what it
-// reads.
+// Performs only the fetches and table look-ups of raycast. It is the same kernel, specialised to
+// sum the values that it reads.
 #include "backends/vulkan/compute_frames.hpp"
 #include "backends/vulkan/techniques.hpp"
 

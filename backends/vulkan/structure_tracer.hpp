@@ -1,5 +1,5 @@
 #pragma once
-// What ray_query and ray_pipeline have in common: the acceleration structure and its bindings.
+// The part that ray_query and ray_pipeline share: the acceleration structure and its bindings.
 
 #include <memory>
 

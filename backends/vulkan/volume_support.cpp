@@ -14,9 +14,10 @@ namespace {
 std::optional<std::string> format_reason(const Gpu& gpu, const measure::VolumeWork& work) {
   const scene::VoxelFormat format = work.scene.grid->format;
   const std::string name = vk::to_string(texture_format(format));
-  if (!can_sample(gpu, format)) return fmt::format("cannot sample images of format {}", name);
+  if (!can_sample(gpu, format))
+    return fmt::format("the device cannot sample images of format {}", name);
   if (work.options.sampler == technique::Sampler::hardware && !can_filter(gpu, format)) {
-    return fmt::format("cannot filter images of format {} linearly", name);
+    return fmt::format("the device cannot filter images of format {} linearly", name);
   }
   return std::nullopt;
 }
@@ -56,7 +57,7 @@ std::optional<std::string> volume_reason(const Gpu& gpu, const measure::VolumeWo
   const scene::VolumeScene& scene = work.scene;
   if (auto reason = technique::raycast_reason(technique, scene, work.options)) return reason;
   if (work.options.precision == technique::Precision::fp64 && !gpu.features.shaderFloat64) {
-    return "precision fp64 needs shaderFloat64, which the device lacks";
+    return "precision=fp64 needs shaderFloat64, which the device lacks";
   }
   technique::RaycastBuffers buffers = technique::raycast_buffers(scene, work.options);
   const technique::Cut cut = cut_of(gpu, technique, work);

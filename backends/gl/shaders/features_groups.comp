@@ -1,4 +1,4 @@
-// Each work group writes the number after its own.
+// Each work group writes its own number plus 1.
 layout(local_size_x = 1) in;
 layout(std430, binding = 0) writeonly buffer Numbers { uint numbers[]; };
 

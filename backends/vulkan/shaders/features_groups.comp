@@ -1,5 +1,5 @@
 #version 450
-// Each work group writes the number after its own.
+// Each work group writes its own number plus 1.
 layout(local_size_x = 1) in;
 layout(std430, set = 0, binding = 0) writeonly buffer Numbers { uint numbers[]; };
 
