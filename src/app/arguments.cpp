@@ -20,8 +20,8 @@ void add_example(CLI::App& command, const std::string& example) {
 void add_choice_options(CLI::App& command, PlanChoice& choice) {
   command.add_option(
       "--set", choice.set,
-      "factor=a,b: use these levels instead of the plan's levels of a factor (repeatable); write a "
-      "comma inside a level as %2C");
+      "factor=a,b: replace the plan's levels of this factor with these levels (repeatable); write "
+      "a comma inside a level as %2C");
   command.add_option("--shard", choice.shard, "i/n: use only the i-th of n parts of the plan");
   add_selection_options(command, choice);
 }
@@ -29,11 +29,12 @@ void add_choice_options(CLI::App& command, PlanChoice& choice) {
 void add_selection_options(CLI::App& command, PlanChoice& choice) {
   command.add_option("--filter", choice.filter,
                      "Use only configurations whose name or key matches this glob (repeatable); "
-                     "`triptych list PLAN` prints both");
+                     "`triptych list PLAN` prints names and keys");
   command.add_option("--caselist", choice.caselist,
                      "Use only the configurations listed in this file, one name or key per line");
-  command.add_option("--fraction", choice.fraction,
-                     "1/n: use only one n-th of the configurations, always the same subset");
+  command.add_option(
+      "--fraction", choice.fraction,
+      "1/n: use only one n-th of the configurations; every call uses the same subset");
 }
 
 core::InputError nothing_selected(const PlanChoice& choice) {
@@ -67,8 +68,8 @@ void add_limit_option(CLI::App& command, int& seconds, const std::string& what) 
 
 void add_without_data_option(CLI::App& command, bool& without) {
   command.add_flag("--without-data", without,
-                   "Do not expect data files on this machine: configurations that need them are "
-                   "skipped, even if they have baselines");
+                   "Skip configurations whose data files are missing on this machine, even if they "
+                   "have baselines");
 }
 
 void add_verbose_option(CLI::App& command, bool& verbose) {

@@ -16,8 +16,8 @@
 
 namespace triptych::app {
 
-// The program and the command that the user chose. Each command registers itself with add(). Its
-// action runs after parsing and returns the exit code.
+// The command-line parser, and the action of the command that the user chose. Each command
+// registers itself with add(). Its action `run` is called after parsing and returns the exit code.
 struct Commands {
   CLI::App& program;
   std::function<core::ExitCode()> chosen;
@@ -25,8 +25,8 @@ struct Commands {
   CLI::App& add(const std::string& name, const std::string& summary,
                 std::function<core::ExitCode()> run);
 
-  // A registered command, and the arguments into which its options are parsed. `run` is called with
-  // these arguments.
+  // A registered command, and the struct that receives its parsed options. The struct is passed to
+  // `run`.
   template <typename Arguments>
   struct Added {
     CLI::App& command;
@@ -74,7 +74,8 @@ void add_baselines_option(CLI::App& command, std::string& folder,
 // have been measured.
 void add_devices_option(CLI::App& command, std::vector<std::string>& globs);
 
-// Adds --inject FAULT[@GLOB] (repeatable), and its former name --plant, which --help does not list.
+// Adds --inject FAULT[@GLOB] (repeatable), and its former name --plant, which is hidden from
+// --help.
 void add_inject_option(CLI::App& command, std::vector<std::string>& faults,
                        const std::string& help);
 

@@ -46,13 +46,13 @@ JudgedCompilers judged_compilers(const measure::Plan& plan,
 void print_not_judged(const JudgedCompilers& compilers, const std::string& plan) {
   if (compilers.not_stored.empty()) {
     if (!compilers.devices.empty()) return;
-    say("triptych: {} is left out, because no GPU compiler is installed; `triptych devices "
-        "--compilers` prints the reasons\n",
+    say("triptych: {} is not judged, because no GPU compiler is installed; for details, run "
+        "`triptych devices --compilers`\n",
         plan);
     return;
   }
-  say("triptych: {} does not judge {}, because no code is stored for {}; `triptych gate {}` prints "
-      "the differences from other versions\n",
+  say("triptych: {} is not judged on {}, because the baselines contain no code for {}; to see the "
+      "differences from other versions, run `triptych gate {}`\n",
       plan, fmt::join(compilers.not_stored, ", "),
       compilers.not_stored.size() == 1 ? "this driver version" : "these driver versions", plan);
 }

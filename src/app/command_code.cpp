@@ -1,5 +1,5 @@
-// The command code: prints the statistics and the disassembly that a device's compiler produces for
-// one configuration.
+// The `code` command prints the statistics and the disassembly that a device's compiler produces
+// for one configuration.
 
 #include <fmt/format.h>
 
@@ -76,7 +76,7 @@ measure::Plan plan_of(const measure::Suite& suite, const CodeArguments& argument
   measure::Plan plan =
       measure::default_plan(suite, PlanChoice{.set = arguments.frame.set}.overrides());
   if (!plan.varied.empty()) {
-    throw core::InputError("code compiles a single configuration: set each factor to one level");
+    throw core::InputError("`code` compiles a single configuration; set each factor to one level");
   }
   plan.checks = {record::Check::code};
   return plan;
@@ -110,7 +110,7 @@ core::ExitCode code(const CodeArguments& arguments) {
 
 void add_code_command(Commands& commands) {
   auto [command, arguments] = commands.add(
-      "code", "Print a compiler's statistics and the disassembly for one configuration", code);
+      "code", "Print the compiler's statistics and the disassembly for one configuration", code);
   add_example(command, "triptych code volume --device vulkan:radv-navi31 --set shading=gradient");
   arguments.frame.add_to(command);
   command.add_flag("--brief", arguments.brief, "Print the statistics without the disassembly");

@@ -52,9 +52,9 @@ measure::SideOptions parse_side(std::string_view option, const std::string& text
   return side;
 }
 
-// Returns the records of the latest run. For a device that the latest run does not contain, uses
-// the most recent earlier run of the same plan that contains the device, because `compare --store`
-// writes a separate run for each side.
+// Returns the records of the latest run. For each device that is missing from the latest run, also
+// returns its records from the most recent run of the same plan that contains the device. This is
+// needed because `compare --store` writes a separate run for each side.
 std::vector<record::Record> records_of_all_devices(const record::Store& store,
                                                    const record::Run& latest) {
   std::vector<record::Record> records;
@@ -80,7 +80,7 @@ std::vector<record::Record> records_of_all_devices(const record::Store& store,
 core::ExitCode show_apis(const CompareArguments& arguments) {
   const Comparing& comparing = arguments.comparing;
   if (comparing.store.empty()) {
-    throw core::InputError("--apis needs --store FILE, a store that `triptych run` wrote");
+    throw core::InputError("--apis needs --store FILE; create the store with `triptych run`");
   }
   const record::Store store = open_to_judge(comparing.store);
   std::set<std::string> asked;
@@ -96,7 +96,8 @@ core::ExitCode show_apis(const CompareArguments& arguments) {
     if (!arguments.json) put_lines(fmt::format("{}\n\n{}\n", run.plan, report::screen_of(*table)));
   }
   if (json.empty()) {
-    throw core::NotSupported(comparing.store + ": no two devices measured the same configuration");
+    throw core::NotSupported(comparing.store +
+                             ": no configuration was measured on more than one device");
   }
   if (arguments.json) print(json);
   return core::ExitCode::pass;
@@ -166,10 +167,10 @@ void add_diff_command(Commands& commands) {
 
 void add_compare_commands(Commands& commands) {
   add_diff_command(commands);
-  auto [command, arguments] = commands.add(
-      "compare",
-      "Compare two devices, drivers or builds: first deterministic measurements, then times",
-      compare);
+  auto [command, arguments] = commands.add("compare",
+                                           "Compare the deterministic measurements and the frame "
+                                           "times of two devices, drivers or builds",
+                                           compare);
   add_example(command, "triptych compare volume/quick --a gl:llvmpipe-egl --b vulkan:lavapipe");
   Comparing& comparing = arguments.comparing;
   command.add_option("PLAN", comparing.plans,
@@ -181,9 +182,9 @@ void add_compare_commands(Commands& commands) {
   command.add_option("--a", arguments.a, side);
   command.add_option("--b", arguments.b, side);
   command.add_option("--a-program", arguments.a_program,
-                     "Measure side a with this other build of triptych");
+                     "Measure side a with another build of triptych: the path of its program");
   command.add_option("--b-program", arguments.b_program,
-                     "Measure side b with this other build of triptych");
+                     "Measure side b with another build of triptych: the path of its program");
   command.add_flag("--no-times", arguments.no_times,
                    "Compare only deterministic measurements, not frame times");
   command.add_flag(
@@ -191,16 +192,16 @@ void add_compare_commands(Commands& commands) {
       "Measure nothing; print a table of the devices in --store, with one row per technique");
   command
       .add_option("--budget", comparing.budget_s,
-                  "Stop measuring times after this many seconds (default: no limit)")
+                  "Stop measuring frame times after this many seconds (default: no limit)")
       ->check(CLI::Range(1, 1000000));
   add_limit_option(command, comparing.limit_s, "a worker that does not respond");
   command.add_option("--store", comparing.store,
                      "SQLite file in which both runs are saved (default: the runs are not saved)");
   command.add_option("--seed", comparing.seed, "Seed for the random order of the measurements")
       ->capture_default_str();
-  add_inject_option(
-      command, comparing.faults,
-      "Inject a fault into side b to check that the comparison finds it; see run --help");
+  add_inject_option(command, comparing.faults,
+                    "Inject a fault into side b to check that the comparison finds it; see "
+                    "`triptych run --help`");
   add_verbose_option(command, comparing.verbose);
   command.add_flag("--json", arguments.json, "Print machine-readable JSON");
 }

@@ -21,7 +21,8 @@ std::string why(const measure::Broken& broken) {
   return broken.ended ? text_of(*broken.ended) : broken.reason;
 }
 
-// `compilers` lists the devices that only compile. They were not opened.
+// The devices that were opened (`greeted`), the devices that cannot be used (`broken`), and the ids
+// of devices that only compile and were not opened (`compilers`).
 struct Devices {
   std::vector<Greeting> greeted;
   std::vector<measure::Broken> broken;
@@ -55,8 +56,8 @@ void print_text(const Devices& found) {
     put("cannot be used: {}: {}\n", each.what, why(each));
   }
   if (found.compilers.empty()) return;
-  put("compilers for GPUs that this machine does not have (nothing is executed; use --compilers to "
-      "open them):\n");
+  put("compilers for GPUs that are not in this machine (not opened; use --compilers to open "
+      "them):\n");
   for (const std::string& each : found.compilers) put("  {}\n", each);
 }
 
@@ -118,7 +119,7 @@ void add_devices_command(Commands& commands) {
   command.add_option("--device", arguments.devices,
                      "List only devices that match this glob (repeatable; default: all)");
   command.add_flag("--compilers", arguments.compilers,
-                   "Also open the compilers for GPUs that this machine does not have");
+                   "Also open the compilers for GPUs that are not in this machine");
   command.add_flag("--json", arguments.json, "Print machine-readable JSON");
   add_example(command, "triptych devices --json");
 }

@@ -72,7 +72,7 @@ constexpr std::string_view environment = R"(.SH ENVIRONMENT
 Folder with the subfolders volumes/ and particles/, from which plans load their data files.
 .TP
 .B XDG_CACHE_HOME
-Code that drivers have compiled is cached in its subfolder triptych/ (default: ~/.cache).
+Folder whose subfolder triptych/ caches the code that drivers have compiled (default: ~/.cache).
 .PP
 Environment variables that affect a driver are part of the device's key.
 .B triptych devices
@@ -81,7 +81,8 @@ lists these variables.
 
 std::string manual(const CLI::App& program) {
   std::string text = fmt::format(
-      ".TH TRIPTYCH 1 \"\" \"triptych {}\"\n.SH NAME\ntriptych \\- check images, work and cost of "
+      ".TH TRIPTYCH 1 \"\" \"triptych {}\"\n.SH NAME\ntriptych \\- check the images, work and cost "
+      "of "
       "GPU "
       "drivers\n.SH SYNOPSIS\n.B triptych\nCOMMAND [OPTION]... [PLAN]...\n.SH DESCRIPTION\n"
       "{}.\n.PP\n.B triptych gate \\-\\-measure\nmeasures and judges every device found.\n.SH "
@@ -92,7 +93,8 @@ std::string manual(const CLI::App& program) {
   return text.append(environment);
 }
 
-// Returns the words that may follow a command: its options, and the plans that the suites provide.
+// Returns the words to complete after a command: its options and, if it takes plans, the names of
+// the plans in the suites.
 std::string words_after(const CLI::App& command, const std::vector<std::string>& plans) {
   std::string words;
   bool takes_plans = false;
@@ -118,7 +120,7 @@ std::string completion(const CLI::App& program) {
         fmt::format("    {}) words=\"{}\" ;;\n", command->get_name(), words_after(*command, plans));
   }
   return fmt::format(
-      "# Bash completion for triptych. All other words are completed as file names.\n_triptych() "
+      "# Bash completion for triptych. Completes file names if no other word matches.\n_triptych() "
       "{{\n"
       "  local words=\"{} --help --version\"\n"
       "  [ \"$COMP_CWORD\" -eq 1 ] || case ${{COMP_WORDS[1]}} in\n{}    *) words= ;;\n  esac\n"
@@ -133,7 +135,7 @@ void add(Commands& commands, const std::string& name, const std::string& summary
     fmt::print("{}", text(program));
     return core::ExitCode::pass;
   });
-  command.group("");  // not listed, because only the build calls it
+  command.group("");  // hidden from --help, because only the build calls it
 }
 
 }  // namespace

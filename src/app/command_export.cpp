@@ -76,8 +76,8 @@ class Errors {
   std::map<std::string, measure::Truths> truths_;  // by run id
 };
 
-// Returns the plan's name in the stores. If `plan` is a YAML file, this is the plan's name at the
-// time of the run.
+// Returns the name by which the stores identify the plan. `plan` is either that name or the YAML
+// file that was given to `run`.
 std::string plan_in(const std::vector<record::Store>& stores, const std::string& plan) {
   const bool named = std::ranges::any_of(
       stores, [&](const record::Store& each) { return each.latest_run(plan).has_value(); });
@@ -97,7 +97,7 @@ core::ExitCode write_tables(const ExportArguments& arguments) {
       .plan = plan_in(stores, arguments.plan),
       .folder = arguments.out,
       .made_by = "triptych " + version(),
-      .begins = [](const record::Run& run) { say("{} of {}\n", run.id, run.plan); }};
+      .begins = [](const record::Run& run) { say("exporting run {} of {}\n", run.id, run.plan); }};
   std::optional<Errors> errors;
   if (arguments.errors) {
     errors.emplace(arguments.stores);
@@ -117,7 +117,7 @@ core::ExitCode write_tables(const ExportArguments& arguments) {
 
 void add_export_command(Commands& commands) {
   auto [command, arguments] = commands.add(
-      "export", "Write stores as CSV tables, with a dictionary of their columns", write_tables);
+      "export", "Export stores as CSV tables, with a dictionary of the columns", write_tables);
   command.add_option("STORE", arguments.stores, "Stores to export (SQLite files)")->required();
   command.add_option("--out", arguments.out, "Folder for the CSV files")->required();
   command.add_option(
@@ -127,7 +127,7 @@ void add_export_command(Commands& commands) {
                    "Also write errors.csv: the errors of each image against its reference image "
                    "and its limit image, in four metrics; draws the reference and limit images "
                    "that are not in the store");
-  command.add_flag("--json", arguments.json, "Print the number of rows of each table as JSON");
+  command.add_flag("--json", arguments.json, "Print the number of rows in each table as JSON");
   add_example(command, "triptych export results.sqlite --out tables");
 }
 

@@ -45,7 +45,7 @@ void add_features_command(Commands& commands) {
   command.add_option("--device", arguments.devices,
                      "Check only devices that match this glob (repeatable; default: all)");
   command.add_option("--only", arguments.only, "Check only the feature with this name");
-  add_limit_option(command, arguments.limit_s, "a feature");
+  add_limit_option(command, arguments.limit_s, "the probe of a feature");
   command.add_flag("--json", arguments.json, "Print machine-readable JSON");
   add_example(command, "triptych features --device 'vulkan:*'");
 

@@ -66,7 +66,7 @@ struct JudgedPlan {
   std::string typed;
   measure::Plan plan;
   record::Checks checks;
-  std::vector<std::string> devices = {};  // globs; empty: the devices that the user named
+  std::vector<std::string> devices = {};  // globs; if empty, GateArguments::devices applies
 };
 
 // Returns the plans that the gate judges if the user names none.
@@ -76,9 +76,9 @@ std::vector<std::string> gate_job() {
   return plans;
 }
 
-// Returns the plans to judge, as currently defined. Without named plans, plans that have none of
-// the requested checks are left out. If `--without` removes cost or code, the plans that count
-// instructions or compile are left out.
+// Returns the plans to judge, as currently defined. If the user names no plans, leaves out the
+// default plans that have none of the requested checks. `--without cost` also leaves out the plans
+// that count instructions, and `--without code` the plans that only compile.
 std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry& registry) {
   record::Checks asked;
   for (const std::string& name : arguments.checks) asked.insert(record::check(name));
@@ -105,7 +105,7 @@ std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry&
   if (plans.empty() && arguments.choice.selects()) throw nothing_selected(arguments.choice);
   if (plans.empty()) {
     throw core::InputError(
-        "--check and --without together exclude every check of the plans: choose other checks");
+        "--check and --without together leave no check in any plan; choose different checks");
   }
   return plans;
 }
@@ -114,8 +114,8 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
                                const Registry& registry, measure::Truths& truths) {
   judge::GateRequest request = request_of(truths, judged.plan, registry.suite(judged.plan.suite));
   request.devices = judged.devices.empty() ? arguments.devices : judged.devices;
-  // A required device that only compiles must appear only in plans with the check `code`. Any other
-  // required device must appear only in the remaining plans.
+  // A plan with the check `code` requires only the required devices that only compile. Every other
+  // plan requires only the remaining required devices.
   for (const std::string& glob : arguments.required) {
     const bool compiles = measure::compile_only(glob).has_value();
     if (compiles == judged.plan.compiled()) request.required_devices.push_back(glob);
@@ -147,8 +147,8 @@ core::ExitCode judge_by_base(const GateArguments& arguments) {
   return compare_and_tell(comparisons, arguments.json);
 }
 
-// Returns the devices that were found: the machine's devices if the gate measures, otherwise the
-// devices of the stored run.
+// Returns the devices of this machine if the gate measures, otherwise the devices of the stored
+// run.
 std::vector<record::Device> found_devices(const GateArguments& arguments, const Registry& registry,
                                           const JudgedPlan& judged) {
   if (arguments.measure) return registry.devices_and_compilers(arguments.devices).devices;
@@ -179,7 +179,7 @@ void limit_to_stored_code(const GateArguments& arguments, const Registry& regist
   });
   if (plans.empty()) {
     throw core::NotSupported(
-        "there is nothing to judge, because no code is stored for these devices");
+        "there is nothing to judge, because the baselines contain no code for these devices");
   }
 }
 
@@ -233,8 +233,8 @@ void refuse_bad_files(const GateArguments& arguments) {
                            {{"--junit", arguments.junit}, {"--markdown", arguments.markdown}});
 }
 
-// For `git bisect run`, returns the exit code that makes git skip the commit if no verdict is
-// possible.
+// Judges the plans and returns the exit code. With --bisect, if no verdict is possible, this is the
+// exit code that makes `git bisect run` skip the commit.
 core::ExitCode gate(const GateArguments& arguments) {
   const measure::Stopwatch since;
   const auto judged = [&] {
@@ -317,9 +317,9 @@ void add_accept_command(Commands& commands) {
       ->required();
   command.add_option("--only", arguments.only, "Accept only configurations that match this glob");
   command.add_flag("--drop", arguments.drop,
-                   "Remove baselines of configurations that the run does not contain, and "
-                   "baseline files that were edited after they were accepted; with --only, remove "
-                   "configurations that a device now skips");
+                   "Also remove the baselines of configurations that the run does not contain, and "
+                   "discard baseline files that were edited after they were accepted; with --only, "
+                   "remove the baselines of matching configurations that a device now skips");
   command.add_option("--store", arguments.store, "SQLite file with the records")
       ->capture_default_str();
   add_baselines_option(
@@ -346,7 +346,7 @@ void add_gate_commands(Commands& commands) {
       .add_option(
           "--check", arguments.checks,
           fmt::format(
-              "Judge only these checks; possible checks: {} (default: the checks of the plan)",
+              "Run only these checks; possible checks: {} (default: the checks of the plan)",
               record::text_of(record::every_check())))
       ->delimiter(',');
   command
@@ -357,19 +357,19 @@ void add_gate_commands(Commands& commands) {
   add_devices_option(command, arguments.devices);
   command.add_option(
       "--require", arguments.required,
-      "Require that a device matching this glob has measured something (repeatable)");
+      "Require that something was measured on a device that matches this glob (repeatable)");
   command.add_option(
       "--without-device", arguments.without_devices,
-      "Do not expect devices that match this glob on this machine, and accept that an "
-      "API that matches it cannot list its devices (repeatable; see docs/gate.md)");
+      "Do not expect devices that match this glob on this machine, and ignore that an API which "
+      "matches it cannot list its devices (repeatable; see docs/gate.md)");
   add_without_data_option(command, arguments.without_data);
   command.add_flag("--times", arguments.times,
-                   "Let times affect the verdict (only for dedicated benchmarking machines)");
+                   "Let frame times affect the verdict (only for dedicated benchmarking machines)");
   CLI::Option* base = command.add_option(
       "--base", arguments.base,
-      "Compare each device with itself under another build or driver instead of with the "
-      "baselines; name a build of triptych, or environment variables that select a driver as "
-      "NAME=VALUE,…");
+      "Ignore the baselines, and compare each device with itself under another build or driver: "
+      "the path of a build of triptych, or NAME=VALUE,… for environment variables that select a "
+      "driver");
   command.add_option(
       "--out", arguments.out,
       "Folder for report.html, gate.log, summary.md, benchmark.json and one JUnit XML file per "
@@ -388,7 +388,8 @@ void add_gate_commands(Commands& commands) {
     base->excludes(other);
   }
   add_inject_option(command, arguments.faults,
-                    "Inject a fault (repeatable), see run --help; needs --measure or --base");
+                    "Inject a fault (repeatable; see `triptych run --help`); needs --measure or "
+                    "--base");
   add_accept_command(commands);
 }
 

@@ -1,4 +1,4 @@
-// The command history: compares the stores of many days or commits in chronological order.
+// The `history` command compares the stores from many days or commits in chronological order.
 
 #include <fmt/format.h>
 
@@ -46,7 +46,8 @@ core::ExitCode history(const HistoryArguments& arguments) {
   }
   if (builder.devices().empty()) {
     throw core::NotSupported(
-        "the stores contain no run on a matching device; `triptych devices` lists devices");
+        "the stores contain no run on a matching device; `triptych devices` lists the devices of "
+        "this machine");
   }
   const core::Json json = report::to_json(builder.devices());
   if (!arguments.out.empty()) core::write_text(arguments.out, report::history_page(json));
@@ -64,7 +65,8 @@ core::ExitCode history(const HistoryArguments& arguments) {
 void add_history_command(Commands& commands) {
   auto [command, arguments] = commands.add(
       "history",
-      "Show cost and time over the stores of many days, and name the first store that is worse",
+      "Show how cost and frame times changed from store to store, and name the first store that is "
+      "worse",
       history);
   command.add_option("STORE", arguments.stores, "Stores that contain the same plans, in any order")
       ->required();

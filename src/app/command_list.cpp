@@ -21,8 +21,8 @@ struct ListArguments {
   bool json = false;
 };
 
-// Returns "raycast | speed_of_light" or "0.015625 to 4096 | own", for example, or an empty string
-// if the levels cannot be listed.
+// Returns, for example, "raycast | speed_of_light" or "0.015625 to 4096 | own". Returns an empty
+// string if the levels cannot be listed.
 std::string levels_text(const measure::Factor& factor) {
   const std::string words = fmt::format("{}", fmt::join(factor.levels, " | "));
   if (factor.kind != measure::FactorKind::number) return words;

@@ -1,4 +1,4 @@
-// The command merge: combines the measurements of several machines into one store, as if one
+// The `merge` command combines the measurements of several machines into one store, as if one
 // machine had measured everything.
 
 #include <fmt/format.h>
@@ -64,7 +64,7 @@ std::vector<std::string> gaps_in(const record::Store& store,
   }
   for (const record::Gap& gap : record::gaps_of(store)) {
     if (gap.configurations == 0) {
-      told.push_back(gap.plan + ": an empty shard without configurations");
+      told.push_back(gap.plan + ": the shard contains no configurations");
       continue;
     }
     told.push_back(fmt::format(
@@ -113,7 +113,7 @@ core::ExitCode merge(const MergeArguments& arguments) {
     const auto now = std::chrono::steady_clock::now();
     if (!watched() || now - last < std::chrono::milliseconds(200)) return;
     last = now;
-    show("{} records", records);
+    show("merged {} records", records);
   };
   const record::MergeResult result = record::merge_stores(
       {arguments.stores.begin(), arguments.stores.end()}, arguments.out, count);
@@ -139,10 +139,10 @@ core::ExitCode merge(const MergeArguments& arguments) {
 void add_merge_command(Commands& commands) {
   auto [command, arguments] = commands.add(
       "merge", "Combine the stores of several shards, hosts or devices into one store", merge);
-  command.add_option("STORE", arguments.stores, "Stores that `triptych run` wrote")->required();
+  command.add_option("STORE", arguments.stores, "Stores written by `triptych run`")->required();
   add_example(command, "triptych merge shard-*.sqlite --out all.sqlite");
   CLI::Option* out =
-      command.add_option("--out", arguments.out, "The store to write, which must not exist yet");
+      command.add_option("--out", arguments.out, "Store to write; it must not exist yet");
   CLI::Option* check =
       command
           .add_flag(

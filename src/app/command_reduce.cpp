@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 struct ReduceArguments {
   FrameArguments frame = {.out = "reduced"};
   std::string against;
-  int limit_s = 0;  // 0: determined by the first frame
+  int limit_s = 0;  // 0: derived from the duration of the first frame
   int frames = 500;
   // Accepted so that a `render` command can be reused. `reduce` always compares with the reference
   // image.
@@ -64,8 +64,8 @@ std::string command_for(const OneFrame& frame, const ReduceArguments& arguments,
   return report::text_of(command);
 }
 
-// Writes the reference image, the device's image (if there is one), and the data that another
-// program needs to draw this frame.
+// Writes the reference image, the device's image (if there is one), and frame.json, which contains
+// everything that another program needs to draw this frame. Returns the names of the files.
 std::vector<std::string> write_frame(const OneFrame& frame, const reduction::Trial& trial,
                                      measure::Truths& truths, const fs::path& out) {
   const record::Record& record = trial.last();
@@ -86,9 +86,10 @@ std::vector<std::string> write_frame(const OneFrame& frame, const reduction::Tri
 }
 
 // Draws the frame once more, in one process, and writes all of the driver's input to the folder
-// "dump": device code, options, buffers and a C program. For a wrong image, pixel.txt contains the
-// history of its worst pixel. Nothing is written if the driver crashes before it receives this
-// input. `limit` is the frame's time limit. If the frame hangs, its input has already been written.
+// "dump": device code, options, buffers and a C program. If there is an image, pixel.txt contains
+// the history of its first wrong pixel or of its worst pixel. If the driver crashes before it
+// receives the input, nothing is written. If the frame hangs, its input has already been written
+// when the process is killed. `limit` is the frame's time limit.
 std::vector<std::string> write_dump_of(const OneFrame& frame, const ReduceArguments& arguments,
                                        const reduction::Trial& trial, measure::Truths& truths,
                                        std::optional<std::chrono::seconds> limit,
@@ -193,11 +194,10 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   }
   report.command = command_for(frame, arguments, reduction.failure, trial.last(), report.device);
   core::write_text(out / "README.md", report::markdown(report));
-  put_lines(
-      fmt::format("{}\n{} frames drawn; {}{}\n{}\n{}\n", report.message, report.frames,
-                  report::text_of(report.changes),
-                  report.complete ? "" : "; the search stopped when it reached the limit on frames",
-                  (out / "README.md").string(), report.command));
+  put_lines(fmt::format("{}\n{} frames drawn; {}{}\n{}\n{}\n", report.message, report.frames,
+                        report::text_of(report.changes),
+                        report.complete ? "" : "; the search stopped at the limit set by --frames",
+                        (out / "README.md").string(), report.command));
   return core::ExitCode::regression;
 }
 
@@ -211,12 +211,13 @@ void add_reduce_command(Commands& commands) {
   command.add_option("--out", arguments.frame.out, "Write the files to this folder")
       ->capture_default_str();
   command.add_option("--against", arguments.against,
-                     "Compare the counters with this device, whose counters are correct; a "
-                     "difference is a failure");
+                     "Compare the counters with those of this device, which are assumed to be "
+                     "correct; a difference is a failure");
   command
-      .add_option("--limit", arguments.limit_s,
-                  "Treat a frame as hung after this many seconds (default: 20, or three times the "
-                  "duration of the first frame)")
+      .add_option(
+          "--limit", arguments.limit_s,
+          "Treat a frame as hung after this many seconds (default: three times the duration "
+          "of the first frame, but at least 20)")
       ->check(CLI::Range(1, 86400));
   command.add_option("--frames", arguments.frames, "The maximum number of frames to draw")
       ->capture_default_str()

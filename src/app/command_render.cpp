@@ -84,13 +84,13 @@ Drawn draw_one(const Drawing& drawing, const measure::Plan& plan) {
   return {run, drawing.store.records(run).at(0)};
 }
 
-// Draws with the fastest technique, which is found by short trials. If the device cannot draw with
-// any of them, returns the result for the first technique.
+// Finds the fastest technique by short trials, and draws with it. If the device cannot draw with
+// any technique, returns the result for the first technique.
 Drawn draw_the_fastest(const Drawing& drawing, const measure::Plan& plan) {
   if (drawing.arguments.error) {
     throw core::InputError(
         "--error and technique=auto cannot be combined, because each selects the fastest frame by "
-        "its own rule: name the technique");
+        "its own rule; name a technique instead of auto");
   }
   const auto [records, answers] =
       measure::try_for_fastest(plan, drawing.suite, [&](const measure::Plan& tried) {
@@ -136,8 +136,8 @@ void require_option(const std::string& value, std::string_view name) {
   if (value.empty()) throw core::InputError(fmt::format("{} is required", name));
 }
 
-// Makes the backends name objects and passes for debugging tools and, with --dump, write the
-// driver's input to the folder.
+// Sets the environment variables that make the backends name objects and passes for debugging tools
+// and, with --dump, write the driver's input to the folder `dump`.
 void prepare_process(const RenderArguments& arguments) {
   ::setenv("TRIPTYCH_LABELS", "1", 1);
   if (arguments.dump.empty()) return;
@@ -162,13 +162,16 @@ core::ExitCode keep(const RenderArguments& arguments, measure::SuiteWithTruth& s
 core::ExitCode render_in_process(const RenderArguments& arguments) {
   if (arguments.error) {
     throw core::InputError(
-        "--error cannot be combined with --in-process, because it draws several configurations");
+        "--error cannot be combined with --in-process, because --error draws several "
+        "configurations");
   }
   prepare_process(arguments);
   const Registry registry = make_registry();
   const auto [suite, plan, device] = choose_frame(registry, arguments.frame);
   if (!plan.automatic.empty()) {
-    throw core::InputError("technique=auto draws several configurations: name the technique");
+    throw core::InputError(
+        "technique=auto cannot be combined with --in-process, --dump or --pixel, because it draws "
+        "several configurations; name a technique");
   }
   const fs::path out(arguments.frame.out);
   report::remove_frame(out);
@@ -224,9 +227,9 @@ void add_render_command(Commands& commands) {
   command.add_option("--out", arguments.frame.out, "Write the files to this folder");
   command.add_option(
       "--error", arguments.error,
-      "E or E:METRIC (METRIC is rms, the default, covered, p99.9 or max): choose the "
-      "fastest levels of step, quadrature, ert, adapt and skip with which the error "
-      "against the scene's limit image is at most E");
+      "E or E:METRIC, where METRIC is rms (default), covered, p99.9 or max: choose the "
+      "fastest levels of step, quadrature, ert, adapt and skip for which the error "
+      "relative to the scene's limit image is at most E");
   add_limit_option(command, arguments.limit_s, "the frame");
   command.add_flag("--in-process", arguments.in_process,
                    "Draw only one frame, in this process, for debuggers and capture tools "

@@ -1,4 +1,4 @@
-// The command run, and the commands of the processes that it starts.
+// The `run` command, and the hidden commands of the processes that it starts.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -26,9 +26,9 @@ core::ExitCode run(const Measuring& measuring) {
   return measured && error_kept ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
-// Measures for a CTest fixture. A failed configuration fails the test unless the plan is scored,
-// because then the scores report the failure. If every configuration is skipped, the test is
-// skipped.
+// Measures for a CTest fixture. A failed configuration fails the test, unless the plan is scored:
+// then a separate test reports the scores, which include the failure. If every configuration is
+// skipped, the test is skipped.
 core::ExitCode run_as_test(const Measuring& measuring) {
   const auto [scored, results, error_kept] = measure_and_tell(measuring);
   const bool failed =
@@ -43,8 +43,8 @@ core::ExitCode run_as_test(const Measuring& measuring) {
 void limit_own_memory(std::uint64_t bytes) {
   const rlimit limit{bytes, bytes};
   if (::setrlimit(RLIMIT_DATA, &limit) != 0) {
-    throw core::InputError(
-        fmt::format("--memory {}: the limit exceeds what this user may allocate", bytes));
+    throw core::InputError(fmt::format(
+        "--memory {}: this exceeds the user's hard limit on memory (ulimit -Hd)", bytes));
   }
 }
 
@@ -67,8 +67,8 @@ core::ExitCode list_api(const std::string& api) {
   return core::ExitCode::pass;
 }
 
-// Adds the commands that only this program calls (measure/worker/own_program.hpp). --help does not
-// list them.
+// Adds the commands that this program runs in child processes (measure/worker/own_program.hpp).
+// They are hidden from --help.
 void add_worker_commands(Commands& commands) {
   auto [worker, arguments] = commands.add("worker", "Draw on one device (started by run)", serve);
   worker.add_option("--device", arguments.device)->required();
@@ -91,8 +91,8 @@ void add_run_options(CLI::App& command, Measuring& measuring) {
   constexpr std::uint64_t least_memory = std::uint64_t{64} << 20;
   command
       .add_option("--memory", measuring.memory,
-                  "Memory that a worker may allocate, such as 4G; a configuration that needs more "
-                  "memory fails (default: no limit; has no effect under Valgrind)")
+                  "Limit the memory that a worker may allocate, for example to 4G; a configuration "
+                  "that needs more fails (default: no limit; has no effect under Valgrind)")
       ->transform(CLI::AsSizeValue(false))
       ->check(CLI::Range(least_memory, std::numeric_limits<std::uint64_t>::max()));
   add_verbose_option(command, measuring.verbose);
@@ -110,7 +110,8 @@ void add_run_options(CLI::App& command, Measuring& measuring) {
   add_inject_option(
       command, measuring.faults,
       "Inject a fault to check that the gate finds it: " + measure::fault_names() +
-          "; FAULT@factor=level,… or FAULT@GLOB limits the fault to configurations or devices");
+          "; FAULT@factor=level,… limits the fault to matching configurations, and FAULT@GLOB to "
+          "matching devices");
 }
 
 }  // namespace
@@ -122,13 +123,15 @@ void add_run_commands(Commands& commands) {
   command.add_flag("--resume", measuring.resume, "Continue each plan's latest run in the store");
   add_example(command, "triptych run volume/quick --device 'vulkan:*' --store results.sqlite");
   command
-      .add_option("--error", measuring.error,
-                  "E or E:METRIC (METRIC is rms, the default, covered, p99.9 or max): measure only "
-                  "levels of step, quadrature, ert, adapt and skip with which the error against "
-                  "the limit image of the scene is at most E, and report the fastest levels")
+      .add_option(
+          "--error", measuring.error,
+          "E or E:METRIC, where METRIC is rms (default), covered, p99.9 or max: measure only "
+          "levels of step, quadrature, ert, adapt and skip for which the error relative to "
+          "the scene's limit image is at most E, and report the fastest levels")
       ->excludes("--untimed");
 
-  // Every device adds its measurements to the run that test-start began.
+  // `resume` is set, so all devices add their measurements to one run. test-start has deleted the
+  // runs of earlier tests.
   auto [test, tested] = commands.add("test-measure", "Measure one device as a CTest fixture",
                                      run_as_test, {.resume = true, .brief = true});
   add_run_options(test, tested);

@@ -1,5 +1,5 @@
-// The commands for CTest. One writes the list of tests: CTest calls it when the tests are run, and
-// it lists the devices of this machine. The others are the commands that the tests run.
+// The commands for CTest. At test time, CTest calls `ctest`, which writes the list of tests for the
+// devices of this machine. The tests run the hidden commands.
 
 #include <fmt/format.h>
 

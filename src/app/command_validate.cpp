@@ -49,8 +49,8 @@ struct ValidateArguments {
 };
 
 // A validation checks only images and counters. Every device must draw the correct image with the
-// correct amount of work, but times, exact image bits and statistics differ between devices. A
-// stress case is judged by its score, which includes its image.
+// correct amount of work, but frame times, exact pixel values and statistics differ between
+// devices. A stress case is judged by its score, which includes its image.
 record::Checks checks_of(const record::Checks& of_plan) {
   const bool scored = of_plan.contains(judge::Check::stress);
   return {scored ? judge::Check::stress : judge::Check::image, judge::Check::counters};
@@ -71,7 +71,8 @@ Measuring measuring_of(const ValidateArguments& arguments, const std::string& fi
           .told_to = stderr};
 }
 
-// Returns false if the run was interrupted. The measured part is judged even then.
+// Measures the plans. Returns false if the user interrupted the run; the part that was measured is
+// judged even then.
 bool measured_to_its_end(const Measuring& measuring) {
   try {
     measure_resumably(measuring);
@@ -82,7 +83,7 @@ bool measured_to_its_end(const Measuring& measuring) {
   }
 }
 
-// Returns the ids of the runs in the store, which were written by earlier calls of `validate`.
+// Returns the ids of the runs that earlier calls of `validate` left in the store.
 std::set<std::string> runs_in(const std::string& file) {
   std::set<std::string> ids;
   if (!std::filesystem::exists(file)) return ids;
@@ -92,7 +93,7 @@ std::set<std::string> runs_in(const std::string& file) {
   return ids;
 }
 
-// The plans of a validation, and the results for each plan.
+// Judges the plans of a validation, and holds the result for each plan.
 class Validation {
  public:
   // `before` contains the ids of runs that do not belong to this validation.
@@ -193,7 +194,8 @@ class Validation {
   }
 
  private:
-  // Returns 0 if there is no reference image, for example because the data file is now missing.
+  // Returns the largest bound in the image, or 0 if there is no reference image, for example
+  // because the data file is now missing.
   [[nodiscard]] double bound_of(const record::Record& record) {
     try {
       return report::largest_bound(truths_.of(record).bound);
@@ -202,8 +204,8 @@ class Validation {
     }
   }
 
-  // Returns the records whose image was judged with a bound larger than one step of an 8-bit
-  // colour.
+  // Returns the records whose image was judged with a bound larger than one 8-bit step of a colour
+  // channel.
   [[nodiscard]] std::vector<report::WideBound> wide_bounds(
       const std::vector<record::Record>& records) {
     std::vector<report::WideBound> bounds;
@@ -238,7 +240,7 @@ class Validation {
     return result;
   }
 
-  // Draws the failed configurations again. Returns false if the user interrupted it.
+  // Draws the failed configurations again. Returns false if the user interrupted the run.
   bool draw_again(const std::string& plan, const judge::Places& places) {
     say("{}: drawing {} failed configurations again\n", plan, places.size());
     Measuring measuring = measuring_of(arguments_, store_.file().string());
@@ -286,7 +288,8 @@ void tell_repeats(const ValidateArguments& arguments,
   put_lines(report::repeats_text(cases, repetitions.size()), stderr);
 }
 
-// Probes the features of the devices. If the plans are sharded, only the first shard does this.
+// Probes the features of the devices. If the plans are sharded, only the first shard probes
+// features.
 FeatureTable features_of(const ValidateArguments& arguments, const Validation& validation) {
   const std::string& shard = arguments.choice.shard;
   if (!shard.empty() && !shard.starts_with("1/")) return {};
@@ -295,7 +298,7 @@ FeatureTable features_of(const ValidateArguments& arguments, const Validation& v
 
 core::ExitCode validate(const ValidateArguments& arguments) {
   const measure::Stopwatch since;
-  // This throws for an unknown name before anything is measured.
+  // Throws now if the value of --ci is unknown, before anything is measured.
   static_cast<void>(ci_system(arguments.ci));
   core::refuse_overwriting({{"--expect", arguments.expect}},
                            {{"--junit", arguments.junit},
@@ -317,8 +320,8 @@ core::ExitCode validate(const ValidateArguments& arguments) {
   validation.tell_coverage(features);
   const core::ExitCode told = validation.tell(since.seconds());
   if (verdict_of(features) != core::ExitCode::regression) return told;
-  say("API features that no scene needs are wrong, so the exit code is 1; coverage.txt lists "
-      "them\n");
+  say("the exit code is 1, because a device failed probes of API features that no scene needs; see "
+      "coverage.txt\n");
   return core::ExitCode::regression;
 }
 
@@ -326,7 +329,8 @@ core::ExitCode validate(const ValidateArguments& arguments) {
 
 void add_validate_command(Commands& commands) {
   auto [command, arguments] = commands.add(
-      "validate", "Check everything that a new driver must get right: images, work, stress scenes",
+      "validate",
+      "Check everything that a new driver must get right: images, amount of work, stress scenes",
       validate);
   add_example(command, "triptych validate --device vulkan:lavapipe --out validation");
   command
@@ -335,7 +339,7 @@ void add_validate_command(Commands& commands) {
       ->required();
   command
       .add_option("--out", arguments.out,
-                  "Folder for the store and for the same files as gate --out")
+                  "Folder for the store and for the files that `gate --out` writes")
       ->capture_default_str();
   command.add_option("--junit", arguments.junit,
                      "Write a JUnit XML report for all plans to this file");
@@ -346,8 +350,8 @@ void add_validate_command(Commands& commands) {
       "Continue with the store in the folder after an interruption or a machine crash");
   command
       .add_option("--jobs", arguments.jobs,
-                  "Number of workers that run at the same time, even if there is only one device "
-                  "(default: one per device)")
+                  "Run this many workers at the same time, even on a single device (default: one "
+                  "worker per device)")
       ->check(CLI::Range(1, 64));
   command
       .add_option("--repeat", arguments.repeat,
@@ -361,8 +365,8 @@ void add_validate_command(Commands& commands) {
   add_selection_options(command, arguments.choice);
   command.add_option(
       "--expect", arguments.expect,
-      "Waive the known failures, flakes and skips in this file, which --write-expect "
-      "has written; everything else must pass");
+      "Waive the known failures, flakes and skips in this file (see --write-expect); everything "
+      "else must pass");
   command.add_option("--write-expect", arguments.write_expect,
                      "Write all failures, flakes and skips to this file, for use with --expect");
   add_baselines_option(command, arguments.baselines);

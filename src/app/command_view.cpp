@@ -1,4 +1,4 @@
-// The command view: determines what to show, and then replaces this process with the program that
+// The `view` command determines what to show, and then replaces this process with the program that
 // opens the window.
 
 #include <fmt/format.h>
@@ -105,7 +105,7 @@ core::ExitCode view(const ViewArguments& arguments) {
   const auto [suite, plan] = choose_data(registry, arguments.frame);
   if (!plan.automatic.empty()) {
     throw core::InputError(
-        "the window shows one technique at a time: name a technique instead of auto");
+        "the window shows one technique at a time; name a technique instead of auto");
   }
   for (const auto& each : measure::parse_faults(arguments.frame.faults)) {
     measure::check_fault(each.fault);
@@ -138,9 +138,8 @@ core::ExitCode view(const ViewArguments& arguments) {
 void add_view_command(Commands& commands) {
   auto [command, arguments] = commands.add(
       "view",
-      "Show one configuration on several devices in a window, with a camera that the mouse "
-      "turns",
-      view, {.frame = {.chooses = true}});
+      "Show one configuration on several devices in a window, with a mouse-controlled camera", view,
+      {.frame = {.chooses = true}});
   command.add_option("SUITE", arguments.frame.suite, "volume or particles")->required();
   command.add_option(
       "--device", arguments.devices,
@@ -149,7 +148,8 @@ void add_view_command(Commands& commands) {
       "driver, so that two drivers can be shown side by side");
   command.add_option("--set", arguments.frame.set,
                      "factor=level (repeatable); write a comma inside a level as %2C");
-  add_inject_option(command, arguments.frame.faults, "Inject a fault (repeatable); see run --help");
+  add_inject_option(command, arguments.frame.faults,
+                    "Inject a fault (repeatable); see `triptych run --help`");
   add_limit_option(command, arguments.limit_s, "a frame");
   command.add_option("--size", arguments.size, "Size of the window in pixels")
       ->capture_default_str();
@@ -157,7 +157,7 @@ void add_view_command(Commands& commands) {
                      "Wait until every device has drawn, write the window as a PNG to this file, "
                      "and exit");
   command.add_flag("--json", arguments.json,
-                   "When the window is closed, print the displayed results as JSON");
+                   "Print the displayed results as JSON when the window is closed");
   add_example(command,
               "triptych view volume --device vulkan:lavapipe --device gl:llvmpipe-egl "
               "--set transfer_function=surfaces");

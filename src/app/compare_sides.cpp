@@ -30,8 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Prints the progress of a comparison. A log gets one line per stage, and from time to time a line
-// that shows that the program is still running.
+// Prints the progress of a comparison. If stderr is not a terminal, prints one line per stage, and
+// from time to time a line that shows that the program is still running.
 class ComparisonPrinter {
  public:
   explicit ComparisonPrinter(bool verbose) : verbose_(verbose) {}
@@ -59,8 +59,8 @@ report::ComparisonCommand command_of(const Comparing& comparing, const std::stri
   report::ComparisonCommand command{.plan = typed, .sides = comparing.sides, .varied = plan.varied};
   for (const std::string& each : comparing.faults)
     command.sides += " --inject " + core::shell_quoted(each);
-  // A factor with a single level on the command line no longer varies in the plan, but the printed
-  // commands must still contain it.
+  // If --set gives a factor a single level, the factor no longer varies in the plan, but the
+  // printed commands must still contain it.
   for (const auto& [factor, values] : comparing.choice.overrides()) {
     if (std::ranges::find(command.varied, factor) == command.varied.end()) {
       command.varied.push_back(factor);

@@ -19,7 +19,7 @@ using FeatureTable = std::map<std::string, std::vector<measure::FeatureRow>>;
 [[nodiscard]] FeatureTable probe_devices(const std::vector<std::string>& devices,
                                          const std::string& only, int limit_s);
 
-// Returns one line per probe, with its size, and the error or the reason for a skip.
+// Returns one line per probe, with the size of the probe and its error or the reason for its skip.
 [[nodiscard]] std::string feature_text(const FeatureTable& table);
 [[nodiscard]] core::Json feature_json(const FeatureTable& table);
 

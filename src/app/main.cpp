@@ -79,8 +79,8 @@ ExitCode run(int argc, char** argv) {
       return ExitCode::pass;
     }
     app::say("triptych: {}\nRun with --help for more information.\n", error.what());
-    // An option may not exist yet in an older commit. This must not count as a verdict on that
-    // commit.
+    // An older commit may not have every option of the command line yet. `git bisect` must skip
+    // such a commit, because this error is not a verdict on it.
     const auto arguments = std::span(argv, static_cast<std::size_t>(argc));
     const bool bisects =
         std::ranges::find(arguments, std::string_view("--bisect")) != arguments.end();

@@ -51,8 +51,8 @@ class ProgressPrinter {
   std::string plan_;
 };
 
-// Rejects options that apply to a single plan if several plans are named. The factors of --set
-// belong to one suite, and --error is computed for the scenes of one plan.
+// Rejects options that apply to a single plan if several plans are named: --set, because its
+// factors belong to one suite, and --error, because it is computed for the scenes of one plan.
 void refuse_for_several(const Measuring& measuring) {
   if (measuring.plans.size() < 2) return;
   if (!measuring.choice.set.empty()) {
@@ -192,9 +192,10 @@ void tell_the_fastest(const Bench& bench, const measure::Plan& plan, const std::
   }
 }
 
-// Returns the devices on which plans are measured. Devices that only compile are used only for
-// plans that check code. These plans leave out devices that run on the processor, because the plans
-// that check cost already count the instructions of such devices.
+// Returns the devices on which plans are measured. Plans with the check `code` (`compiled`) use
+// GPUs and devices that only compile. They leave out CPU devices, because the plans with the check
+// `cost` already count the instructions of CPU devices. All other plans leave out devices that only
+// compile.
 std::vector<std::string> devices_of(const measure::Listing& listing,
                                     const std::vector<std::string>& globs, bool compiled) {
   std::vector<std::string> chosen = measure::choose_devices(listing, globs);
@@ -204,8 +205,8 @@ std::vector<std::string> devices_of(const measure::Listing& listing,
     const bool fits = compiled ? device->cpu_features.empty() : device->compiles_for.empty();
     if (fits) fit.push_back(id);
   }
-  // If the user names only devices that do not fit, they are still returned, so that each is
-  // recorded as skipped with a reason.
+  // If the user names only unsuitable devices, they are returned nevertheless, so that each of them
+  // is recorded as skipped with a reason.
   if (fit.empty() && !globs.empty()) return chosen;
   return fit;
 }
@@ -217,7 +218,8 @@ measure::Listing listing_for(const Measuring& measuring, const Registry& registr
     return registry.devices(measuring.devices);
   }
   measure::Listing listing = registry.devices_and_compilers(measuring.devices);
-  // A required device need not match `devices`, and its family need not be one of the usual ones.
+  // A required device may match no glob in `devices`, and may not be one of the usual devices that
+  // devices_and_compilers() lists.
   std::vector<std::string> more = measuring.required;
   std::erase_if(more, [&](const std::string& id) {
     return !measure::compile_only(id) ||

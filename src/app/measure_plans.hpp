@@ -1,5 +1,5 @@
 #pragma once
-// Measuring of plans, for all commands that measure.
+// Measures plans, for all commands that measure.
 
 #include <cstdint>
 #include <cstdio>
@@ -41,7 +41,7 @@ struct Measuring {
 };
 
 struct Measured {
-  bool scored = false;  // a plan is scored, so its scores report its failures
+  bool scored = false;  // whether a plan has the check `stress`, whose scores report failures
   std::vector<measure::RunResult> results = {};  // in the same order as the plans
   bool error_kept = true;  // whether every device meets the requested error in every scene
 };
@@ -50,8 +50,8 @@ struct Measured {
 // measure::run_plans().
 Measured measure_and_tell(const Measuring& measuring);
 
-// Does the same for commands with --resume. If the run is interrupted, the exception's message
-// mentions --resume.
+// Like measure_and_tell(), for commands with the option --resume. If the run is interrupted, the
+// exception's message mentions --resume.
 Measured measure_resumably(const Measuring& measuring);
 
 }  // namespace triptych::app

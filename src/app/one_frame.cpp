@@ -6,13 +6,13 @@
 namespace triptych::app {
 
 void FrameArguments::add_to(CLI::App& command) {
-  command.add_option("SUITE", suite, "volume or particles")->required();
+  command.add_option("SUITE", suite, "The suite: volume or particles")->required();
   CLI::Option* const option =
       command.add_option("--device", device, "A device id, or a glob that matches one device");
   if (!describes) option->required();
   command.add_option("--set", set,
                      "factor=level (repeatable); write a comma inside a level as %2C");
-  add_inject_option(command, faults, "Inject a fault (repeatable); see run --help");
+  add_inject_option(command, faults, "Inject a fault (repeatable); see `triptych run --help`");
 }
 
 ChosenData choose_data(const Registry& registry, const FrameArguments& arguments) {
@@ -24,7 +24,7 @@ ChosenData choose_data(const Registry& registry, const FrameArguments& arguments
   }
   if (!several.empty()) {
     throw core::InputError(
-        "this command draws a single configuration: set each factor to one level");
+        "this command draws a single configuration; set each factor to one level");
   }
   if (const std::string reason = suite.missing_data(plan.configurations.front()); !reason.empty()) {
     throw core::InputError(reason);

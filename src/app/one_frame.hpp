@@ -16,7 +16,7 @@ struct FrameArguments {
   std::string out = {};
   std::vector<std::string> faults = {};
 
-  bool chooses = false;    // "auto" may stand for several techniques
+  bool chooses = false;    // the level "auto" is allowed; it stands for several techniques
   bool describes = false;  // --device is optional, because describing the data needs no device
 
   void add_to(CLI::App& command);  // all options except --out
@@ -35,8 +35,8 @@ struct ChosenData {
 };
 [[nodiscard]] ChosenData choose_data(const Registry& registry, const FrameArguments& arguments);
 
-// Throws core::InputError unless the arguments name one configuration and one device and the data
-// exist, and IoError if the folder cannot be written.
+// Throws core::InputError unless the arguments name exactly one configuration and one device and
+// the data exist. Throws IoError if the output folder cannot be written.
 [[nodiscard]] OneFrame choose_frame(const Registry& registry, const FrameArguments& arguments);
 
 }  // namespace triptych::app

@@ -12,7 +12,7 @@
 
 namespace triptych::app {
 
-// Parses "X,Y". Throws core::InputError for any other text.
+// Parses "X,Y". Throws core::InputError if `text` has a different format.
 [[nodiscard]] measure::PixelPlace parse_pixel(std::string_view text);
 
 // Prints the pixel's history (shortened if it is long), and writes the complete history to

@@ -45,7 +45,7 @@ OwnBaselines::OwnBaselines(const std::string& named)
 }
 
 OwnBaselines::~OwnBaselines() {
-  std::error_code ignored;  // files that remain are replaced by the next call
+  std::error_code ignored;  // the next `accept` replaces files that could not be removed
   if (working_ != name_) fs::remove_all(working_, ignored);
 }
 

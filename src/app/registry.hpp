@@ -24,7 +24,8 @@ struct Registry {
   // Lists the devices of this machine. With globs, only the APIs that may have a matching device
   // are opened, because opening the drivers of an API takes a quarter of a second.
   [[nodiscard]] measure::Listing devices(const std::vector<std::string>& globs) const;
-  // Lists these devices, and also the devices that only compile (see measure::list_compilers).
+  // Lists the same devices as devices(), and the devices that only compile
+  // (measure::list_compilers).
   [[nodiscard]] measure::Listing devices_and_compilers(const std::vector<std::string>& globs) const;
 };
 

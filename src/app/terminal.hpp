@@ -57,9 +57,9 @@ inline void put_lines(std::string_view text, std::FILE* to = stdout) {
   static_cast<void>(std::fwrite(lines.data(), 1, lines.size(), to));
 }
 
-// Whether stderr is a terminal.
+// Returns whether stderr is a terminal.
 [[nodiscard]] bool watched();
-// The width of that terminal in columns; 0 if stderr is not a terminal.
+// Returns the width of the terminal in columns, or 0 if stderr is not a terminal.
 [[nodiscard]] std::size_t columns();
 // On a terminal, erases the progress line that show_line() has printed.
 void clear_line();
@@ -71,10 +71,10 @@ template <typename... Args>
 void show(fmt::format_string<Args...> format, Args&&... args) {
   show_line(shown_text(format, std::forward<Args>(args)...));
 }
-// Reports a guess that was made about the data. Each note is printed only once, although every
-// process that reads the data reports it.
+// Prints a note about an assumption that was made about the data. Each note is printed only once,
+// although every process that loads the data sends it.
 void show_note(const measure::Loading& loading);
-// Shows the progress of loading. The line disappears when loading has ended.
+// Shows the progress of loading data. On a terminal, the line disappears when loading has ended.
 void show_loading(const measure::Loading& loading);
 
 }  // namespace triptych::app

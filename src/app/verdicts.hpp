@@ -13,12 +13,12 @@
 namespace triptych::app {
 
 // Throws core::NotSupported if the store does not exist. The message contains the command that
-// measures.
+// creates it.
 void require_store(const std::filesystem::path& file);
 
-// Opens the store to judge its runs. The store is opened for appending, so that reference images
-// can be saved for later, or read-only if it is not writable. Throws NotSupported if the store does
-// not exist, and any error that record::Store throws.
+// Opens the store to judge its runs. If the store is writable, it is opened for appending, so that
+// reference images can be saved in it; otherwise it is opened read-only. Throws NotSupported if the
+// store does not exist, and any error that record::Store throws.
 [[nodiscard]] record::Store open_to_judge(const std::string& file);
 
 // Returns the id of the plan's latest run. Throws NotSupported if there is none. `plan` is a plan's
@@ -43,8 +43,9 @@ void require_store(const std::filesystem::path& file);
 [[nodiscard]] judge::GateRequest request_of(measure::Truths& truths, const measure::Plan& plan,
                                             const measure::Suite& suite);
 
-// Turns a finding that could not be judged into a skip if the only reason is a missing data file.
-// This is for machines that lack data files on purpose. A device failure is never excused.
+// Turns each finding that could not be judged into a skip if the only reason is a missing data
+// file. This is for machines on which data files are missing on purpose. A device failure is never
+// excused.
 void excuse_absent_data(const record::Store& store, judge::GateResult& result);
 
 // The files to which a verdict is written. A file whose name is empty is not written.

@@ -37,7 +37,7 @@ enum class Verdict : std::uint8_t {
 enum class Cause : std::uint8_t {
   none,
 
-  // Causes of any check.
+  // Causes that several checks share.
   as_stored,           // the values equal the stored values ["values"; names: not compared]
   values_changed,      // values differ from the stored values [changes]
   unknown_values,      // values have no stored counterpart [names]
@@ -47,7 +47,7 @@ enum class Cause : std::uint8_t {
   no_longer_reported,  // values are missing that existed when the baseline was accepted [names]
   untimed,             // the values were not read, because the run was not timed
 
-  // Causes about a run as a whole.
+  // Causes that concern a run as a whole.
   ended,               // the configuration was not measured [outcome, reason]
   no_run,              // no run was started
   nothing_measured,    // the run has no measured record [<run> <plan> "records"]
@@ -55,7 +55,7 @@ enum class Cause : std::uint8_t {
   device_missing,      // <sibling> is present, but a device accepted on the same machine is not
   listing_failed,      // a process crashed or hung during device enumeration [<what>, reason]
   no_description,      // the run has records but no description of a device [<run>]
-  checks_lost,         // the baselines have checks that the plan does not request [names]
+  checks_lost,         // the baselines contain checks that the plan no longer requests [names]
   missing,             // configurations have no record [names; "wanted": number required; <kind>]
   extra,               // the run has configurations that are not in the plan [names]
   other_plan,          // the run measured another version of the plan [<run> <plan> <hash> <now>]
@@ -67,7 +67,7 @@ enum class Cause : std::uint8_t {
   unused_waiver,      // a waiver has expired and excuses nothing [<test> <device> <expiry>, detail]
   waiver_of_no_test,  // a waiver matches no test [<test>]
 
-  // Causes about images.
+  // Causes that concern images.
   within_bound,
   pixels_over_bound,
   not_finite,
@@ -82,38 +82,38 @@ enum class Cause : std::uint8_t {
   devices_agree,     // the images of two devices agree [<device> <other> "rms" "allowed"]
   devices_disagree,  // the images of two devices differ [<device> <other> "rms" "allowed"]
 
-  // Causes about statistics.
+  // Causes that concern statistics.
   other_driver_statistics,  // compared only with other drivers [<driver_version>, changes, names]
 
-  // Causes about cost and memory.
+  // Causes that concern cost and memory.
   two_counters,       // two emulators counted the run's instructions [<counted_by> <other>]
   other_counter,      // the stored cost comes from another driver version or another emulator
   frame_allocations,  // the allocations per frame changed [<configuration>, changes: the largest]
   preparing,          // the cost of preparation changed [<configuration>, changes: the largest]
   injected_memory,    // not compared, because the injected slowdown itself allocates memory
 
-  // Causes about compiled GPU code.
+  // Causes that concern compiled GPU code.
   other_executables,  // executables were added or removed [names]
   other_disassembly,  // the disassembly changed, but not the statistics [names: configurations]
   other_compiler,     // another compiler built the stored code [<driver_version> <other_version>]
 
-  // Causes about times.
-  time,         // one configuration ["median_ns" "baseline_ns" "ratio" "half_width"]
-  times,        // all configurations of a device ["ratio": the median, "worst_ratio"]
+  // Causes that concern times.
+  time,         // the time of a configuration ["median_ns" "baseline_ns" "ratio" "half_width"]
+  times,        // the times of all configurations on a device ["ratio": the median, "worst_ratio"]
   other_clock,  // the stored times were measured by another clock [names]
   no_time,
   same_frames,  // not timed, because an equivalent configuration was timed instead [reason]
   wrong_image,  // the time is meaningless, because the image is wrong [because: its errors]
 
-  // Causes about correlations.
+  // Causes that concern correlations.
   residuals_as_stored,  // the cost ratios to other devices are unchanged [names: devices]
   residual_moved,       // the cost ratios to other devices changed [names: devices]
-  off_the_line,         // the cost differs from the one that the line of <other> predicts
-  on_the_line,          // the cost is the one that the line of <other> predicts
+  off_the_line,         // the cost differs from the cost predicted by the line for <other>
+  on_the_line,          // the cost agrees with the cost predicted by the line for <other>
   no_line,              // no line fits the costs of this device and <other> [<refusal>]
-  no_partner,           // the same emulator counted no other accepted device [<counted_by>]
+  no_partner,           // no other accepted device was counted by the same emulator [<counted_by>]
 
-  // Causes about accuracy.
+  // Causes that concern accuracy.
   error,              // the error against the limit image ["rmse" "bound"]
   unknown_error,      // the error cannot be measured [detail]
   not_comparable,     // the sizes differ, or a value is not finite
@@ -122,7 +122,7 @@ enum class Cause : std::uint8_t {
   order,              // the order of convergence ["order" "half_width" "stored_order" …]
   no_order,           // an order can no longer be fitted ["stored_order" "stored_half_width"]
 
-  // Causes about stress cases.
+  // Causes that concern stress cases.
   score,  // the points of a case ["score" "accepted"; because: the reasons for lost points]
   farther_device,  // <other> draws a different image, closer to the reference ["rms" "allowed"]
   pixels_differ,   // the image should equal the one with <levels>, but does not
@@ -153,12 +153,12 @@ enum class Advice : std::uint8_t {
   resume,                // finish the run with `command`
   restore_data,          // restore the data and run again, or accept with `command`
   restore_or_run_again,  // restore the data, or run again
-  restore_baselines,     // restore them from version control, or start over with `command`
+  restore_baselines,     // restore the baselines from version control, or replace with `command`
   count,                 // count instructions, or leave out the check `cost`
   judge_more,            // judge more checks, or accept with `command`
   more_time,             // use a longer --limit
   times,                 // use --times if times should affect the verdict
-  repair_driver,         // repair it, or declare the device as missing with `command`
+  repair_driver,         // repair the driver, or declare the device as missing with `command`
   remove_entry,          // remove the entry from the file of expectations
   remove_waiver          // remove the waiver
 };
@@ -178,7 +178,7 @@ struct Change {
   Unit unit = Unit::count;
   std::optional<double> before = {};            // nullopt: there was no such value
   std::optional<double> now = {};               // nullopt: the value is missing now
-  std::map<std::string, double> accepted = {};  // by device, if it is compared with several devices
+  std::map<std::string, double> accepted = {};  // by device; empty unless there are several devices
   double allowed = 0;                           // the largest allowed difference
 };
 
@@ -200,7 +200,8 @@ struct Observation {
 // Returns a string that is equal for all observations of one kind. It depends on the cause and the
 // names of the changed values, but not on numbers or messages.
 [[nodiscard]] std::string kind_of(const Observation& what);
-// Sets `numbers[name]`, except to an infinity or NaN, which JSON cannot represent.
+// Sets `numbers[name]` to `value`. Does nothing for an infinity or NaN, because JSON cannot
+// represent them.
 void set_number(Observation& what, const std::string& name, double value);
 
 // The effect of a waiver or a file of expectations on a finding.
@@ -236,15 +237,16 @@ struct Finding : Observation {
   std::string test = {};  // test id, Record::test_id
   std::string device = {};
   std::string configuration = {};
-  // For a correlation: the configurations that the finding is about, if it is about several of
-  // them: a factor level such as "step=0.5", or "everything".
+  // For a correlation finding about several configurations: the factor level that these
+  // configurations share, such as "step=0.5", or "everything".
   std::string subject = {};
   Advised advice = {};
   std::vector<std::string> injected = {};  // faults that `run --inject` put into the record
   // For a regression on a driver version that was never accepted: the devices on which the
   // configuration was accepted. These may include the same device with another driver version.
   std::vector<std::string> accepted_on = {};
-  // For a skip: whether the device measured the configuration when its baselines were accepted.
+  // For a skip: whether the configuration was measured on the device when the baselines were
+  // accepted.
   bool measured_before = false;
   Excuse excuse = {};
   Again drawn_again = Again::not_drawn;
@@ -254,8 +256,8 @@ struct Finding : Observation {
 // Like kind_of(const Observation&), but the string also depends on the subject, the excuse, the
 // second attempt and the injected faults.
 [[nodiscard]] std::string kind_of(const Finding& finding);
-// Whether the configuration of the finding ended with an error, a crash, a timeout or a lost
-// device.
+// Returns whether the configuration of the finding ended with an error, a crash, a timeout or a
+// lost device.
 [[nodiscard]] bool ended_a_program(const Finding& finding);
 
 }  // namespace triptych::judge

@@ -38,7 +38,7 @@ std::string generated(std::string_view name, std::string_view standard) {
   return fmt::format("generate:{}{}", name, size);
 }
 
-// Returns the levels of a factor in an entry of a plan, in their canonical spelling.
+// Returns the levels that a plan entry gives a factor, in their canonical spelling.
 std::vector<std::string> values_of(const measure::Suite& suite, const measure::Factor& factor,
                                    const measure::PlanEntry& entry) {
   try {

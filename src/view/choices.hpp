@@ -30,12 +30,12 @@ class Choices {
   // Sets a factor to a level, which is converted to its canonical spelling. Returns an empty
   // string, or the reason if the level is rejected. In that case the configuration does not change.
   [[nodiscard]] std::string set(const std::string& factor, std::string_view value);
-  // Restores the configuration with which the window was opened.
+  // Restores the configuration that the window showed first.
   void reset() { now_ = first_; }
 
-  // Returns the levels that the control of a factor offers, in addition to anything that the user
-  // types. These are the factor's levels, or the levels in the suite's plans together with the
-  // suite's data generators.
+  // Returns the levels in the drop-down list of a factor. If the factor allows other levels, the
+  // user can also type them; then the list also contains the levels in the suite's plans and, for
+  // `data`, the suite's data generators.
   [[nodiscard]] const std::vector<std::string>& offers(const std::string& factor) const {
     return offers_.at(factor);
   }

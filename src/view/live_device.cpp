@@ -16,8 +16,9 @@ namespace {
 
 constexpr std::chrono::seconds opening_limit{60};
 
-// Returns how a frame is measured. A frame with a resting camera is measured like frames whose
-// times are only reported. A moving camera needs only one warm-up frame and one timed frame.
+// Returns the protocol for measuring a frame. If the camera is at rest, this is the protocol for
+// times that do not affect a verdict. While the camera moves, one warm-up frame and one timed frame
+// are enough.
 measure::Protocol protocol_of(const Wanted& wanted) {
   measure::Protocol protocol = measure::brief_protocol;
   protocol.measure_every = true;

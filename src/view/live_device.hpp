@@ -67,7 +67,7 @@ class LiveDevice {
   LiveDevice(const LiveDevice&) = delete;
   LiveDevice& operator=(const LiveDevice&) = delete;
 
-  // Requests a frame. Replaces an earlier request whose frame is not being drawn yet.
+  // Requests a frame. Cancels the previous request if its frame is not being drawn yet.
   void draw(Wanted wanted);
   [[nodiscard]] State state() const;
 
@@ -82,7 +82,7 @@ class LiveDevice {
   [[nodiscard]] Drawn drawn(const Wanted& wanted);
   [[nodiscard]] record::Record measured(const Wanted& wanted, std::vector<std::byte>& exr);
   // Ensures that there is a worker whose clock is calibrated for this kind of work. Returns false
-  // if there is none.
+  // if no worker could be started.
   [[nodiscard]] bool open_for(const std::string& kind);
   [[nodiscard]] measure::Job job(const Wanted& wanted) const;
   void publish(const std::function<void(State&)>& change);

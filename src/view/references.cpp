@@ -40,8 +40,8 @@ struct References::Shared {
   std::map<std::string, std::shared_ptr<const Reference>> ready;  // by key_of
   bool stop = false;
 
-  // Images by SuiteWithTruth::truth_key, with the newest image last. Only the thread uses this
-  // member.
+  // Images by SuiteWithTruth::truth_key, with the newest image last. Only the rendering thread uses
+  // this member.
   std::deque<std::pair<std::string, std::shared_ptr<const Reference>>> rendered = {};
 
   [[nodiscard]] std::shared_ptr<const Reference> reference(const Asked& wanted) {
@@ -102,7 +102,7 @@ std::shared_ptr<const Reference> References::find(const record::Record& record) 
 
 void References::serve(const std::shared_ptr<Shared>& shared) {
   constexpr int lower_priority = 10;
-  ::setpriority(PRIO_PROCESS, 0, lower_priority);  // on Linux: for this thread and its children
+  ::setpriority(PRIO_PROCESS, 0, lower_priority);  // on Linux, affects this thread and its children
   for (;;) {
     std::unique_lock lock(shared->mutex);
     shared->wake.wait(lock, [&] { return shared->stop || !shared->asked.empty(); });

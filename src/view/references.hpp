@@ -15,7 +15,7 @@ namespace triptych::view {
 
 struct Reference {
   accuracy::TruthPair pair;
-  std::string error;  // the reason if there is no pair; otherwise empty
+  std::string error;  // why `pair` is empty; empty if there is a pair
 };
 
 class References {
@@ -30,7 +30,7 @@ class References {
   References& operator=(const References&) = delete;
 
   // Requests the reference images of the records that are visible now. Missing images are rendered
-  // one after the other. Pending images of records that are no longer visible are not rendered.
+  // one after the other. Drops pending requests for records that are no longer visible.
   void show(const std::vector<const record::Record*>& records);
   // Returns nullptr if the image is not rendered yet.
   [[nodiscard]] std::shared_ptr<const Reference> find(const record::Record& record) const;

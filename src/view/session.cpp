@@ -15,7 +15,7 @@
 namespace triptych::view {
 namespace {
 
-// The camera counts as resting if the mouse has not turned it for this long.
+// The camera counts as resting if the mouse has not moved it for this long.
 constexpr std::chrono::milliseconds rest{250};
 
 LiveOptions live_options(const measure::ViewRequest& request) {
@@ -173,9 +173,9 @@ std::string Session::why_not_compared(std::size_t index) const {
   if (!against_) return {};
   const Column& other = columns_[*against_];
   if (!other.shown || other.shown->wanted.number != column.shown->wanted.number) {
-    return fmt::format("{} is being drawn", other.side.device);
+    return fmt::format("waiting for the frame from {}", other.side.device);
   }
-  if (!other.shown->has_image()) return fmt::format("{} has no image", other.side.device);
+  if (!other.shown->has_image()) return fmt::format("no image from {}", other.side.device);
   return wait_for(other);
 }
 

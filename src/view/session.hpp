@@ -1,6 +1,6 @@
 #pragma once
 // The content of the window: a column for each device. All columns share one configuration and one
-// camera. This part does not depend on a window library.
+// camera. This code does not depend on a window library.
 
 #include <chrono>
 #include <cstdint>
@@ -39,8 +39,8 @@ struct Column {
   Inputs inputs = {};
 };
 
-// A session needs two suites with the same name. One checks the levels that the user types. The
-// other renders reference images on another thread.
+// Two objects for the same suite, because two threads use them. `checks` checks the levels that the
+// user types, and `renders` renders reference images on a second thread.
 struct Suites {
   std::unique_ptr<measure::SuiteWithTruth> checks;
   std::unique_ptr<measure::SuiteWithTruth> renders;
@@ -66,7 +66,7 @@ class Session {
 
   void add_column(const measure::ViewSide& side);
   void remove_column(std::size_t column);
-  // Shows another device in the column. If `side` names the same device, its worker is restarted.
+  // Shows `side` in the column. If the column already shows this device, its worker is restarted.
   void set_side(std::size_t column, const measure::ViewSide& side);
   // Returns all devices of this machine, and all sides that were named on the command line.
   [[nodiscard]] std::vector<measure::ViewSide> sides() const;
@@ -76,16 +76,16 @@ class Session {
   [[nodiscard]] std::optional<std::size_t> against() const noexcept { return against_; }
   void compare_with(std::optional<std::size_t> column) { against_ = column; }
 
-  // turn() rotates the camera for a mouse drag, which is given in fractions of the image height.
-  // approach() moves the camera closer by notches of the mouse wheel.
+  // turn() rotates the camera by a mouse drag, which is given in fractions of the image height.
+  // approach() moves the camera closer by the given number of mouse-wheel notches.
   void turn(double right, double down, Clock::time_point now);
   void approach(double notches, Clock::time_point now);
 
   // Requests frames from the devices if the configuration has changed, and collects finished frames
   // and reference images. Returns whether anything visible has changed.
   bool update(Clock::time_point now);
-  // Returns the time at which update() must be called even if nothing else happens, because the
-  // camera will have come to rest by then. Returns nullopt if the camera does not move.
+  // Returns the time at which the camera counts as resting, so that update() must be called even if
+  // there was no input. Returns nullopt if the camera does not move.
   [[nodiscard]] std::optional<Clock::time_point> next_update() const;
   // Returns whether all columns show the current configuration, and the error of each image has
   // been computed.

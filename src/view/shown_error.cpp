@@ -25,7 +25,7 @@ float sum_of_bounds(float a, float b, float truth_a, float truth_b) {
 }
 
 std::string headline_of(const accuracy::ImageComparison& comparison) {
-  if (comparison.size_mismatch) return "the sizes differ";
+  if (comparison.size_mismatch) return "the image sizes differ";
   if (comparison.within_bound()) {
     return comparison.largest.error == 0
                ? std::string("no difference")
@@ -50,7 +50,7 @@ std::string sentence_of(const accuracy::ImageComparison& comparison, const core:
   if (comparison.size_mismatch) return fmt::format("the image from {} has a different size", other);
   return fmt::format(
       "{} of {} pixels differ from {} by more than both bounds allow; largest difference {:.3g}, "
-      "root mean square {:.3g}; the worst pixel is ({}, {}): difference {:.3g}, bound {:.3g}",
+      "RMS difference {:.3g}; the worst pixel is ({}, {}): difference {:.3g}, bound {:.3g}",
       comparison.over_bound, comparison.pixels, other, comparison.largest.error, comparison.rmse,
       comparison.worst.x, comparison.worst.y, comparison.worst.error, comparison.worst.bound);
 }

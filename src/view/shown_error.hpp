@@ -38,7 +38,8 @@ struct ShownError {
 // if the sizes differ.
 [[nodiscard]] core::Image bound_between(const accuracy::TruthPair& a, const accuracy::TruthPair& b);
 
-// Returns the colour scale for errors from 0 to slightly more than the bound, from left to right.
+// Returns an image of the colour scale, from no error on the left to slightly more than the bound
+// on the right.
 [[nodiscard]] core::RgbPicture scale_of_bounds(int width);
 
 }  // namespace triptych::view

@@ -114,7 +114,8 @@ TEST_F(Compare, TheGateCanCompareWithABase) {
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --inject crash"), 1, "b crashed");
   expect_verdict(gate("--base nothing"), 3,
                  "--base nothing: expected an executable program or NAME=VALUE");
-  expect_verdict(gate("--base /bin/true"), 3, "--base /bin/true: is not a build of triptych");
+  expect_verdict(gate("--base /bin/true"), 3,
+                 "--base /bin/true: this program is not a build of triptych");
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --measure"), 3, "excludes");
   expect_verdict(gate("--bisect --base " TRIPTYCH_PROGRAM " --measure"), 125, "excludes");
   expect_verdict(gate("--bisect --no-such-option"), 125, "no-such-option");
@@ -164,7 +165,7 @@ TEST_F(Compare, SideBySideNeedsAStoreWithTwoDevices) {
   expect_verdict(program.run("compare --apis"), 3, "--apis needs --store");
   const std::string run = fmt::format("run volume/quick {} --store s.sqlite", tiny);
   ASSERT_EQ(program.run(run, script(1, 1)).code, 0);
-  expect_verdict(program.run("compare --apis --store s.sqlite"), 2, "no two devices measured");
+  expect_verdict(program.run("compare --apis --store s.sqlite"), 2, "on more than one device");
   expect_verdict(program.run("compare volume/quick"), 3, "needs two sides");
 }
 

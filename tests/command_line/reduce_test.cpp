@@ -108,7 +108,7 @@ TEST(Reduce, ReachingTheFrameLimitIsReported) {
   const Result result = program.run(scene + "--frames 1", failing("crash", "none"));
   EXPECT_EQ(result.code, 1) << result.output;
   EXPECT_THAT(result.output, HasSubstr("1 frames drawn; "));
-  EXPECT_THAT(result.output, HasSubstr("the search stopped when it reached the limit on frames"));
+  EXPECT_THAT(result.output, HasSubstr("the search stopped at the limit set by --frames"));
 }
 
 TEST(Reduce, UndrawableConfigurationsAreRejected) {

@@ -1,6 +1,6 @@
 #pragma once
-// Reads baselines/absent.json, the list of devices that machines lack on purpose. Changes of it are
-// reviewed like waivers.
+// Reads baselines/absent.json, the list of devices that are absent from certain machines on
+// purpose. Changes to this file are reviewed like changes to waivers.
 
 #include <filesystem>
 #include <string>
@@ -10,7 +10,7 @@ namespace triptych::judge {
 
 struct Absent {
   std::string device = {};  // glob for device ids
-  std::string host = "*";   // glob for names of machines
+  std::string host = "*";   // glob for host names
   std::string reason = {};
   std::string expiry = {};  // ISO date from which the entry is ignored; empty: it never expires
 };

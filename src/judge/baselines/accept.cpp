@@ -33,7 +33,7 @@ void update_image(const record::Record& record, const core::Image& reference, Ne
   next.files[name] = std::move(bytes);
 }
 
-// Images are large, so they are stored only for plans that check times: the reports on these plans
+// Images are large, so they are stored only for plans that check images and times, whose reports
 // show them.
 void update_images(const Accepted& accepted, const AcceptRequest& request, NextFolder& next) {
   const bool keeps =
@@ -74,8 +74,9 @@ record::Checks all_of(record::Checks checks, const record::Checks& more) {
   return checks;
 }
 
-// Adds, for each machine of the run, the set of drivers that were accepted on it. Leaves out sets
-// that are contained in another set.
+// Returns the sets of drivers that were accepted together on one machine: the stored sets, and one
+// set for each machine of this run. Leaves out sets that are contained in another set, and sets
+// with only one driver.
 Json machines_of(const Accepted& accepted, const Manifest& stored) {
   std::vector<std::set<std::string>> machines = stored.machines;
   for (const record::Beginning& begun : accepted.run.begun) {
@@ -98,7 +99,7 @@ Json machines_of(const Accepted& accepted, const Manifest& stored) {
   return kept;
 }
 
-// Returns the new manifest, without the hashes of its files.
+// Returns the new manifest, without the file hashes.
 Json next_manifest(const Accepted& accepted, const Manifest& stored, NextFolder& next) {
   // The hash and the checks of the plan are replaced only if the whole run is accepted.
   const bool whole = accepted.replaces_all || stored.plan_hash.empty();
@@ -118,7 +119,7 @@ Json next_manifest(const Accepted& accepted, const Manifest& stored, NextFolder&
       {"devices", devices}};
 }
 
-// Adds an entry to history.json. `manifest` is the new manifest, without the hashes of its files.
+// Adds an entry to history.json. `manifest` is the new manifest, without the file hashes.
 void append_history(const Accepted& accepted, const AcceptRequest& request, const Json& manifest,
                     NextFolder& next) {
   std::set<std::string> ids;
@@ -140,15 +141,16 @@ void write_manifest(Json manifest, NextFolder& next) {
   next.files[Layout::manifest] = bytes_of(core::to_lines(manifest, 2));
 }
 
-// Returns a folder with all files that are stored now, or an empty one if the stored files are
+// Returns a folder with all files that are stored now, or an empty folder if the stored files are
 // damaged and --drop discards them.
 NextFolder next_of(const Baselines& stored, const AcceptRequest& request) {
   NextFolder next{.folder = stored.folder(), .files = {}, .lines = {}};
   if (!stored.problem().empty()) {
     if (request.drop && request.only.empty()) return next;
-    throw core::InputError(
-        fmt::format("{}: {}: restore it from version control, or accept a whole run with --drop",
-                    stored.folder().string(), stored.problem()));
+    throw core::InputError(fmt::format(
+        "{}: {}; restore the baselines from version control, or accept a whole run with "
+        "--drop",
+        stored.folder().string(), stored.problem()));
   }
   for (const auto& [name, hash] : stored.manifest().files) {
     next.files.emplace(name, core::read_file(next.folder / name));

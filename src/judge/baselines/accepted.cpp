@@ -25,7 +25,7 @@ void refuse_unfit(const std::vector<record::Record>& records, const std::string&
     }
     if (!record.injected.empty()) {
       throw core::InputError(fmt::format(
-          "run {} has the injected fault '{}' ({} on {}), so it cannot become a baseline", run,
+          "run {} contains the injected fault '{}' ({} on {}), so it cannot become a baseline", run,
           record.injected, record.configuration, record.device));
     }
   }
@@ -36,7 +36,8 @@ std::string plan_in_a_command(const AcceptRequest& request) {
                                                      : request.argument);
 }
 
-// Returns the devices that measured something. Only these become part of the baselines.
+// Returns the devices on which something was measured. Only these devices become part of the
+// baselines.
 std::set<std::string> devices_that_measured(const std::vector<record::Record>& records) {
   std::set<std::string> devices;
   for (const record::Record& record : records) {
@@ -99,8 +100,8 @@ void refuse_other_data(const Accepted& accepted, const AcceptRequest& request) {
     const std::string now = request.data_hash(record);
     if (now.empty() || now == record.data_hash) continue;
     throw core::InputError(fmt::format(
-        "the data of {} have changed since run {} measured them (content hash {}, now {}): restore "
-        "the data, or measure again",
+        "the data of {} have changed since run {} (content hash {}, now {}); restore the data, or "
+        "measure again",
         record.configuration, record.run, record.data_hash, now));
   }
 }
@@ -113,7 +114,7 @@ void refuse_part(const Accepted& accepted, const Baselines& stored, const std::s
   std::ranges::set_difference(known, accepted.configurations, std::back_inserter(missing));
   if (missing.empty()) return;
   throw core::InputError(fmt::format(
-      "run {} has no records for {} of the {} stored configurations ({}{}): finish the run with "
+      "run {} has no records for {} of the {} stored configurations ({}{}); finish the run with "
       "triptych run {} --resume{}, accept some configurations with --only GLOB, or use --drop if "
       "the plan no longer contains the missing configurations",
       run, missing.size(), known.size(), missing.front(), missing.size() > 1 ? "; …" : "",

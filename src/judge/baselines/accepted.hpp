@@ -1,5 +1,6 @@
 #pragma once
-// Selects the part of a run that becomes the baselines, and rejects runs that must not.
+// Selects the part of a run that becomes the baselines, and rejects runs that must not become
+// baselines.
 
 #include <map>
 #include <set>
@@ -20,8 +21,8 @@ struct Accepted {
   // Skipped because this driver version does not support a feature; other versions may support it.
   std::vector<record::Record> unsupported;
   std::map<std::string, record::Device> devices;  // by id
-  // Whether the run replaces everything that is stored. The configurations and scenes for which the
-  // run has a record are used only in this case.
+  // Whether the run replaces everything that is stored. `configurations` and `scenes` contain those
+  // for which the run has a record; they are used only in this case.
   bool replaces_all = false;
   std::set<std::string> configurations;
   std::set<std::string> scenes;
@@ -34,14 +35,15 @@ struct Accepted {
 
 // The following functions throw InputError if the run must not become the baselines.
 
-// Refuses a run whose data have changed since it was measured. The reference image is drawn from
-// the current data, so no later run could agree with the resulting baseline.
+// Rejects a run whose data have changed since it was measured. The reference image is drawn from
+// the current data, so the baselines would combine measurements of the old data with a reference
+// image of the new data.
 void refuse_other_data(const Accepted& accepted, const AcceptRequest& request);
-// Refuses a shard, a run with --set and an interrupted run, because they would delete the rest of
-// the plan from the baselines.
+// Rejects a shard, a run with --set and an interrupted run, because accepting such a run would
+// delete the other configurations of the plan from the baselines.
 void refuse_part(const Accepted& accepted, const Baselines& stored, const std::string& run,
                  const AcceptRequest& request);
-// Refuses an interrupted run even if there are no baselines yet, because the baselines would cover
+// Rejects an interrupted run even if there are no baselines yet, because the baselines would cover
 // only a part of the plan.
 void refuse_incomplete(const record::Store& store, const Accepted& accepted,
                        const AcceptRequest& request);

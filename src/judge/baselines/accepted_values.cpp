@@ -30,8 +30,8 @@ void drop_all_but(Json& object, const std::set<std::string>& kept) {
 
 namespace {
 
-// Returns the table {configuration: …}, from which configurations that the run no longer contains
-// have been removed.
+// Prepares a table {configuration: …} for new values. If the run replaces everything, removes the
+// configurations that the run does not contain.
 Json& table_of(Json& table, const Accepted& accepted) {
   if (!table.is_object()) table = Json::object();
   if (accepted.replaces_all) drop_all_but(table, accepted.configurations);
@@ -94,7 +94,7 @@ void note_lacking(const Accepted& accepted, const Manifest& stored, const Json& 
   }
 }
 
-// Writes the error of each record against the limit of its scene.
+// Writes the error of each record against the limit image of its scene.
 void update_errors(const record::Store& store, const Accepted& accepted,
                    const AcceptRequest& request, Update& update) {
   Json& table = table_of(update.value(), accepted);
@@ -132,8 +132,8 @@ record::Counts kept_of(record::Counts cost) {
 }
 
 // Writes the instruction counts. Counts from another emulator are not comparable with the stored
-// counts, so they have to replace all of them. With --only, which would replace only some, such
-// counts are refused.
+// counts, so they must replace all stored counts of the device. Rejects such counts with --only,
+// which would replace only some of the stored counts.
 void update_cost(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::cost(device));
   bool counted = false;
@@ -146,7 +146,7 @@ void update_cost(const Accepted& accepted, const record::Device& device, NextFol
         throw core::InputError(
             fmt::format("run {}: instructions on {} were counted by {} and by {}{}", record.run,
                         device.id, file.value("counted_by", ""), record.counted_by,
-                        counted ? "" : ": accept the whole plan, without --only"));
+                        counted ? "" : "; accept the whole plan, without --only"));
       }
       file = {{"device", device.id},
               {"driver_version", device.driver_version},
@@ -159,7 +159,7 @@ void update_cost(const Accepted& accepted, const record::Device& device, NextFol
   update.write(3);
 }
 
-// Writes the code statistics, except infinite ones, which JSON cannot represent.
+// Writes the code statistics, except for infinite values, which JSON cannot represent.
 void update_code(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::code(device));
   bool any = false;

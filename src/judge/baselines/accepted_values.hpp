@@ -1,5 +1,5 @@
 #pragma once
-// Writes the measurements of a run, except for images, into the files of the baselines.
+// Writes the measurements of a run, except for images, to the baseline files.
 
 #include <set>
 #include <string>
@@ -13,9 +13,9 @@ namespace triptych::judge {
 // Removes all members of the object whose names are not in `kept`.
 void drop_all_but(core::Json& object, const std::set<std::string>& kept);
 
-// Writes lacking.json: the configurations that a driver version does not support although another
-// version of the same device does. `stored` is the manifest before this run. Call this function
-// after the counters have been updated and the skipped configurations have been dropped.
+// Writes lacking.json: the configurations that a driver version does not support, although another
+// driver version for the same device does. `stored` is the manifest before this run. Call this
+// function after the counters have been updated and the skipped configurations have been dropped.
 void update_lacking(const Accepted& accepted, const Manifest& stored, NextFolder& next);
 
 void update_values(const record::Store& store, const Accepted& accepted,

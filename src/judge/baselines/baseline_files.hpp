@@ -1,6 +1,6 @@
 #pragma once
-// Reads the files that judge/baselines/baselines.hpp describes. Only the class Baselines uses these
-// functions. All of them throw InputError with file and line.
+// Reads the files that judge/baselines/baselines.hpp describes. For a file with invalid content,
+// these functions throw InputError with file and line. Only the class Baselines uses them.
 
 #include <fmt/format.h>
 
@@ -37,8 +37,8 @@ ByName<Value> read_table(const std::filesystem::path& path, const Read& read) {
   return file ? read_members<Value>(file->root(), read) : ByName<Value>{};
 }
 
-// Reads a file of the form {"device": …, "configurations": {name: value, …}}. The file must be
-// about the expected device. Returns an empty table if the file is missing.
+// Reads a file of the form {"device": …, "configurations": {name: value, …}}. Throws InputError if
+// the file names another device. Returns an empty table if the file is missing.
 template <typename Value, typename Read>
 ByName<Value> read_device_table(const std::filesystem::path& path, std::string_view device,
                                 const Read& read) {
@@ -61,7 +61,7 @@ ByName<Value> read_device_table(const std::filesystem::path& path, std::string_v
 [[nodiscard]] DriverCode read_code(const core::JsonNode& node);
 [[nodiscard]] StoredTiming read_timing(const core::JsonNode& node);
 
-// Returns the JSON files of a subfolder, by their names without the extension.
+// Returns the JSON files in a folder, by their names without the extension.
 [[nodiscard]] std::map<std::string, std::filesystem::path> files_in(
     const std::filesystem::path& folder);
 // Describes the first file that does not match the manifest. Returns "" if all files match.

@@ -57,7 +57,7 @@ struct Manifest {
   std::map<std::string, std::string> files;              // file name → content hash
   record::Checks checks;  // the checks of the plan when it was accepted
   // Sets of drivers that were accepted together on one machine, by Device::statistics_key(). If one
-  // driver of a set is found, all others in the set are expected.
+  // driver of a set is found on a machine, all drivers of the set are expected there.
   std::vector<std::set<std::string>> machines;
 };
 
@@ -68,7 +68,7 @@ struct StoredTiming {
   std::string kernel_hash;
 };
 
-// The error of a configuration on a device: its image compared with the limit of its scene.
+// The error of the image that a device draws for a configuration, against the scene's limit image.
 struct StoredError {
   double rmse = 0;
   double arithmetic = 0;  // the error against the reference image at the same sample positions
@@ -103,7 +103,7 @@ class Baselines {
   // member function that needs it throws InputError with file and line.
   Baselines(std::filesystem::path root, std::string_view plan);
 
-  // Whether there are baselines and no file has changed since it was accepted.
+  // Returns whether there are baselines and no file has changed since it was accepted.
   [[nodiscard]] bool present() const;
   // Returns one line about a file that is missing, was edited or does not belong to the baselines.
   // Returns "" if there is no such file.
@@ -119,11 +119,11 @@ class Baselines {
   [[nodiscard]] std::string data_hash(const record::Record& record) const;
   // Returns the counters of all devices, or nullopt if the configuration was never accepted.
   [[nodiscard]] std::optional<StoredCounters> counters(const std::string& configuration) const;
-  // Whether this device has accepted counters for the configuration.
+  // Returns whether this device has accepted counters for the configuration.
   [[nodiscard]] bool was_measured(const std::string& device,
                                   const std::string& configuration) const;
-  // Whether lacking.json lists the configuration for this driver version: the version does not
-  // support the configuration, although another version of the same device does.
+  // Returns whether lacking.json lists the configuration for this driver version: it does not
+  // support the configuration, although another driver version for the same device does.
   [[nodiscard]] bool lacks(const record::Device& device, const std::string& configuration) const;
   // Returns the allocated bytes by device id. Empty if the configuration was never accepted.
   [[nodiscard]] std::map<std::string, record::Counts> memory(
@@ -135,7 +135,7 @@ class Baselines {
   // accepted.
   [[nodiscard]] std::map<std::string, std::uint64_t> scores(const std::string& configuration) const;
   // Returns the costs of this driver version, or nullptr if none are stored. The pointer is valid
-  // as long as this object.
+  // as long as this object exists.
   [[nodiscard]] const DriverCost* cost(const record::Device& device) const;
   // Returns the costs of all driver versions by Device::statistics_key().
   [[nodiscard]] const std::map<std::string, DriverCost>& cost_of_all_drivers() const;
@@ -161,7 +161,7 @@ class Baselines {
   // Returns the content of waivers.json. `today` is passed to read_waivers().
   [[nodiscard]] const std::vector<Waiver>& waivers(const std::string& today) const;
   // Returns the content of absent.json, which is next to waivers.json and lists the devices that
-  // machines lack on purpose.
+  // are absent from certain machines on purpose.
   [[nodiscard]] const std::vector<Absent>& absent() const;
   [[nodiscard]] std::filesystem::path absent_file() const { return root_ / "absent.json"; }
 
@@ -199,13 +199,13 @@ struct AcceptRequest {
   std::function<core::Image(const record::Record&)> truth;
   // See GateRequest::data_hash.
   std::function<std::string(const record::Record&)> data_hash = {};
-  // Returns the limit of a record's scene, or nullptr if the scene has none. With an empty
-  // function, no errors are stored.
+  // Returns the limit of a record's scene, or nullptr if the scene has none. If the function is
+  // empty, no errors are stored.
   std::function<const accuracy::LimitPicture*(const record::Record&)> limit = {};
   // Used to score every record of the run. nullopt: no scores are stored.
   std::optional<StressTruths> stress = {};
-  // Called with the name of each file after the file was written next to the old folder. When all
-  // files are written, but none has taken effect yet, it is called with "".
+  // Called with the name of each file after the file was written to the new folder. Called with ""
+  // after all files were written, before the new folder replaces the old folder.
   std::function<void(const std::string&)> on_written = {};
 };
 
@@ -215,8 +215,9 @@ struct AcceptRequest {
 //   - Throws InputError for a blank reason, a run with injected faults, a run that measured
 //     nothing, a run whose data have changed since, and a run that lacks stored configurations
 //     (unless `drop` or `only` is set).
-//   - Changes everything or nothing: writes the new folder next to the old one, which it replaces
-//     at the end. Throws IoError if another accept runs at the same time.
+//   - Changes everything or nothing: writes a new folder next to the old folder, and replaces the
+//   old
+//     folder at the end. Throws IoError if another accept runs at the same time.
 [[nodiscard]] std::vector<std::string> accept(const record::Store& store, const std::string& run,
                                               const std::filesystem::path& root,
                                               const AcceptRequest& request);

@@ -112,8 +112,8 @@ std::string other_statements(const fs::path& folder) {
   const auto entries = history->root().elements();
   if (entries.empty() || !entries.back().has("manifest")) return {};
   if (entries.back().at("manifest").text() == hash_of_statements(manifest->value())) return {};
-  return fmt::format("{} is not the one that was accepted last, according to {}", Layout::manifest,
-                     Layout::history);
+  return fmt::format("{} is not the most recently accepted manifest, according to {}",
+                     Layout::manifest, Layout::history);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
-// Checks the manifest of the baselines. It contains checksums of all other files, but no file
-// contains a checksum of the whole manifest, so its statements are compared with the other files.
+// Checks the manifest of the baselines. The manifest contains checksums of all other files, but no
+// file contains a checksum of the whole manifest. Therefore its content is compared with the
+// content of the other files.
 
 #include <filesystem>
 #include <string>
@@ -12,8 +13,8 @@ namespace triptych::judge {
 
 // Describes the first contradiction between the manifest and the other files in one line. Returns
 // "" if there is none. Without this check, somebody could remove a device, a driver or a check from
-// the manifest, which would then count as new or as not requested. Throws InputError for a file
-// that does not have the expected form.
+// the manifest; the device or driver would then count as new, and the check as not requested.
+// Throws InputError for a file that does not have the expected form.
 [[nodiscard]] std::string contradiction_in(const std::filesystem::path& folder,
                                            const Manifest& manifest);
 

@@ -17,7 +17,7 @@ void erase_device(Json& values, const std::string& device) {
   }
 }
 
-// Removes the skipped records from a file that contains the values of all devices.
+// Removes the values of the skipped records from a file that contains the values of all devices.
 void drop_from_table(std::span<const record::Record> skipped, const char* name, NextFolder& next) {
   if (!next.files.contains(name)) return;
   Update file(next, name);
@@ -28,7 +28,7 @@ void drop_from_table(std::span<const record::Record> skipped, const char* name, 
   file.write(2);
 }
 
-// Removes the skipped records from a file that contains the values of one device.
+// Removes the values of the skipped records from a file that contains the values of one device.
 void drop_from_file(std::span<const record::Record> skipped, const std::string& device,
                     const std::string& name, int depth, NextFolder& next) {
   if (!next.files.contains(name)) return;

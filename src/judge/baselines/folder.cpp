@@ -27,7 +27,7 @@ void act_on(const fs::path& path, const Act& act) {
   }
 }
 
-// Writes a file or folder to the disk before it returns.
+// Flushes a file or folder to the disk.
 void flush(const fs::path& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const int failed = fd < 0 || ::fsync(fd) != 0 ? errno : 0;

@@ -22,11 +22,11 @@ inline constexpr std::array<std::string_view, 2> cost_parts{"device_code", "driv
 struct FrameChange {
   bool more = false;            // the count of some part increased by more than its tolerance
   bool less = false;            // the count of some part decreased by more than its tolerance
-  std::vector<Change> changes;  // the changes of these parts; if there are any, also allocations
+  std::vector<Change> changes;  // of these parts and, if any of them changed, of the allocations
 };
 
-// Compares with the tolerances of cost_tolerance.hpp. These are valid only for counts from the same
-// emulator, program and driver.
+// Compares the counts of `now` with the counts `before`, with the tolerances of cost_tolerance.hpp.
+// The tolerances are valid only for counts from the same emulator, program and driver.
 [[nodiscard]] FrameChange frame_change(const record::Record& now, const record::Counts& before);
 
 }  // namespace triptych::judge

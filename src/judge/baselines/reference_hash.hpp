@@ -8,17 +8,17 @@
 
 namespace triptych::judge {
 
-// Two hashes of the colours, which are quantized to cells of width q = 1/4096 on two grids. The
-// grids are offset by half a cell. A different math library changes a colour by about δ = 1e-13 (an
-// ulp or two in each of a few hundred steps). On one grid, the probability that at least one of N
-// colours moves to another cell is 2Nδ/q, or 1e-3 for an image of 512² pixels; the probability that
-// this happens on both grids is the square of that. q is smaller than the error bound of any pixel,
-// so a change that a check could detect changes both hashes. Depths and ids are not hashed, because
-// at an edge they depend on the last bit, and because the surface that they describe also has a
-// colour.
+// Two hashes of the quantized colours, one for each of two grids. The cells of both grids have the
+// width q = 1/4096, and the grids are offset by half a cell. A different math library changes a
+// colour by about δ = 1e-13 (an ulp or two in each of a few hundred steps). On one grid, the
+// probability that at least one of N colours moves to another cell is 2Nδ/q, or 1e-3 for an image
+// of 512² pixels; the probability that this happens on both grids is the square of that. q is
+// smaller than the error bound of any pixel, so a change that a check could detect changes both
+// hashes. Depths and ids are not hashed, because at an edge they depend on the last bit, and
+// because the surface that they describe also has a colour.
 using ReferenceHash = std::array<std::string, 2>;
 [[nodiscard]] ReferenceHash reference_hash(const core::Image& image);
-// Whether the hashes are equal on one of the grids.
+// Returns whether the hashes for at least one of the grids are equal.
 [[nodiscard]] bool is_same_reference(const ReferenceHash& a, const ReferenceHash& b);
 
 }  // namespace triptych::judge

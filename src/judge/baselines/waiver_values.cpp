@@ -21,7 +21,7 @@ std::chrono::year_month_day date_of(std::string_view text) {
           std::chrono::day(static_cast<unsigned>(number(8, 2)))};
 }
 
-// Whether `text` has the form YYYY-MM-DD and is a day of the calendar.
+// Returns whether `text` has the form YYYY-MM-DD and is a valid calendar date.
 bool is_iso_date(std::string_view text) {
   constexpr std::string_view shape = "dddd-dd-dd";
   const bool written_so = std::ranges::equal(
@@ -29,8 +29,8 @@ bool is_iso_date(std::string_view text) {
   return written_so && date_of(text).ok();
 }
 
-// Whether the glob matches all samples. The samples have nothing in common except the form that all
-// such names have, so a glob that matches them matches every name.
+// Returns whether the glob matches all samples. The samples have nothing in common except the form
+// of such names, so a glob that matches all samples matches every name.
 template <std::size_t N>
 bool matches_all(std::string_view glob, const std::array<const char*, N>& samples) {
   return std::ranges::all_of(

@@ -1,5 +1,5 @@
 #pragma once
-// Reads and checks the values that occur both in waivers and in entries for absent devices.
+// Reads and checks the fields that waivers and entries for absent devices have in common.
 
 #include <initializer_list>
 #include <optional>
@@ -15,15 +15,15 @@ namespace triptych::judge {
 void refuse_other_keys(const core::JsonNode& entry, std::initializer_list<std::string_view> known);
 // Returns the reason of the entry. Throws InputError if it is blank.
 [[nodiscard]] std::string reason_of(const core::JsonNode& entry);
-// Returns the expiry date of the entry. Throws InputError if it is not a day of the calendar.
+// Returns the expiry date of the entry. Throws InputError if it is not a valid calendar date.
 [[nodiscard]] std::string expiry_of(const core::JsonNode& entry);
 // Returns nullopt unless both arguments are ISO dates.
 [[nodiscard]] std::optional<int> days_between(std::string_view from, std::string_view to);
 // Throws InputError for an expiry date that is more than a year after `today` (an ISO date),
 // because such an entry would in practice never be reviewed.
 void refuse_distant_expiry(const core::JsonNode& expiry, const std::string& today);
-// Whether a glob matches every device, host, test or configuration, regardless of how it is
-// written: not only "*" but also "*:*" matches every device.
+// Returns whether a glob matches every device, host, test or configuration, regardless of how it is
+// written. For example, not only "*" but also "*:*" matches every device.
 [[nodiscard]] bool matches_every_device(std::string_view glob);
 [[nodiscard]] bool matches_every_host(std::string_view glob);
 [[nodiscard]] bool matches_every_test(std::string_view glob);

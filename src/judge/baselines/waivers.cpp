@@ -57,7 +57,7 @@ std::vector<Waiver> read_waivers(const std::filesystem::path& file, const std::s
   const auto json = core::JsonFile::read(file);
   if (!json) return result;
   for (const core::JsonNode& entry : json->root().elements()) {
-    // The entry must expire within a year: an entry that nobody reviews would also hide new
+    // The entry must expire within a year, because an entry that nobody reviews would also hide new
     // failures.
     refuse_distant_expiry(entry.at("expiry"), today);
     result.push_back(read_waiver(entry));

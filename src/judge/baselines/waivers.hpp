@@ -1,6 +1,6 @@
 #pragma once
 // Lists of known failures. baselines/waivers.json is written by hand, and its entries have expiry
-// dates. `validate` writes a file of expectations, with one entry for each configuration.
+// dates. `validate` writes a file of expectations, in which each entry is about one configuration.
 
 #include <cstdint>
 #include <filesystem>
@@ -36,7 +36,8 @@ struct Waiver {
                                                const std::string& today);
 
 // Reads a file of expectations: [{device, test, configuration, outcome, reason}, …]; an entry may
-// also have an `expiry`. Throws InputError with file and line, also if the file does not exist.
+// also have an `expiry`. Throws InputError if the file does not exist, and InputError with file and
+// line for a malformed entry.
 [[nodiscard]] std::vector<Waiver> read_expected(const std::filesystem::path& file);
 
 // Returns the content of a file of expectations, sorted, with one entry per line.

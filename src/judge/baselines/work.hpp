@@ -12,8 +12,8 @@
 
 namespace triptych::judge {
 
-// Counters to which the time of a technique is proportional. The first counter that is present both
-// now and then is used as the amount of work.
+// Counters to which the time of a technique is proportional. The first of these counters that is
+// present in both runs is used as the amount of work.
 inline constexpr std::array<std::string_view, 2> work_units{"samples", "fragments"};
 
 struct WorkChange {
@@ -21,14 +21,14 @@ struct WorkChange {
   std::string unit;      // one of work_units
 };
 
-// Returns nullopt if no unit was counted both now and then, or if its count was 0. `then` returns
-// the earlier count of a unit.
+// Compares the counts `now` with earlier counts; `then` returns the earlier count of a unit.
+// Returns nullopt if no unit was counted in both runs with a positive count.
 [[nodiscard]] std::optional<WorkChange> work_change(
     const record::Counts& now,
     const std::function<std::optional<double>(const std::string&)>& then);
 [[nodiscard]] std::optional<WorkChange> work_change(const record::Counts& now,
                                                     const record::Counts& then);
-// Compares with the counts that are stored for the configuration on a device.
+// Compares the counts `now` with the counts that are stored for the configuration on the device.
 [[nodiscard]] std::optional<WorkChange> work_change(const record::Counts& now,
                                                     const Baselines& baselines,
                                                     const std::string& configuration,

@@ -1,5 +1,6 @@
 #pragma once
-// Compares what GPU compilers reported about two builds of the same device code.
+// Compares the statistics and the disassembly that GPU compilers report for two builds of the same
+// device code.
 
 #include <cstddef>
 #include <string>
@@ -13,14 +14,14 @@ namespace triptych::judge {
 // The meaning of a statistic that a driver reports. Drivers use different names for the same
 // quantity. Changes of a statistic with an unknown name are shown but do not affect the verdict.
 struct CodeStatistic {
-  std::string_view name;       // "occupancy"; empty for an unknown statistic
-  std::string_view mesa = {};  // its name in Mesa's shader-db totals: "MaxWaves"; may be empty
+  std::string_view name;       // such as "occupancy"; empty for an unknown statistic
+  std::string_view mesa = {};  // the name in Mesa's shader-db totals, such as "MaxWaves", or empty
   bool decides = false;        // whether a change for the worse is a regression
   bool more_is_worse = true;   // used only if `decides`, and for totals
   int rank = 100;              // statistics are printed in this order, the most important first
 
   [[nodiscard]] bool is_occupancy() const { return rank == 0; }
-  // Spills and scratch memory are ideally 0, so a relative change of them is not meaningful.
+  // Spills and scratch memory are ideally 0, so their relative change is not meaningful.
   [[nodiscard]] bool has_relative_change() const { return decides && rank >= 4; }
   [[nodiscard]] bool counts_registers() const { return rank == 10 || rank == 11; }
 };
@@ -46,9 +47,9 @@ struct CodeComparison {
   std::vector<std::string> added;      // executables that did not exist before
   std::vector<std::string> assembled;  // executables whose disassembly changed
   // Returns the common direction of all statistics that affect the verdict. If some of them
-  // improved and others got worse, the inverse throughput decides. If it did not change or is not
-  // reported, returns `worse`, so that a person has to accept the mixed change. Returns `other` if
-  // all changed statistics are ones that do not affect the verdict.
+  // improved and others got worse, the inverse throughput decides. If the inverse throughput did
+  // not change or is not reported, returns `worse`, so that a person has to accept the mixed
+  // change. Returns `other` if no changed statistic affects the verdict.
   [[nodiscard]] CodeDirection direction() const;
   [[nodiscard]] bool mixed() const;
 };

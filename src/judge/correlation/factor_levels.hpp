@@ -12,7 +12,7 @@ namespace triptych::judge {
 using Factors = std::map<std::string, std::string>;
 
 struct FactorLevel {
-  std::string name;  // "factor=level", and other levels that exactly the same configurations have
+  std::string name;  // "factor=level", and the levels that occur in exactly the same configurations
   std::vector<std::size_t> inside;   // indices of the configurations with this level, ascending
   std::vector<std::size_t> outside;  // indices of all other configurations, ascending
 };

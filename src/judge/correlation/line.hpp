@@ -11,8 +11,8 @@
 
 namespace triptych::judge {
 
-// Initial values, which can be tuned with ci/bench. They were chosen with the help of times,
-// because the costs of several devices were not available then.
+// Thresholds, which can be tuned with ci/bench. They were chosen on the basis of frame times,
+// because costs were not yet available for several devices.
 struct LineModel {
   // Conditions under which a line is meaningful.
   static constexpr std::size_t least_configurations = 20;
@@ -20,18 +20,19 @@ struct LineModel {
   static constexpr double least_slope = 0.7;
   static constexpr double largest_slope = 1.3;
   static constexpr double largest_scale = 0.25;
-  // Smallest scatter about a line that is assumed, because costs are reproducible only within this
-  // share.
+  // The smallest scatter that is assumed about a line, because costs are reproducible only to
+  // within this share.
   static constexpr double least_scale = 5e-4;
   // Conditions under which a level or a configuration is reported.
   // The expected share of false findings (Benjamini and Hochberg). It applies to levels and to
   // configurations separately, so the share is at most 1 % for both together.
   static constexpr double share_of_false = 0.005;
-  // The smallest effect of a configuration that is reported: 5 %, half of the 10 % that must be
-  // found, because measured effects scatter around the true effect.
+  // The smallest effect of a configuration that is reported: 5 %. This is half of the effect that
+  // must be found (10 %), because measured effects scatter around the true effect.
   static constexpr double configuration_effect = 1.05;
   static constexpr double level_effect = 1.015;  // the smallest effect of a level that is reported
-  // The smallest number of configurations that must have a level, and that must not have it.
+  // A level is considered only if at least this many configurations have it and at least this many
+  // do not have it.
   static constexpr std::size_t least_level = 4;
   // The largest number of levels that are reported for one pair of devices.
   static constexpr std::size_t most_levels = 4;
@@ -45,18 +46,18 @@ void fit_line(CorrelationPair& pair);
 struct OffTheLine {
   std::string level;                 // the factor level; empty for a single configuration
   std::vector<std::size_t> members;  // indices of points
-  // Natural logarithm: the residual of the configuration, or the offset of the level against all
-  // other configurations.
+  // The residual of the configuration, or the offset of the level relative to all other
+  // configurations, as a natural logarithm.
   double effect = 0;
   double error = 0;  // standard error of the effect
   double q = 1;      // expected share of false findings among all that are at least as significant
 };
 
-// Finds what is off the line. Call it only for a pair whose line is accepted. Returns first the
-// levels, the most significant first, and then the configurations that cost more than the line
-// predicts, the largest residual first. After a level is found, it gets its own offset in the
-// model, and the line is fitted again before the search continues. `factors` contains the factors
-// of each point.
+// Finds the levels and the configurations that are off the line. Call this only for a pair whose
+// line was accepted. Returns the levels, the most significant first, and then the configurations
+// that cost more than the line predicts, the largest residual first. Each level that is found gets
+// its own offset in the model, and the line is fitted again before the search continues. `factors`
+// contains the factors of each point.
 [[nodiscard]] std::vector<OffTheLine> off_the_line(std::span<const CorrelationPoint> points,
                                                    std::span<const Factors> factors);
 

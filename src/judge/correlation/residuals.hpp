@@ -21,7 +21,7 @@ struct FrameCost {
   [[nodiscard]] double sum() const { return device_code + driver; }
 };
 
-// The largest difference between two counts of the same frame, as a share of the frame
+// The largest difference between two counts of the same frame, as a share of the frame's cost
 // (docs/correlation.md). The differences are systematic, because they depend on the layout of the
 // heap. Therefore averaging over many counts does not reduce them.
 struct Repeatability {

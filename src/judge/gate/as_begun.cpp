@@ -18,7 +18,8 @@ bool applies(const Absent& entry, const record::Run& run, const std::string& tod
   });
 }
 
-// Whether somebody declared that this machine lacks this device, or all devices of its API.
+// Returns whether --without-device or absent.json declares that the device, or its whole API, is
+// absent from this machine.
 bool is_excused(const RunView& view, const std::string& device) {
   if (core::any_glob_matches(view.request.without_devices, device)) return true;
   return std::ranges::any_of(view.baselines.absent(), [&](const Absent& entry) {
@@ -26,7 +27,7 @@ bool is_excused(const RunView& view, const std::string& device) {
   });
 }
 
-// Whether one of the run's commands would have measured the device if it had been present.
+// Returns whether one of the run's commands would have measured the device if it had been present.
 bool is_asked_for(const RunView& view, const std::string& device) {
   const bool judged =
       view.request.devices.empty() || core::any_glob_matches(view.request.devices, device);
@@ -39,15 +40,15 @@ Advised without(const std::string& device) {
   return {Advice::repair_driver, "--without-device " + core::shell_quoted(device)};
 }
 
-// Whether every requested device was named in full and found. In that case, a failed listing cannot
-// have hidden a requested device.
+// Returns whether every requested device was named in full and found. In that case, a failed device
+// enumeration cannot have hidden a requested device.
 bool found_all_that_was_asked(const record::Beginning& begun) {
   return !begun.asked.empty() && std::ranges::all_of(begun.asked, [&](const std::string& id) {
     return std::ranges::find(begun.found, id) != begun.found.end();
   });
 }
 
-// Device enumeration that crashed or hung may have missed devices.
+// Reports each device enumeration that crashed or hung, because it may have missed devices.
 void report_failed_listings(const RunView& view, std::vector<Finding>& findings) {
   for (const record::Beginning& begun : view.run.begun) {
     if (found_all_that_was_asked(begun)) continue;
@@ -74,10 +75,10 @@ std::map<std::string, std::string> ids_of_drivers(const Manifest& manifest) {
   return ids;
 }
 
-// Whether a missing device has to be reported. A plan that only compiles reports it only if another
-// device of the same driver is present, because a machine need not have the compiler of a GPU that
-// it lacks. In the id of a device that only compiles, the part before the last '-' names the
-// driver.
+// Returns whether a missing device must be reported. A plan that only compiles reports a missing
+// device only if another device of the same driver is present, because a machine need not have
+// compilers for GPUs that it does not have. In the id of a device that only compiles, the part
+// before the last '-' names the driver.
 bool is_expected(const RunView& view, const std::string& id,
                  const std::vector<std::string>& found) {
   if (view.checks != std::set{Check::code}) return true;
@@ -87,8 +88,8 @@ bool is_expected(const RunView& view, const std::string& id,
   });
 }
 
-// Returns the ids of accepted devices that were not found, although a device that was accepted on
-// the same machine was. Each is mapped to the id of such a device.
+// Returns the ids of accepted devices that were not found, although another device that was
+// accepted on the same machine was found. Maps each id to the id of that other device.
 std::map<std::string, std::string> gone_devices(const RunView& view) {
   const Manifest& manifest = view.baselines.manifest();
   const std::map<std::string, std::string> ids = ids_of_drivers(manifest);
@@ -125,8 +126,8 @@ void report_gone_devices(const RunView& view, std::vector<Finding>& findings) {
   }
 }
 
-// A device without a description matches no stored key, so findings about it would only be
-// advisory.
+// Reports devices that the run measured but does not describe. Such a device matches no stored key,
+// so all other findings about it would only be advisory.
 void report_undescribed(const RunView& view, std::vector<Finding>& findings) {
   std::set<std::string> described;
   for (const auto& entry : view.store.devices(view.run.id)) described.insert(entry.device.id);

@@ -21,15 +21,15 @@ constexpr double float_rounding = 0x1.0p-24;
 
 // Returns the largest allowed error. A part of the accepted error (`arithmetic`) comes from
 // rounding, storage and early ray termination. In another correct image, that part may point in the
-// opposite direction, so the error may exceed the accepted one by twice that part: the root mean
-// square is a distance, so two correct images differ by at most the sum of their distances from the
-// reference image.
+// opposite direction, so the error may exceed the accepted error by twice that part. This follows
+// from the triangle inequality for the RMS distance: two correct images differ by at most the sum
+// of their distances from the reference image.
 double allowed(const StoredError& stored) {
   return stored.rmse + 2 * stored.arithmetic + float_rounding;
 }
 
-// Returns the largest allowed error on this device. If none was accepted for it, returns the
-// largest one of all devices.
+// Returns the largest allowed error on this device. If no error was accepted for this device,
+// returns the largest error that is allowed on any device.
 std::optional<double> allowed_on(const std::map<std::string, StoredError>& stored,
                                  const std::string& device) {
   const auto own = stored.find(device);
@@ -106,8 +106,8 @@ void judge_orders(const RunView& view, const accuracy::AccuracyScene& scene,
 // Collects the scenes, one for each device and limit, in the order in which they are added.
 class Scenes {
  public:
-  // A configuration with the level `auto`, and the one with the level to which `auto` resolves on
-  // the device, are one case.
+  // A configuration with the level `auto` counts as the same case as the configuration with the
+  // level to which `auto` resolves on the device.
   void add(const record::Record& record, const accuracy::LimitPicture& limit,
            accuracy::AccuracyCase each) {
     const auto [known, is_new] = index_.try_emplace({record.device, limit.key}, scenes_.size());

@@ -39,8 +39,8 @@ CostChange change_of(const ConfigurationCost& cost) {
   return change_of(*cost.stored, cost.now);
 }
 
-// Returns the accepted devices whose instructions were counted by the same emulator: those in the
-// run or, if there are none, those that are only stored.
+// Returns the accepted devices whose instructions were counted by the same emulator: the devices in
+// the run or, if there are none, the devices that are only stored.
 std::vector<const DeviceCost*> partners_of(const DeviceCost& device,
                                            const std::vector<DeviceCost>& devices) {
   std::vector<const DeviceCost*> here;
@@ -60,8 +60,8 @@ bool left_residual(const ConfigurationCost& own, const ConfigurationCost& other)
                         change_of(own), repeatability_of(own));
 }
 
-// Finds the configurations whose cost on this device, and not on the others, changed since the
-// device was accepted.
+// Finds the configurations whose cost on this device changed since it was accepted, although their
+// cost on another device did not change by the same factor.
 Moved movements_of(const DeviceCost& device, const std::vector<DeviceCost>& devices) {
   Moved moved{&device, {}, {}, {}, {}};
   const std::vector<const DeviceCost*> partners = partners_of(device, devices);
@@ -131,8 +131,8 @@ void add_fit(Observation& what, const CorrelationLine& line) {
 }
 
 // Returns the pair of the new device and the accepted device that predicts its costs best: the pair
-// with the least scatter about its line. A pair whose line was refused is used only if there is no
-// other. Returns nullptr if there is no pair.
+// with the least scatter about its line. A pair whose line was refused is used only if no pair has
+// an accepted line. Returns nullptr if there is no pair.
 const CorrelationPair* nearest(const DeviceCost& device,
                                const std::vector<CorrelationPair>& pairs) {
   const CorrelationPair* best = nullptr;

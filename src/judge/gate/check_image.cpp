@@ -161,7 +161,7 @@ class SceneJudge {
   std::optional<ReferenceHash> reference_;  // its hash, if only the hash is stored
   bool truth_checked_ = false;
   std::vector<Picture> pictures_;
-  core::Image bound_;  // error bound of a particle scene, including the pixels with certain ids
+  core::Image bound_;  // error bound of a particle scene; its ids are 0 where the id is certain
 };
 
 }  // namespace

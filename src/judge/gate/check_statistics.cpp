@@ -60,7 +60,7 @@ Finding check_exact(const RunView& view, const record::Record& record,
 struct Elsewhere {
   std::size_t configurations = 0;
   std::map<std::string, Change>
-      differences;                  // portable values that differ from every stored driver
+      differences;                  // portable statistics that differ from those of every driver
   std::set<std::string> differing;  // the configurations with such differences
   // (statistic, driver) → how the driver counts the statistic, if it does not count it exactly. An
   // empty driver stands for this device's own driver.

@@ -18,12 +18,12 @@ const double tolerated = std::log(1.02);  // a smaller slowdown is not a regress
 struct Ratio {
   const record::Record* record;
   double log_ratio = 0;
-  double half_width = 0;  // half the width of its 95 % interval
+  double half_width = 0;  // half the width of the 95 % confidence interval of log_ratio
 };
 
-// Returns the clock by which the current and the stored time are compared: the clock of the stored
-// time if this record was timed by it, too. Every frame is also timed by the wall clock. Returns
-// nullopt if the times cannot be compared.
+// Returns the clock of the stored time if the record was also timed by that clock. Every frame is
+// timed by the wall clock, even if it is also timed by the device clock. Returns nullopt if the
+// times cannot be compared.
 std::optional<std::string_view> common_clock(const record::Record& record,
                                              const StoredTiming& stored) {
   if (stored.clock == record.clock()) return record.clock();
@@ -86,8 +86,8 @@ class DeviceTimes {
     return std::isfinite(middle) && middle > 0;
   }
 
-  // If the image is judged as well, or its error is waived, the finding about the image has the
-  // verdict, and the time is skipped.
+  // If the image is also judged, or if its error is waived, the finding about the image determines
+  // the verdict, and the time is skipped.
   void add_wrong(const record::Record& record, const Observation& why) {
     const bool is_told =
         view_.checks.contains(Check::image) || is_waived(view_, record, Check::image);
@@ -103,7 +103,7 @@ class DeviceTimes {
     judge(ratio_of(record, *clock, stored->second), *clock, stored->second);
   }
 
-  // This is the only place at which the value of a time affects the verdict.
+  // This is the only place where the value of a time affects the verdict.
   [[nodiscard]] Verdict verdict_of(const Ratio& ratio) const {
     if (!decides()) return Verdict::pass;
     if (ratio.log_ratio - ratio.half_width > tolerated) return Verdict::regression;

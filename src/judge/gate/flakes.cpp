@@ -31,8 +31,8 @@ std::optional<Known> expected_as(const Finding& finding) {
   return known ? std::optional(finding.excuse.known) : std::nullopt;
 }
 
-// Returns the finding after a second attempt that passed. It becomes a flake, except for a timeout,
-// which gets no verdict because the driver may just be slow.
+// Returns the finding after a second attempt that passed. The finding becomes a flake. Only a
+// timeout gets no verdict, because the driver may just be slow.
 Finding right_again(const Finding& finding) {
   Finding again = finding;
   again.drawn_again = Again::flake;

@@ -1,6 +1,6 @@
 #pragma once
-// Combines regressions with the results of drawing them a second time, and lists the results that
-// the next run should expect.
+// Combines regressions with the results of a second attempt to draw them, and lists the failures
+// and skips that the next run should expect.
 
 #include <functional>
 #include <set>
@@ -19,8 +19,8 @@ using Places = std::set<std::pair<std::string, std::string>>;  // device, config
 [[nodiscard]] Places failing(const GateResult& result);
 
 struct Redrawn {
-  // The result of the second attempt. A failure that passed then is still a regression (a flake),
-  // except that a timeout that passed then has no verdict.
+  // The result of the second attempt. A failure that passed in the second attempt is still a
+  // regression (a flake). A timeout that passed in the second attempt has no verdict.
   GateResult result;
   Places flakes;
 };

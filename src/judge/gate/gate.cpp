@@ -24,8 +24,8 @@ bool asked_for(const GateRequest& request, const std::string& device) {
 }
 
 // Returns an observation if the data of the record differ from the data that were accepted under
-// the same name, or have changed since. The numbers of such a record are not compared with
-// anything.
+// the same name, or if the data have changed since the measurement. The numbers of such a record
+// are not compared with anything.
 std::optional<Observation> other_data(const RunView& view, const record::Record& record) {
   if (record.data_hash.empty()) return std::nullopt;
   const std::string accepted =
@@ -188,7 +188,7 @@ void report_missing(const RunView& view, const record::Device& device,
 }
 
 // Reports missing and extra records. Every device must have a record, with any outcome, for every
-// configuration of the plan and for every accepted configuration, but for no other.
+// configuration of the plan and for every accepted configuration, but for no other configuration.
 void report_rows(const RunView& view, std::vector<Finding>& findings) {
   const std::vector<std::string> planned =
       view.request.expected.empty() ? view.store.planned(view.run) : view.request.expected;
@@ -372,8 +372,9 @@ void report_what_is_there(const RunView& view, GateResult& result) {
   if (!view.baselines.present()) report_no_baselines(view, result.findings);
 }
 
-// Reports devices that measured something but have only advisories and skips, because they have not
-// passed. Without baselines this would be true of every device, so nothing is reported.
+// Reports devices on which something was measured but that have only advisories and skips, because
+// this is not a pass. Without baselines this would be true for every device, so nothing is
+// reported.
 void report_nothing_decided(const RunView& view, GateResult& result) {
   if (!view.request.decides_each_device || !view.baselines.present()) return;
   for (const std::string& device : result.nothing_decided()) {

@@ -1,5 +1,5 @@
 #pragma once
-// Judges a run. Uses only records and baselines.
+// Judges a run by its records and the baselines.
 
 #include <cstdint>
 #include <filesystem>
@@ -47,7 +47,7 @@ struct GateResult {
   std::map<std::string, std::size_t> injected = {};
   std::string measured_by = {};
   std::string began = {};
-  // Devices that have only advisories and skips.
+  // Returns the devices that have only advisories and skips.
   [[nodiscard]] std::vector<std::string> nothing_decided() const;
   [[nodiscard]] core::ExitCode exit_code() const;
 };
@@ -76,13 +76,14 @@ struct GateRequest {
   // Returns the limit of a record's scene, or nullptr if the scene has none. The limit must live as
   // long as the request.
   std::function<const accuracy::LimitPicture*(const record::Record&)> limit = {};
-  // Returns the requirements for a record beyond its reference image. An empty function means that
-  // there are none.
+  // Returns the expectations that a record must meet in addition to matching its reference image.
+  // If the function is empty, there are none.
   FindExpectations expectations = {};
   FindOpenCounts open_counts = {};  // called only if counters differ
   std::string today;                // ISO date, for the expiry of waivers
-  // If true, a device that has only advisories and skips gets a finding without a verdict. If
-  // false, as for a CTest test of a single check, it does not, and that test counts as skipped.
+  // If true, a device that has only advisories and skips gets a finding that it could not be
+  // judged. If false, it gets no such finding. This is for CTest tests of a single check, which
+  // count as skipped instead.
   bool decides_each_device = true;
   // If true, a configuration is a regression if the whole 95 % interval of its slowdown lies above
   // 2 %. If false, times do not affect the verdict.
@@ -101,8 +102,8 @@ struct GateRequest {
   // skipped.
   std::optional<std::vector<Waiver>> known = {};
   // Returns the current content hash of the data from which the record's reference image is drawn,
-  // in the record's voxel format, or "" if it is not known. An empty function means that the data
-  // have not changed.
+  // in the record's voxel format, or "" if it is not known. If the function is empty, the data are
+  // assumed to be unchanged.
   std::function<std::string(const record::Record&)> data_hash = {};
 };
 

@@ -36,8 +36,7 @@ std::vector<std::string> GateResult::nothing_decided() const {
   return without;
 }
 
-// A gate that reached no decision has not passed, and neither has a gate that reached none for one
-// of its devices.
+// The gate passes only if it reached at least one decision, and at least one for each device.
 core::ExitCode GateResult::exit_code() const {
   if (count(*this, Verdict::regression) > 0) return core::ExitCode::regression;
   if (count(*this, Verdict::cannot_judge) > 0) return core::ExitCode::cannot_judge;

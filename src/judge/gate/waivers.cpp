@@ -56,8 +56,8 @@ void compare_with_known(const RunView& view, Finding& finding) {
   }
 }
 
-// Whether the waiver covers any configuration and check that this gate judged. Waivers for other
-// plans do not.
+// Returns whether the waiver covers any configuration and check that this gate judged. A waiver for
+// another plan covers none.
 bool concerns(const Waiver& waiver, const RunView& view) {
   return std::ranges::any_of(view.records, [&](const record::Record& record) {
     return std::ranges::any_of(view.checks, [&](Check check) {

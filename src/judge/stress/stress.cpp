@@ -18,7 +18,7 @@ namespace {
 bool is_finite(const core::Image& image) {
   return !image.rgba.empty() &&
          std::ranges::all_of(image.rgba, [](float value) { return std::isfinite(value); }) &&
-         // An infinite depth means that the pixel shows nothing.
+         // An infinite depth means that the pixel shows only background.
          std::ranges::none_of(image.depth, [](float value) { return std::isnan(value); });
 }
 
@@ -112,8 +112,8 @@ class Scoring {
     }
   }
 
-  // Gives the point for agreement. If the images of two devices differ, only the image that is
-  // closer to the reference image gets it.
+  // Gives the point for agreement. If the images of two devices differ, only the device whose image
+  // is closer to the reference image gets the point.
   void judge_agreement(Case& own, const std::vector<Case*>& cases) {
     if (!own.rmse) return;
     own.score.agreed = true;

@@ -82,7 +82,7 @@ class Screen {
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(
         "Drag an image to turn the camera. Use the mouse wheel to move closer. Hold R to show the "
-        "reference image. Right-click an image for the commands about a pixel.");
+        "reference image. Right-click a pixel for commands that reproduce or explain it.");
     if (!copied_.empty()) {
       ImGui::Spacing();
       ImGui::TextUnformatted(("Copied: " + core::printable(copied_)).c_str());
@@ -114,8 +114,8 @@ class Loop {
       window_.begin_frame();
       screen_.draw();
       --frames_due_;
-      // Only the last of the due frames is captured, because everything then has its final
-      // position.
+      // Captures only the last of the due frames, because everything has its final position only
+      // then.
       const auto picture = window_.end_frame(capture && frames_due_ == 0);
       if (!picture) continue;
       return core::write_file(core::encode_png(*picture), session_.request().screenshot);
@@ -185,7 +185,7 @@ int main(int argc, char** argv) {
     std::fputs(("triptych: " + triptych::core::printable(error.what()) + "\n").c_str(), stderr);
   }
   if (std::fflush(stdout) != 0) code = triptych::core::ExitCode::usage;
-  // The process exits without destroying objects. A reference image that is being rendered cannot
-  // be cancelled, and its thread must not use destroyed objects.
+  // Exits without destroying objects. A thread may still be rendering a reference image, which
+  // cannot be cancelled, and this thread must not use destroyed objects.
   std::_Exit(static_cast<int>(code));
 }

@@ -89,7 +89,7 @@ void draw_numbers(const Session& session, std::size_t index) {
     row(name, colours::quiet, grouped(value), "counted by the driver");
   }
   for (const auto& [name, value] : record.memory) {
-    row(name, colours::quiet, grouped(value) + " B", "memory on the device");
+    row(name, colours::quiet, grouped(value) + " B", "memory allocated on the device");
   }
   ImGui::EndTable();
 }

@@ -23,7 +23,7 @@ class Panels {
   // its reference image.
   void draw(Session& session, bool reference);
 
-  // Draws the legend for the colours of the lower images.
+  // Draws the legend for the colours of the difference images.
   void draw_legend(float width);
 
   // The rectangle of a column's image, in window pixels.

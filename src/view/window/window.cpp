@@ -31,8 +31,8 @@ void keep_reason(int /*code*/, const char* text) {
   std::string reason = std::exchange(last_reason(), {});
   glfwTerminate();
   throw core::IoError(fmt::format(
-      "cannot open the window: {}{}{}; view needs a display, for example one from xvfb-run", what,
-      reason.empty() ? "" : ": ", reason));
+      "cannot open the window: {}{}{}; `triptych view` needs a display, such as one from xvfb-run",
+      what, reason.empty() ? "" : ": ", reason));
 }
 
 // Threads may call wake() even after the window has been closed.

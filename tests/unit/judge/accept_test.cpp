@@ -318,7 +318,7 @@ TEST_F(AcceptTest, DamagedBaselinesAreNotExtended) {
     FAIL() << "no exception was thrown";
   } catch (const core::InputError& error) {
     EXPECT_THAT(error.what(),
-                HasSubstr("was changed after it was accepted: restore it from version control"));
+                HasSubstr("was changed after it was accepted; restore the baselines from "));
   }
   EXPECT_EQ(text_of(file), "<<<<<<< ours\n");
   EXPECT_EQ(read(baseline("counters.json"))[plain_]["samples"]["opencl:pocl"], 1000000);

@@ -242,11 +242,11 @@ TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
   // No other file contains this information, so the history contains its hash.
   for (const char* name : {"plan_hash", "checks"}) {
     EXPECT_THAT(changed([&](core::Json& json) { json[name] = "memory"; }),
-                HasSubstr("is not the one that was accepted last"))
+                HasSubstr("is not the most recently accepted manifest"))
         << name;
   }
   EXPECT_THAT(changed([](core::Json& json) { json["machines"] = core::Json::array(); }),
-              HasSubstr("is not the one that was accepted last"));
+              HasSubstr("is not the most recently accepted manifest"));
   EXPECT_EQ(changed([](core::Json&) {}), "");
 }
 
