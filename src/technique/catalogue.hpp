@@ -26,11 +26,11 @@ struct Technique {
   Work work = Work::compute;
   Method method = Method::rays;
   Vertices vertices = Vertices::none;
-  bool asks_corners = false;      // sprites have as many corners as the factor `corners` says
+  bool asks_corners = false;      // the factor `corners` sets the number of a sprite's corners
   bool fetches_by_index = false;  // its shaders read all spheres from one storage buffer
   bool instanced = false;         // draws one instance per sphere
   bool parts = false;             // can draw a volume in parts if it does not fit into memory
-  bool picture = true;            // produces an image of the scene; false for a bound on speed
+  bool picture = true;            // draws an image of the scene; false for speed_of_light
   std::vector<std::string> apis;  // the APIs on which the technique exists
   std::string summary;
 };

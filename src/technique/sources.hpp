@@ -4,7 +4,7 @@
 
 namespace triptych::technique {
 
-// Returns the source code of a shared device source by its file name, such as "raycast.glsl" or
+// Returns the source code of a file shared by the backends, such as "raycast.glsl" or
 // "volume_math.h", for APIs that compile at run time. Throws std::out_of_range if the name is
 // unknown.
 [[nodiscard]] std::string_view source(std::string_view name);

@@ -78,15 +78,15 @@ TEST(Precision, IsRejectedIfAnyStepIsInSinglePrecision) {
     };
     EXPECT_NE(reason([](measure::Work& work, VolumeWork&) {
                 work.technique = "speed_of_light";
-              }).find("precision fp32"),
+              }).find("precision=fp32"),
               std::string::npos);
     EXPECT_NE(reason([](measure::Work&, VolumeWork& volume) {
                 volume.scene.quadrature = scene::Quadrature::preintegrated;
-              }).find("quadrature midpoint"),
+              }).find("quadrature=midpoint"),
               std::string::npos);
     EXPECT_NE(reason([](measure::Work&, VolumeWork& volume) {
                 volume.options.sampler = technique::Sampler::hardware;
-              }).find("sampler manual"),
+              }).find("sampler=manual"),
               std::string::npos);
   });
 }

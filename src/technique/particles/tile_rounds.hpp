@@ -26,7 +26,7 @@ struct TileRounds {
   std::vector<TileRound> rounds;  // together contain all cells, front to back
   std::uint64_t entries = 0;      // largest number of (tile, large sphere) pairs in a round
   bool small = false;             // whether there may be small spheres
-  bool at_once = false;      // one round with little overdraw, which the last pass draws
+  bool at_once = false;           // one round with little overdraw, which the last pass draws
   std::uint64_t passes = 0;  // maximum loop iterations per invocation of tiles_bin or tiles_fill
 
   // Returns whether large spheres are drawn by passes before the last one.

@@ -1,9 +1,10 @@
-// Maths for boxes around spheres, and for the curve that orders the spheres, in the common subset of C++, GLSL and
-// OpenCL C, like sphere_math.h. It uses only sums, products and comparisons, each of which is rounded once, so that
-// every API builds the same hierarchy.
+// Maths for the boxes around spheres, and for the Hilbert curve along which spheres are sorted. Like sphere_math.h,
+// it is written in the common subset of C++, GLSL and OpenCL C. It uses only sums, products and comparisons. Each sum
+// and product is rounded exactly once, so every API builds the same hierarchy.
 
-// The lower and upper bounds of a sphere along one axis in world space. The two roundings of c ± r have a total
-// error of less than 2u·(|c| + r), with u = 2⁻²⁴. The box extends 4u·(|c| + r) beyond the sphere on each side.
+// These functions return the lower and upper bounds of a sphere along one axis in world space. The two roundings of c
+// ± r have a total error of less than 2u·(|c| + r), with u = 2⁻²⁴. The box extends 4u·(|c| + r) beyond the sphere on
+// each side.
 TRI_FN float tri_box_low(float c, float r) {
   TRI_PRECISE float size = (c < 0.0f ? 0.0f - c : c) + r;
   TRI_PRECISE float low = (c - r) - 2.4e-7f * size;
@@ -15,7 +16,7 @@ TRI_FN float tri_box_high(float c, float r) {
   return high;
 }
 
-// The largest value of n·p over all points p of a box.
+// Returns the largest value of n·p over all points p of a box.
 TRI_FN float tri_box_highest(float nx, float ny, float nz, float lx, float ly, float lz, float hx, float hy, float hz) {
   TRI_PRECISE float ax = nx * lx;
   TRI_PRECISE float bx = nx * hx;
@@ -27,7 +28,7 @@ TRI_FN float tri_box_highest(float nx, float ny, float nz, float lx, float ly, f
   return highest;
 }
 
-// Returns Σ max(|l|, |h|). No point of the box is farther away from the origin than this.
+// Returns Σ max(|l|, |h|) over the three axes. No point of the box is farther from the origin than this.
 TRI_FN float tri_box_reach(float lx, float ly, float lz, float hx, float hy, float hz) {
   float x = 0.0f - lx > hx ? 0.0f - lx : hx;
   float y = 0.0f - ly > hy ? 0.0f - ly : hy;
@@ -37,7 +38,7 @@ TRI_FN float tri_box_reach(float lx, float ly, float lz, float hx, float hy, flo
 }
 
 // Returns the index, from 0 to 1023, of the grid cell that contains a coordinate. The grid begins at `low` and has
-// `scale` cells per unit.
+// `scale` cells per unit length.
 TRI_FN int tri_grid_cell(float c, float low, float scale) {
   TRI_PRECISE float at = (c - low) * scale;
   return TRI_INT(at > 0.0f ? (at < 1023.0f ? at : 1023.0f) : 0.0f);
@@ -51,9 +52,9 @@ TRI_FN int tri_every_third_bit(int x) {
   return (spread | (spread << 2)) & 0x09249249;
 }
 
-// Returns the position of a cell of the 1024³ grid along Hilbert's curve (Skilling, Programming the Hilbert curve,
-// 2004). Successive cells on this curve are neighbours, so every run of cells has a small box. Along Morton's
-// curve, the cells of a run can be far apart.
+// Returns the position of a cell of the 1024³ grid along the Hilbert curve (Skilling, Programming the Hilbert curve,
+// 2004). Consecutive cells on this curve are neighbours, so every run of cells has a small bounding box. On a Morton
+// curve, consecutive cells can be far apart.
 TRI_FN int tri_hilbert_place(int x, int y, int z) {
   int a = x;
   int b = y;

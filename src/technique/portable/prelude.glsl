@@ -1,5 +1,5 @@
-// Makes volume_math.h valid GLSL. The prelude for OpenCL C is in backends/opencl/, and the one for C++ is
-// prelude.hpp.
+// Defines the macros that make volume_math.h valid GLSL. The prelude for OpenCL C is in backends/opencl/,
+// and the one for C++ is prelude.hpp.
 #ifndef TRI_PRECISION
 #define TRI_PRECISION 32
 #endif
@@ -32,5 +32,6 @@
 #define TRI_MAKE_REAL2(x, y) real2(x, y)
 // Compilers evaluate this constant expression to the nearest double.
 #define TRI_RATIO(a, b) (real(a) / real(b))
-// `precise` becomes the SPIR-V decoration NoContraction: a·b+c is rounded twice, as on every other backend.
+// `precise` becomes the SPIR-V decoration NoContraction, so a·b+c is rounded twice, as on every other
+// backend.
 #define TRI_PRECISE precise

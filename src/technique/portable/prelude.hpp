@@ -1,6 +1,6 @@
 #pragma once
-// The definitions that make volume_math.h valid C++. The host uses its functions, and tests give
-// them the same inputs as in the shading languages.
+// Defines the macros that make volume_math.h valid C++. The host calls its functions, and tests
+// compare their results with those of the shading languages for the same inputs.
 
 #include <bit>
 #include <cmath>

@@ -1,15 +1,15 @@
 // Sphere maths in the common subset of C++, GLSL and OpenCL C, like volume_math.h. All coordinates are in camera
-// space: x to the right, y up, z the distance along the view axis. (sx, sy) is the point on the image plane z = 1
-// that a ray passes through, so its direction is (sx, sy, 1).
+// space: x to the right, y up, z the distance along the view axis. A ray passes through the point (sx, sy) of the
+// image plane z = 1, so its direction is (sx, sy, 1).
 
-// ---- From world to camera space -------------------------------------------------------------------
-// The camera coordinate of a centre is axis·(P − eye). In plain floats, it has the rounding error of the *largest*
-// product, which for a narrow field of view is more than a pixel. Here, the rounding errors of all products and
-// sums are computed as well and added at the end (Dekker 1971; Ogita, Rump, Oishi 2005: Dot2). The result is the
-// same as if it had been computed in twice the precision and then rounded. Axis and eye consist of two floats each:
-// the nearest float, and the rest.
+// ---- From world to camera space ------------------------------------------------------------------- The camera
+// coordinate of a centre is axis·(P − eye). If it were computed with plain float arithmetic, it would have the
+// rounding error of the *largest* product, which exceeds a pixel if the field of view is narrow. Here, the rounding
+// errors of all products and sums are also computed, and added at the end (Dekker 1971; Ogita, Rump, Oishi 2005:
+// Dot2). The result is as accurate as if it had been computed in twice the precision and then rounded. Each
+// coordinate of the axis and the eye consists of two floats: the nearest float and the remainder.
 
-// The rounding error of sum = a + b.
+// Returns the rounding error of sum = a + b.
 TRI_FN float tri_sum_error(float a, float b, float sum) {
   TRI_PRECISE float part = sum - a;
   TRI_PRECISE float whole = sum - part;
@@ -25,7 +25,7 @@ TRI_FN float tri_upper_half(float a) {
   return upper;
 }
 
-// The rounding error of product = a·b.
+// Returns the rounding error of product = a·b.
 TRI_FN float tri_product_error(float a, float b, float product) {
   TRI_PRECISE float a_hi = tri_upper_half(a);
   TRI_PRECISE float b_hi = tri_upper_half(b);
@@ -59,9 +59,9 @@ TRI_FN float tri_along_axis(float px, float py, float pz, float ex, float ey, fl
   return result;
 }
 
-// ---- Ray and sphere -------------------------------------------------------------------------------
-// (c, r) is intersected with the ray in direction d = (sx, sy, 1). With q = |d|² and m = c × d, the ray passes the
-// centre at the distance |m|/√q. The cross product keeps the precision that b² − |c|² + r² would lose, because the
+// ---- Ray and sphere ------------------------------------------------------------------------------- (c, r) is
+// intersected with the ray in direction d = (sx, sy, 1). With q = |d|² and m = c × d, the distance between the ray
+// and the centre is |m|/√q. The cross product preserves the precision that b² − |c|² + r² would lose, because the
 // terms of m are no larger than distances from the centre of the image.
 
 TRI_FN float tri_ray_square(float sx, float sy) {
@@ -105,15 +105,16 @@ TRI_FN float tri_depth(float near, float distance) {
   return depth < 1.0f ? depth : 1.0f;
 }
 
-// ---- Where a sphere lies on the image plane -------------------------------------------------------
-// Exact bounds of a sphere along one axis of the image plane (Mara and McGuire 2013). The silhouette is between the
-// two tangents in the plane of that axis and the view axis. Their angles are φ ± β with φ = atan2(a, z) and sin
-// β = r/√(a² + z²). The part within (−90°, 90°) is in front of the eye. Returns (low, high), where ±3e38 means no
-// bound, and low > high means that nothing is in front. The arithmetic is `precise`, because one kernel counts the
-// entries that another kernel writes.
+// ---- Where a sphere lies on the image plane ------------------------------------------------------- Returns the
+// exact bounds (low, high) of a sphere along one axis of the image plane (Mara and McGuire 2013). The silhouette is
+// between the two tangents in the plane of that axis and the view axis. Their angles are φ ± β with φ = atan2(a, z)
+// and sin β = r/√(a² + z²). The part within (−90°, 90°) is in front of the eye. A bound of ±3e38 means that the
+// sphere is unbounded in this direction, and low > high means that no part of it is in front of the eye. The
+// arithmetic is `precise`, so that the kernel that counts tile entries and the kernel that writes them compute the
+// same bounds.
 TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
   const float huge = 3.0e38f;
-  float side = a < 0.0f ? 0.0f - a : a;  // by symmetry, the axis may point to the sphere's side
+  float side = a < 0.0f ? 0.0f - a : a;  // by symmetry, the sphere may be assumed at a ≥ 0
   TRI_PRECISE float k2 = side * side + z * z - r * r;
   TRI_PRECISE float low = 0.0f - huge;
   TRI_PRECISE float high = huge;
@@ -125,7 +126,8 @@ TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
     high = high_z > 0.0f ? (side * k + z * r) / high_z : huge;
     if (low_z <= 0.0f) high = 0.0f - huge;
   }
-  // The components are chosen separately, because a choice between vectors prevents loops from being vectorised.
+  // The components are selected separately, because selecting between vectors would prevent the vectorisation of
+  // loops.
   float first = a < 0.0f ? 0.0f - high : low;
   float second = a < 0.0f ? 0.0f - low : high;
   return TRI_MAKE_FLOAT2(first, second);
@@ -137,10 +139,10 @@ TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
 // does not exist. The quad is then the whole viewport, which makes this technique expensive for close spheres.
 TRI_FN int tri_eye_plane(float z, float r) { return z + r <= 0.0f ? 0 - 1 : (z - r > 0.001f * r ? 0 : 1); }
 
-// ---- Sprites --------------------------------------------------------------------------------------
-// A ray-aligned sprite is perpendicular to v = c/|c|. Its distance is tri_sprite_plane, just in front of the
-// sphere. Therefore every visible point of the sphere is behind the sprite, as conservative depth requires. In the
-// plane of the sprite, the silhouette is a circle with the radius tri_silhouette_on_plane ≤ r.
+// ---- Sprites -------------------------------------------------------------------------------------- A ray-aligned
+// sprite is perpendicular to v = c/|c|. Its distance from the eye is tri_sprite_plane, so it lies just in front of
+// the sphere. Every visible point of the sphere is therefore behind the sprite, as required for conservative depth.
+// In the plane of the sprite, the silhouette is a circle with the radius tri_silhouette_on_plane ≤ r.
 
 // Returns 1 if the eye is inside the sphere, or so close to it that the silhouette covers (almost) half of all
 // directions. The sprite is then the whole viewport. d2 = |c|².
@@ -153,15 +155,15 @@ TRI_FN float tri_silhouette_on_plane(float d, float r, float plane) {
   return plane * r / TRI_SQRT((d - r) * (d + r));
 }
 
-// Returns half the edge length of a sprite, with a margin of 1/64 pixel. Vertices move by less than that when they
-// are snapped to the rasterizer's grid (1/256 pixel). `pixel` is the size of a pixel on the image plane. A
-// `scale` < 1 is an injected fault that makes the sprite smaller than the silhouette.
+// Returns half the edge length of a sprite, with a margin of 1/64 pixel. Vertices move by less than this margin
+// when they are snapped to the rasterizer's grid (1/256 pixel). `pixel` is the size of a pixel on the image plane.
+// A `scale` < 1 is an injected fault that makes the sprite smaller than the silhouette.
 TRI_FN float tri_sprite_radius(float d, float r, float plane, float pixel, float scale) {
   return scale < 1.0f ? scale * tri_silhouette_on_plane(d, r, plane) : r + 0.015625f * pixel * d;
 }
 
 // Returns the radius of a sphere's silhouette in pixels: r divided by the size of a pixel at the sphere's distance.
-// The number of corners depends on it.
+// tri_adaptive_corners chooses the number of corners by this radius.
 TRI_FN float tri_projected_radius(float d, float r, float pixel) { return r / (d * pixel); }
 
 // Returns the number of corners, 4…16, that costs the least. A polygon with N corners around a disc of radius R
@@ -177,9 +179,9 @@ TRI_FN int tri_adaptive_corners(float projected_radius) {
   return corners;
 }
 
-// Returns the cosine of an angle in turns, |turns| ≤ 1, with an error below 1e-6. It is computed by its series in
-// the nearest quarter of a turn, because the built-in cosine is guaranteed to be accurate only to 2⁻¹¹ in some
-// languages, and not at all in others.
+// Returns the cosine of an angle in turns, |turns| ≤ 1, with an error below 1e-6. The angle is reduced to a quarter
+// of a turn, for which a power series is evaluated. The built-in cosine is not used, because some languages
+// guarantee an accuracy of only 2⁻¹¹ for it, and others none.
 TRI_FN float tri_cosine_turns(float turns) {
   float a = turns < 0.0f ? 0.0f - turns : turns;  // the cosine is even
   float b = a > 0.5f ? 1.0f - a : a;              // symmetric about half a turn, so b is in 0…½

@@ -4,7 +4,7 @@
 // Float literals such as 256.0f are exact in both precisions.
 
 // Returns the parameter range [near, far] in which o + t·d is in [0, extent]; near > far if there is no such t. It
-// never divides by a direction of ±0: such a ray is between the two planes for all t or for none.
+// never divides by d = ±0, because such a ray is between the two planes for all t or for none.
 TRI_FN real2 tri_slab(real o, real d, real extent) {
   real huge = 3.0e38f;
   if (d == 0.0f) {
@@ -15,12 +15,12 @@ TRI_FN real2 tri_slab(real o, real d, real extent) {
   return (a < b) ? TRI_MAKE_REAL2(a, b) : TRI_MAKE_REAL2(b, a);
 }
 
-// Returns the column of the image that column x of a launch draws. Columns before `again` draw themselves. The
-// columns from `again` on inject a slowdown: they draw 1/stride of each row of tiles again. They repeat whole tiles
-// of 16×8 pixels, because rays that are far apart take different paths and would cost more than their share. The
-// repeated tiles are in the same row, because a device that distributes rows among its processors in advance must
-// give each processor its share. From row to row, they are shifted by the golden ratio. The result may be outside
-// the image; nothing is drawn there.
+// Returns the image column that column x of a launch draws. Each column before `again` draws the image column with
+// the same index. The columns from `again` on inject a slowdown by drawing 1/stride of each row of tiles a second
+// time. They repeat whole tiles of 16×8 pixels, because rays that are far apart take different paths and would cost
+// more than their share. A tile is repeated in its own row, so that a device that statically distributes rows among
+// its processors gives each processor its share of the extra work. From one row of tiles to the next, the repeated
+// tiles are shifted by the golden ratio. The result may be outside the image, where nothing is drawn.
 TRI_FN int tri_drawn_column(int x, int y, int again, int stride) {
   if (x < again) return x;
   int extra = x - again;
@@ -28,38 +28,38 @@ TRI_FN int tri_drawn_column(int x, int y, int again, int stride) {
   return (extra / 16 * stride + stagger) * 16 + extra % 16;
 }
 
-// Returns the index in the output of the pixel (x, y) of a launch with `columns` columns. The image comes first, in
-// rows of `width` pixels. Everything that is drawn again follows, because no pixel may be written twice.
+// Returns the index in the output buffer of pixel (x, y) of a launch with `columns` columns. The image comes first,
+// in rows of `width` pixels. The repeated pixels follow the image, because no element may be written twice.
 TRI_FN int tri_output_place(int x, int y, int width, int height, int again, int columns) {
   if (x < again) return y * width + x;
   return width * height + y * (columns - again) + (x - again);
 }
 
-// Returns the number of samples of a ray that is `steps` steps long: ⌈steps⌉, because the last step may be partial.
-// Returns 0 for an empty or invalid range.
+// Returns the number of samples along a ray that is `steps` steps long, which is ⌈steps⌉ because the last step may
+// be partial. Returns 0 for an empty or invalid range.
 TRI_FN int tri_sample_count(real steps) {
   if (!(steps > 0.0f)) return 0;
   return TRI_INT(TRI_CEIL(steps < 2.0e9f ? steps : TRI_TO_REAL(2.0e9f)));
 }
 
-// Returns the share of a whole step that the i-th sample covers, which is 1 except for the last sample.
+// Returns the share of a whole step that the i-th sample covers. It is 1 for all samples except the last.
 TRI_FN real tri_step_share(real steps, int i) {
   real left = steps - TRI_TO_REAL(i);
   return left < 1.0f ? (left > 0.0f ? left : TRI_TO_REAL(0)) : TRI_TO_REAL(1);
 }
 
-// Returns the position of a normalised value among the centres of the 256 entries, clamped to [0, 255]. NaN gives
-// 0.
+// Converts a normalised value to a position in the 256-entry table, in which entry k is centred at k. The position
+// is clamped to [0, 255]. NaN is converted to 0.
 TRI_FN real tri_table_position(real x) {
   real u = x * 256.0f - 0.5f;
   return u > 0.0f ? (u < 255.0f ? u : TRI_TO_REAL(255)) : TRI_TO_REAL(0);
 }
 
 #if TRI_PRECISION == 64
-// log2(1 − alpha), computed as in single precision below, with an error of 6u. Truncating the series after t¹⁹,
-// with |t| ≤ 3 − 2√2, has an error below t²⁰/(21·(1 − t²)) < 2.5e-17 = 0.3u. The remaining error consists of two
-// roundings in t, one in the last sum of the series, two in products, and half a rounding in the constant. The
-// roundings of the square are negligible, because they are multiplied by the square itself.
+// Returns log2(1 − alpha), computed as in the single-precision version below, with an error of 6u. For |t| ≤ 3 −
+// 2√2, truncating the series after t¹⁹ causes an error below t²⁰/(21·(1 − t²)) < 2.5e-17 = 0.3u. The remaining
+// error consists of two roundings in t, one in the last sum of the series, two in products, and half a rounding in
+// the constant. The roundings of t² are negligible, because they are multiplied by t² itself.
 TRI_FN real tri_log2_1m(real alpha) {
   real y = 1.0f - alpha;
   int high = TRI_HIGH_WORD(y);
@@ -74,10 +74,11 @@ TRI_FN real tri_log2_1m(real alpha) {
   return TRI_TO_REAL(e) + TRI_2_OVER_LN2 * t * p;
 }
 
-// 1 − 2^z, computed as in single precision below, with an error of 5u in addition to the error of z. Truncating the
-// series after x¹³, with x = (z − n)·ln 2 and |x| ≤ ½·ln 2, has an error below 1.1·x¹³/14! < 1.4e-17 = 0.2u. The
-// remaining error consists of one and a half roundings in x (half a rounding is in the constant), one in the
-// outermost sum, and one in its product with x. The roundings of nested sums are multiplied by at most x/2.
+// Returns 1 − 2^z, computed as in the single-precision version below, with an error of 5u in addition to the error
+// of z. With x = (z − n)·ln 2 and |x| ≤ ½·ln 2, truncating the series after x¹³ causes an error below 1.1·x¹³/14! <
+// 1.4e-17 = 0.2u. The remaining error consists of one and a half roundings in x (half a rounding is in the
+// constant), one in the outermost sum, and one in its product with x. The roundings of nested sums are multiplied
+// by at most x/2.
 TRI_FN real tri_1m_exp2(real z) {
   real c = z > -1022.0f ? z : TRI_TO_REAL(0 - 1022);
   real n = TRI_FLOOR(c + 0.5f);
@@ -92,10 +93,10 @@ TRI_FN real tri_1m_exp2(real z) {
 
 #else
 
-// log2(1 − alpha) for alpha in [0, 1), without cancellation for small alpha: log(m) = 2·atanh((m−1)/(m+1)) for m in
-// [√½, √2). As long as no exponent is split off, m − 1 is exactly −alpha. Truncating after t⁹ has a relative error
-// below 3e-10. The total error is below 5.2u with a correctly rounded division, as tested for every float. The 2.5
-// ulp that the languages allow for a division would add 4u.
+// Returns log2(1 − alpha) for alpha in [0, 1), without cancellation for small alpha. It uses log(m) =
+// 2·atanh((m−1)/(m+1)) for m in [√½, √2). If the exponent e is 0, m − 1 is exactly −alpha. Truncating the series
+// after t⁹ causes a relative error below 3e-10. With a correctly rounded division, the total error is below 5.2u,
+// as tested for every float. A division with an error of 2.5 ulp, which the languages allow, would add 4u.
 TRI_FN float tri_log2_1m(float alpha) {
   float y = 1.0f - alpha;
   int bits = TRI_AS_INT(y);
@@ -108,9 +109,9 @@ TRI_FN float tri_log2_1m(float alpha) {
   return TRI_TO_FLOAT(e) + t * p;
 }
 
-// 1 − 2^z for z ≤ 0, without cancellation for small |z|. With n = round(z), 2^z = 2^n·(1 + w) and
-// 1 − 2^z = (1 − 2^n) − 2^n·w, where w = 2^(z−n) − 1 is computed by a series to degree 7 (relative error below
-// 2e-9). The total error is below 2.3u, as tested for every float.
+// Returns 1 − 2^z for z ≤ 0, without cancellation for small |z|. With n = round(z), 2^z = 2^n·(1 + w) and 1 − 2^z =
+// (1 − 2^n) − 2^n·w, where w = 2^(z−n) − 1 is computed by a series to degree 7 (relative error below 2e-9). The
+// total error is below 2.3u, as tested for every float.
 TRI_FN float tri_1m_exp2(float z) {
   float c = z > -126.0f ? z : -126.0f;
   float n = TRI_FLOOR(c + 0.5f);
@@ -126,7 +127,7 @@ TRI_FN float tri_1m_exp2(float z) {
 // Returns the opacity of `steps` voxel lengths if one voxel length has the opacity alpha: 1 − (1 − alpha)^steps. It
 // is exact for alpha = 0 and alpha = 1 (steps > 0). The relative error in double precision is below 12u: 6u from
 // the logarithm, u from the product and 5u from the exponential. In single precision it is below 8u, because an
-// error of z is multiplied by κ(z) = |z|·ln 2·2^z/(1 − 2^z) ≤ 1, and the sum of 6.2u·κ(z) and the exponential's own
+// error in z is multiplied by κ(z) = |z|·ln 2·2^z/(1 − 2^z) ≤ 1, and the sum of 6.2u·κ(z) and the exponential's own
 // error at z is below 7.97u, as tested for every float z.
 TRI_FN real tri_opacity(real alpha, real steps) {
   if (!(alpha > 0.0f) || !(steps > 0.0f)) return TRI_TO_REAL(0);
@@ -134,10 +135,12 @@ TRI_FN real tri_opacity(real alpha, real steps) {
   return tri_1m_exp2(steps * tri_log2_1m(alpha));
 }
 
-// Returns 1 − (1 − alpha)^steps for a power of two, which `form` describes: k > 0 means steps = 2^(1−k), and k < 0
-// means steps = 2^−k. For any other `steps`, `form` is 0. alpha is in [0, 1], and the result is exact at both ends.
-// Square roots: with r_0 = 1 − alpha and r_i = √r_(i−1), 1 − r_n = alpha / ((1 + r_1)…(1 + r_n)). Nothing cancels;
-// each square root adds 1.5 roundings, and the division adds one. Squares: a → a·(2 − a) has two roundings.
+// Returns 1 − (1 − alpha)^steps. If `steps` is a power of two, `form` encodes it: form = k > 0 means steps =
+// 2^(1−k), and form = k < 0 means steps = 2^−k. For any other `steps`, `form` is 0. alpha is in [0, 1], and the
+// result is exact at both ends. For k > 1, square roots are used: with r_0 = 1 − alpha and r_i = √r_(i−1), the
+// result is 1 − r_n = alpha / ((1 + r_1)…(1 + r_n)), which involves no cancellation. Each square root adds 1.5
+// roundings, and the division adds one. For k < 0, a → a·(2 − a) is applied repeatedly, with two roundings each
+// time.
 TRI_FN real tri_opacity_by_form(real alpha, real steps, int form) {
   if (form == 0) return tri_opacity(alpha, steps);
   real root = 1.0f - alpha;

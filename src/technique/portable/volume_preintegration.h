@@ -1,19 +1,19 @@
-// Maths for quadrature preintegrated, in the common subset of C++, GLSL and OpenCL C. It uses volume_math.h.
+// Maths for quadrature=preintegrated, in the common subset of C++, GLSL and OpenCL C. It uses volume_math.h.
 //
-// A step is cut where the value passes an entry of the transfer function, into at most three pieces: the rest of
-// the first entry's cell, whole cells (whose integrals are in a table, preintegration.hpp), and a part of the last
-// entry's cell. For each piece, the optical depth D is known. Its colour is a function of y, the share of D that
-// has been passed. This function is represented by its first three coefficients in the Legendre polynomials on
-// [0, 1]: c(y) = a0 + a1·P1(y) + a2·P2(y). The light of the piece is then
+// In this file, a cell is the interval between two adjacent entries of the transfer function. A step is cut at
+// entries into at most three pieces: the remainder of the first cell, whole cells (whose integrals are in a table,
+// preintegration.hpp), and the beginning of the last cell. For each piece, the optical depth D is known. The colour
+// of the piece is a function of y, the share of D that the light has passed. It is represented by its first three
+// Legendre coefficients on [0, 1]: c(y) = a0 + a1·P1(y) + a2·P2(y). The light of the piece is then
 //  D·∫c(y)·e^(−Dy) dy = (1 − e^(−D))·(a0 − a1·L + a2·(1 − 3L/z)),   z = D/2,  L = coth z − 1/z,
 // because ∫Pn(y)·e^(−Dy) dy = (−1)ⁿ·e^(−z)·i_n(z), where i_n are the modified spherical Bessel functions.
 //
 // With three coefficients, the light of a piece of optical depth D has an error of R·D⁴/635, where R is the range
-// of the colour. This is accurate enough for a depth of up to 1, but not for much larger depths. Whole cells whose
-// depth (in powers of two) exceeds TRI_DEEPEST_CHUNK are therefore processed from front to back, in chunks that are
-// not deeper than that, or one by one, because colours are linear along one cell. When less than TRI_LEAST_LEFT of
-// the step's light is left, the rest is one chunk. This code exists only in single precision, because its tables
-// contain floats.
+// of the colour. This is accurate enough for a depth of up to 1, but not for much larger depths. If the whole cells
+// of a step are together deeper than TRI_DEEPEST_CHUNK (in powers of two), they are therefore processed from front
+// to back, in chunks that do not exceed this depth. A single cell may be deeper, because colours are linear along
+// it. Once less than TRI_LEAST_LEFT of the step's light is left, all remaining cells form one chunk. This code
+// exists only in single precision, because its tables contain floats.
 #if TRI_PRECISION == 32
 
 #define TRI_DEEPEST_CHUNK 0.5f
@@ -32,8 +32,8 @@ TRI_FN float tri_mean_log2_1m(float a, float b) {
   return tri_log2_1m(middle) - sum;
 }
 
-// Returns (τb − τa)/(2·mean τ), limited to [−1, 1], while alpha changes linearly from a to b within one cell: the
-// relative change of the extinction τ around its mean. mean_log2 is the result of tri_mean_log2_1m.
+// Returns (τb − τa)/(2·mean τ), limited to [−1, 1], for an alpha that changes linearly from a to b within one cell.
+// This is the relative change of the extinction τ around its mean. mean_log2 is the result of tri_mean_log2_1m.
 TRI_FN float tri_tilt(float a, float b, float mean_log2) {
   float twice_mean = -1.3862943611f * mean_log2;
   float rise = (b - a) / (1.0f - 0.5f * (a + b));

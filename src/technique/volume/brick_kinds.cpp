@@ -67,7 +67,7 @@ class FunctionExtremes {
   [[nodiscard]] const Extremes& overall() const { return levels_.back()[0]; }
 
  private:
-  // Level n contains, for each entry, the extremes of 2ⁿ successive entries, starting at this one.
+  // Level n contains, for each entry, the extremes over the 2ⁿ entries that start at this entry.
   std::array<std::array<Extremes, function_entries>, std::bit_width(function_entries)> levels_{};
 
   [[nodiscard]] static double position(double value) {
@@ -139,9 +139,9 @@ class Merging {
   FunctionExtremes function_;
   scene::Shading light_;
   double offset_;
-  double opaque_share_;      // K of the derivation
-  double thin_share_ = 0;    // Y of the derivation
-  double colour_range_ = 1;  // R of the derivation
+  double opaque_share_;      // K in the derivation
+  double thin_share_ = 0;    // Y in the derivation
+  double colour_range_ = 1;  // R in the derivation
   double steepest_ = 0;      // largest cosine, divided by the range of values
 
   // Returns a colour after shading with this cosine. A larger cosine gives a brighter colour.
@@ -159,7 +159,7 @@ std::vector<std::int32_t> brick_kinds(const BrickRanges& ranges, const scene::Vo
   const auto visible = brick_visibility(ranges, scene.transfer_function);
   const Merging may_merge(scene, adapt);
   std::vector<std::int32_t> kinds(visible.size());
-  // Assigns a number to each value that fills homogeneous bricks.
+  // The BrickKind number of each value that fills a homogeneous brick.
   std::unordered_map<float, std::int32_t> numbers;
   for (std::size_t b = 0; b < kinds.size(); ++b) {
     const float lo = ranges.minimum[b];
@@ -186,15 +186,16 @@ std::optional<std::string> adapt_reason(std::string_view technique, const scene:
     return fmt::format("adapt merges samples, but {} always takes every sample", technique);
   }
   if (scene.quadrature != scene::Quadrature::midpoint) {
-    return "adapt works only with quadrature midpoint, because only that rule takes one sample "
-           "in the middle of each step";
+    return "adapt requires quadrature=midpoint, the only quadrature that takes one sample in the "
+           "middle of each step";
   }
   if (options.skip == Skip::none) {
-    return "adapt merges the samples in a brick, but skip=none uses no bricks";
+    return "adapt requires skip=bricks, because it merges samples in bricks and skip=none has "
+           "no bricks";
   }
   if (options.skip == Skip::distance) {
-    return "adapt needs skip=bricks, because the leaps of skip=distance cross several bricks with "
-           "different values";
+    return "adapt requires skip=bricks, because the leaps of skip=distance cross several bricks "
+           "with different values";
   }
   return std::nullopt;
 }

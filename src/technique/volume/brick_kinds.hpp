@@ -16,30 +16,32 @@ namespace triptych::technique {
 enum class BrickKind : std::int32_t {
   invisible = 0,  // the ray skips the brick
   sampled = 1,    // the ray takes the samples of the lattice
-  merged = 2,     // one sample in the middle of the chord, with the opacity of the whole chord
-  // This and all larger numbers are homogeneous bricks, with one number for each value. Successive
-  // bricks of a ray with the same number are merged into one sample.
+  merged = 2,     // the ray takes one sample in the middle of its chord, with the chord's opacity
+  // This and all larger numbers denote homogeneous bricks; each number stands for one value.
+  // Consecutive bricks along a ray with the same number are merged into one sample.
   homogeneous = 3
 };
 
-// Returns a BrickKind for each brick. The samples in visible bricks (brick_visibility) are merged
-// if merging all such bricks along a ray changes no channel of any pixel by more than `adapt`.
+// Returns a BrickKind for each brick. The samples in a visible brick (brick_visibility) are merged
+// if the brick satisfies a bound. The bound ensures that merging all such bricks along a ray
+// changes no channel of any pixel by more than `adapt`.
 //
-// Derivation. Let a ray cross merged bricks over the lengths l. A' is the opacity of such a
-// crossing, and T' is the transmittance in front of it. In a brick, a ≤ b are the extremes of
-// extinction per voxel, and w is the range of its colours. R is the range of all possible colours.
-// By the identity in reference/composite.hpp, one crossing changes the image by at most
+// Derivation. Let a ray cross merged bricks. For each crossing, l is its length, A' is its opacity,
+// and T' is the transmittance in front of it. a ≤ b are the smallest and the largest extinction per
+// voxel in the brick, and w is the range of its colours. R is the range of all possible colours. By
+// the identity in reference/composite.hpp, one crossing changes the image by at most
 //   T'·(R·|ΔA| + w·A'),   |ΔA| ≤ e^(−al) − e^(−bl) ≤ (b − a)·l·e^(−al).
 // Two facts bound the sum along the ray: Σ T'·A' ≤ 1, and Σ l ≤ L, the longest chord of the volume.
-// Therefore half of the budget, K = adapt/2, is assigned to opacity, and the other half,
-// Y = adapt/2L, to each voxel length. Because l·a·e^(−al) ≤ 1 − e^(−al) ≤ A' and A' ≤ b·l, a brick
-// that satisfies
+// Therefore one half of the permitted change, K = adapt/2, is distributed in proportion to opacity,
+// and the other half in proportion to length, with Y = adapt/2L for each voxel length. Because
+// l·a·e^(−al) ≤ 1 − e^(−al) ≤ A' and A' ≤ b·l, a brick that satisfies
 //   R·(b − a) + (w − k)·b ≤ (K − k)·a + Y,   k = min(w, K),
-// costs at most K·T'·A' + Y·l, and the sum of these costs is at most `adapt`. A homogeneous brick
-// costs nothing for any l, and neither do several successive bricks with the same value.
+// changes the image by at most K·T'·A' + Y·l, and the sum of these changes is at most `adapt`. A
+// homogeneous brick changes nothing for any l, and neither do several consecutive bricks with the
+// same value.
 //
 // The derivation compares images of the same device with and without merging. The values that the
-// device finds in a brick are within the brick's range, widened by the rounding of its
+// device interpolates in a brick are within the brick's range, widened by the rounding of its
 // interpolation (16·2⁻²⁴ of the largest value; no rounding between equal voxels). `ranges` are the
 // ranges for brick_layout(scene, Skip::bricks, adapt).
 //
@@ -48,7 +50,8 @@ enum class BrickKind : std::int32_t {
 [[nodiscard]] std::vector<std::int32_t> brick_kinds(const BrickRanges& ranges,
                                                     const scene::VolumeScene& scene, double adapt);
 
-// Returns why the technique cannot merge samples in this scene, or nullopt if it can or need not.
+// Returns why the technique cannot merge samples in this scene, or nullopt if it can or if `adapt`
+// is 0.
 [[nodiscard]] std::optional<std::string> adapt_reason(std::string_view technique,
                                                       const scene::VolumeScene& scene,
                                                       const RaycastOptions& options);

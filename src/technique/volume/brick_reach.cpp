@@ -53,7 +53,7 @@ class ReachGrid {
 }  // namespace
 
 // These are the two passes of a chamfer distance transform (Rosenfeld & Pfaltz 1966), which is
-// exact for this kind of distance.
+// exact for Chebyshev distances.
 std::vector<std::int32_t> brick_reach(const std::array<int, 3>& counts,
                                       std::span<const std::uint32_t> visible) {
   ReachGrid grid(counts, visible);

@@ -10,9 +10,10 @@ namespace triptych::technique {
 
 // Returns a signed distance, in bricks, for each brick (x fastest). For a visible brick, it is the
 // distance to the nearest invisible brick, as a positive number. For an invisible brick, it is the
-// distance to the nearest visible brick, as a negative number. A distance is the largest of the
-// distances along the three axes. If all bricks are of the same kind, it is the grid's longest
-// edge. `visible` is the result of technique::brick_visibility.
+// distance to the nearest visible brick, as a negative number. Distances are Chebyshev distances,
+// that is, the maximum of the distances along the three axes. If all bricks are visible or all are
+// invisible, the distance is the length of the grid's longest edge. `visible` is the result of
+// technique::brick_visibility.
 [[nodiscard]] std::vector<std::int32_t> brick_reach(const std::array<int, 3>& counts,
                                                     std::span<const std::uint32_t> visible);
 

@@ -92,8 +92,8 @@ void visit_bricks(const scene::VoxelGrid& grid, const BrickLayout& layout, Visit
   }
 }
 
-// Finds out whether a transfer function gives any opacity to a range of values. Each query takes
-// O(1), because it uses a prefix sum.
+// Determines whether a transfer function assigns any opacity to a range of values. A prefix sum
+// makes each query O(1).
 class OpaqueRanges {
  public:
   explicit OpaqueRanges(const scene::TransferFunction& function) {
@@ -102,7 +102,8 @@ class OpaqueRanges {
     }
   }
 
-  // Whether any value in the range, widened by one table entry on each side, has any opacity.
+  // Returns whether any value in the range, widened by one table entry on each side, has any
+  // opacity.
   [[nodiscard]] bool touches(const Range& range) const {
     const std::size_t first = entry(range.minimum, -1);
     const std::size_t last = entry(range.maximum, 2);

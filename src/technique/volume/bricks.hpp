@@ -1,5 +1,6 @@
 #pragma once
-// Bricks, which are used to skip empty space. Preparing them is not part of any timing.
+// Divides volumes into bricks, which are used to skip empty space. Bricks are prepared outside all
+// timed code.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +12,7 @@
 
 namespace triptych::technique {
 
-// The division of a volume into bricks, in voxels.
+// How a volume is divided into bricks. All lengths are in voxels.
 struct BrickLayout {
   int edge = 8;
   int border = 1;  // voxels beyond the brick that its samples may read
@@ -22,7 +23,7 @@ struct BrickLayout {
   bool operator==(const BrickLayout&) const = default;
 };
 
-// Returns the layout with which skipping does not change the image. s is the step in voxels.
+// Returns a layout for which skipping does not change the image. s is the step in voxels.
 //
 //   - Skip::bricks. A midpoint sample inside a brick reads at most one voxel beyond the brick's
 //     faces. This includes rounding of up to half a voxel. A preintegrated step whose middle is
@@ -55,15 +56,16 @@ struct BrickRanges {
 };
 [[nodiscard]] BrickRanges brick_ranges(const scene::VoxelGrid& grid, const BrickLayout& layout);
 
-// Returns 1 for each brick if the transfer function gives any opacity to a value in the brick's
-// range, widened by one table entry on each side, and 0 if every sample in the brick is completely
-// transparent. A prefix sum over the table makes this O(1) for each brick. For a new transfer
-// function, only this function has to be called again.
+// Returns one number for each brick: 1 if the transfer function assigns any opacity to a value in
+// the brick's range, widened by one table entry on each side, or 0 if every sample in the brick is
+// completely transparent. A prefix sum over the table makes this O(1) for each brick. If only the
+// transfer function changes, only this function has to be called again.
 [[nodiscard]] std::vector<std::uint32_t> brick_visibility(const BrickRanges& ranges,
                                                           const scene::TransferFunction& function);
 
 // Returns whether brick_visibility is 0 for any brick. The search stops at the first such brick. If
-// there is any empty space, this brick is found soon, because a corner of the box is usually empty.
+// the volume contains empty space, the search is usually short, because a corner of the box is
+// usually empty.
 [[nodiscard]] bool any_brick_is_empty(const scene::VolumeScene& scene, const BrickLayout& layout);
 
 }  // namespace triptych::technique

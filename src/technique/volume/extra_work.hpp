@@ -10,21 +10,21 @@ namespace triptych::technique {
 inline constexpr int extra_tile_width = 16;
 inline constexpr int extra_tile_height = 8;
 
-// The first column of a launch that draws something again: the argument `again` of tri_drawn_column
-// (portable/volume_math.h).
+// Returns the first column of a launch that draws a part of the image again, which is the argument
+// `again` of tri_drawn_column (portable/volume_math.h).
 [[nodiscard]] constexpr int again_from(int width) {
   return (width + extra_tile_width - 1) / extra_tile_width * extra_tile_width;
 }
 
-// The number of columns of a launch that draws an image of `width` columns and repeats 1/stride of
-// it. If stride is 0, nothing is repeated.
+// Returns the number of columns of a launch that draws an image of `width` columns and repeats
+// 1/stride of it. If stride is 0, nothing is repeated.
 [[nodiscard]] constexpr int drawn_columns(int width, int stride) {
   if (stride == 0) return width;
   const int tiles = again_from(width) / extra_tile_width;
   return again_from(width) + (tiles + stride - 1) / stride * extra_tile_width;
 }
 
-// The number of pixels that a launch over drawn_columns × height writes (tri_output_place).
+// Returns the number of pixels that a launch of drawn_columns × height writes (tri_output_place).
 [[nodiscard]] constexpr long long drawn_pixels(int width, int height, int stride) {
   const long long again = stride == 0 ? 0 : drawn_columns(width, stride) - again_from(width);
   return (width + again) * height;

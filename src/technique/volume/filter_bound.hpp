@@ -7,13 +7,13 @@
 
 namespace triptych::technique {
 
-// The smallest precision that a filter's weights may have, in bits: the minimum of Vulkan's
-// subTexelPrecisionBits. OpenGL does not report the precision, but its conformance tests require at
-// least as many bits.
+// The minimum precision of a filter's weights, in bits. This is the minimum that Vulkan requires
+// for subTexelPrecisionBits. OpenGL does not report the precision, but its conformance tests
+// require at least as many bits.
 inline constexpr int least_weight_bits = 4;
 
-// Returns the largest error that a trilinear filter may have, relative to the difference between
-// the voxels.
+// Returns the maximum permitted error of a trilinear filter, relative to the difference between the
+// voxels.
 //
 //   - Weights. A filter rounds or truncates the position to one of 2^bits positions along each
 //     axis, so the position is off by less than one step along each of three axes. The value

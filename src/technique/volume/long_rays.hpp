@@ -9,31 +9,33 @@
 
 namespace triptych::technique {
 
-// The number of loop iterations that a ray may need with quadrature cells, and the limit of this
-// number. A ray crosses at most as many planes of voxels as all axes have together. It needs one
-// iteration for each cell and one for each piece of a cell; a kink or an extremum adds a piece.
-// Half of all iterations that drivers allow are reserved for cells with more pieces. `more` is the
-// number of loop iterations within a piece.
+// cell_passes() returns the number of loop iterations that a ray may need with quadrature=cells. It
+// must not exceed most_cell_passes. A ray crosses at most as many voxel planes as there are along
+// all three axes together. It needs one iteration for each cell and one for each piece of a cell;
+// each kink or extremum adds a piece. The limit is half the number of iterations that drivers
+// allow, because some cells have more pieces. `more` is the number of loop iterations within a
+// piece.
 inline constexpr std::int64_t most_cell_passes = 32'768;
 [[nodiscard]] inline std::int64_t cell_passes(const scene::VolumeScene& scene, int more) {
   const auto [nx, ny, nz] = scene.grid->size;
   return (std::int64_t{nx} + ny + nz) * (1 + std::int64_t{scene.parts_of_cell() + 1} * (1 + more));
 }
 
-// The largest number of samples of a ray.
+// Returns the maximum number of samples along a ray.
 [[nodiscard]] inline double most_samples(const scene::VolumeScene& scene) {
   const scene::Box box = scene.box();
   return glm::length(box.hi - box.lo) / scene.step_world();
 }
 
 // Returns whether rays may take so many samples that each iteration of the raycaster's loop must
-// take several of them (TRI_LONG_RAYS in raycast.glsl). The reason is that llvmpipe and lavapipe of
-// Mesa 22.3 allow an invocation 65,535 iterations of all its loops together, and then end the loops
+// take several of them (TRI_LONG_RAYS in raycast.glsl). The reason is that llvmpipe and lavapipe in
+// Mesa 22.3 limit each invocation to 65,535 iterations across all its loops, and then end the loops
 // without an error. A sample needs one iteration and, with shading, one more for each squaring of
 // the highlight. A step that may be too deep for one look-up needs another iteration to find its
 // chunk. Half of the allowed iterations are reserved for the loops over bricks. The code for long
-// rays is not always used, because it contains sixteen copies of a sample's code and compiles
-// slowly. With quadrature cells, only the loop of the highlight is unrolled (raycast_reason).
+// rays is used only if necessary, because it contains sixteen copies of a sample's code and
+// compiles slowly. With quadrature=cells, only the loop of the highlight is unrolled
+// (raycast_reason).
 [[nodiscard]] inline bool has_long_rays(const scene::VolumeScene& scene) {
   const int squarings = std::countr_zero(static_cast<unsigned>(scene.shading.exponent));
   if (scene.quadrature == scene::Quadrature::cells) {
@@ -45,10 +47,10 @@ inline constexpr std::int64_t most_cell_passes = 32'768;
   return most_samples(scene) * loops > most_passes;
 }
 
-// The reason for which shaders reject such rays if a volume is drawn in parts: their loop then
-// takes one sample per iteration.
+// The reason that is reported if a volume with such rays would have to be drawn in parts. This is
+// rejected because the loop then takes only one sample per iteration.
 inline constexpr std::string_view long_rays_in_parts =
-    "a ray through a volume in parts would need more samples than the number of loop iterations "
-    "that some drivers allow: use a longer step";
+    "drawing this volume in parts would need one loop iteration per sample, and rays have more "
+    "samples than the number of iterations that some drivers allow; use a longer step";
 
 }  // namespace triptych::technique

@@ -15,13 +15,13 @@ std::array<std::uint64_t, 3> cells_of(const std::array<int, 3>& size) {
   return cells;
 }
 
-// The number of voxel layers in a texel.
+// Returns the number of voxel layers in a texel.
 std::size_t depth_of(scene::VoxelFormat format) {
   return format == scene::VoxelFormat::f32 ? 1 : 2;
 }
 
-// The indices of the voxels before and after a face between voxels along an axis, clamped to the
-// volume.
+// These functions return the index of the voxel before or after a face between voxels along an
+// axis, clamped to the volume.
 std::size_t before(std::size_t face, int voxels) {
   return std::min(face == 0 ? 0 : face - 1, static_cast<std::size_t>(voxels) - 1);
 }
@@ -29,9 +29,9 @@ std::size_t after(std::size_t face, int voxels) {
   return std::min(face, static_cast<std::size_t>(voxels) - 1);
 }
 
-// Writes all texels from index `texel` on, one row of cells after the other. The number of bytes of
-// a voxel is a template parameter, because memcpy then has a constant size and is inlined;
-// otherwise each texel would need eight calls.
+// Fills `out` with the texels from index `texel` on, one row of cells after the other. The size of
+// a voxel is a template parameter, so that memcpy has a constant size and is inlined; otherwise,
+// each texel would need eight calls.
 template <std::size_t voxel_bytes, std::size_t layers>
 void fill_rows(const scene::VoxelGrid& grid, std::size_t texel, std::span<std::byte> out) {
   const auto cells = cells_of(grid.size);
@@ -97,7 +97,7 @@ std::optional<std::string> packed_reason(std::uint64_t cells, const RaycastBuffe
   constexpr std::uint64_t word = 4;
   const std::uint64_t needed = std::max({cells, buffers.bricks / word, buffers.table / (4 * word)});
   if (needed <= most.texels) return std::nullopt;
-  return fmt::format("sampler packed needs {} texels in one buffer, but {} is {}", needed,
+  return fmt::format("sampler=packed needs {} texels in one buffer, but {} is {}", needed,
                      most.name, most.texels);
 }
 

@@ -31,13 +31,15 @@ namespace triptych::technique {
 [[nodiscard]] std::size_t packed_texel_bytes(scene::VoxelFormat format);
 [[nodiscard]] std::uint64_t packed_bytes(const std::array<int, 3>& size, scene::VoxelFormat format);
 
-// TRI_VOXEL_BITS in packed.glsl: the number of bits of an integer or float, or −16 for half floats.
+// Returns the value of TRI_VOXEL_BITS in packed.glsl: the number of bits of an integer or float, or
+// −16 for half floats.
 [[nodiscard]] int voxel_bits(scene::VoxelFormat format);
 
-// Writes the packed bytes that begin at byte `begin`. `out` consists of whole texels.
+// Fills `out` with the packed data that begins at byte `begin`. `begin` and the size of `out` are
+// multiples of the texel size.
 void fill_packed_cells(const scene::VoxelGrid& grid, std::size_t begin, std::span<std::byte> out);
 
-// The largest number of texels that a device can read from a buffer, and the name of this limit.
+// The maximum number of texels that a device can read from a buffer, and the name of this limit.
 struct TexelLimit {
   std::uint64_t texels = 0;
   std::string_view name;
@@ -48,10 +50,10 @@ struct TexelLimit {
                                                        const RaycastBuffers& buffers,
                                                        const TexelLimit& most);
 
-// Returns whether packed cells are the fastest exact sampler of a device that computes on the
-// processor and filters with eight gathers. The cells must take at most a gigabyte. In addition,
-// one of these conditions must hold: each sample needs more than one filtered value; the cells take
-// only twice the memory that an exact filter reads (u8); or the cells fit into the caches.
+// Returns whether packed cells are the fastest exact sampler of a device that runs on the CPU and
+// filters with eight gathers. The cells must take at most a gigabyte. In addition, one of these
+// conditions must hold: each sample needs more than one filtered value; the cells take only twice
+// the memory that an exact filter reads (u8); or the cells fit into the caches.
 [[nodiscard]] bool packs_by_default(const std::array<int, 3>& size, scene::VoxelFormat format,
                                     bool filter_suffices, std::uint64_t most_texels);
 

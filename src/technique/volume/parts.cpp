@@ -16,7 +16,7 @@ int cells_of(const scene::VolumeScene& scene) {
   return scene.grid->size[2] + 1;
 }
 
-// The number of cells that a part has in addition to the cells of its samples.
+// Returns the number of cells that a part has on each side in addition to the cells of its samples.
 int overlap(const scene::VolumeScene& scene) {
   constexpr double widened_and_rounded = 2;
   double cells = widened_and_rounded + (scene.shading.enabled ? 1 : 0);
@@ -37,8 +37,8 @@ std::vector<Part> slabs(const scene::VolumeScene& scene, int thickness) {
   return parts;
 }
 
-// Orders the parts: first the part that contains the eye or is nearest to it, then all other parts
-// on either side of it, in the order of their distance from the eye.
+// Orders the parts: first the part that contains the eye or is nearest to it, then the parts on one
+// side of it and the parts on the other side, each from near to far.
 std::vector<Part> front_to_back(std::vector<Part> parts, const scene::VolumeScene& scene) {
   const double eye = scene.camera.eye.z / scene.grid->spacing[2] + 0.5;
   const auto before = std::ranges::find_if(
@@ -58,8 +58,8 @@ std::optional<std::string> why_whole_only(std::string_view technique,
     return fmt::format("{} cannot draw a volume in parts", technique);
   }
   if (options.sampler == Sampler::hardware) {
-    return "a volume is drawn in parts only by sampler manual or packed, because a device's own "
-           "sampler would round differently in each part";
+    return "drawing a volume in parts requires sampler=manual or sampler=packed, because a "
+           "hardware sampler would round differently in each part";
   }
   return std::nullopt;
 }
@@ -67,7 +67,7 @@ std::optional<std::string> why_whole_only(std::string_view technique,
 bool is_read(const Part& part, const scene::VolumeScene& scene, const RaycastOptions& options,
              std::span<const std::int32_t> map) {
   // Without leaps, a ray that steps from brick to brick may take one last sample beyond its exit
-  // from a visible brick.
+  // from a visible brick, so any part may be read.
   if (options.skip != Skip::distance) return true;
   const BrickLayout layout = brick_layout(scene, options.skip, options.adapt);
   const auto counts = brick_counts(scene.grid->size, layout);

@@ -1,8 +1,9 @@
 #pragma once
-// Draws volumes of which a device stores only one part at a time. The parts are slabs along z. They
-// are drawn one after the other, outwards from the eye, so that each ray passes them from front to
-// back. Rays, samples and bricks are those of the whole volume; only fetches count layers from the
-// beginning of the part. The image is therefore bit-identical to that of the whole volume.
+// Draws a volume that does not fit on the device in parts, of which the device stores only one at a
+// time. The parts are slabs along z. They are drawn one after the other, outwards from the eye, so
+// that each ray passes through them from front to back. Rays, samples and bricks are those of the
+// whole volume; only the layer indices in fetches are relative to the part. The image is therefore
+// bit-identical to that of the whole volume.
 
 #include <array>
 #include <cstddef>
@@ -63,10 +64,10 @@ struct Cut {
   // The reason why the volume can be drawn neither as a whole nor in parts, if there is one.
   std::optional<std::string> reason;
 };
-// Cuts the volume into parts that fit. A part contains more cells than those of its samples: one
-// for rounding, with shading one for gradients, and as many as a preintegrated step may be long.
-// The first part takes the samples of one more cell on either side, because rounding may put a
-// ray's first sample behind the eye.
+// Cuts the volume into parts that fit. On each side, a part contains additional cells that its
+// samples may read: one for rounding, one for gradients if shading is enabled, and as many as a
+// preintegrated step may be long. The first part also takes the samples in one more cell on each
+// side, because rounding may put a ray's first sample behind the eye.
 [[nodiscard]] Cut cut_into_parts(std::string_view technique, const scene::VolumeScene& scene,
                                  const RaycastOptions& options, const Layers& layers,
                                  const Room& room);
@@ -85,7 +86,7 @@ struct Slices {
 // The parameters of kernels that draw parts. They are stored directly after the raycast_parameters.
 struct PartParameters {
   std::int32_t begin, end, first_held, held;  // see Part
-  std::int32_t pass;                          // counted from 0
+  std::int32_t pass;                          // 0-based index
   std::int32_t padding[3];
 };
 
@@ -102,10 +103,10 @@ struct PartPass {
                                                 const scene::VolumeScene& scene,
                                                 const RaycastOptions& options,
                                                 std::span<const std::int32_t> map);
-// Returns the number of bytes of voxels that must be uploaded in all passes together.
+// Returns the total number of bytes of voxels that must be uploaded in all passes.
 [[nodiscard]] std::uint64_t moved_bytes(std::span<const PartPass> passes, const Layers& layers);
 
-// The largest number of bytes of state that a kernel stores for a ray between two passes.
+// The maximum size in bytes of the state that a kernel stores for a ray between two passes.
 inline constexpr std::size_t pause_bytes = 256;
 
 }  // namespace triptych::technique

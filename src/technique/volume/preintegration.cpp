@@ -14,8 +14,9 @@ namespace {
 constexpr std::size_t entries = 256;
 constexpr double most_extinction = 8192;  // per voxel length, for an entry of opacity 1
 
-// Moments of the optical depth x along a path, measured from the beginning of the path, per cell
-// and in natural units: ∫dx, and for each channel ∫c dx, ∫c·x dx and ∫c·x² dx.
+// The optical depth of a path and the moments of its colours. x is the optical depth from the
+// beginning of the path, per cell and in natural units. The members are ∫dx and, for each colour
+// channel c, ∫c dx, ∫c·x dx and ∫c·x² dx.
 struct Moments {
   double depth = 0;
   std::array<double, 3> c0{};
@@ -40,10 +41,11 @@ double extinction(double alpha) {
 }
 
 // Integrates one cell from entry a to entry b. The extinction −ln(1 − alpha) is smooth over the
-// cell unless alpha reaches 1. Therefore the cell is cut into pieces whose lengths halve towards
-// such an end, and each piece is integrated with the five-point Gauss rule. The optical depth in
-// front of a point is the sum of the depths of the previous pieces and the integral of a parabola,
-// which passes through the extinction at both ends and in the middle of the point's own piece.
+// cell unless alpha reaches 1. The cell is therefore cut into pieces whose lengths halve towards an
+// end at which alpha is 1, and each piece is integrated with the five-point Gauss rule. The optical
+// depth in front of a point is the sum of the depths of the previous pieces and the integral of a
+// parabola, which passes through the extinction at both ends and in the middle of the point's own
+// piece.
 class CellIntegral {
  public:
   CellIntegral(const Entry& a, const Entry& b) : a_(a), b_(b) {}
@@ -113,8 +115,8 @@ class CellIntegral {
   Moments sum_;
 };
 
-// Writes the texels of a path with these moments. If the path has no optical depth, its colour is
-// `colour`.
+// Writes the three texels for a path with these moments. If the path has no optical depth, its
+// colour is `colour`.
 void write(const Moments& m, const Entry& colour, std::array<float, 4>* texels) {
   texels[0] = {static_cast<float>(m.depth * std::numbers::log2e), colour[0], colour[1], colour[2]};
   texels[1] = texels[2] = {0, 0, 0, 0};

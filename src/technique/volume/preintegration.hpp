@@ -1,5 +1,5 @@
 #pragma once
-// The table that quadrature preintegrated looks up (portable/volume_preintegration.h).
+// The look-up table for quadrature=preintegrated (portable/volume_preintegration.h).
 
 #include <array>
 #include <vector>
@@ -15,17 +15,18 @@ namespace triptych::technique {
 //   [0] = (depth, a0), [1] = (a1, 0), [2] = (a2, 0).
 // `depth` is −Σ log2(1 − alpha), averaged over each cell. Multiplied by the length of a cell in
 // voxels, it is the optical depth in powers of two. a0, a1 and a2 are the first Legendre
-// coefficients of the colour as a function of the share of the depth that has been passed. For a
-// path without any depth, they represent the colour of the entry `from`. An entry of opacity 1
-// counts as an optical depth of 8192 per voxel, of which 1/64 voxel hides everything behind it. The
-// table is computed in double precision, so only the rounding to float is lost. It depends on the
-// transfer function but not on the step.
+// coefficients of the colour as a function of the share of the depth that the light has passed. For
+// a path without any depth, they represent the colour of the entry `from`. An entry of opacity 1
+// counts as an optical depth of 8192 per voxel, so that 1/64 voxel hides everything behind it. The
+// table is computed in double precision, so its only error is the rounding to float. It depends on
+// the transfer function but not on the step.
 inline constexpr std::size_t texels_per_pair = 3;
 [[nodiscard]] std::vector<std::array<float, 4>> preintegrated_pairs(
     const scene::TransferFunction& function);
 
-// TRI_PREINTEGRATED of the raycasters: 0 for any other quadrature, 1 if all whole cells of any step
-// can be processed at once, or 2 if they may be too deep for that (TRI_DEEPEST_CHUNK).
+// Returns the value of TRI_PREINTEGRATED for the raycasters: 0 for any other quadrature, 1 if all
+// whole cells of any step can be processed at once, or 2 if their optical depth may be too large
+// for that (TRI_DEEPEST_CHUNK).
 [[nodiscard]] int preintegration_form(const scene::VolumeScene& scene);
 
 }  // namespace triptych::technique

@@ -1,5 +1,5 @@
 #pragma once
-// The table that a raycaster looks up in addition to the transfer function. It depends on the
+// The look-up table that a raycaster uses in addition to the transfer function. It depends on the
 // scene's quadrature and has rows of four floats.
 
 #include <array>
@@ -12,9 +12,9 @@ namespace triptych::technique {
 
 using QuadratureTable = std::vector<std::array<float, 4>>;
 
-// The table for quadrature cells. Row i, 0 ≤ i ≤ 256, contains the smallest kink ≥ i, the largest
-// kink < i (scene/kinks.hpp), and the first entry ≥ i that has any opacity. A number that does not
-// exist is represented by ±3·10³⁸.
+// Returns the table for quadrature=cells. Row i, 0 ≤ i ≤ 256, contains the smallest kink ≥ i, the
+// largest kink < i (scene/kinks.hpp), and the first entry ≥ i that has any opacity. A number that
+// does not exist is represented by ±3·10³⁸.
 [[nodiscard]] QuadratureTable kink_table(const scene::TransferFunction& function);
 
 // Returns preintegrated_pairs, kink_table, or one row that is never read, depending on the scene's

@@ -1,13 +1,14 @@
 #pragma once
 // The history of one pixel. A special build of the raycasters (TRI_TRACE) records every sample of
-// the pixel's ray. It counts like the build with counters and has the same control flow.
+// the pixel's ray. This build has the same counters and the same control flow as the build with
+// counters.
 //
-// The records are stored in the counter buffer, after the counters of all pixels. The eighth word
-// of a pixel's counters, which is otherwise unused, contains the index of the word at which the
-// pixel's records begin. For all other pixels, this word keeps its initial value. The first word at
-// that index is the capacity in records, and the second word is the number of records that the ray
-// would have written. technique/volume/raycast/trace.glsl and backends/opencl/trace.cl write the
-// records.
+// The records are stored in the counter buffer, after the counters of all pixels. For the recorded
+// pixel, the eighth word of its counters, which is otherwise unused, contains the index of the word
+// at which this data begins. For all other pixels, the eighth word keeps its initial value. The
+// data begins with a word for the capacity in records and a word for the number of records that the
+// ray would have written without this limit. The records follow.
+// technique/volume/raycast/trace.glsl and backends/opencl/trace.cl write the records.
 
 #include <array>
 #include <cstddef>
@@ -23,14 +24,14 @@ inline constexpr std::size_t ray_trace_record_words = 16;
 // must be a multiple of 16 bytes.
 inline constexpr std::size_t ray_trace_words = 4 + ray_trace_records * ray_trace_record_words;
 
-// The contents of a record.
+// The kind of a record.
 enum class TracedKind : std::uint8_t {
   sample = 1,  // one sample, or a run of samples that were merged into one
   step = 2     // a step of quadrature preintegrated, or a part of one
 };
 
-// All numbers are those that the device computed, stored as floats. Numbers in double precision are
-// rounded.
+// A record. All numbers are as computed on the device and stored as floats; numbers in double
+// precision are rounded to float.
 struct TracedSample {
   TracedKind kind = TracedKind::sample;
   std::array<float, 3> place{};     // position in voxels; for a step, its middle
@@ -53,7 +54,8 @@ struct RayTrace {
 [[nodiscard]] std::vector<std::uint32_t> ray_trace_words_for(int x, int y, int width,
                                                              std::size_t pixels);
 
-// Reads the records from `words`, which begin after the counters of all pixels.
+// Reads the records from `words`, which is the part of the counter buffer after the counters of all
+// pixels.
 [[nodiscard]] RayTrace read_ray_trace(std::span<const std::uint32_t> words);
 
 }  // namespace triptych::technique

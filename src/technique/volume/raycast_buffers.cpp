@@ -39,7 +39,7 @@ std::uint64_t pauses_bytes(const scene::VolumeScene& scene, const RaycastOptions
 std::optional<std::string> buffer_reason(const RaycastBuffers& buffers, std::uint64_t most,
                                          std::string_view limit) {
   for (const auto& [name, bytes] : std::to_array<std::pair<std::string_view, std::uint64_t>>(
-           {{"picture", buffers.picture},
+           {{"image", buffers.picture},
             {"counters", buffers.counters},
             {"brick map", buffers.bricks},
             {"quadrature table", buffers.table},

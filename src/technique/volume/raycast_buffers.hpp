@@ -1,6 +1,6 @@
 #pragma once
-// The sizes of the buffers that a raycaster needs in addition to the volume. Backends compare them
-// with the limits of devices.
+// The sizes of the buffers that a raycaster needs in addition to the volume. Backends compare these
+// sizes with the limits of devices.
 
 #include <cstdint>
 #include <optional>
@@ -22,7 +22,7 @@ struct RaycastBuffers {
 
   [[nodiscard]] std::uint64_t all() const { return picture + counters + bricks + table + pauses; }
 };
-// The sizes of all buffers except `pauses`.
+// Returns the sizes of all buffers except `pauses`.
 [[nodiscard]] RaycastBuffers raycast_buffers(const scene::VolumeScene& scene,
                                              const RaycastOptions& options);
 
@@ -30,8 +30,8 @@ struct RaycastBuffers {
 [[nodiscard]] std::uint64_t pauses_bytes(const scene::VolumeScene& scene,
                                          const RaycastOptions& options);
 
-// Returns why a device cannot draw, naming the first buffer of more than `most` bytes, or nullopt
-// if all buffers fit. `limit` is the API's name for that limit.
+// Returns a message that names the first buffer larger than `most` bytes, or nullopt if all buffers
+// fit. `limit` is the API's name for that limit.
 [[nodiscard]] std::optional<std::string> buffer_reason(const RaycastBuffers& buffers,
                                                        std::uint64_t most, std::string_view limit);
 

@@ -31,7 +31,7 @@ std::array<Real, 4> pack(const glm::dvec3& v, double w) {
 
 // Returns the factors that convert a texel to a normalised value. A texel of a UNORM texture is
 // k/maximum, rounded to float. In single precision, the scale includes the factor `maximum`. In
-// double precision, the shader recovers k, which is exact.
+// double precision, the shader recovers the integer k exactly.
 template <class Real>
 std::array<Real, 4> value_map(const scene::VoxelGrid& grid, double stored_maximum, double plane) {
   if constexpr (sizeof(Real) == sizeof(double)) {
@@ -79,30 +79,30 @@ std::vector<std::byte> bytes_of(const BasicRaycastParameters<Real>& parameters) 
   return {bytes.begin(), bytes.end()};
 }
 
-// Returns why quadrature cells cannot draw the scene, or nullopt. An iteration of the raycaster's
-// loop processes one piece of a cell; long_rays.hpp explains why the number of iterations is
-// limited.
+// Returns why the scene cannot be drawn with quadrature=cells, or nullopt if it can. An iteration
+// of the raycaster's loop processes one piece of a cell; long_rays.hpp explains why the number of
+// iterations is limited.
 std::optional<std::string> cells_reason(const scene::VolumeScene& scene,
                                         const RaycastOptions& options) {
   if (options.sampler == Sampler::hardware) {
-    return "quadrature cells needs sampler manual or packed, because it reads voxels unfiltered";
+    return "quadrature=cells requires sampler=manual or sampler=packed, because it reads "
+           "unfiltered voxels";
   }
   if (cell_passes(scene, 0) <= most_cell_passes) return std::nullopt;
   return fmt::format(
-      "quadrature cells would cut a ray into {} pieces, and some drivers end such long loops "
-      "early: use a longer step",
+      "quadrature=cells would cut a ray into {} pieces, one per loop iteration, and some drivers "
+      "silently end such long loops; use a longer step",
       cell_passes(scene, 0));
 }
 
-// Returns why the rays of the scene have too many samples, or nullopt. Samples are counted in
-// 32-bit integers. Only extremely flat voxels would need more samples, and they would not benefit
-// from them.
+// Returns an error message if rays have too many samples in this scene, or nullopt. Samples are
+// counted in 32-bit integers. Only extremely flat voxels would need more samples, and they would
+// not benefit from them.
 std::optional<std::string> count_reason(const scene::VolumeScene& scene) {
   const double samples = most_samples(scene);
   if (samples < 1 << 30) return std::nullopt;
   return fmt::format(
-      "rays would need up to {:.2g} samples, but devices count only to 2³⁰: use a longer step",
-      samples);
+      "a ray would need up to {:.2g} samples, but the limit is 2³⁰; use a longer step", samples);
 }
 
 }  // namespace
@@ -162,8 +162,8 @@ std::optional<std::string> raycast_reason(std::string_view technique,
   const bool only_fetches = !technique::technique(technique).picture;
   if (only_fetches && !midpoint) {
     return fmt::format(
-        "{} is a lower bound only for quadrature midpoint, because quadrature {} fetches and looks "
-        "up other data",
+        "{} is a lower bound only for quadrature=midpoint, because quadrature={} fetches and looks "
+        "up different data",
         technique, quadrature);
   }
   if (scene.quadrature == scene::Quadrature::cells) {
@@ -174,18 +174,18 @@ std::optional<std::string> raycast_reason(std::string_view technique,
   if (auto reason = adapt_reason(technique, scene, options)) return reason;
   if (options.precision == Precision::fp32) return std::nullopt;
   if (only_fetches) {
-    return fmt::format(
-        "{} is a lower bound only for precision fp32, because it computes almost nothing",
-        technique);
+    return fmt::format("{} supports only precision=fp32, because it computes almost nothing",
+                       technique);
   }
   if (!midpoint) {
     return fmt::format(
-        "quadrature {} exists only in single precision; precision fp64 needs quadrature midpoint",
+        "quadrature={} exists only in single precision; precision=fp64 requires "
+        "quadrature=midpoint",
         quadrature);
   }
   if (options.sampler == Sampler::hardware) {
-    return "a device's sampler interpolates in single precision at best; precision fp64 needs "
-           "sampler manual or packed";
+    return "precision=fp64 requires sampler=manual or sampler=packed, because hardware samplers "
+           "interpolate in single precision at best";
   }
   return std::nullopt;
 }

@@ -13,11 +13,12 @@
 
 namespace triptych::technique {
 
-// How voxels are interpolated: by the device's sampler; by the kernel, which loads eight voxels one
-// by one; or by the kernel, which loads a cell that contains all eight voxels (packed_cells.hpp).
+// How voxels are interpolated: by the hardware sampler, or by the kernel. For `manual`, the kernel
+// loads eight voxels one by one; for `packed`, it loads one cell that contains all eight voxels
+// (packed_cells.hpp).
 enum class Sampler : std::uint8_t { hardware, manual, packed };
-// How empty space is skipped: not at all; by a walk from brick to brick; or by leaps over whole
-// cubes of bricks of one kind, up to the nearest brick of the other kind (brick_reach.hpp).
+// How empty space is skipped: not at all, by a walk from brick to brick, or (`distance`) by leaps
+// over whole cubes of bricks that are all visible or all invisible (brick_reach.hpp).
 enum class Skip : std::uint8_t { none, bricks, distance };
 // The precision of all values between the parameters and the image: rays, positions, interpolation,
 // colours, opacities and compositing. Voxels, the entries of the transfer function and the image
@@ -41,7 +42,7 @@ enum class Fault : std::uint8_t {
   coarse_filter = 5         // interpolation weights are rounded to 8 bits
 };
 
-// Options that change the image by no more than its bound.
+// Options that, except for injected faults, change the image by no more than its bound.
 struct RaycastOptions {
   Sampler sampler = Sampler::manual;
   Skip skip = Skip::distance;
@@ -49,11 +50,11 @@ struct RaycastOptions {
   double adapt = 0;        // allowed error due to merging samples within bricks (brick_kinds.hpp)
   Precision precision = Precision::fp32;
   // The number of bytes of device memory for voxels. A larger volume is drawn in parts (parts.hpp).
-  // If it is 0, only the limits of the device count.
+  // If the budget is 0, only the device's limits apply.
   std::uint64_t budget = 0;
   Fault fault = Fault::none;
-  // 1/extra_work_stride of the image is drawn a second time (volume/extra_work.hpp). This injects a
-  // slowdown of that share by real work. 0 means no extra work.
+  // A share 1/extra_work_stride of the image is drawn a second time (volume/extra_work.hpp). This
+  // injects a slowdown of about this share through real work. 0 disables it.
   int extra_work_stride = 0;
 };
 
@@ -63,9 +64,9 @@ struct RaycastOptions {
                                                         const scene::VolumeScene& scene,
                                                         const RaycastOptions& options);
 
-// The layout is the same as in parameters.glsl (std140) and parameters.cl, with numbers only in
-// groups of four. Real is float, or double for Precision::fp64. Lengths along a ray are in steps,
-// and positions are in voxels (voxel centres are at i+½).
+// The layout is the same as in parameters.glsl (std140) and parameters.cl, and all members are
+// groups of four numbers. Real is float, or double for Precision::fp64. Lengths along a ray are in
+// steps, and positions are in voxels (voxel centres are at i+½).
 template <class Real>
 struct BasicRaycastParameters {
   using Four = std::array<Real, 4>;
@@ -77,7 +78,7 @@ struct BasicRaycastParameters {
   // The normalised value is stored·x + y. z is ray_plane. w is needed only with doubles: the factor
   // that converts a texel to the stored integer, or 0 if the texel already is that integer.
   Four value_map;
-  Four shading;                             // ambient, diffuse, specular; w: parts of a cell
+  Four shading;                             // ambient, diffuse, specular; w: parts per cell
   Four background;                          // premultiplied RGBA
   std::array<std::int32_t, 4> volume_size;  // in voxels; w: log2 of the specular exponent
   // Bricks per axis. w is the edge of a brick in voxels; 0 means no skipping.
@@ -96,8 +97,8 @@ static_assert(offsetof(BasicRaycastParameters<double>, volume_size) == std::size
 // box's nearest corner. The reason is that float coordinates of a distant eye would have errors of
 // whole voxels, while a point on the plane is as accurate as the box itself.
 [[nodiscard]] double ray_plane(const scene::VolumeScene& scene);
-// If the eye is farther away than this, rays begin on that plane. The unit is the diagonal of the
-// box. For a closer eye, the error is less than 1e-4 of the box's size.
+// If the distance of the eye exceeds this number of diagonals of the box, rays begin on that plane.
+// For a closer eye, the error is less than 1e-4 of the box's size.
 inline constexpr double far_in_diagonals = 16;
 
 // Returns the bytes of the parameters, in the precision of the options. A u8 or u16 voxel reaches
@@ -112,7 +113,7 @@ inline constexpr std::array<std::string_view, 7> raycast_counters{
     "rays_hit",       "samples",         "samples_nonzero", "bricks_visited",
     "bricks_skipped", "rays_terminated", "samples_saved"};
 // The number of unsigned 32-bit integers per pixel in the counter buffer. The eighth integer is
-// padding.
+// padding, except when a ray's history is recorded (ray_trace.hpp).
 inline constexpr std::size_t raycast_counter_stride = 8;
 
 }  // namespace triptych::technique

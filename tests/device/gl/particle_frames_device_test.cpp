@@ -268,7 +268,7 @@ TEST(GlParticleFrames, UnsupportedOptionsAreRejectedWithAReason) {
     };
     EXPECT_THAT(reason("quad_ray", {.fault = ParticleFault::lost_at_border}), HasSubstr("tiles"));
     EXPECT_THAT(reason("quad_ray", {.fault = ParticleFault::missing_barrier}),
-                HasSubstr("work groups"));
+                HasSubstr("work-group barriers"));
     EXPECT_THAT(reason("quad_ray", {.fault = ParticleFault::wrong_sense}),
                 HasSubstr("conservative depth"));
     EXPECT_THAT(

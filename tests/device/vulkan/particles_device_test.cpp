@@ -294,7 +294,7 @@ TEST(VulkanParticles, InjectedFaultsChangeTheImage) {
     }
     const auto reason = device.unsupported(
         particle_work("tiles", dense, {.fault = ParticleFault::missing_barrier}));
-    EXPECT_THAT(reason.value_or(""), testing::HasSubstr("work groups"));
+    EXPECT_THAT(reason.value_or(""), testing::HasSubstr("work-group barriers"));
   });
 }
 

@@ -110,8 +110,9 @@ TEST(Parts, AreRejectedWithAReason) {
       reason("raycast_fragment", Sampler::manual, 50),
       "the volume needs 102 bytes, but theLimit is 50; raycast_fragment cannot draw a volume in "
       "parts");
-  EXPECT_NE(reason("raycast", Sampler::hardware, 50).find("by sampler manual or packed"),
-            std::string::npos);
+  EXPECT_NE(
+      reason("raycast", Sampler::hardware, 50).find("requires sampler=manual or sampler=packed"),
+      std::string::npos);
   EXPECT_EQ(within_budget({1000, "theLimit"}, {.budget = 10}).limit, "the budget");
   EXPECT_EQ(within_budget({1000, "theLimit"}, {.budget = 2000}).bytes, 1000U);
 }

@@ -25,7 +25,7 @@ TEST(RaycastReason, SampleCountsMustFitIntoDeviceIntegers) {
   EXPECT_FALSE(raycast_reason("raycast", flat_scene(1e-8), {}));
   scene::VolumeScene scene = flat_scene(1e-10);
   EXPECT_THAT(raycast_reason("raycast", scene, {}).value_or(""),
-              HasSubstr("1.4e+10 samples, but devices count only to 2³⁰: use a longer step"));
+              HasSubstr("1.4e+10 samples, but the limit is 2³⁰; use a longer step"));
   scene.step_voxels = 4096;
   EXPECT_FALSE(raycast_reason("raycast", scene, {}));
 }

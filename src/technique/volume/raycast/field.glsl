@@ -1,5 +1,5 @@
-// Code shared by all raycasters: rays, values of the field, the transfer function, shading, counters and
-// accumulated light. Positions are in voxels, and lengths along the ray are in steps.
+// Code shared by all raycasters: rays, the field, the transfer function, shading, counters and accumulated light.
+// Positions are in voxels, and lengths along the ray are in steps.
 
 const int fault_half_voxel_shift = 1;
 const int fault_flipped_axis = 2;
@@ -15,8 +15,8 @@ uint count_bricks_skipped = 0u;
 uint count_terminated = 0u;
 
 #if TRI_COUNT
-// Writes technique::raycast_counters of the pixel. `saved` is the number of samples that the ray did not have to
-// take.
+// Writes the pixel's counters (technique::raycast_counters). `saved` is the number of samples that the ray did not
+// have to take.
 void store_counts(ivec2 pixel, bool hit, uint saved) {
   int at = 8 * (pixel.y * u.viewport.x + pixel.x);
   counters[at] = hit ? 1u : 0u;
@@ -29,8 +29,8 @@ void store_counts(ivec2 pixel, bool hit, uint saved) {
 }
 #endif
 
-// The parameters that every sample needs, loaded once per ray. Otherwise, compilers that do not move loads out of
-// loops would load a uniform for every sample.
+// The parameters required by every sample. They are loaded once per ray, because compilers that do not move loads
+// out of loops would otherwise load the uniforms again for every sample.
 struct Grid {
   real3 inverse_size;
   ivec3 last;           // largest voxel index per axis
@@ -66,8 +66,8 @@ real voxel(Grid grid, ivec3 at) {
   return texel;
 }
 
-// Trilinear interpolation in the shader: voxels floor(q) and floor(q)+1 along each axis, with q = p − ½, clamped to
-// the edge.
+// Interpolates trilinearly in the shader, between the voxels floor(q) and floor(q)+1 along each axis, where q = p −
+// ½. Indices are clamped to the edge.
 real fetch_manual(Grid grid, real3 p) {
   real3 q = p - 0.5;
   real3 base = floor(q);
@@ -124,7 +124,7 @@ real4 transfer(real x) {
   return a + (position - real(k)) * (b - a);
 }
 
-// Headlight shading (scene::Shading). d is the direction of the ray in world space.
+// Returns the colour after headlight shading (scene::Shading). d is the direction of the ray in world space.
 real3 shade(Grid grid, real3 colour, real3 p, real3 d) {
   real3 g = rises(grid, p) * (0.5 * u.inverse_spacing.w * u.inverse_spacing.xyz);
   real cosine = abs(dot(g, d)) / max(sqrt(dot(g, g)), u.ray_up.w);
@@ -133,7 +133,7 @@ real3 shade(Grid grid, real3 colour, real3 p, real3 d) {
   // Compilers unroll a loop of constant length, so its iterations do not count towards the limit (see raycast()).
   for (int i = 0; i < 31; ++i) highlight *= i < u.volume_size.w ? highlight : 1.0;
 #else
-  // The 0 is written as an expression that depends on the sample, as in skips(). Otherwise lavapipe (Mesa 22.3)
+  // min(0, int(cosine)) is always 0 but depends on the sample, as in skips(). Without it, lavapipe (Mesa 22.3)
   // would recompile the shader in every submission because of this loop.
   int squarings = u.volume_size.w + min(0, int(cosine));
   for (int i = 0; i < squarings; ++i) highlight *= highlight;

@@ -43,9 +43,9 @@ ivec4 halves_of(uvec2 words) {
   return ivec4(words.x & 65535u, words.x >> 16, words.y & 65535u, words.y >> 16);
 }
 
-// Converts half floats that are neither negative nor subnormal. If their bits are interpreted as a float, the float
-// is too small by a factor of 2¹¹². The multiplication is `precise`, because a compiler that applied the factor
-// later would interpolate denormals.
+// Converts half floats that are neither negative nor subnormal. Their bits, shifted into a float, represent a
+// number that is too small by a factor of 2¹¹². The multiplication is `precise`, because a compiler that applied
+// the factor later would interpolate denormals.
 vec4 floats_of(uvec2 words) {
   precise vec4 floats = uintBitsToFloat(uvec4(halves_of(words)) << 13) * 5192296858534827628530496329220096.0;
   return floats;
@@ -60,8 +60,8 @@ Corners corners_of(Grid grid, int index) {
   return Corners(real4(uintBitsToFloat(texel)), real4(uintBitsToFloat(above)));
 }
 
-// Returns the differences between the corners of the cells `front` and `back`. For integers, they have no rounding
-// error.
+// Returns the differences between the corners of the cells `front` and `back`. For integer voxels, the differences
+// are exact.
 Corners corners_between(Grid grid, int back, int front) {
   if (TRI_VOXEL_BITS == 8 || TRI_VOXEL_BITS == 16) {
     uvec4 a = texelFetch(cell_texels, back);
@@ -90,13 +90,13 @@ real field(Grid grid, real3 p) {
 }
 
 // Returns central differences: for each axis, the normalised value one voxel after p minus the value one voxel
-// before p. Both positions are at the same place in their cells. Beyond the outermost cells, where there is no
-// other cell, all values are constant along the axis.
+// before p. Both positions have the same coordinates within their cells. Beyond the outermost cells, all values
+// are constant along the axis.
 real3 rises(Grid grid, real3 p) {
   Place place = place_of(grid, p);
   // If a step is longer than a voxel (TRI_OPACITY_FORM is then not positive), the last sample may be so far beyond
-  // the exit that all values are constant even one voxel before it. place_of() clamps it to a position that is not
-  // quite as far.
+  // the exit that all values are constant even one voxel before it. However, place_of() clamps the sample to a
+  // position closer to the volume, so its position in the cell is computed again here.
   if (TRI_OPACITY_FORM < 1 && TRI_FAULT == 0) place.f = clamp(p + 0.5 - real3(place.cell), real3(0.0), real3(1.0));
   ivec3 strides = cell_strides(grid);
   int here = cell_index(grid, place.cell);

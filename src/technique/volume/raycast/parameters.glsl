@@ -30,7 +30,7 @@ layout(std140) TRI_BINDING(0) uniform Parameters {
 // transfer_entry(i) reads one of the 256 entries. brick_at(i) is 1 for a visible brick and 0 for an invisible one.
 // With TRI_LEAPS it is the brick's technique::brick_reach, and with TRI_ADAPT its technique::BrickKind.
 // quadrature_entry(i) reads technique::quadrature_table. With TRI_PACKED all data are texels, because the devices
-// for which sampler packed is intended access storage buffers lane by lane, but texel buffers as vectors.
+// for which sampler=packed is intended access storage buffers lane by lane, but texel buffers as vectors.
 #if TRI_PACKED
 TRI_BINDING(1) uniform usamplerBuffer cell_texels;  // technique::fill_packed_cells
 TRI_BINDING(2) uniform samplerBuffer transfer_texels;

@@ -1,17 +1,17 @@
-// Quadrature preintegrated: the value is linear along each step, from front to back
+// quadrature=preintegrated, in which the value is linear along each step, from front to back
 // (portable/volume_preintegration.h, technique::preintegrated_pairs).
 //
 // The state of a step that is processed in several parts, because its whole cells are too deep for one look-up.
 struct Cut {
   float per_cell;  // voxels per cell; 0 if no part of the step has been processed
-  float left;      // share of the light at the front of the step that is left
+  float left;      // share of the light at the front of the step that remains
 };
 
 #if TRI_PRECISION == 32
 
 // Composites a piece of the step behind `gathered`, which contains premultiplied colour and opacity. `depth` is the
 // piece's optical depth in powers of two. a0, a1 and a2 are the Legendre coefficients of its colour as a function
-// of the share of this depth that has been passed.
+// of the share of this depth that the light has passed.
 void add_piece(inout vec4 gathered, float depth, vec3 a0, vec3 a1, vec3 a2) {
   float opacity = tri_1m_exp2(-depth);
   float z = 0.3465735903 * depth;
@@ -24,7 +24,7 @@ void add_piece(inout vec4 gathered, float depth, vec3 a0, vec3 a1, vec3 a2) {
   }
 }
 
-// Adds the piece between the positions a and b among the entries, within the cell that begins with entry `cell`.
+// Adds the piece between the positions a and b, in units of entries, within the cell that begins with entry `cell`.
 // The transfer function is constant before the first entry and after the last.
 void add_part_of_cell(inout vec4 gathered, int cell, float a, float b, float length) {
   vec4 lower = transfer_entry(max(cell, 0));
@@ -56,8 +56,8 @@ bool are_too_deep(int first, int last, float per_cell) {
 }
 
 // Returns the last entry of the next chunk, for cells that are too deep to be processed at once. The search starts
-// with the number of cells that would not be too deep if all of them were equal, and halves this number until the
-// chunk is not too deep. The chunk has at least one cell.
+// with the number of cells that would not be too deep if all cells were equally deep, and halves this number until
+// the chunk is not too deep. The chunk has at least one cell.
 int end_of_chunk(int first, int last, float per_cell) {
   int direction = last > first ? 1 : -1;
   float share = TRI_DEEPEST_CHUNK / depth_of_cells(first, last, per_cell);
@@ -73,9 +73,9 @@ int end_of_chunk(int first, int last, float per_cell) {
 }
 
 // Returns the premultiplied colour and opacity of a step of `length` voxels from value `front` to `back`. If
-// TRI_PREINTEGRATED is 2, it processes only the next part of the step: afterwards, the step is complete if
-// cut.per_cell is 0; otherwise it continues from the new `front`. Each part is an iteration of the loop over steps
-// and not of a loop in this function, because the number of iterations is limited (see raycast()).
+// TRI_PREINTEGRATED is 2, it processes only the next part of the step. Afterwards, the step is complete if
+// cut.per_cell is 0; otherwise, it continues from the new `front`. Each part is an iteration of the loop over steps
+// instead of a loop in this function, because the number of iterations is limited (see raycast()).
 vec4 preintegrated(inout float front, float back, float length, inout Cut cut) {
   // NaN is treated as the lowest value, as in the midpoint rule.
   float from = front * 256.0 - 0.5;

@@ -1,11 +1,11 @@
-// Front-to-back raycasting of one pixel. Vulkan and OpenGL share this code, and so do compute and fragment shaders.
-// Positions are in voxels, and lengths along the ray are in steps: sample i is at p0 + (i+½)·g.
+// Front-to-back raycasting of one pixel. This code is shared by Vulkan and OpenGL, and by compute and fragment
+// shaders. Positions are in voxels, and lengths along the ray are in steps: sample i is at p0 + (i+½)·g.
 
 #include "volume/raycast/field.glsl"
 #include "volume/raycast/walk.glsl"
 
-// Adds one sample at p with the colour and opacity c. It covers `steps` voxel lengths, which is a whole step if
-// `whole` is set.
+// Adds one sample at p with the colour and opacity c. The sample covers `steps` voxel lengths, which is a whole step
+// if `whole` is true.
 void add_classified(inout Light light, Grid grid, Ray ray, real4 c, real3 p, bool whole, real steps) {
   if (TRI_COUNT == 1) count_samples++;
   if (TRI_SPEED_OF_LIGHT == 1) {
@@ -55,7 +55,7 @@ void advance_segment(inout March m, inout Cut cut, Grid grid, Ray ray, real step
   // With an injected fault, this can differ from the distance between the two ends of the step.
   real length = step_voxels * tri_step_share(ray.steps, m.i);
   bool fresh = TRI_PREINTEGRATED != 2 || cut.per_cell == 0.0;
-  if (TRI_PREINTEGRATED == 2 && m.light.transmittance == 0.0) cut.left = 0.0;  // invisible: a single chunk
+  if (TRI_PREINTEGRATED == 2 && m.light.transmittance == 0.0) cut.left = 0.0;  // the rest is hidden: one chunk
 #if TRI_TRACE
   traced_front = m.front;
 #endif
@@ -90,7 +90,7 @@ void end_in_the_dark(inout March m, real enough) {
   }
 }
 
-// Takes sample m.i, or the next step or part of a step.
+// Takes sample m.i or, with TRI_PREINTEGRATED, the next step or part of a step.
 void advance(inout March m, inout Cut cut, Grid grid, Ray ray, real step_voxels, real enough) {
 #if TRI_PRECISION == 32
   if (TRI_PREINTEGRATED != 0) advance_segment(m, cut, grid, ray, step_voxels);
@@ -104,7 +104,8 @@ void advance(inout March m, inout Cut cut, Grid grid, Ray ray, real step_voxels,
 }
 
 #if TRI_PACKED
-// Takes the next two samples, or the last one. Both loads are issued before the first result is used.
+// Takes the next two samples, or one if only one is left in the run. Both loads are issued before the first result is
+// used.
 void advance_two(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
   real3 p = ray.p0 + (real(m.i) + 0.5) * ray.g;
   real3 q = ray.p0 + (real(m.i + 1) + 0.5) * ray.g;
@@ -129,7 +130,7 @@ void advance_two(inout March m, Grid grid, Ray ray, real step_voxels, real enoug
 }
 #endif
 
-// Takes all samples of the run as a single sample in the middle of their chord (technique::brick_kinds), but not
+// Takes all samples of the run as a single sample in the middle of their chord (technique::brick_kinds), but never
 // before the first sample of the run, which may be the ray's last and partial sample.
 void advance_merged(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
   real begin = real(m.i);
@@ -146,16 +147,16 @@ void advance_merged(inout March m, Grid grid, Ray ray, real step_voxels, real en
 
 #else
 
-// Returns the premultiplied RGBA of the pixel. Three properties of compilers for CPUs determine the structure of
-// these loops.
+// Returns the premultiplied RGBA of the pixel. Three properties of compilers that target CPUs determine the structure
+// of these loops.
 //
-// First, these compilers execute both sides of a condition for a block of rays. The opacity of the partial last
-// step should therefore not be computed next to that of a whole step, so the last sample is taken after the loops.
-// Second, llvmpipe of Mesa 22.3 continues to compute the values of a ray that has left a loop as long as
-// neighbouring rays have not, with loads that return 0. A loop may therefore be left only at its head, where every
-// variable still has the value of the last iteration. Third, llvmpipe allows an invocation 65,535 iterations of all
-// its loops together, however they are nested. If rays may be longer (technique::has_long_rays), one iteration
-// takes sixteen samples.
+// First, these compilers execute both sides of a condition for a block of rays. The opacity of the partial last step
+// should therefore not be computed next to that of a whole step, so the last sample is taken after the loops. Second,
+// llvmpipe of Mesa 22.3 continues to compute the values of a ray that has left a loop as long as neighbouring rays
+// have not, with loads that return 0. A loop may therefore be left only at its head, where every variable still has
+// the value of the last iteration. Third, llvmpipe limits each invocation to 65,535 iterations across all its loops,
+// however they are nested. If rays may need more iterations (technique::has_long_rays), one iteration takes sixteen
+// samples.
 vec4 raycast(ivec2 pixel) {
 #if TRI_TRACE
   begin_trace(pixel);
@@ -183,8 +184,7 @@ vec4 raycast(ivec2 pixel) {
     }
     if (TRI_ADAPT == 1 && merged && m.i < m.stop) advance_merged(m, grid, ray, step_voxels, enough);
     m.last_visible = m.stop == m.count && m.i < m.stop;
-    // If the value is linear along a step, a partial step is the same work as a whole step, so it needs no special
-    // treatment.
+    // With TRI_PREINTEGRATED, a partial step is the same work as a whole step, so it needs no special treatment.
     if (TRI_PREINTEGRATED == 0) m.stop = min(m.stop, last);
     if (TRI_PREINTEGRATED != 0) m.front = field(grid, ray.p0 + real(m.i) * ray.g);
     while (m.i < m.stop) {

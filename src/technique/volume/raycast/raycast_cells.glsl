@@ -1,13 +1,13 @@
-// Quadrature cells (scene::Quadrature): the ray goes from cell to cell. A cell is the space between eight voxel
-// centres, in which the field along the ray is a cubic polynomial. The position on the ray where it crosses a plane
-// is computed from a cell's index and not accumulated. The contribution of a cell therefore does not depend on the
-// previous cells, and skipping does not change any bit. This code exists only in single precision. The structure of
-// its loops follows from the properties of compilers that raycast.glsl describes. "Times" are positions on the ray,
-// in steps.
+// Raycasting for quadrature=cells (scene::Quadrature), in which the ray goes from cell to cell. A cell is the space
+// between eight voxel centres, in which the field along the ray is a cubic polynomial. The position on the ray where
+// it crosses a plane is computed from a cell's index and not accumulated. The contribution of a cell therefore does
+// not depend on the previous cells, and the image with skipping is bit-identical. This code exists only in single
+// precision. The structure of its loops follows from the compiler properties described in raycast.glsl. "Times" are
+// positions on the ray, in steps.
 #include "volume/raycast/field.glsl"
 
-// The data of a ray that the walk needs. Cell i is between the voxels i and i+1. The first cell (−1) and the last
-// cell are the half voxels at the faces of the volume, where values are clamped.
+// The data of a ray that is needed to walk from cell to cell. Cell i is between the voxels i and i+1. The first cell
+// (−1) and the last cell are the half voxels at the faces of the volume, where values are clamped.
 struct Way {
   vec3 p0;         // where the ray enters the volume, relative to the first voxel's centre
   vec3 g;          // one step, in voxels
@@ -19,7 +19,7 @@ Way make_way(Ray ray) {
   Way way;
   way.p0 = ray.p0 - 0.5;
   way.g = ray.g;
-  // A ray that is parallel to a face needs 10²⁰ steps to the next one. This avoids a division by zero.
+  // To avoid a division by zero, a ray parallel to a face is assumed to need 10²⁰ steps to the next face.
   way.inverse_g = 1.0 / mix(ray.g, vec3(1.0e-20), lessThan(abs(ray.g), vec3(1.0e-20)));
   way.forward = ivec3(greaterThan(way.inverse_g, vec3(0.0)));
   return way;
@@ -30,9 +30,9 @@ vec3 entries(Way way, ivec3 cell) { return crossings(way, cell + 1 - way.forward
 vec3 exits(Way way, ivec3 cell) { return crossings(way, cell + way.forward); }
 float least(vec3 v) { return min(v.x, min(v.y, v.z)); }
 
-// Returns the cell behind the nearest of the planes, which the ray crosses at the times `at`. On the other axes,
-// the index is that of the cell that contains the ray at this time, determined from the same times that a walk
-// would compare.
+// Returns the cell that the ray enters at the nearest of the planes, which it crosses at the times `at`. Along the
+// other axes, the index is that of the cell that contains the ray at this time. It is determined from the same times
+// that a walk would compare.
 ivec3 cell_behind(Way way, ivec3 planes, vec3 at) {
   float t = least(at);
   ivec3 direction = 2 * way.forward - 1;
@@ -46,9 +46,9 @@ ivec3 cell_behind(Way way, ivec3 planes, vec3 at) {
 // Returns c.x + c.y·s + c.z·s² + c.w·s³.
 float cubic(vec4 c, float s) { return c.x + s * (c.y + s * (c.z + s * c.w)); }
 
-// Returns the cubic that gives the position among the transfer function's entries along the ray in a cell, for
-// 0 ≤ s ≤ 1. The coordinates of the ray within the cell run from a to a + b. The eight voxels are interpolated
-// along x, then y, then z.
+// Returns the cubic in s that gives the value along the ray through a cell, as a position in the transfer function's
+// table, for 0 ≤ s ≤ 1. The coordinates of the ray within the cell run from a to a + b. The eight voxels are
+// interpolated along x, then y, then z.
 vec4 cubic_of_cell(Grid grid, ivec3 cell, vec3 a, vec3 b) {
   if (TRI_FAULT == fault_half_voxel_shift) a.x += 0.5;
   if (TRI_FAULT == fault_coarse_filter) a = floor(a * 256.0 + 0.5) / 256.0;
@@ -99,7 +99,7 @@ bool shows(vec4 c) {
 vec2 extrema(vec4 c) {
   float discriminant = c.z * c.z - 3.0 * c.w * c.y;
   if (!(discriminant > 0.0)) return vec2(2.0);
-  // Compute both roots from the sum in which nothing cancels.
+  // Compute both roots from a sum without cancellation.
   float q = 0.0 - (c.z + (c.z < 0.0 ? -1.0 : 1.0) * sqrt(discriminant));
   float e = c.w == 0.0 ? 2.0 : q / (3.0 * c.w);
   float f = q == 0.0 ? 2.0 : c.y / q;
@@ -128,8 +128,8 @@ float where_it_is(vec4 c, float value, float from, float to, float at_from, floa
 // Returns the extinction −log2(1 − alpha). An opacity of 1 counts as an extinction of 8192.
 float extinction(float alpha) { return alpha < 1.0 ? 0.0 - tri_log2_1m(alpha) : 8192.0; }
 
-// Adds a piece of `length` voxels with the colours at its two points (reference/cell_rule.hpp explains the
-// formulas).
+// Adds a piece of `length` voxels whose colours at its two Gauss points are a and b (reference/cell_rule.hpp
+// explains the formulas).
 void add_piece(inout Light light, vec4 a, vec4 b, float length) {
   float first = extinction(a.a);
   float second = extinction(b.a);
@@ -202,7 +202,8 @@ void add_cell(inout Light light, Grid grid, Ray ray, Way way, ivec3 cell, float 
 }
 
 // The content of the brick map for a cell: whether its brick is visible, and the planes through which the ray leaves
-// the region in which all bricks are alike. Planes at the faces of the volume include the half cells there.
+// the region in which all bricks are of the same kind. Planes at the faces of the volume include the half cells
+// there.
 struct Around {
   bool visible;
   ivec3 planes;
@@ -225,7 +226,7 @@ Around look_around(Way way, Grid grid, ivec3 cell) {
 
 #include "volume/raycast/pause.glsl"
 
-// Restores the state of the ray. It continues in `cell`.
+// Restores the state of the ray, which continues in `cell`.
 void resume(inout Light light, inout ivec3 cell, inout vec3 times, int place) {
   Pause pause = pauses[place];
   light = Light(pause.light.xyz, pause.light.w);
@@ -241,7 +242,7 @@ void pause_here(Light light, ivec3 cell, vec3 times, int place) {
 
 #endif
 
-// Returns the premultiplied RGBA of the pixel. For a volume in parts, it is the light that has been gathered so
+// Returns the premultiplied RGBA of the pixel. For a volume drawn in parts, this includes only the light gathered so
 // far, and `place` is the index of the pixel's Pause.
 #if TRI_PARTS
 vec4 raycast_part(ivec2 pixel, int place) {
@@ -255,7 +256,7 @@ vec4 raycast(ivec2 pixel) {
   float step_voxels = TRI_FAULT == fault_uncorrected_opacity ? 1.0 : u.ray_centre.w;
   float enough = u.ray_right.w;
   Light light = Light(vec3(0.0), 1.0);
-  // The 0 is written as an expression that depends on the ray, as in walk.glsl.
+  // min(0, int(ray.steps)) is always 0 but depends on the ray, as in skips() in walk.glsl.
   bool skipping = u.brick_grid.w > min(0, int(ray.steps));
   ivec3 cell = clamp(ivec3(floor(way.p0)), ivec3(-1), grid.last);
   float begin = 0.0;

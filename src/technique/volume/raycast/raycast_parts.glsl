@@ -1,5 +1,6 @@
-// The same as raycast(), but for a volume in parts (technique::Part). It processes the samples in the part that the
-// device stores, one by one and with the same expressions, so that the result is bit-identical.
+// The counterpart of raycast() for a volume drawn in parts (technique::Part). It processes the samples in the part
+// that the device currently stores, one by one and with the same expressions as raycast(), so the result is
+// bit-identical.
 #include "volume/raycast/pause.glsl"
 
 // Returns whether the part contains the voxels around the ray at the position `along`, in steps from the ray's
@@ -53,7 +54,8 @@ void take_next(inout March m, inout Cut cut, inout bool fresh, bool merged, int 
   }
 }
 
-// Returns the premultiplied RGBA of the pixel so far. `place` is the index of the pixel's Pause.
+// Returns the premultiplied RGBA of the pixel, including only the light gathered so far. `place` is the index of
+// the pixel's Pause.
 vec4 raycast_part(ivec2 pixel, int place) {
 #if TRI_TRACE
   begin_trace(pixel);

@@ -5,7 +5,7 @@ real traced_value = 0.0;
 real traced_front = 0.0;
 real traced_opacity = 0.0;
 
-// Devices also run helper invocations outside the triangle, whose pixels may be outside the image.
+// The pixel is clamped to the image, because devices also run helper invocations outside the triangle.
 void begin_trace(ivec2 pixel) {
   ivec2 inside = min(pixel, u.viewport.xy - 1);
   trace_place = counters[8 * (inside.y * u.viewport.x + inside.x) + 7];

@@ -49,8 +49,8 @@ void next_brick(inout Walk walk) {
   enter(walk);
 }
 
-// Returns the first sample beyond the brick, but at most `limit`. A sample that is within rounding of a face may be
-// assigned to either side, because the brick's border of one voxel covers half a voxel of error.
+// Returns the first sample beyond the brick, but at most `limit`. A sample within rounding error of a face may be
+// assigned to either side, because the brick's border of one voxel covers an error of half a voxel.
 int samples_before(Walk walk, int limit) {
   return walk.outside || !(walk.leave < real(limit)) ? limit : clamp(int(ceil(walk.leave - 0.5)), 0, limit);
 }
@@ -88,7 +88,7 @@ struct Leaps {
 Leaps make_leaps(Ray ray) {
   Leaps leaps;
   leaps.p0 = ray.p0 - 0.5;
-  // A ray that is parallel to a face needs 10²⁰ steps to the next one. This avoids a division by zero.
+  // To avoid a division by zero, a ray parallel to a face is assumed to need 10²⁰ steps to the next face.
   leaps.inverse_g = 1.0 / mix(ray.g, real3(1.0e-20), lessThan(abs(ray.g), real3(1.0e-20)));
   leaps.edge = real(u.brick_grid.w);
   leaps.inverse_edge = 1.0 / leaps.edge;
@@ -97,7 +97,7 @@ Leaps make_leaps(Ray ray) {
 }
 
 // Whether the brick that contains sample i is visible, and the first sample beyond the cube of bricks of the same
-// kind (technique::brick_reach), but at most `end`. A sample that is within rounding of a face may be assigned to
+// kind (technique::brick_reach), but at most `end`. A sample within rounding error of a face may be assigned to
 // either side, as in a walk.
 struct Leap {
   bool visible;
@@ -122,7 +122,7 @@ Leap leap(Leaps leaps, Ray ray, int i, int end) {
   return Leap(signed_reach > 0, clamp(next, i + 1, end));
 }
 
-// Does the same as next_run, but with leaps.
+// Returns the same run as next_run(), found by leaps.
 ivec2 next_run_by_leaps(Leaps leaps, Ray ray, int begin, int end) {
   Leap ahead = Leap(false, begin);
   while (begin < end && !ahead.visible) {
@@ -147,9 +147,9 @@ ivec2 next_run_by_leaps(Leaps leaps, Ray ray, int begin, int end) {
 }
 
 // Returns whether there is anything to skip. With leaps, the reach of a single brick reveals whether all bricks are
-// of the same kind. The 0 is written as an expression that depends on the ray: for a condition on parameters alone,
-// lavapipe (Mesa 22.3) would compile a separate shader with the parameters' values inlined in every submission,
-// which takes up to 1.5 ms.
+// of the same kind. `nothing` is always 0 but depends on the ray. If the condition depended only on parameters,
+// lavapipe (Mesa 22.3) would compile a separate shader for every submission, with the values of the parameters
+// inlined, which takes up to 1.5 ms.
 bool skips(Ray ray) {
   int longest = max(u.brick_grid.x, max(u.brick_grid.y, u.brick_grid.z));
   int nothing = min(0, int(ray.steps));
