@@ -15,8 +15,8 @@
 namespace triptych::gl_backend {
 
 // GL's functions as members (`gl.DrawArrays(…)`). A function is null if neither the version nor the
-// extensions of the context provide it. Valid while the context exists; call the functions only
-// while the context is current.
+// extensions of the context provide it. The object is valid while the context exists. Its functions
+// may be called only while the context is current.
 struct Api : GladGLContext {
   // Throws core::NotSupported if a function of GL 3.3 is missing.
   explicit Api(GLADloadfunc load);
@@ -33,8 +33,8 @@ struct Api : GladGLContext {
   void only_compile();
   [[nodiscard]] bool executes() const { return executes_; }
 
-  // A driver's message from linking a program (Report), and the stages of that program. Drivers
-  // report the code that they generate in such messages.
+  // Drivers report the code that they generate in messages that they send while a program is
+  // linked. A Report is such a message, with the stages of the program.
   struct LinkedStage {
     GLenum type = 0;
     std::string name;
@@ -43,16 +43,17 @@ struct Api : GladGLContext {
     std::vector<LinkedStage> program;
     std::string text;
   };
-  // Starts to store the messages from linking. Does nothing without collect_messages().
-  // take_reports() returns the stored messages, oldest first, and stops storing.
+  // Starts storing the messages that the driver sends while programs are linked. Has no effect
+  // unless collect_messages() was called. take_reports() returns the stored messages, oldest first,
+  // and stops storing.
   void keep_reports() const;
   [[nodiscard]] bool can_keep_reports() const { return messages_ != nullptr; }
   [[nodiscard]] std::vector<Report> take_reports() const;
-  // Assigns the messages that follow to a program with these stages.
+  // Assigns all following messages to a program with these stages.
   void begin_link(std::vector<LinkedStage> stages) const;
 
-  // Throws core::DeviceLost or core::ApiError if any call since the last check failed. `call` names
-  // the last of these calls, or the most important one.
+  // Throws core::DeviceLost or core::ApiError if any call since the previous check failed. `call`
+  // names the last or the most important of these calls.
   void check(std::string_view call, core::CodePlace place = core::CodePlace::current()) const;
 
   // Whether objects and commands get names that debuggers and profilers display. True if the names

@@ -147,7 +147,8 @@ class GlBackend final : public measure::Backend {
       if (!may_have(system, device_id)) continue;
       try {
         Walk walk(system);
-        // Compilers report the generated code in debug messages.
+        // A device that only compiles needs a debug context, because compilers report the generated
+        // code in debug messages.
         const bool debug = debug_wanted() || measure::compile_only(device_id).has_value();
         while (auto opened = walk.next(debug, broken)) {
           if (opened->info.id != device_id) continue;

@@ -40,8 +40,8 @@ class Context {
 
 // Makes a context current on this thread for the lifetime of this object. EGL's Mesa and OSMesa
 // share the variable that holds the thread's current context, but neither notices when the other
-// changes it. A context that stayed current would count as bound even after the other library had
-// replaced it. Therefore every use binds and unbinds the context.
+// changes it. If a context stayed current, its library would still regard it as bound after the
+// other library had bound a different context. Therefore every use binds and unbinds the context.
 class Current {
  public:
   explicit Current(Context& context) : context_(context) { context_.make_current(); }

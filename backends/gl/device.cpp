@@ -113,7 +113,8 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
 
   [[nodiscard]] double filter_weight_error(const measure::VolumePath& path) const override {
     if (path.sampler != technique::Sampler::hardware) return 0;
-    // Limits the error to the allowed error, because a faulty filter must not widen the bound.
+    // Returns at most the allowed error, because a faulty filter must not widen the error bound of
+    // images.
     return std::min(filter_error_.at(static_cast<std::size_t>(path.voxel)),
                     technique::allowed_filter_error(technique::least_weight_bits, path.voxel));
   }

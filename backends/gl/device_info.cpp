@@ -153,8 +153,8 @@ record::Device device_info(const Api& gl, std::string_view suffix) {
   if (is_software(info)) {
     info.cpu_features = measure::cpu_features();
   } else if (std::string family = measure::compiled_family(driver); !family.empty()) {
-    // The id already contains the driver, and the family represents the variables that selected it.
-    // Therefore the environment is cleared.
+    // The id contains the driver and the GPU family, which the environment variables selected.
+    // Therefore the environment need not be recorded.
     info.id = measure::compile_only_id("gl", driver, family);
     info.compiles_for = std::move(family);
     info.name = measure::without_kernel_version(std::move(info.name));

@@ -110,8 +110,8 @@ float texel_value(GLuint x, GLuint y, GLuint level) {
   return 2.0F + static_cast<float>(x + image_edge * y + 1000 * level);
 }
 
-// Returns the texel along one axis for coordinate `at`, which may lie outside of an image of `size`
-// texels. Returns `size` for the border.
+// Returns the index of the texel that coordinate `at` addresses along one axis of an image of
+// `size` texels. `at` may lie outside of the image. Returns `size` for the border.
 GLuint addressed(int at, GLuint size, GLint mode) {
   const int texels = static_cast<int>(size);
   if (mode == GL_CLAMP_TO_BORDER) return at < 0 || at >= texels ? size : static_cast<GLuint>(at);

@@ -30,8 +30,8 @@ bool write_all(int fd, std::string_view text) {
   return true;
 }
 
-// Runs in the child process. Leaves it with _exit, because the child must not run the parent's exit
-// handlers.
+// Runs in the child process, and ends it with _exit, because the child must not run the parent's
+// exit handlers.
 [[noreturn]] void answer(const std::function<std::string()>& ask, int fd) {
   // The parent reports a crash of the child. Inherited signal handlers would report it a second
   // time.
@@ -49,7 +49,7 @@ bool write_all(int fd, std::string_view text) {
   _exit(exit_exception);
 }
 
-// Reads until the end of the stream. Returns false if `limit` passes first.
+// Reads until the end of the stream. Returns false if `limit` elapses first.
 bool read_all(int fd, std::chrono::milliseconds limit, std::string& text) {
   const auto end = std::chrono::steady_clock::now() + limit;
   std::array<char, 4096> part{};

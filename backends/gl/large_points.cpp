@@ -34,8 +34,8 @@ std::vector<technique::Cell> cells_with_large_points(const Api& gl,
   const bool all_small = std::max(scene.width, scene.height) + 4 <= largest;
   const double pixel = 2 * scene::tangent_of_half(scene.camera.fov_y_deg) / scene.height;
   // Along an axis of the image plane, the two tangents of a sphere at (a, z) enclose an interval of
-  // length 2r√(a² + z² − r²)/(z² − r²). A little is added for the margins of sprites and points,
-  // and for round-off.
+  // length 2r√(a² + z² − r²)/(z² − r²). A small amount is added for the margins of sprites and
+  // points, and for round-off.
   const auto may_be_large = [&](const std::array<float, 4>& sphere) {
     const glm::dvec3 to = glm::dvec3(sphere[0], sphere[1], sphere[2]) - scene.camera.eye;
     const double r = static_cast<double>(sphere[3]);

@@ -12,12 +12,12 @@ class ParticleTarget {
  public:
   ParticleTarget(const Api& gl, int width, int height, technique::ParticleFault fault);
 
-  // Makes this target current, and sets the depth test for it.
+  // Binds this target, and sets its depth test.
   void bind(const Api& gl) const;
   // Overwrites every attachment; colour becomes NaN.
   void poison(const Api& gl) const;
   // Clears colour to the background, ids to "no particle", and depth to a value against which every
-  // particle passes.
+  // particle passes the depth test.
   void clear(const Api& gl, const std::array<float, 4>& background) const;
   // `near` is the scale of the depth buffer: Z = near/z.
   [[nodiscard]] core::Image read(const Api& gl, double near) const;

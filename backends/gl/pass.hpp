@@ -31,7 +31,7 @@ class Pass {
   virtual void poison(const Api& gl) = 0;
   // If a dump was requested, writes a standalone program that draws the frame (standalone.hpp).
   virtual void dump(const measure::VolumeWork& /*work*/, const std::string& /*source*/) const {}
-  // Makes the render target of this pass current. Called before the clock starts.
+  // Binds the render target of this pass. Called before the clock starts.
   virtual void bind(const Api& gl) = 0;
   // Makes the timed calls, which draw the image and, except when counting, do the injected extra
   // work.

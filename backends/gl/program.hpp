@@ -51,8 +51,8 @@ struct Stage {
 // source.
 [[nodiscard]] Stage plain_stage(const Api& gl, GLenum type, std::string_view main_file);
 
-// Compiles and links. Throws core::ApiError with the driver's log. If the context stores reports,
-// stores what the driver reports about the generated code.
+// Compiles and links. Throws core::ApiError with the driver's log. If the context stores reports
+// (Api::keep_reports()), it also stores the driver's reports about the generated code.
 [[nodiscard]] Program link(const Api& gl, std::span<const Stage> stages);
 
 }  // namespace triptych::gl_backend

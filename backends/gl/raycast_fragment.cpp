@@ -68,8 +68,8 @@ class FragmentPass final : public Pass {
     gl.Viewport(0, 0, width_, height_);
   }
 
-  // The extra work is drawn after the image, because a driver may skip drawing that is covered
-  // later.
+  // The extra work is drawn after the image, because a driver may skip a draw whose pixels a later
+  // draw overwrites.
   void submit(const Api& gl, measure::Purpose purpose) override {
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     if (extra_tiles_.empty() || purpose == measure::Purpose::counters) return;

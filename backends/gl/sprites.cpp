@@ -71,7 +71,7 @@ ParticleStage cull_stage(bool instanced, int pass) {
       fmt::format("#define TRI_INSTANCED {:d}\n#define TRI_OCCLUSION {}\n", int{instanced}, pass)};
 }
 
-// With occlusion culling, a second draw follows the first and draws the cells that came into sight.
+// With occlusion culling, a second draw follows the first and draws the cells that became visible.
 // A sphere of the second draw is therefore drawn after the cells of the first draw, although it may
 // precede them in the arrangement. Because the camera does not move, what was hidden stays hidden,
 // so the second draw is empty. Even if it were not empty, the order would matter only for exactly
@@ -160,8 +160,8 @@ class SpriteDrawing final : public Drawing {
     ParticleCounters counters;
   };
 
-  // Draws a frame from the previous camera, which is not shown, so that the first measured frame
-  // also has a previous frame.
+  // Draws a frame from the previous camera. This frame is not measured; it gives the first measured
+  // frame a previous frame.
   void draw_before(const Api& gl, const measure::ParticleWork& work,
                    const technique::Arrangement& arrangement) {
     if (work.camera_before) data_.look_from(gl, work.before(), arrangement);
@@ -171,8 +171,8 @@ class SpriteDrawing final : public Drawing {
   }
 
   // The set of hidden cells depends on the previous frames. The first frame after a jump of the
-  // camera draws everything that is visible. The second frame knows which cells are hidden, and all
-  // later frames are like the second.
+  // camera draws everything that is visible. Only the second frame skips the hidden cells, and all
+  // later frames do the same work as the second.
   void settle(const Api& gl) {
     prepare_state(gl);
     for (int frame = 0; frame < 2; ++frame) submit(gl, Purpose::statistics);

@@ -1,6 +1,6 @@
 #pragma once
-// The catalogue's techniques for OpenGL. Each is implemented in the file with its name. All
-// functions must be called while the context is current.
+// The catalogue's techniques for OpenGL. Each technique is implemented in the file of the same
+// name. All functions must be called while the context is current.
 
 #include <memory>
 #include <optional>

@@ -43,8 +43,8 @@ class TileBuffers {
   // Begins a round with no large spheres, no entries, and no tiles to draw into.
   void start_round(const Api& gl) const;
 
-  // The numbers of work groups: groups_for_tiles() has one group per 64 tiles, and
-  // dispatch_listed() one group per tile that the round draws into.
+  // groups_for_tiles() returns the number of work groups with one group per 64 tiles.
+  // dispatch_listed() dispatches one work group per tile that the round draws into.
   [[nodiscard]] GLuint groups_for_tiles() const;
   void dispatch_listed(const Api& gl) const;
   // Returns the number of blocks of TRI_BLOCK × TRI_BLOCK tiles. The tiles of a block are drawn

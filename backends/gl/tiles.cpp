@@ -32,7 +32,8 @@ struct Programs {
   std::vector<std::string> sources;
 };
 
-// Image units are numbered separately from other units in GL, and there are only a few of them.
+// GL numbers image units separately from texture units and storage blocks, and there are only a few
+// image units. Therefore TRI_LARGE_PIXELS is 0.
 std::string tile_defines(Culling culling, int spheres) {
   return fmt::format("#define TRI_SPHERES {}\n#define TRI_CULLING {}\n#define TRI_LARGE_PIXELS 0\n",
                      spheres, static_cast<int>(culling));

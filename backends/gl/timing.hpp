@@ -14,7 +14,7 @@ struct Elapsed {
   std::optional<double> device_ns;
 };
 
-// When the device takes its timestamps:
+// The times at which the device takes the two timestamps of a frame.
 enum class Stamps : std::uint8_t {
   in_stream,  // immediately before and after the work, as on GPUs
   finished  // the second timestamp after the work has finished. Software renderers run compute work

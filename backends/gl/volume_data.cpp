@@ -46,7 +46,8 @@ Texture transfer_texture(const Api& gl, const scene::TransferFunction& function)
   return texture;
 }
 
-// Creates the buffer for the cells of the whole volume, or the space for those of one part.
+// Creates the buffer for the cells of the whole volume or, if the volume is drawn in parts, for the
+// cells of one part.
 Buffer cell_buffer(const Api& gl, const measure::VolumeWork& work,
                    const std::vector<technique::Part>& parts) {
   const scene::VoxelGrid& grid = *work.scene.grid;

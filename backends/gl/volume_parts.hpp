@@ -20,7 +20,7 @@ namespace triptych::gl_backend {
 [[nodiscard]] bool holds_whole(const Api& gl, const std::array<int, 3>& size,
                                scene::VoxelFormat format);
 
-// Uploads one part after another to where the shader reads it.
+// Uploads the parts one after another to the resources that the shader reads.
 class VolumeParts {
  public:
   // `map` is the result of technique::brick_map.
@@ -28,8 +28,8 @@ class VolumeParts {
               const std::vector<technique::Part>& parts, std::span<const std::int32_t> map);
 
   [[nodiscard]] int count() const noexcept { return static_cast<int>(passes_.size()); }
-  // Uploads the n-th part: its parameters, to the end of `parameters`, and, if the shader reads its
-  // voxels, also the voxels, either into the bound texture or as cells.
+  // Uploads the n-th part: writes its parameters to the end of `parameters` and, if the shader
+  // reads its voxels, uploads the voxels to the bound texture or to `cells`.
   void move(const Api& gl, int n, const Buffer& parameters, const Buffer* cells) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// A backend without a graphics API, whose devices follow a script. It serves to test measurement,
-// supervision and judging, because the correct results are known. Nothing is rendered: an image is
+// A backend without a graphics API, whose devices follow a script. It is used to test measurement,
+// supervision and judging, because its correct results are known. Nothing is rendered: an image is
 // either read from a file that the script names, or a pattern that depends only on the factors that
 // determine an image (data, camera, step, …). Times and counts are computed from the work and a
 // seed.
@@ -42,12 +42,11 @@
 //   nan_image       the image consists of NaN
 //   stale_image     only the first frame draws anything
 //   garbage         invalid bytes are written to the pipe for the worker's answers
-// Places ("at"): list, open, supports, prepare, frame, image. "frame" is the number of the frame
-// since its work was prepared, counted from 0; at "prepare", it is the number of times that the
-// work was prepared before. Without "frame", every frame fails. A failure with "once" creates that
-// file, and does not happen if the file exists. GLOBs have the syntax of fnmatch(3). They are
-// matched against describe(work), but at "open" against the device id, and at "list" against the
-// API.
+// Places ("at"): list, open, supports, prepare, frame, image. "frame" is the 0-based number of the
+// frame since its work was prepared; at "prepare", it is the number of times that the work was
+// prepared before. Without "frame", every frame fails. A failure with "once" creates that file, and
+// does not happen if the file exists. GLOBs have the syntax of fnmatch(3). They are matched against
+// describe(work), but at "open" against the device id, and at "list" against the API.
 
 #include <cstdint>
 #include <functional>

@@ -15,9 +15,9 @@ namespace triptych::null_backend {
 [[nodiscard]] std::unique_ptr<measure::Device> make_device(std::shared_ptr<const Script> script,
                                                            std::size_t index);
 
-// Performs the script's first failure that matches this place, if there is one: throws, ends the
-// process or never returns. `subject` is matched against the globs. `number` is the number of the
-// frame or, at Place::prepare, of the work's preparation.
+// Triggers the first failure in the script that matches this place, if there is one: throws, ends
+// the process or never returns. `subject` is matched against the globs. `number` is the number of
+// the frame or, at Place::prepare, of the work's preparation.
 void play_failure(const Script& script, Place at, const std::string& subject, int number = 0);
 
 // Returns the first failure that affects the image: wrong_image, nan_image or another failure at

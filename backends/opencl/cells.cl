@@ -1,4 +1,4 @@
-// Quadrature cells, with one ray per work item. The algorithm is explained in
+// The quadrature `cells`, with one ray per work item. The algorithm is explained in
 // src/technique/volume/raycast/raycast_cells.glsl.
 //
 // Compile-time constants: TRI_SHADING, TRI_COUNT, and those of volume.cl.
@@ -57,7 +57,8 @@ TRI_FN float4 cubic_of_cell(__constant Parameters* u, TRI_VOLUME volume, int3 ce
 #if TRI_FAULT == FAULT_COARSE_FILTER
   a = floor(a * 256.0f + 0.5f) / 256.0f;
 #endif
-  // In the voxel buffer with its border, a cell begins at its index plus one.
+  // Because of the border of the voxel buffer, the first voxel of a cell has the cell's index plus
+  // one along each axis.
   int row = u->volume_size.x + 2;
   int slice = row * (u->volume_size.y + 2);
 #if TRI_FAULT == FAULT_FLIPPED_AXIS

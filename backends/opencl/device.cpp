@@ -194,13 +194,14 @@ measure::VolumePath Device::default_path(const measure::VolumeKind& volume) cons
 
 double Device::filter_weight_error(const measure::VolumePath& path) const {
   if (path.sampler != Sampler::hardware) return 0;
-  // Limits the error to the allowed error, because a faulty filter must not widen the bound.
+  // Returns at most the allowed error, because a faulty filter must not widen the error bound of
+  // images.
   return std::min(sampler_error(path.voxel),
                   technique::allowed_filter_error(technique::least_weight_bits, path.voxel));
 }
 
 double Device::sampler_error(scene::VoxelFormat format) const {
-  // Nothing can be sampled, so this returns the worst possible error.
+  // A device that only compiles cannot sample anything, so this returns the worst possible error.
   if (!session_.queue.executes()) return 1;
   const auto known = filter_errors_.find(format);
   if (known != filter_errors_.end()) return known->second;
@@ -210,8 +211,8 @@ double Device::sampler_error(scene::VoxelFormat format) const {
 std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
   if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
   if (const auto* particles = std::get_if<measure::ParticleWork>(&work.scene)) {
-    // Frees the cached volume, for example the one for calibrating statistics, because its memory
-    // is not part of this frame.
+    // Frees the cached volume (for example, the volume that was used to calibrate statistics),
+    // because its memory must not be attributed to this frame.
     volumes_ = {};
     return particle_techniques.at(work.technique)(session_, programs_, *particles);
   }

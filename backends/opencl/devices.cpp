@@ -16,7 +16,8 @@
 namespace triptych::opencl_backend {
 namespace {
 
-// The environment variables by which these drivers select devices, threads and generated code.
+// The environment variables that determine the devices, the number of threads and the generated
+// code of these drivers.
 constexpr auto variables = std::to_array<std::string_view>(
     {"GALLIUM_DRIVER", "GALLIUM_OVERRIDE_CPU_CAPS", "GALLIVM_PERF", "LP_NATIVE_VECTOR_WIDTH",
      "LP_NUM_THREADS", "POCL_AFFINITY", "POCL_BITCODE_FINALIZER", "POCL_CPU_LOCAL_MEM_SIZE",

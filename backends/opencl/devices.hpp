@@ -18,7 +18,7 @@ struct Search {
   std::vector<measure::Broken> broken;
 };
 
-// Never throws because of a driver. A platform or device that fails is listed in `broken`.
+// Does not throw if a driver fails. A platform or device that fails is listed in `broken`.
 [[nodiscard]] Search find_devices();
 
 // Returns "pocl" for "Portable Computing Language", and similar short names for other known

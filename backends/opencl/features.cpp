@@ -176,8 +176,8 @@ cl::Image2D float_image(const Bench& bench, std::size_t width, std::size_t heigh
 
 constexpr std::size_t image_edge = 16;
 
-// Returns the texel along one axis for coordinate `at`, which may lie outside of the image. Returns
-// `image_edge` for the border.
+// Returns the index of the texel that coordinate `at` addresses along one axis. `at` may lie
+// outside of the image. Returns `image_edge` for the border.
 std::size_t addressed(int at, std::string_view kernel) {
   constexpr int size = static_cast<int>(image_edge);
   if (kernel == "sample_border")

@@ -82,7 +82,8 @@ constexpr std::array codes{
 };
 #undef TRI_CODE
 
-// After a fault in a kernel, the queue of a GPU returns one of the last two codes for every call.
+// Returns whether the code means that the device was lost. After a fault in a kernel, every call
+// that uses the queue of a GPU returns one of the last two codes.
 bool means_lost(cl_int code) {
   return code == CL_DEVICE_NOT_AVAILABLE || code == CL_INVALID_COMMAND_QUEUE ||
          code == CL_OUT_OF_RESOURCES;
@@ -97,8 +98,8 @@ std::string code_name(cl_int code) {
 
 namespace {
 
-// The entry exists as long as the driver keeps the object, because other owners may hold references
-// to it.
+// Keeps the entry in the ledger until the driver destroys the object, which may be later than the
+// end of `object`, because others may hold references to it.
 void enter(cl::Memory& object, measure::MemoryLedger::Entry entry) {
   auto held = std::make_unique<measure::MemoryLedger::Entry>(std::move(entry));
   object.setDestructorCallback(

@@ -111,8 +111,8 @@ struct Session {
                                      core::CodePlace place = core::CodePlace::current());
 
 // Throws core::ApiError or core::DeviceLost if the command of an event ended abnormally, or has not
-// ended although the queue was waited for. `call` is the API call that enqueued the command, and
-// `detail` describes the command.
+// completed although the program waited for the queue. `call` is the API call that enqueued the
+// command, and `detail` describes the command.
 void check_executed(const cl::Event& event, const std::string& call, const std::string& detail = {},
                     core::CodePlace place = core::CodePlace::current());
 
@@ -126,7 +126,7 @@ void write_image(const Session& session, const cl::Image& to,
                  const std::array<cl::size_type, 3>& origin,
                  const std::array<cl::size_type, 3>& region, const void* from,
                  core::CodePlace place = core::CodePlace::current());
-// Fills the buffer, and waits until that is done.
+// Fills the buffer, and waits until the fill has finished.
 void fill_buffer(const Session& session, const cl::Buffer& to, cl_uint word, std::size_t bytes,
                  core::CodePlace place = core::CodePlace::current());
 

@@ -1,6 +1,6 @@
 // Sorts the particles of the listed cells into bins, in the order of the arrangement. A bin is a
 // tile of the image or, for particles that overlap more than TRI_MOST_TILES tiles, a coarse tile of
-// 8×8 tiles. The coarse bins follow the fine ones. Each of `chunks` work items processes a range of
+// 8×8 tiles. The coarse bins follow the fine bins. Each of `chunks` work items processes a range of
 // the listed cells and has its own counts, so that no atomics are needed and the order is
 // preserved.
 

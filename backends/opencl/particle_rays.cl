@@ -40,8 +40,8 @@ TRI_FN Beam open_beam(const Particles* u, const Tile* tile) {
 TRI_FN float8 greater_of(float8 a, float8 b) { return a > b ? a : b; }
 
 // Returns whether the beam intersects the box (lower corner, upper corner) and something in it may
-// be visible. `nearest` is the smallest distance of the box along the view axis. bvh.comp.glsl
-// derives the effects of rounding.
+// be visible. `nearest` is the smallest distance of the box along the view axis. The effects of
+// rounding are derived in bvh.comp.glsl.
 TRI_FN bool may_show(const Beam* beam, const Tile* tile, float8 box, float* nearest) {
   float4 lo = box.lo - beam->eye_high;
   float4 hi = box.hi - beam->eye_low;

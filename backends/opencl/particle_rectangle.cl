@@ -1,6 +1,6 @@
 // Rectangles of pixels, and the rectangle around a sphere's silhouette.
 
-// A rectangle of pixels is stored in two words: its first and its last pixel, both inside. The
+// A rectangle of pixels is stored in two words: its first and its last pixel, both inclusive. The
 // lower half of a word is x and the upper half is y.
 #define TRI_EMPTY_FIRST 0x00000001u
 #define TRI_EMPTY_LAST 0u

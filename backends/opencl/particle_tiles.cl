@@ -12,7 +12,7 @@ typedef struct {
   float depth[TRI_TILE * TRI_STRIDE];  // reversed depth; 0 if nothing was drawn
   uint winner[TRI_TILE * TRI_STRIDE];
 #if TRI_RAY_AT_VERTEX
-  float cosine[TRI_TILE * TRI_STRIDE];  // for shading: the cosine of the ray that hit the sphere
+  float cosine[TRI_TILE * TRI_STRIDE];  // for shading: the cosine between the ray and the surface normal
 #endif
   float column[TRI_STRIDE];            // for rays: sx of each column of pixels
   float row[TRI_TILE];                 // and sy of each row of pixels
@@ -72,7 +72,7 @@ TRI_FN void look_for_farthest(float near, Tile* tile) {
 }
 
 // Returns whether no part of the sphere can be visible in the tile, because the front of the sphere
-// is farther away than everything that is stored. The distances must differ by more than their
+// is farther away than every surface that is stored. The distances must differ by more than their
 // rounding errors (24·2⁻²⁴ of |c| + r, where |c| is at most the sum used here).
 TRI_FN bool hidden(const Tile* tile, float4 c) {
 #if TRI_REVERSED_DEPTH || !TRI_CONSERVATIVE_DEPTH
@@ -175,7 +175,7 @@ TRI_FN void draw_entry(const Particles* u, __global const float* restrict camera
   if (++tile->drawn >= TRI_LOOK_EVERY) look_for_farthest(u->eye.w, tile);
 }
 
-// Loads what an earlier pass of the frame left in the tile.
+// Loads the tile's pixels as an earlier pass of the frame has stored them.
 TRI_FN void load_tile(const Particles* u, __global const float* restrict depths,
                       __global const uint* restrict winners,
                       __global const float* restrict cosines, Tile* tile) {

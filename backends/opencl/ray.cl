@@ -47,8 +47,8 @@ TRI_FN int cell_is_here(__constant Parameters* u, int cell) {
   return cell >= u->part.x && cell < u->part.y;
 }
 
-// Returns whether this part contains the voxels around the ray, `along` steps from the ray's
-// beginning: those of the cell that fetch() reads.
+// Returns whether this part contains the voxels that fetch() reads for the position `along` steps
+// from the beginning of the ray.
 TRI_FN int is_here(__constant Parameters* u, const Ray* ray, real along) {
   real z = ray->p0.z + along * ray->g.z;
   return cell_is_here(u, (int)clamp_coordinate(z + 0.5f, (real)u->volume_size.z));
@@ -209,8 +209,8 @@ TRI_FN int brick_at(real p, real inverse_edge, int bricks) {
   return brick < 0 ? 0 : (brick < bricks ? brick : bricks - 1);
 }
 
-// Returns where a ray leaves the bricks fewer than `reach` bricks away from `brick` along one axis,
-// in steps.
+// Returns the distance, in steps, at which a ray leaves the range of bricks that are fewer than
+// `reach` bricks away from `brick` along one axis.
 TRI_FN real crossing(real p0, real inverse_g, real edge, int brick, int reach) {
   int face = inverse_g < 0.0f ? brick - reach + 1 : brick + reach;
   return ((real)face * edge - p0) * inverse_g;

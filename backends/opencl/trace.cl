@@ -9,8 +9,8 @@ TRI_FN __global uint* traced_records(__global uint* counters, int pixel) {
   return place == 0xFFFFFFFFu ? 0 : counters + place;
 }
 
-// `values` are the values at the beginning and at the end of a step. For a sample, both are its
-// value.
+// `values` are the values at the beginning and at the end of a step. For a sample, both are the
+// value of the sample.
 TRI_FN void trace(const Ray* ray, uint kind, real3 place, real2 values, real4 colour,
                   real length, real opacity, const Gathered* gathered) {
   __global uint* records = ray->trace;

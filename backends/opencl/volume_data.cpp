@@ -31,7 +31,7 @@ cl_channel_type channel_type(scene::VoxelFormat voxel) {
   return CL_FLOAT;
 }
 
-// Returns the k-th slice of the volume with its border: slice k − 1 of the grid (clamped),
+// Writes the k-th slice of the bordered volume to `slice`: slice k − 1 of the grid (clamped),
 // surrounded by a border.
 void copy_bordered_slice(const scene::VoxelGrid& grid, int k, std::vector<std::byte>& slice) {
   const std::size_t bytes = scene::bytes_of(grid.format);

@@ -23,8 +23,8 @@ namespace triptych::opencl_backend {
 // with a border on every side that repeats the outermost layer. Cell c lies between slices c and c
 // + 1 of the buffer.
 [[nodiscard]] technique::Layers bordered_layers(const scene::VoxelGrid& grid);
-// Writes `cells` cells, beginning with cell `first` of the volume, to the beginning of such a
-// buffer. Throws cl::Error.
+// Writes `cells` cells, beginning with cell `first` of the volume, to the beginning of a buffer
+// with this layout. Throws cl::Error.
 void write_layers(const Session& session, const cl::Buffer& buffer, const scene::VoxelGrid& grid,
                   int first, int cells);
 

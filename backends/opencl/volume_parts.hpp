@@ -31,7 +31,7 @@ class VolumeParts {
               const cl::Buffer& voxels, const cl::Buffer& parameters);
 
   // Runs the launch once per part, like opencl_backend::run with one launch. Fills `events` with
-  // the event of the frame's first command and with those of the launches.
+  // the event of the frame's first command and the events of the launches.
   void run(const Launch& launch, std::vector<cl::Event>& events) const;
 
  private:

@@ -17,7 +17,8 @@ class CellOcclusion {
                 const Specialization& constants);
 
   void bind(vk::DescriptorSet set) const;
-  // Stores the cells that were visible in this frame as those that were visible before.
+  // Must be recorded before the first pass of a frame. The cells that were visible in the previous
+  // frame become the "before" set of occlusion.glsl.
   void start_frame(const vk::raii::CommandBuffer& commands) const;
   // `depth` must be in the layout eTransferSrcOptimal. The descriptor set must be bound for
   // compute.

@@ -110,7 +110,8 @@ measure::VolumePath Device::default_path(const measure::VolumeKind& volume) cons
 double Device::filter_weight_error(const measure::VolumePath& path) const {
   if (path.sampler != technique::Sampler::hardware) return 0;
   const std::optional<double> error = hardware_error(path.voxel);
-  // Limits the error to the allowed error, because a faulty filter must not widen the bound.
+  // Returns at most the allowed error, because a faulty filter must not widen the error bound of
+  // images.
   if (error) return std::min(*error, allowed_filter_error(gpu_, path.voxel));
   throw core::NotSupported(fmt::format("the device cannot filter images of format {} linearly",
                                        vk::to_string(texture_format(path.voxel))));

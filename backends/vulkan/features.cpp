@@ -175,8 +175,8 @@ float texel_value(std::uint32_t x, std::uint32_t y) {
   return 2.0F + static_cast<float>(x + image_edge * y);
 }
 
-// Returns the texel along one axis for coordinate `at`, which may lie outside of the image. Returns
-// `image_edge` for the border.
+// Returns the index of the texel that coordinate `at` addresses along one axis. `at` may lie
+// outside of the image. Returns `image_edge` for the border.
 std::uint32_t addressed(int at, vk::SamplerAddressMode mode) {
   constexpr int size = static_cast<int>(image_edge);
   if (mode == vk::SamplerAddressMode::eClampToBorder) {

@@ -118,7 +118,7 @@ std::optional<double> Frames::device_ns() const {
   if (ticks[0] == unwritten_ticks || ticks[1] == unwritten_ticks) {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  // The counter wraps at its width.
+  // The counter wraps around after `timestamp_bits` bits.
   const std::uint64_t mask = ~std::uint64_t{0} >> (64 - gpu_.timestamp_bits);
   const std::uint64_t elapsed = (ticks[1] - ticks[0]) & mask;
   return static_cast<double>(elapsed) * static_cast<double>(gpu_.properties.limits.timestampPeriod);

@@ -9,7 +9,8 @@ vk::Pipeline Pipelines::get(const std::string& key, const StageNames& stages, co
   const vk::PipelineCreateFlags flags =
       captures_ ? eCaptureStatisticsKHR | eCaptureInternalRepresentationsKHR
                 : vk::PipelineCreateFlags{};
-  // Drivers report nothing about a pipeline that was created without the flags.
+  // Captured pipelines have keys of their own, because drivers report nothing about a pipeline that
+  // was created without the capture flags.
   const std::string full_key = captures_ ? "captured; " + key : key;
   auto made = made_.find(full_key);
   if (made == made_.end()) made = made_.emplace(full_key, make(flags)).first;

@@ -75,8 +75,8 @@ SpriteFrames::SpriteFrames(const Gpu& gpu, const Instance& instance,
   instance_.check_validation();
 }
 
-// Draws a frame from the previous camera, which is not shown, so that the first measured frame also
-// has a previous frame.
+// Draws a frame from the previous camera. This frame is not measured; it gives the first measured
+// frame a previous frame.
 void SpriteFrames::draw_before(const measure::ParticleWork& work) const {
   if (work.camera_before) data_.look_from(work.before());
   static_cast<void>(frames_.submit(measure::Purpose::timing));
@@ -84,8 +84,8 @@ void SpriteFrames::draw_before(const measure::ParticleWork& work) const {
 }
 
 // The set of hidden cells depends on the previous frames. The first frame after a jump of the
-// camera draws everything that is visible. The second frame knows which cells are hidden, and all
-// later frames are like the second.
+// camera draws everything that is visible. Only the second frame skips the hidden cells, and all
+// later frames do the same work as the second.
 void SpriteFrames::settle() const {
   for (int frame = 0; frame < 2; ++frame) {
     static_cast<void>(frames_.submit(measure::Purpose::timing));

@@ -84,7 +84,7 @@ class SpriteFrames final : public measure::Prepared {
   void settle() const;
   void draw_run(const vk::raii::CommandBuffer& commands, bool instanced, ParticleRun run) const;
   void draw_again(const vk::raii::CommandBuffer& commands) const;
-  // Draws every x-th cell, and in each cell the first 1/y of its particles.
+  // Draws every share[0]-th cell, and in each of these cells the first 1/share[1] of the particles.
   void draw_meshes(const vk::raii::CommandBuffer& commands,
                    const std::array<std::uint32_t, 2>& share) const;
   [[nodiscard]] std::vector<vk::DescriptorSetLayoutBinding> bindings() const;
@@ -107,7 +107,7 @@ class SpriteFrames final : public measure::Prepared {
   Frames frames_;
 };
 
-// Arranges the scene for a technique without a second draw.
+// Arranges the scene and prepares a technique without a second draw.
 [[nodiscard]] std::unique_ptr<measure::Prepared> prepare_sprites(const Gpu& gpu,
                                                                  const Instance& instance,
                                                                  const measure::ParticleWork& work,

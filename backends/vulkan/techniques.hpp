@@ -1,5 +1,5 @@
 #pragma once
-// Each technique of the catalogue is implemented in the file with its name.
+// Each technique of the catalogue is implemented in the file of the same name.
 
 #include <memory>
 

@@ -37,8 +37,8 @@ vk::Extent3D pairs(const scene::ParticleScene& scene, const technique::TileRound
           parts(static_cast<std::uint32_t>(scene.height), 2), 1};
 }
 
-// With injected extra work, a particle may be stored twice, and each entry of a sphere may appear
-// twice.
+// Returns 2 with injected extra work, because then a particle may be stored twice, and each entry
+// of a sphere may appear twice. Otherwise returns 1.
 std::uint64_t times(const measure::ParticleWork& work) {
   return work.options.extra_work_stride > 0 ? 2 : 1;
 }

@@ -21,7 +21,7 @@ namespace triptych::vulkan_backend {
 [[nodiscard]] bool holds_whole(const Gpu& gpu, const std::array<int, 3>& size,
                                scene::VoxelFormat format);
 
-// Uploads one part after another to where the shader reads it.
+// Uploads the parts one after another to the resources that the shader reads.
 class VolumeParts {
  public:
   // `parameters` (technique::raycast_parameters) must have room for a technique::PartParameters at
@@ -31,8 +31,8 @@ class VolumeParts {
               std::vector<std::byte> parameters);
 
   [[nodiscard]] int count() const noexcept { return static_cast<int>(passes_.size()); }
-  // Uploads the parameters of the n-th part and, if the shader reads its voxels, also the voxels,
-  // either into the image or as cells.
+  // Uploads the parameters of the n-th part to `parameters` and, if the shader reads the part's
+  // voxels, uploads the voxels to `image` or `cells`.
   void move(int n, const Buffer& parameters, const Image* image, const Buffer* cells);
 
  private:

@@ -119,7 +119,7 @@ class VolumeResources {
 
 // Returns the build of a raycaster for this work. `shader` is "raycast.comp" or
 // "raycast_fragment.frag". `in_parts` selects the build that draws a volume in parts with the
-// technique raycast. Empty if no build can trace the work.
+// technique raycast. Returns an empty string if no build can trace the work.
 [[nodiscard]] std::string_view raycast_spirv(std::string_view shader,
                                              const measure::VolumeWork& work, Pass pass,
                                              bool in_parts = false);

@@ -43,10 +43,10 @@ struct Atoms {
 };
 
 // Converts the atoms to spheres. Radii and colours are documented at load_particles(). If `order`
-// is not empty, the spheres are sorted by it and their ids are their ranks, so that an atom has the
-// same id in every frame of a trajectory. Throws InputError for a number that appears twice. The
-// error names the line of the atom, assuming one atom per line and the first atom in line
-// `first_line`.
+// is not empty, the spheres are sorted by these numbers and their ids are their ranks, so that an
+// atom has the same id in every frame of a trajectory. Throws InputError for a number that appears
+// twice. The error names the line of the atom, assuming one atom per line and the first atom in
+// line `first_line`.
 [[nodiscard]] ParticleSet to_particles(Atoms atoms, ColourKind colour, const LineReader& reader,
                                        int first_line = 0);
 

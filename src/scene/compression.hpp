@@ -1,6 +1,6 @@
 #pragma once
-// Reading of files that are compressed as a whole. Compression is recognized by a file's first
-// bytes, regardless of its name.
+// Reads files that are compressed as a whole. Compression is recognized by a file's first bytes,
+// regardless of its name.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-// Some processors need about a hundred cycles for each operation on a denormal float, and others
+// Some CPUs and GPUs need about a hundred cycles for each operation on a denormal float, and others
 // treat denormals as 0. Therefore denormals are set to 0 before data are sent to a device. This
 // changes each value by less than 2⁻¹²⁶.
 

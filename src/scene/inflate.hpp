@@ -33,9 +33,9 @@ class Inflater {
   Inflater& operator=(Inflater&&) noexcept;
   ~Inflater();
 
-  // Fills `out` and returns its size, or a smaller number if the stream ended properly. Throws
-  // InputError for a stream that is damaged, ends prematurely, has a wrong checksum, or is followed
-  // by other data.
+  // Fills `out` and returns the number of bytes written, which is less than the size of `out` only
+  // if the stream ended properly. Throws InputError for a stream that is damaged, ends prematurely,
+  // has a wrong checksum, or is followed by other data.
   std::size_t read(std::span<std::byte> out);
 
   // Reads and discards `count` bytes, or all remaining bytes if there are fewer.

@@ -21,7 +21,8 @@ std::array<float, 4> rgba32_of(const Rgb& rgb) {
 Rgb hue_colour(double hue, double saturation) {
   Rgb rgb{};
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    // The distance from the channel's own hue, on a circle of six sextants.
+    // The distance between `hue` and the channel's own hue, in sextants (sixths of the colour
+    // circle).
     const double offset = std::abs(hue * 6 - 2.0 * static_cast<double>(channel));
     const double distance = std::min(offset, 6 - offset);
     rgb.at(channel) = 1 - saturation * std::clamp(distance - 1, 0.0, 1.0);

@@ -15,7 +15,7 @@
 
 namespace triptych::scene {
 
-// The source of a particle's colour: the levels of the factor `colour`.
+// The format in which a set stores the colours of its particles: the levels of the factor `colour`.
 enum class ColourKind : std::uint8_t {
   rgba8,     // four bytes, with red in the lowest byte
   rgba32,    // four floats

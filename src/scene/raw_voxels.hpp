@@ -34,8 +34,8 @@ struct RawVoxels {
 };
 
 // Fills volume.voxels, whose size must already be set, and sets the volume's type, its facts, and
-// its range from the finite voxels (0..0 if no voxel is finite). The voxels are kept in memory only
-// once. For an uncompressed file, memory is allocated only after the file is known to be long
+// its range from the finite voxels (0..0 if no voxel is finite). Only one copy of the voxels exists
+// in memory. For an uncompressed file, memory is allocated only after the file is known to be long
 // enough. For a compressed file, memory is used as the voxels are decompressed. Throws InputError
 // if the data are shorter or longer than size and type require or if a compressed stream is
 // damaged, and IoError if the file cannot be read.

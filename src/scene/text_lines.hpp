@@ -23,7 +23,7 @@ namespace triptych::scene {
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 [[nodiscard]] std::string lower_case(std::string_view text);
 
-// Returns a word from a file in the form in which messages quote it: on one line, with at most 40
+// Returns a word from a file in a form that is suitable for messages: on one line, with at most 40
 // characters, and without characters that control a terminal.
 [[nodiscard]] std::string quotable(std::string_view word);
 

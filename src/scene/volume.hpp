@@ -33,9 +33,9 @@ struct Volume {
   std::array<double, 3> spacing{1, 1, 1};
   ScalarType type = ScalarType::u8;
   VoxelBytes voxels;
-  // The values that are mapped to 0 and 1 of the transfer function. For a file, these are the
-  // minimum and maximum of the finite voxels. A generator sets its own range. lo == hi is allowed,
-  // in which case every voxel maps to 0.
+  // The values that are mapped to 0 and 1, the ends of the transfer function. For a file, these are
+  // the minimum and maximum of the finite voxels. A generator sets its own range. lo == hi is
+  // allowed, in which case every voxel maps to 0.
   double range_lo = 0;
   double range_hi = 1;
   Mapping mapping = Mapping::linear;
@@ -81,8 +81,8 @@ struct VoxelGrid {
   [[nodiscard]] double normalised(std::size_t index) const;  // x of this voxel
 };
 
-// Returns the smallest format that represents every value of this type exactly. For f64 this is
-// f32, which is not exact.
+// Returns the smallest format that represents every value of this type exactly. For f64, returns
+// f32, although f32 is not exact.
 [[nodiscard]] VoxelFormat lossless_format(ScalarType type);
 // Returns the smallest lossless format for the mapped volume: f32 if integers are clamped or mapped
 // logarithmically.

@@ -1,7 +1,7 @@
 #pragma once
 // Reads the tags of an XML file one by one, with the position at which each tag ends. This is
-// useful for formats with large data between the tags. It is not a complete XML parser, because
-// entities in attributes are not replaced.
+// useful for formats with large amounts of data between the tags. It is not a complete XML parser,
+// because entities in attributes are not replaced.
 
 #include <cstdint>
 #include <map>
