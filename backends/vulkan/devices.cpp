@@ -175,7 +175,7 @@ Candidate candidate(vk::raii::PhysicalDevice device) {
   }
   if (properties.apiVersion < VK_API_VERSION_1_1) {
     return {std::move(device), std::move(info),
-            fmt::format("supports only Vulkan {}, but 1.1 is needed",
+            fmt::format("the device supports only Vulkan {}; Vulkan 1.1 is required",
                         version_text(properties.apiVersion))};
   }
   if (tells_driver(device, properties.apiVersion)) {

@@ -59,15 +59,15 @@ std::optional<std::string> feature_reason(const Gpu& gpu, Needs needs) {
     return "the device lacks tessellationShader";
   }
   if (needs == Needs::ray_query && !gpu.extensions.ray_query) {
-    return "the device lacks VK_KHR_ray_query or an extension that it depends on; lavapipe has "
-           "them from Mesa 25.0 (Debian 13)";
+    return "the device lacks VK_KHR_ray_query or an extension that it depends on; lavapipe "
+           "supports them since Mesa 25.0 (Debian 13)";
   }
   if (needs == Needs::ray_pipeline && !gpu.extensions.ray_pipeline) {
     return "the device lacks VK_KHR_ray_tracing_pipeline or an extension that it depends on; "
-           "lavapipe has them from Mesa 25.0 (Debian 13)";
+           "lavapipe supports them since Mesa 25.0 (Debian 13)";
   }
   if (needs == Needs::mesh && !gpu.extensions.mesh_shader) {
-    return "the device lacks VK_EXT_mesh_shader; lavapipe has it from Mesa 25.0 (Debian 13)";
+    return "the device lacks VK_EXT_mesh_shader; lavapipe supports it since Mesa 25.0 (Debian 13)";
   }
   return std::nullopt;
 }

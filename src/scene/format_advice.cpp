@@ -34,7 +34,7 @@ constexpr std::array<Conversion, 14> of_particles{{
     {".bcif .mmtf", "a binary PDB structure", ".cif",
      "download the entry as mmCIF: https://files.rcsb.org/download/ID.cif"},
     {".mtz .mrc", "a file with reflections or a density, without atoms", ".cif",
-     "use the atomic model of the same structure"},
+     "download the atomic model of the same structure"},
     {".poscar .contcar .vasp", "a VASP structure", ".extxyz", "ase convert -i vasp IN OUT.extxyz"},
     {".traj .db .cell .res .castep .xsf .in .gen .cfg .xml .json", "a structure that ASE can read",
      ".extxyz", "ase convert IN OUT.extxyz"},
@@ -76,7 +76,7 @@ constexpr std::array<Conversion, 14> of_volumes{{
     {".pvm .vol .bov .raw .bin .img16 .yuv",
      "a file that contains voxels but not their number along each axis",
      "raw voxels with a stated size",
-     "state it as data=FILE:XxYxZ:TYPE, for example data=head.raw:256x256x128:u8"},
+     "state these numbers as data=FILE:XxYxZ:TYPE, for example data=head.raw:256x256x128:u8"},
     {".fits .fit", "an astronomical image", "raw voxels with a stated size",
      "python3 -c \"from astropy.io import fits; a=fits.getdata('IN.fits'); print(a.shape[::-1], "
      "a.dtype); a.astype('<f4').tofile('OUT.raw')\"; then data=OUT.raw:XxYxZ:f32"},
@@ -89,8 +89,8 @@ std::string advice(std::string_view ending, std::span<const Conversion> conversi
   if (known == conversions.end()) {
     return fmt::format("expected {}, plain or compressed with gzip or bzip2", endings);
   }
-  return fmt::format("{} is {}; the nearest supported format is {}: {} (supported: {})", ending,
-                     known->what, known->to, known->command, endings);
+  return fmt::format("{} is {}; the nearest supported format is {}; to convert: {} (supported: {})",
+                     ending, known->what, known->to, known->command, endings);
 }
 
 template <typename Format>

@@ -52,10 +52,10 @@ const Style* named_style(std::string_view comment, const LineReader& reader) {
   if (name.empty()) return nullptr;
   const auto found = std::ranges::find(styles, name, &Style::name);
   if (found == styles.end()) {
-    reader.reject(
-        fmt::format("expected Atoms in the style atomic, charge, molecular, bond, angle, full, "
-                    "sphere, dipole, electron, ellipsoid, body, peri, line or tri; found '{}'",
-                    quotable(name)));
+    reader.reject(fmt::format(
+        "expected an Atoms section of the style atomic, charge, molecular, bond, angle, full, "
+        "sphere, dipole, electron, ellipsoid, body, peri, line or tri; found '{}'",
+        quotable(name)));
   }
   return &*found;
 }

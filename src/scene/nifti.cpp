@@ -276,7 +276,7 @@ std::filesystem::path image_beside(const std::filesystem::path& file, const Nift
     std::error_code unreadable;
     if (std::filesystem::is_regular_file(image, unreadable)) return image;
   }
-  header.reject(fmt::format("the file '{}' with the voxels does not exist",
+  header.reject(fmt::format("the voxel file '{}' does not exist",
                             stem.replace_extension(".img").filename().string()));
 }
 

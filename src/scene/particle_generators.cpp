@@ -299,7 +299,7 @@ struct Generator {
 };
 
 constexpr std::array<Generator, 7> generators{{
-    {{"uniform", "uniformly distributed in a box, with equal radii that fill a tenth of it"},
+    {{"uniform", "uniformly distributed spheres of equal radius that fill a tenth of a box"},
      uniform},
     {{"droplets", "three dense droplets in thin vapour"}, droplets},
     {{"layer", "a liquid layer across a long box, with vapour on both sides"}, layer},
@@ -307,8 +307,7 @@ constexpr std::array<Generator, 7> generators{{
     {{"coincident", "every position eight times, in different colours, so that depths tie"},
      coincident},
     {{"wall", "a wall without gaps, completely visible from +z"}, wall},
-    {{"hidden", "a wall that consists of a tenth of the particles, which hides all others"},
-     hidden},
+    {{"hidden", "a wall of a tenth of the particles, which hides all other particles"}, hidden},
 }};
 
 // Throws InputError for an unknown name or an unsupported count.

@@ -284,8 +284,8 @@ void note_values(Volume& volume, const RawVoxels& source) {
   facts.notes.push_back(
       source.component.magnitude
           ? fmt::format("the magnitude of the {} values of each voxel is drawn", layout.components)
-          : fmt::format("component {} of the {} values of each voxel is drawn; use the factor component "
-                        "to draw another component or the magnitude",
+          : fmt::format("component {} of the {} values of each voxel is drawn; use the factor "
+                        "`component` to draw another component or the magnitude",
                         source.component.index, layout.components));
 }
 

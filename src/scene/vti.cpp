@@ -96,7 +96,7 @@ VtiFile read_tags(const std::filesystem::path& file) {
                     vti.pieces.size()));
   }
   if (vti.arrays.empty()) {
-    vti.reject("the file contains no data: expected <Piece> with <PointData> and a <DataArray>");
+    vti.reject("the file contains no data; expected <Piece> with <PointData> and a <DataArray>");
   }
   return vti;
 }
@@ -312,9 +312,10 @@ ByteSource open_array(const VtiFile& vti, const XmlTag& array, const std::filesy
     return bytes;
   }
   if (compressor != "vtkZLibDataCompressor") {
-    vti.reject(fmt::format("compressor '{}' is not supported; expected vtkZLibDataCompressor or "
-                           "none: in ParaView, save the file with the compressor ZLib or None",
-                           quotable(compressor)));
+    vti.reject(
+        fmt::format("compressor '{}' is not supported; expected vtkZLibDataCompressor or none; in "
+                    "ParaView, save the file with the compressor ZLib or None",
+                    quotable(compressor)));
   }
   const auto blocks = std::make_shared<ZlibBlocks>(vti, std::move(bytes));
   return [blocks](std::span<std::byte> out) { return (*blocks)(out); };

@@ -164,10 +164,12 @@ void note_numbers(Atoms& atoms) {
   constexpr std::size_t enough = 6;
   const bool all = read_as.size() <= enough;
   if (!all) read_as.resize(enough);
-  atoms.notes.push_back(fmt::format(
-      "the first column contains numbers, which are read as atomic numbers: {}{}; if they are LAMMPS "
-      "types instead, name the elements with dump_modify, or write a .lammpstrj, which keeps types",
-      fmt::join(read_as, ", "), all ? "" : ", …"));
+  atoms.notes.push_back(
+      fmt::format("the first column contains numbers, which are read as atomic numbers: {}{}; if "
+                  "they are LAMMPS "
+                  "types instead, name the elements with dump_modify, or write a .lammpstrj file, "
+                  "which keeps the types",
+                  fmt::join(read_as, ", "), all ? "" : ", …"));
 }
 
 // Converts the words in the file to elements.

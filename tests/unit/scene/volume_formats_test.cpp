@@ -189,7 +189,7 @@ TEST(NiftiFiles, MayBePairs) {
   header.replace(344, 3, "ni1");
   folder.write("a.hdr", header);
   EXPECT_THAT([&] { (void)load_volume("a.hdr", {folder.path()}); },
-              ThrowsMessage<core::InputError>(HasSubstr("'a.img' with the voxels does not exist")));
+              ThrowsMessage<core::InputError>(HasSubstr("the voxel file 'a.img' does not exist")));
   folder.write("a.img", "xAB");
   EXPECT_THAT(values_of(load_volume("a.hdr", {folder.path()})), ElementsAre('A', 'B'));
 }
