@@ -19,7 +19,8 @@ measure::RunOptions options_for(const measure::SideOptions& side,
           .worker_environment = side.environment};
 }
 
-// Ends the whole comparison if a side cannot be opened for its first configuration.
+// Throws, and thereby ends the whole comparison, if the device of a side could not be opened for
+// its first configuration.
 void require_opened(const record::Store& store, const record::Record* record) {
   if (record == nullptr || record->outcome == record::Outcome::measured) return;
   if (store.devices(record->run).empty()) {

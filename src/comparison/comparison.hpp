@@ -1,6 +1,6 @@
 #pragma once
-// Compares two sides over a plan. Deterministic measurements (images, counters, statistics, cost,
-// memory) are compared first, and then interleaved times.
+// Compares two sides over all configurations of a plan. First compares the deterministic
+// measurements (images, counters, statistics, cost, memory), and then interleaved frame times.
 
 #include <array>
 #include <chrono>
@@ -23,10 +23,10 @@ struct ComparisonOptions {
   measure::SideOptions a;
   measure::SideOptions b;
   std::vector<measure::InjectedFault> faults;  // injected into side b
-  // The time budget, which starts with the comparison. When it is used up, no further blocks are
-  // measured. Part of the budget is reserved for confirming suspects. The deterministic
-  // measurements, the first look at each configuration and the confirmation are always done,
-  // regardless of the budget, because there would be no result without them.
+  // The time budget, counted from the start of the comparison. When it is used up, no further
+  // blocks are measured. Without the deterministic measurements, the first look at each
+  // configuration and the confirmation, there would be no result, so these are always completed,
+  // regardless of the budget. Part of the budget is reserved for the confirmation of suspects.
   std::optional<std::chrono::seconds> budget;
   std::chrono::seconds limit{60};
   std::uint64_t seed = 1;
@@ -35,11 +35,11 @@ struct ComparisonOptions {
   ConfirmationDesign confirmation;
 };
 
-// The frame times of one side: the median and the quartiles over all blocks of the first process
+// The frame times of one side: the median and the quartiles over all blocks of its first process
 // run.
 using SideTime = record::Summary;
 
-// The results of one configuration.
+// The results of comparing one configuration.
 struct Compared {
   std::string key;
   measure::Configuration configuration;
@@ -49,8 +49,8 @@ struct Compared {
   PairVerdict verdict = PairVerdict::undecided;
   TimeReason reason;     // why there is no verdict, or why the confirmation withdrew it
   Shift shift;           // shift of ln t from a to b; meaningless if a side did not finish
-  int blocks = 0;        // number of blocks of the first process run
-  int process_runs = 0;  // number of new process runs for the confirmation
+  int blocks = 0;        // number of blocks measured in the first process run
+  int process_runs = 0;  // number of fresh process runs measured for the confirmation
   int frames_per_batch = 1;
   measure::SideClock clock = measure::SideClock::wall;
   WallClockCause why_wall = WallClockCause::none;
@@ -61,9 +61,9 @@ struct Compared {
 
   [[nodiscard]] bool is_regression() const;
   [[nodiscard]] bool is_doubtful(bool timed) const;
-  // The verdict on the time of this configuration: "slower", …, "skipped", "undecided".
+  // Returns the verdict on the time of this configuration: "slower", …, "skipped" or "undecided".
   [[nodiscard]] std::string_view verdict_name() const;
-  // Whether `shift` was measured.
+  // Returns whether `shift` was measured.
   [[nodiscard]] bool has_time() const { return blocks > 0 && !ended; }
 };
 
@@ -88,7 +88,7 @@ enum class ComparisonStage : std::uint8_t {
 
 struct ComparisonProgress {
   ComparisonStage stage = ComparisonStage::deterministic;
-  std::size_t process_run = 0;   // number of the current run, for fresh_process_runs
+  std::size_t process_run = 0;   // number of the current fresh process run
   std::size_t process_runs = 0;  // total number of fresh process runs
   std::string configuration;
   int done = 0;
@@ -99,9 +99,9 @@ struct ComparisonProgress {
 
 using Tell = std::function<void(const ComparisonProgress&)>;
 
-// Compares the sides. The runs of both sides are written to the store. Throws the same exceptions
-// as measure::run_sides() and measure::Interleaved, and record::NotMeasured if a side cannot be
-// opened.
+// Compares the sides, and writes the runs of both sides to the store. Throws the same exceptions as
+// measure::run_sides() and measure::Interleaved. Throws record::NotMeasured if the device of a side
+// cannot be opened.
 [[nodiscard]] ComparisonResult compare(const ComparisonOptions& options,
                                        const measure::Suite& suite, record::Store& store,
                                        measure::Truths& truths, const Tell& tell);

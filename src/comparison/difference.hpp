@@ -1,7 +1,7 @@
 #pragma once
-// Data types for a difference between two records or two devices. report/words/comparison.hpp turns
-// a difference into a sentence. docs/compare.md lists the causes for programs that read the JSON
-// output.
+// Data types for a difference between two records or two devices. report/words/comparison.hpp
+// converts a difference to a sentence. docs/compare.md documents the causes for programs that read
+// the JSON output.
 
 #include <array>
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace triptych::comparison {
 enum class DifferenceKind : std::uint8_t {
   regression,   // b is wrong, does more work, or changed something that must not change
   unjudged,     // there is no reference image, or b can no longer draw what a can draw
-  fixed,        // a is wrong or cannot draw the configuration, and b is right
+  fixed,        // a is wrong or cannot draw the configuration, but b is correct
   calibration,  // a statistic that at least one of the drivers does not count exactly
   changed       // an allowed difference between two devices, or b does less work
 };
@@ -44,15 +44,15 @@ enum class Subject : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(Subject subject);
 
-// The reason for a difference. report/words/ has one sentence for each cause. The brackets list the
-// data of each cause: numbers in quotes, facts in <angle brackets>, and other members by their
-// names.
+// The cause of a difference. report/words/ has one sentence for each cause. The square brackets
+// list the members of Difference that contain the data of a cause: entries of `numbers` in quotes,
+// entries of `facts` in <angle brackets>, and other members by their names.
 enum class DifferenceCause : std::uint8_t {
   ended,                   // a side did not measure the configuration [sides: the outcome]
   only_one_side,           // only one side has the configuration [side]
   no_reference,            // there is no reference image [sides: the reason]
   wrong_image,             // an image is wrong [sides: the errors of each wrong image]
-  other_bits,              // both images are right, but not identical ["pixels" of "total", …]
+  other_bits,              // both images are correct, but not identical ["pixels" of "total", …]
   other_bits_of_one_code,  // as above, although device, settings and device code are equal
   two_counters,            // the sides used different instruction counters [<a> <b>]
   values_changed,          // values such as instructions or bytes differ [changes]
@@ -67,11 +67,11 @@ enum class DifferenceCause : std::uint8_t {
   drivers_may_differ,      // the APIs leave this value to the driver [changes]
   counted_differently,     // a driver does not count the value exactly [changes, worths]
   calibration_changed,     // a driver now counts a statistic differently [worths]
-  limit_changed            // a limit of the device changed; a device may lack it [<a> <b>]
+  limit_changed            // a device limit changed, appeared or disappeared [<a> <b>]
 };
 [[nodiscard]] std::string_view name_of(DifferenceCause cause);
 
-// The observations for side a and for side b.
+// The values for side a and for side b, in this order.
 template <typename T>
 using BySide = std::array<std::optional<T>, 2>;
 
@@ -94,16 +94,16 @@ struct Difference {
   [[nodiscard]] std::string about() const;  // such as "image" or "counter samples"
 };
 
-// Differences of the same kind in the same measurement, which are reported as one.
+// Differences of the same kind in the same measurement, which are reported together.
 struct DifferenceGroup {
   Difference difference;  // the difference with the largest change, or the first one
-  std::string where;      // the configuration of `difference`; empty: the device
+  std::string where;      // configuration of `difference`; empty: a difference between devices
   int count = 0;
-  std::optional<std::pair<double, double>> ratios;  // the smallest and the largest
+  std::optional<std::pair<double, double>> ratios;  // the smallest and the largest `ratio`
 };
 
-// A configuration, and a difference in it. The configuration is empty for a difference between the
-// devices.
+// A configuration, and a difference between its two records. The configuration is empty for a
+// difference between the devices.
 using Located = std::pair<std::string, Difference>;
 // Groups the differences. The groups are sorted by kind (worst first) and then by measurement.
 // Injected faults form separate groups, so that nobody mistakes them for driver faults.

@@ -18,11 +18,12 @@ using Kind = DifferenceKind;
 using Cause = DifferenceCause;
 using measure::Side;
 
-// The relative increase in instructions that is allowed for a frame on another driver, or on the
-// same driver with other settings. A time must increase by the same amount to count as slower.
+// The relative increase in the instructions of a frame that is allowed if the sides use different
+// drivers, or the same driver with different settings. It equals the increase in time that is
+// tolerated (SequentialDesign::standard()).
 constexpr double frame_across_setups = 0.01;
-// Changes in the preparation cost up to this fraction are not reported, because that cost varies
-// from run to run.
+// Relative changes in the preparation cost up to this limit are not reported, because that cost
+// varies from run to run.
 constexpr double of_preparing = 0.05;
 
 template <typename Map>
@@ -38,7 +39,7 @@ std::optional<std::uint64_t> value_in(const record::Counts& counts, const std::s
   return found == counts.end() ? std::nullopt : std::optional(found->second);
 }
 
-// Returns the number of pixels in which two images differ, and the pixel with the largest
+// Returns the number of pixels that differ between two images, and the pixel with the largest
 // difference.
 std::map<std::string, double> image_change(const core::Image& a, const core::Image& b) {
   core::Image no_bound(a.width, a.height);
@@ -141,7 +142,7 @@ class Finder {
     return new_fault ? Kind::regression : Kind::unjudged;
   }
 
-  // Returns the fault in a side's image. Returns nullopt if the image is right, or if there is no
+  // Returns the fault in a side's image. Returns nullopt if the image is correct or if there is no
   // reference image.
   static std::optional<judge::Observation> fault_of(const ComparedSide& side) {
     if (side.truth == nullptr) return std::nullopt;
@@ -186,9 +187,9 @@ class Finder {
   }
 
   // Compares the instructions of a frame. If both sides are the same device, each part of the frame
-  // must stay within its own small tolerance, even if the programs differ. If the sides are two
-  // versions of a device, only the cost of the whole frame is limited: it may grow by
-  // frame_across_setups.
+  // must stay within its own small tolerance, even if the sides run different programs. If the
+  // sides are two versions of one device, only the cost of the whole frame is limited: it may grow
+  // by frame_across_setups.
   void cost() {
     const record::Counts& before = a_.record.cost;
     const record::Counts& now = b_.record.cost;
@@ -221,8 +222,8 @@ class Finder {
     found.ratio = now / before;
   }
 
-  // Compares what the compilers report. For the same device id, worse code is a regression, even
-  // across driver versions. The code of two different devices may differ.
+  // Compares the reports of the compilers. If both sides have the same device id, worse code is a
+  // regression, even across driver versions. For two different devices, the code may differ.
   void code() {
     if (a_.record.code.empty() || b_.record.code.empty()) return;
     judge::CodeComparison comparison = judge::compare_code(a_.record.code, b_.record.code);

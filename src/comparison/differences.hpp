@@ -1,5 +1,5 @@
 #pragma once
-// Finds all differences, except times, between two records of the same configuration.
+// Finds all differences, except those in times, between two records of the same configuration.
 
 #include <string>
 #include <vector>
@@ -28,7 +28,7 @@ struct Comparison {
   TimeReason no_time;
 };
 
-// Finds the differences between two records. `same_setup` means that both sides run the same
+// Finds the differences between two records. `same_setup` states that both sides run the same
 // program in the same environment. In this case, the same device code on the same device must
 // produce bit-identical images.
 [[nodiscard]] Comparison find_differences(const ComparedSide& a, const ComparedSide& b,

@@ -129,9 +129,9 @@ void HistoryBuilder::add_changes(const record::Store& store,
   }
 }
 
-// Adds the values from one store to the chain. Returns their mean ratio to the first store, which
-// is 1 for the first store itself. Returns nullopt if there is no value, or if no earlier store has
-// values for any of the same configurations.
+// Adds the values of one store to the chain. Returns their mean ratio to the first store, which is
+// 1 for the first store itself. Returns nullopt if this store has no values, or if its
+// configurations have no values in any earlier store.
 std::optional<double> HistoryBuilder::extend(Chain& chain, const MeasuredByConfiguration& here,
                                              std::optional<double> Measured::*value) {
   double sum = 0;

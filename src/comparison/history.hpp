@@ -1,6 +1,7 @@
 #pragma once
-// The changes from store to store over many days or commits, except in times, and how cost and time
-// have developed since the first store.
+// The history of the devices in a series of stores, for example one store per day or per commit. It
+// consists of the changes from store to store (except changes in times), and the development of
+// cost and time since the first store.
 
 #include <map>
 #include <optional>
@@ -18,14 +19,14 @@ struct HistoryPoint {
   std::string store;       // the file name
   std::string started_at;  // when the first run in the store started
   std::string driver_version;
-  std::string triptych;            // version of the program that measured
+  std::string triptych;            // version of Triptych that measured the results
   std::set<std::string> injected;  // faults injected with `run --inject`
-  // Cost and time relative to the first point. From point to point, they change by the geometric
-  // mean of the ratios of all configurations. Each ratio is relative to the most recent earlier
-  // store that contains the configuration. nullopt if no earlier store contains any of the
-  // configurations.
+  // Cost and time relative to the first point. For each configuration, the ratio to the most recent
+  // earlier store that contains the configuration is computed. The geometric mean of these ratios
+  // over all configurations determines the change from point to point. nullopt if no earlier store
+  // contains any of the configurations.
   std::optional<double> cost;  // instructions of generated code and driver
-  std::optional<double> time;  // median frame time on the wall clock, which all stores have
+  std::optional<double> time;  // median frame time on the wall clock, available in all stores
   // The changes of each configuration relative to the most recent earlier store that contains it.
   std::vector<DifferenceGroup> changes;
   bool worse = false;  // whether `changes` contains a regression
@@ -39,7 +40,8 @@ struct DeviceHistory {
   [[nodiscard]] const HistoryPoint* first_worse() const;
 };
 
-// A configuration on a device. Cost and time are set if it was measured.
+// The results of a configuration on a device. Cost and time are set only if the configuration was
+// measured.
 struct Measured {
   std::optional<double> cost;
   std::optional<double> time;
@@ -47,12 +49,12 @@ struct Measured {
 };
 using MeasuredByConfiguration = std::map<std::string, Measured>;  // by plan and configuration
 
-// Sorts the stores by the start of their first run. Stores with equal start times keep the given
-// order.
+// Sorts the stores by the start time of their first run. Stores with equal start times keep the
+// given order.
 [[nodiscard]] std::vector<record::Store*> in_order(const std::vector<record::Store*>& stores);
 
-// Builds the histories of the devices that match one of the globs `devices`, or of all devices if
-// there are no globs. Throws the same exceptions as record::Store.
+// Builds the histories of all devices that match one of the globs `devices`. If there are no globs,
+// builds the histories of all devices. Throws the same exceptions as record::Store.
 class HistoryBuilder {
  public:
   explicit HistoryBuilder(std::vector<std::string> devices) : devices_(std::move(devices)) {}
@@ -64,7 +66,8 @@ class HistoryBuilder {
 
  private:
   using Points = std::map<std::string, HistoryPoint>;  // by device
-  // The most recent value of a configuration, and its ratio to the first point.
+  // The most recent cost or time of a configuration (`amount`), and the cost or time of the point
+  // at which it was measured, relative to the first point (`value`).
   struct Link {
     double amount;
     double value;
@@ -77,7 +80,7 @@ class HistoryBuilder {
     std::map<std::string, const record::Store*> holder;  // the latest store with each configuration
 
     // Returns the store with which a configuration is compared: the latest store that contains the
-    // configuration, or else the latest store that contains the device.
+    // configuration or, if there is none, the latest store that contains the device.
     [[nodiscard]] const record::Store* before(const std::string& configuration) const;
   };
   [[nodiscard]] Points points_of(const record::Store& store) const;
@@ -95,7 +98,7 @@ class HistoryBuilder {
 };
 
 // Returns, for each store, the shortest suffix of its path that distinguishes it from the other
-// stores. The key is the path.
+// stores. The keys of the map are the paths.
 [[nodiscard]] std::map<std::string, std::string> names_of(
     const std::vector<DeviceHistory>& history);
 

@@ -17,8 +17,8 @@ double upper_tail(double z) {
   return estimation::student_t_upper_tail(z, infinite);
 }
 
-// Ranks by distance from 0, and the sum of t³ − t over all groups of t ties. The ranks are doubled,
-// so that the mean ranks of ties are integers.
+// The ranks of values by their distance from 0, and the sum of t³ − t over all groups of t ties.
+// The ranks are doubled, so that the mean ranks of ties are integers.
 struct Ranks {
   std::vector<std::size_t> doubled;  // smallest distance first
   std::size_t doubled_statistic = 0;
@@ -64,8 +64,8 @@ double statistic_variance(double n, double ties) {
   return n * (n + 1) * (2 * n + 1) / 24 - ties / 48;
 }
 
-// Returns the number of sorted Walsh averages that are outside the interval at each end. This is
-// the largest k with P(V ≤ k − 1) ≤ tail for distinct differences, or 0 if there is no such k.
+// Returns the number of sorted Walsh averages that lie outside the interval at each end. For
+// distinct differences, this is the largest k with P(V ≤ k − 1) ≤ tail, or 0 if there is no such k.
 std::size_t averages_outside(std::size_t n, double tail) {
   if (n > most_for_exact) {
     const auto count = static_cast<double>(n);

@@ -1,7 +1,7 @@
 #pragma once
-// Decides from interleaved A/B measurements whether one side is slower. The input consists of
-// differences d = ln t(b) − ln t(a), one for each block of batches (measure/run/interleaved.hpp).
-// A positive d means that b is slower.
+// Decides from interleaved A/B measurements whether one side is slower. The input is a list of
+// differences d = ln t(b) − ln t(a), one for each block of batches (measure/run/interleaved.hpp). A
+// positive d means that b is slower.
 
 #include <array>
 #include <cstddef>
@@ -33,10 +33,10 @@ struct Interval {
   [[nodiscard]] double half_width() const { return (high - low) / 2; }
 };
 
-// The Hodges–Lehmann estimate of the centre, which is the median of the Walsh averages (dᵢ + dⱼ)/2
-// with i ≤ j, and the interval of the shifts that the test does not reject at the one-sided level
-// `tail`. The interval is infinite if there are too few differences to reject any shift. The
-// estimate is NaN if there are no differences.
+// `estimate` is the Hodges–Lehmann estimate of the centre: the median of the Walsh averages (dᵢ +
+// dⱼ)/2 with i ≤ j. It is NaN if there are no differences. `interval` contains all shifts that the
+// test does not reject at the one-sided level `tail`. It is infinite if there are too few
+// differences to reject any shift.
 struct Shift {
   double estimate = 0;
   Interval interval;
@@ -51,9 +51,9 @@ enum class PairVerdict : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(PairVerdict verdict);
 
-// A group-sequential test. It evaluates the result after fixed numbers of blocks, which are called
-// looks. Each look gets an equal share of `alpha` (Bonferroni), so that over all looks together,
-// the probability of a one-sided error is at most `alpha`.
+// A group-sequential test. It evaluates the differences after fixed numbers of blocks. Each such
+// evaluation is called a look, and is allotted an equal share of `alpha` (Bonferroni). Therefore
+// the probability of a one-sided error over all looks together is at most `alpha`.
 struct SequentialDesign {
   std::array<int, 6> looks{12, 24, 48, 96, 192, 384};
   double alpha = 0.01;
@@ -63,35 +63,39 @@ struct SequentialDesign {
   // Returns the design with τ₀ = ln 1.01 and τ₁ = ln 1.03.
   [[nodiscard]] static SequentialDesign standard();
   [[nodiscard]] double alpha_of_a_look() const { return alpha / static_cast<double>(looks.size()); }
-  // Returns the next look after this number of blocks, or 0 after the last look.
+  // Returns the number of blocks of the next look after this number of blocks, or 0 after the last
+  // look.
   [[nodiscard]] int next_look(int blocks) const;
 };
 
-// The result of a look at the true shift θ. slower: θ ≤ τ₀ was rejected. faster: θ ≥ −τ₀ was
-// rejected. same: both θ ≥ τ₁ and θ ≤ −τ₁ were rejected. The probability that the interval contains
-// the true shift at all looks is at least 1 − 2·alpha.
+// The result of a look. Each verdict is a statement about the true shift θ:
+//   slower  rejects θ ≤ τ₀
+//   faster  rejects θ ≥ −τ₀
+//   same    rejects both θ ≥ τ₁ and θ ≤ −τ₁
+// The probability that the interval contains the true shift at all looks is at least 1 − 2·alpha.
 struct Look {
   PairVerdict verdict = PairVerdict::undecided;
   Shift shift;
 };
 [[nodiscard]] Look look_at(std::span<const double> differences, const SequentialDesign& design);
 
-// A configuration that seemed slower or faster. Blocks within one process run agree better than
-// different process runs do (because of memory layout and thread placement). Therefore the result
-// of one process run is accepted only if new process runs confirm it.
+// A configuration that seemed slower or faster. The blocks of one process run scatter less than
+// different process runs do, because memory layout and thread placement differ between process
+// runs. Therefore the result of one process run is accepted only if fresh process runs confirm it.
 struct Suspect {
-  std::vector<double> process_runs;  // the estimated shift of each new process run
+  std::vector<double> process_runs;  // the estimated shift of each fresh process run
   bool slower = true;                // result of the first process run; false: faster
 };
 inline constexpr std::size_t least_process_runs = 2;  // with fewer runs, their scatter is unknown
 
-// The looks of the confirmation. The second look is for suspects that the first look does not
-// decide. Each look gets an equal share of `q`.
+// The looks of the confirmation. The second look is only for suspects that the first look leaves
+// undecided. Each look is allotted an equal share of `q`.
 struct ConfirmationDesign {
-  std::array<std::size_t, 2> looks{5, 10};  // numbers of new process runs
+  std::array<std::size_t, 2> looks{5, 10};  // numbers of fresh process runs
   std::size_t blocks_per_process_run = 24;
-  // The expected fraction of false results among the confirmed results, for all looks together.
-  // Each look adds at most its own share to the false discovery rate.
+  // The limit for the false discovery rate over all looks together, which is the expected fraction
+  // of false results among the confirmed results. Each look adds at most its own share to that
+  // rate.
   double q = 0.02;
 
   [[nodiscard]] double q_of_a_look() const { return q / static_cast<double>(looks.size()); }
@@ -103,19 +107,20 @@ struct Confirmation {
                  // at each end
   double p = 1;  // p-value of the hypothesis that the shift is not larger than tolerated
 };
-// Tests the mean of the process runs against τ₀ with Student's t test. The variance between process
-// runs is moderated over all suspects, and the Benjamini–Hochberg procedure is applied to the
-// suspects with the rate `q`. The false discovery rate holds for all configurations, because the
-// process run that selected the suspects is not used for the confirmation, and because no other
-// configuration is called slower or faster. A suspect that is not confirmed is `same` if its
-// interval proves it, and otherwise undecided. A suspect with fewer than least_process_runs is
-// undecided.
+// Compares the mean of the process runs with τ₀ by Student's t test. The variance between process
+// runs is moderated over all suspects. The Benjamini–Hochberg procedure is applied to the suspects
+// with the rate `q`. The resulting false discovery rate holds for all configurations for two
+// reasons: the process run that selected the suspects is not used for the confirmation, and no
+// other configuration is called slower or faster.
+//
+// A suspect that is not confirmed gets the verdict `same` if its interval proves it, and
+// `undecided` otherwise. A suspect with fewer than least_process_runs process runs is undecided.
 [[nodiscard]] std::vector<Confirmation> confirm(std::span<const Suspect> suspects, double q,
                                                 const SequentialDesign& design);
 
-// Measures one more fresh process run (the run with this `number`) for each of the suspects `open`,
-// in preparation for the look after `until` runs. Returns false if no more runs are possible. When
-// a look has decided about a suspect, that suspect is not measured again.
+// A function that measures the fresh process run `number` for each of the suspects `open`. The next
+// look takes place after run `until`. Returns false if no more runs are possible. A suspect is no
+// longer measured once a look has decided about it.
 using RunAgain =
     std::function<bool(std::span<const std::size_t> open, std::size_t number, std::size_t until)>;
 [[nodiscard]] std::vector<Confirmation> confirm_in_looks(std::vector<Suspect>& suspects,

@@ -14,7 +14,7 @@ void name_injected(const record::Record& a, const record::Record& b,
   for (Difference& each : differences) each.injected = injected;
 }
 
-// Adds the totals over the whole plan, as one difference per statistic.
+// Adds one difference for each statistic whose total over the whole plan changed.
 void add_totals(const judge::CodeTotals& totals, std::vector<Difference>& differences) {
   for (const auto& [name, total] : totals.totals()) {
     if (total.helped + total.hurt == 0) continue;

@@ -1,5 +1,6 @@
 #pragma once
-// The differences, except times, between two runs of one plan, configuration by configuration.
+// The differences, except those in times, between two runs of one plan, configuration by
+// configuration.
 
 #include <array>
 #include <optional>
@@ -33,7 +34,7 @@ struct ConfigurationDiff {
 
 struct RunDiff {
   std::vector<Difference> device;  // between the devices, such as their limits
-  // The configurations in the order of a, followed by the configurations that only b has.
+  // The configurations of run a in their order, followed by the configurations that only run b has.
   std::vector<ConfigurationDiff> configurations;
 };
 

@@ -14,7 +14,7 @@ namespace {
 using Value = double (*)(const record::Record&);  // returns 0 if the record has no value
 using ByDevice = std::map<std::string, const record::Record*>;
 
-// Counters that describe the work of a frame. Every API counts them in the same way.
+// Counters that describe the work of a frame and have the same definition in all APIs.
 constexpr std::array<const char*, 3> telling_work{"samples", "fragments", "primitives"};
 
 double instructions_of(const record::Record& record) {
@@ -32,8 +32,8 @@ double wall_time_of(const record::Record& record) {
   return time_by(record, "wall");
 }
 
-// Returns, for each technique, the configurations that several devices measured, with the devices'
-// records.
+// Returns, for each technique, the configurations that at least two devices measured. Each
+// configuration is a map from the devices to their records.
 std::map<std::string, std::vector<ByDevice>> measured_by(std::span<const record::Record> records,
                                                          Value value) {
   std::map<std::string, ByDevice> by_configuration;

@@ -12,13 +12,13 @@
 
 namespace triptych::comparison {
 
-// Values are geometric means over the configurations that all devices of a row measured. With a
-// geometric mean, no large scene outweighs the others.
+// All values are geometric means over the configurations that every device of a row measured. A
+// geometric mean prevents a large scene from outweighing the others.
 struct SideBySide {
   struct Cell {
     double value = 0;  // instructions or nanoseconds per frame
     double ratio = 1;  // relative to the best device of the row
-    // Counters that explain the difference, relative to the best device.
+    // Counters that explain the difference, as ratios to those of the best device.
     std::map<std::string, double> work = {};
   };
   struct Row {
@@ -34,9 +34,9 @@ struct SideBySide {
   std::vector<Row> rows;
 };
 
-// Returns the table for one run. It contains instructions if at least two devices counted them.
-// Otherwise it contains times: on the device clocks if the device clocks of all devices are
-// trusted, or else on the wall clock. Returns nullopt if no configuration was measured by two
+// Returns the table for one run. It contains instructions if at least two devices counted them, and
+// times otherwise. Times are those of the device clocks if the device clocks of all devices are
+// trusted, and wall-clock times otherwise. Returns nullopt if no configuration was measured by two
 // devices.
 [[nodiscard]] std::optional<SideBySide> side_by_side(std::span<const record::Record> records);
 

@@ -27,7 +27,8 @@ std::map<std::string, record::Device> devices_of(const record::Store& store, con
   return devices;
 }
 
-// Adds an entry for each key that exists in only one of two maps. `made_of` creates the entry.
+// Adds an entry for each key that exists in only one of the two maps. `made_of` creates the entry
+// from the key and the side.
 template <typename Map, typename MadeOf>
 void add_only_one(const Map& a, const Map& b, const MadeOf& made_of, std::set<OnlyOne>& out) {
   for (const auto& [name, value] : a) {
@@ -38,14 +39,15 @@ void add_only_one(const Map& a, const Map& b, const MadeOf& made_of, std::set<On
   }
 }
 
-// Returns whether two differences found in two runs of the same two devices are equal.
+// Returns whether two differences are equal, if they were found between the same two devices but in
+// different runs.
 bool is_same(const Difference& a, const Difference& b) {
   return a.subject == b.subject && a.name == b.name && a.facts == b.facts && a.worths == b.worths &&
          a.total == b.total;
 }
 
-// Adds the differences that are not in the list yet. Each run contains a description of the device,
-// so the same difference may be found in several runs.
+// Adds those differences that are not in the list yet. Each run contains a description of the
+// device, so several runs may yield the same difference.
 void add_new(const std::vector<Difference>& more, std::vector<Difference>& differences) {
   for (const Difference& each : more) {
     const bool known = std::ranges::any_of(

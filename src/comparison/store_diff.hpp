@@ -1,6 +1,6 @@
 #pragma once
-// The differences, except times, between two stores, for example from before and after a driver
-// upgrade. Neither driver needs to be installed.
+// The differences, except those in times, between two stores, for example from before and after a
+// driver upgrade. Neither driver needs to be installed.
 
 #include <compare>
 #include <string>
@@ -21,8 +21,8 @@ struct DeviceChange {
   [[nodiscard]] bool has(DifferenceKind kind) const;
 };
 
-// Groups the differences, so that a difference that several configurations share is reported only
-// once.
+// Groups the differences, so that a difference that occurs in several configurations is reported
+// only once.
 [[nodiscard]] std::vector<DifferenceGroup> groups_of(const DeviceChange& change);
 // Returns whether any configuration was measured on both sides.
 [[nodiscard]] bool was_measured(const DeviceChange& change);
@@ -39,15 +39,15 @@ struct StoreDiff {
   std::vector<DeviceChange> devices;
   std::vector<OnlyOne> only_one;
 
-  // Returns regression if there is a regression. Returns cannot_judge if no configuration was
-  // measured on both sides, if one of the stores lacks a plan or device, or if something could not
-  // be judged.
+  // Returns `regression` if there is a regression. Otherwise, returns `cannot_judge` if no
+  // configuration was measured on both sides, if a plan or device exists in only one of the stores,
+  // or if a difference could not be judged.
   [[nodiscard]] core::ExitCode exit_code() const;
 };
 
-// Compares the latest run of each plan in both stores, for the devices that match one of the globs
-// `devices`, or for all devices if there are no globs. `truths` must provide the reference images
-// for the records of both stores. Throws the same exceptions as record::Store.
+// Compares the latest run of each plan in both stores, for all devices that match one of the globs
+// `devices`. If there are no globs, compares all devices. `truths` must provide the reference
+// images for the records of both stores. Throws the same exceptions as record::Store.
 [[nodiscard]] StoreDiff diff_stores(const record::Store& a, const record::Store& b,
                                     const std::vector<std::string>& devices,
                                     measure::Truths& truths);

@@ -1,7 +1,7 @@
 #pragma once
 // Data types for two kinds of reasons: why there is no verdict on the time of a configuration, and
-// why its time was measured with the wall clock. report/words/comparison.hpp turns these reasons
-// into sentences.
+// why its time was measured with the wall clock. report/words/comparison.hpp converts these reasons
+// to sentences.
 
 #include <cstdint>
 #include <map>
@@ -14,15 +14,16 @@
 
 namespace triptych::comparison {
 
-// The reason why there is no verdict on a time. The brackets list the data of each cause: numbers
-// in quotes, and other members by their names.
+// The reason why there is no verdict on a time. The square brackets list the members of TimeReason
+// that contain the data of a cause: entries of `numbers` in quotes, and other members by their
+// names.
 enum class TimeCause : std::uint8_t {
   none,
   side_ended,             // a side did not measure the configuration [side, outcome, reason]
   only_one_side,          // only one side has the configuration [side]
   wrong_image,            // the image of a side is wrong, so its time has no meaning [side]
-  no_fresh_process_runs,  // new process runs could not be measured [suspected]
-  not_confirmed,          // new process runs did not confirm the suspicion [suspected "ratio"
+  no_fresh_process_runs,  // fresh process runs could not be measured [suspected]
+  not_confirmed,          // fresh process runs did not confirm the suspicion [suspected "ratio"
                           // "process_runs"]
   undecided,              // all blocks were measured without a decision ["blocks" "half_width"]
   budget_ended            // the time budget ended before a decision ["blocks" "half_width"]

@@ -15,7 +15,7 @@ namespace {
 using measure::Side;
 using measure::SideClock;
 
-// A configuration, and the data needed to measure more blocks of it.
+// A configuration, and the data needed to measure more of its blocks.
 struct Entry {
   Compared& compared;
   std::array<std::vector<std::string>, 2> faults;
@@ -51,8 +51,8 @@ class Timer {
   }
 
  private:
-  // Calls `act` for a configuration, and adds the elapsed time to the configuration's total. If a
-  // side's worker dies, only this configuration ends.
+  // Calls `act` for a configuration, and adds the elapsed time to the configuration's total. If the
+  // worker of a side dies, only the measurement of this configuration ends.
   template <typename Act>
   void about(Entry& entry, const Act& act) {
     const measure::Stopwatch stopwatch;
@@ -174,7 +174,7 @@ class Timer {
   }
 
   // Returns an upper limit for the remaining time: the time for all blocks that could still be
-  // requested, or the rest of the budget.
+  // requested, or the remaining budget if that is less.
   [[nodiscard]] double most_left_s() const {
     double left = 0;
     for (const Entry& entry : entries_) {
@@ -203,8 +203,8 @@ class Timer {
       const int total = static_cast<int>(entries_.size());
       show({.stage = ComparisonStage::more_blocks}, *widest, total - open, total, most_left_s());
       about(*widest, [&] {
-        // If the budget ends first, the blocks measured so far are evaluated instead of the planned
-        // look.
+        // If the budget ends before the planned number of blocks, the blocks measured so far are
+        // evaluated.
         draw_until(*widest, options_.design.next_look(widest->compared.blocks));
         judge_blocks(*widest);
       });

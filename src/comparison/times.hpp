@@ -8,9 +8,9 @@
 
 namespace triptych::comparison {
 
-// Sets the verdict on the time of each configuration whose times are meaningful. `since` is the
-// start of the comparison, because the budget includes everything since then. Throws the same
-// exceptions as measure::Interleaved.
+// Sets the verdict on the time of each configuration, except where a comparison of times would be
+// meaningless. `since` measures from the start of the comparison, because the budget includes the
+// deterministic measurements. Throws the same exceptions as measure::Interleaved.
 void measure_times(const ComparisonOptions& options, const measure::Stopwatch& since,
                    const Tell& tell, std::vector<Compared>& compared);
 

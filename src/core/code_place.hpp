@@ -1,12 +1,13 @@
 #pragma once
-// A replacement for std::source_location. Clang 14 does not support that class, but its clang-tidy
-// must be able to check this code.
+// A replacement for std::source_location, which Clang 14 does not support. This code must compile
+// with Clang 14 because clang-tidy 14 checks it.
 
 namespace triptych::core {
 
 class CodePlace {
  public:
-  // Returns the source location of the caller if this call is a default argument.
+  // Used as a default argument, returns the source location at which the enclosing function is
+  // called.
   [[nodiscard]] static constexpr CodePlace current(const char* file = __builtin_FILE(),
                                                    int line = __builtin_LINE()) noexcept {
     return CodePlace(file, line);

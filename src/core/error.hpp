@@ -1,6 +1,7 @@
 #pragma once
-// Typed errors. They are thrown where the cause is known, and caught once per configuration (in the
-// worker) or once per command (in app), where they become a record or an exit code.
+// Typed errors. They are thrown where the cause is known. Each is caught in one place, which turns
+// it into a record (in the worker, for one configuration) or into an exit code (in app, for one
+// command).
 
 #include <cstdint>
 #include <optional>
@@ -11,18 +12,18 @@
 
 namespace triptych::core {
 
-// The exit code of the program. If several results apply, the most severe one is returned. The
-// order of severity is usage, regression, cannot_judge, pass. `skip` is the value of CTest's
+// The exit code of the program. If several apply, the program returns the most severe one; see
+// worse_of() in core/exit_code.hpp. `skip` has the value that CTest expects for its property
 // SKIP_RETURN_CODE.
 enum class ExitCode : int { pass = 0, regression = 1, cannot_judge = 2, usage = 3, skip = 77 };
 
-// The base of all errors of this project. what() is one line, ready to be printed.
+// The base class of all errors of this project. what() is a single line, ready to be printed.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// A place in a text or binary file. Lines and columns are numbered from 1; 0 means unknown.
+// A place in a text or binary file. Lines and columns are 1-based; 0 means unknown.
 struct FilePlace {
   std::string file;
   int line = 0;
@@ -41,15 +42,15 @@ class InputError : public Error {
   FilePlace place_;
 };
 
-// Reading or writing failed for a reason other than the content, such as a read-only folder or a
-// full disk. Leads to exit code 3.
+// A file could not be read or written for a reason other than its content, for example because the
+// folder is read-only or the disk is full. Leads to exit code 3.
 class IoError : public Error {
  public:
   using Error::Error;
 };
 
-// The device or technique does not support the request. The message is the reason that is printed
-// for the skipped configuration.
+// The device or technique does not support the requested configuration. The configuration is
+// skipped, and the message is printed as the reason.
 class NotSupported : public Error {
  public:
   using Error::Error;

@@ -6,8 +6,8 @@
 
 namespace triptych::core {
 
-// Returns the more severe of two exit codes. The order of severity is usage, regression,
-// cannot_judge, skip, pass.
+// Returns the more severe of two exit codes. From most to least severe, the order is usage,
+// regression, cannot_judge, skip, pass.
 [[nodiscard]] inline ExitCode worse_of(ExitCode a, ExitCode b) {
   constexpr std::array by_weight{ExitCode::pass, ExitCode::skip, ExitCode::cannot_judge,
                                  ExitCode::regression, ExitCode::usage};

@@ -53,8 +53,9 @@ class Unfinished {
   std::filesystem::path file_;
 };
 
-// Also checks the result of close(), because some file systems report a full disk only then. Errors
-// name `target`, because the caller does not know the temporary file.
+// Writes the bytes and closes the file. Also checks the result of close(), because some file
+// systems report a full disk only then. Errors name `target` instead of the temporary file, whose
+// name means nothing to the user.
 void write_and_close(Descriptor& out, std::span<const std::byte> bytes,
                      const std::filesystem::path& target) {
   while (!bytes.empty()) {
@@ -88,8 +89,8 @@ Bytes read_at_most(const std::filesystem::path& file, std::size_t most) {
   struct stat facts {};
   const Descriptor in = open_to_read(file, facts);
   refuse_more(static_cast<std::size_t>(facts.st_size));
-  // The buffer has one more byte than the reported file size, so that the end of the file is
-  // detected without growing the buffer.
+  // The buffer is one byte larger than the reported file size, so that read() can reach the end of
+  // the file without the buffer having to grow.
   Bytes bytes(static_cast<std::size_t>(facts.st_size) + 1, typename Bytes::value_type{});
   std::size_t filled = 0;
   for (;;) {

@@ -19,10 +19,10 @@ namespace triptych::core {
 // Larger files are rejected before they are read.
 inline constexpr std::size_t most_text_bytes = std::size_t{1} << 20;
 // The size limit for the JSON files that `triptych accept` writes. They have one value per line, so
-// that people can merge them by hand.
+// that people can merge two versions by hand.
 inline constexpr std::size_t most_json_bytes = std::size_t{64} << 20;
 
-// Like read_file, but throws InputError for a file of more than `most` bytes.
+// Like read_file(), but throws InputError if the file is larger than `most` bytes.
 [[nodiscard]] std::string read_text(const std::filesystem::path& file,
                                     std::size_t most = most_text_bytes);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Converts exceptions that libraries throw to the error types of this project, and adds the name of
-// the affected file or the place in it.
+// Converts exceptions thrown by libraries to this project's error types, and adds the name of the
+// file, or the place in the file, that caused them.
 
 #include <string>
 #include <utility>

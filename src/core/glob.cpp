@@ -5,8 +5,8 @@
 
 namespace triptych::core {
 
-// After a mismatch, only the most recent '*' is extended by one more character. The run time is
-// therefore linear in practice and never exponential.
+// After a mismatch, backtracks only to the most recent '*', which then matches one more character.
+// The run time is therefore linear in practice and never exponential.
 bool glob_matches(std::string_view pattern, std::string_view text) {
   std::size_t p = 0;
   std::size_t t = 0;

@@ -1,8 +1,8 @@
 #pragma once
-// Content hashes, which are compared to find out whether two objects are equal. They do not protect
-// against manipulation. They are computed from bytes, so they are the same on every machine and
-// with every compiler and library version. Numbers are never formatted before they are hashed,
-// because the format can depend on the library.
+// Content hashes, for finding out whether two objects are equal. They do not protect against
+// manipulation. Because they are computed from bytes, they are the same on every machine and with
+// every compiler and library version. Numbers are hashed in binary form, because their text form
+// could depend on the library.
 
 #include <bit>
 #include <concepts>
@@ -18,19 +18,20 @@ namespace triptych::core {
 [[nodiscard]] std::string content_hash(std::span<const std::byte> bytes);
 [[nodiscard]] std::string content_hash(std::string_view text);
 
-// Computes the content hash of an object that consists of several parts. They are hashed in the
-// order in which they are added, in this form:
-//   a number    eight bytes, lowest first: an integer in two's complement, a floating-point number
-//               as the bits of a double. So 0 and −0 differ, and an int, a long and a float are
-//               hashed like the widest type.
+// Computes the content hash of an object that consists of several parts. The parts are hashed in
+// the order in which they are added, in this form:
+//   a number    eight little-endian bytes: an integer in two's complement, or a floating-point
+//               number as an IEEE double. Therefore 0 and −0 have different hashes, whereas the
+//               same value has the same hash as an int and as a long, or as a float and as a
+//               double.
 //   text        its length as a number, then its bytes
-//   an array    as text, the content hash of its elements' bytes in memory
-// All objects of one kind have the same sequence of parts. A list of variable length is preceded by
-// its length.
+//   an array    the content hash of the bytes of all its elements, added as text
+// For all objects of one kind, the caller must add the same sequence of parts, and must add the
+// length of a list before its elements.
 class HashBuilder {
  public:
-  // `kind` names the kind of object, such as a table or a set of particles. It is the first part
-  // that is hashed.
+  // `kind` names the kind of object, such as a table or a set of particles. It is hashed as the
+  // first part.
   explicit HashBuilder(std::string_view kind) { add(kind); }
 
   template <std::integral T>

@@ -9,10 +9,10 @@
 namespace triptych::core {
 
 // An image with linear, premultiplied float RGBA in row-major order, top row first. Pixel (x, y)
-// begins at rgba[4·(y·width + x)]. For each pixel, images of particles also contain the depth
-// (distance along the view axis in world units) and the id (index in its file) of the visible
-// particle. They are +inf and no_particle where no particle is visible. In other images, `depth`
-// and `ids` are empty.
+// begins at rgba[4·(y·width + x)]. Images of particles also have two values per pixel that belong
+// to the visible particle: its depth (the distance along the view axis in world units) and its id
+// (its index in the particle file). Where no particle is visible, these values are +inf and
+// no_particle. In other images, `depth` and `ids` are empty.
 struct Image {
   int width = 0;
   int height = 0;

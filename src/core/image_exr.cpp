@@ -65,15 +65,16 @@ class MemoryIn : public Imf::IStream {
   std::size_t place_ = 0;
 };
 
-// Describes the memory of an image to OpenEXR. Pixel (0, 0) of the image is at (x, y), the corner
-// of the data window, but OpenEXR expects the address of the pixel that would be at the origin.
+// Describes the memory layout of an image to OpenEXR. Pixel (0, 0) of the image corresponds to (x,
+// y), the corner of the data window. However, OpenEXR expects the address that a pixel at the
+// origin of the coordinate system would have.
 class Planes {
  public:
   Planes(const Image& image, int x, int y)
       : width_(static_cast<std::size_t>(image.width)),
         corner_(static_cast<std::ptrdiff_t>(y) * image.width + x) {}
 
-  // OpenEXR takes a pointer without const even if it only reads.
+  // OpenEXR requires a non-const pointer even if it only reads from the memory.
   [[nodiscard]] Imf::Slice slice(Imf::PixelType type, const void* first, std::size_t step) const {
     const auto base = reinterpret_cast<std::uintptr_t>(first) -
                       static_cast<std::uintptr_t>(corner_) * static_cast<std::uintptr_t>(step);
@@ -108,8 +109,8 @@ void require_consistent(const Image& image) {
                          (image.ids.empty() || image.ids.size() == n);
   if (!plausible) {
     throw InputError(fmt::format(
-        "an image of {}x{} pixels with {} colour values, {} depths and {} ids cannot be written as "
-        "EXR",
+        "cannot write an EXR image: {}x{} pixels do not match {} colour values, {} depths and {} "
+        "ids",
         image.width, image.height, image.rgba.size(), image.depth.size(), image.ids.size()));
   }
 }
@@ -128,12 +129,13 @@ void require_channels(const Imf::ChannelList& channels) {
   }
   const Imf::Channel* ids = channels.findChannel(id_channel);
   if (ids != nullptr && ids->type != Imf::UINT) {
-    throw std::runtime_error("the channel id is not of type uint");
+    throw std::runtime_error("the channel id does not have the type uint");
   }
 }
 
-// Creates an image of the size in the header. A broken header may contain any size, so a size that
-// no compression could fit into this file is rejected before memory is allocated.
+// Creates an image of the size that the header states. A broken header may state any size.
+// Therefore a size is rejected before memory is allocated if even the best compression could not
+// fit so many pixels into the file.
 Image allocate(const Imf::Header& header, std::size_t file_bytes) {
   constexpr std::size_t most_pixels_per_byte = 4096;
   const Imath::Box2i window = header.dataWindow();
@@ -155,12 +157,14 @@ Image allocate(const Imf::Header& header, std::size_t file_bytes) {
   return image;
 }
 
-// Throws if the size of an attribute exceeds the file, because OpenEXR allocates that size before
-// it checks the length of the file. After the magic number and the version, a header is a list of
-// attributes. Each attribute has a name and a type, which end with a zero byte, its size in 32
-// bits, and its value; an empty name ends the list. The size of the channel list must also be
-// correct, because OpenEXR ignores it: OpenEXR reads a name and 16 bytes for each channel until it
-// finds an empty name.
+// Throws if the size of an attribute exceeds the file, because OpenEXR allocates memory of that
+// size before it checks the length of the file. Also throws if the stated size of the channel list
+// is wrong. OpenEXR ignores that size, and reads channels until it finds an empty name.
+//
+// The file begins with the magic number and the version (8 bytes), followed by a list of
+// attributes. Each attribute consists of its name and its type, both terminated by a zero byte, its
+// size in 32 bits, and its value. An empty name ends the list. In a channel list, each channel
+// consists of a name and 16 bytes.
 void require_attributes_inside(std::span<const std::byte> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::size_t place = 8;
@@ -173,13 +177,13 @@ void require_attributes_inside(std::span<const std::byte> bytes) {
   while (place < text.size() && !take_text().empty()) {
     const bool channels = take_text() == "chlist";
     std::int32_t size = 0;
-    if (text.size() - place < sizeof(size)) return;  // OpenEXR reports that the file ends here
+    if (text.size() - place < sizeof(size)) return;  // OpenEXR reports the truncated file
     std::memcpy(&size, text.data() + place, sizeof(size));
     place += sizeof(size);
     if (size < 0 || static_cast<std::size_t>(size) > text.size() - place) {
-      throw std::runtime_error(fmt::format(
-          "it has an attribute of {} bytes at byte {}, which exceeds the file size of {} bytes",
-          size, place, text.size()));
+      throw std::runtime_error(
+          fmt::format("an attribute of {} bytes at byte {} exceeds the file size of {} bytes", size,
+                      place, text.size()));
     }
     const std::size_t end = place + static_cast<std::size_t>(size);
     while (channels && place < text.size() && !take_text().empty()) {
@@ -187,15 +191,15 @@ void require_attributes_inside(std::span<const std::byte> bytes) {
     }
     if (channels && place != end) {
       throw std::runtime_error(fmt::format(
-          "its channel list ends at byte {}, but according to the header it ends at byte {}", place,
+          "the channel list ends at byte {}, but the header states that it ends at byte {}", place,
           end));
     }
     place = end;
   }
 }
 
-// Makes OpenEXR reject larger images. This is necessary because it allocates memory for some rows
-// before the caller can query the size of the image.
+// Makes OpenEXR reject images with a side longer than `largest_side`. This is necessary because
+// OpenEXR allocates memory for some rows before the caller can query the size of the image.
 void limit_size() {
   static const bool limited = [] {
     Imf::Header::setMaxImageSize(largest_side, largest_side);
@@ -218,7 +222,8 @@ Image decode(std::span<const std::byte> bytes) {
   return image;
 }
 
-// OpenEXR's messages may have several lines, but what() of this project's errors must be one line.
+// Joins the lines of an OpenEXR message, because what() of this project's errors must be a single
+// line.
 Image decode(std::span<const std::byte> bytes, const FilePlace& place) {
   try {
     return decode(bytes);

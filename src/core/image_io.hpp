@@ -1,6 +1,7 @@
 #pragma once
-// Reads and writes image files: OpenEXR for storage (the channels R, G, B and A as 32-bit floats,
-// and for particles also Z and the uint32 channel id), and PNG for viewing.
+// Reads and writes image files. OpenEXR files store results: the channels R, G, B and A as 32-bit
+// floats and, for particles, the float channel Z and the uint32 channel id. PNG files are for
+// viewing.
 
 #include <cstddef>
 #include <filesystem>
@@ -17,8 +18,8 @@ namespace triptych::core {
 void write_exr(const Image& image, const std::filesystem::path& file);
 [[nodiscard]] std::vector<std::byte> encode_exr(const Image& image);
 
-// Throws IoError if the file is missing or unreadable, and InputError if it is not an EXR file with
-// the full-resolution channels R, G, B and A.
+// Throws IoError if the file is missing or unreadable. Throws InputError if it is not an EXR file
+// with full-resolution channels R, G, B and A.
 [[nodiscard]] Image read_exr(const std::filesystem::path& file);
 // Decodes the content of an EXR file. Error messages use `name` as the name of the image.
 [[nodiscard]] Image decode_exr(std::span<const std::byte> bytes,

@@ -22,7 +22,7 @@ std::uint8_t srgb8(float linear) {
 
 }  // namespace
 
-// Compositing a premultiplied colour over black does not change it, so alpha is not used.
+// Ignores alpha, because compositing over black does not change a premultiplied colour.
 RgbPicture to_srgb(const Image& image) {
   RgbPicture picture{image.width, image.height, {}};
   picture.rgb.resize(3 * image.pixel_count());
@@ -44,8 +44,9 @@ std::vector<std::byte> encode_png(const RgbPicture& picture) {
   const auto pixels =
       static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
   if (picture.width < 1 || picture.height < 1 || picture.rgb.size() != 3 * pixels) {
-    throw InputError(fmt::format("an image of {}x{} pixels with {} values cannot be written as PNG",
-                                 picture.width, picture.height, picture.rgb.size()));
+    throw InputError(
+        fmt::format("cannot write a PNG image: {}x{} pixels do not match {} RGB values",
+                    picture.width, picture.height, picture.rgb.size()));
   }
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
@@ -64,8 +65,9 @@ std::vector<std::byte> encode_png(const RgbPicture& picture) {
 
 std::vector<std::byte> encode_png(const Image& image) {
   if (image.width < 1 || image.height < 1 || image.rgba.size() != 4 * image.pixel_count()) {
-    throw InputError(fmt::format("an image of {}x{} pixels with {} values cannot be written as PNG",
-                                 image.width, image.height, image.rgba.size()));
+    throw InputError(
+        fmt::format("cannot write a PNG image: {}x{} pixels do not match {} RGBA values",
+                    image.width, image.height, image.rgba.size()));
   }
   return encode_png(to_srgb(image));
 }

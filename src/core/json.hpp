@@ -1,5 +1,6 @@
 #pragma once
-// The JSON type of this project. Headers that only name the type include <nlohmann/json_fwd.hpp>.
+// The JSON type of this project. Headers that only need a declaration of the type include
+// <nlohmann/json_fwd.hpp>.
 
 #include <nlohmann/json.hpp>
 

@@ -26,16 +26,17 @@ FilePlace place_at(const std::filesystem::path& file, std::string_view text, std
           static_cast<int>(column + 1)};
 }
 
-// Returns the JSON library's message without the prefix that states the error id and the position.
+// Returns the message of the JSON library without its prefix, which states the error id and the
+// position.
 std::string bare_message(std::string_view what) {
   const auto start = what.find("syntax error");
   return std::string(start == std::string_view::npos ? what : what.substr(start));
 }
 
-// Returns the offset of the value at a path, which is found by searching for the keys of the path
-// one after the other. The result is exact for files that `triptych accept` writes. In a file that
-// was written by hand, it may be an earlier place with the same keys, so the error message also
-// states the path.
+// Returns the offset of the value at `path`. The function searches for the keys of the path one
+// after the other, starting each search at the previous match. The result is exact for files that
+// `triptych accept` writes. In a file that was written by hand, the result may be an earlier place
+// with the same keys. Therefore the error message also states the path.
 std::size_t offset_of(std::string_view text, const std::vector<std::string>& path) {
   std::size_t offset = 0;
   for (const std::string& step : path) {
@@ -45,7 +46,7 @@ std::size_t offset_of(std::string_view text, const std::vector<std::string>& pat
   return offset;
 }
 
-// Returns the offset of the n-th occurrence of `key` as an object key, counted from 1.
+// Returns the offset of the n-th (1-based) occurrence of `key` as an object key.
 std::size_t offset_of_key(std::string_view text, const std::string& key, std::size_t n) {
   const std::string quoted = Json(key).dump() + ":";
   std::size_t offset = text.find(quoted);
@@ -53,8 +54,9 @@ std::size_t offset_of_key(std::string_view text, const std::string& key, std::si
   return std::min(offset, text.size());
 }
 
-// Returns the quoted part of a message such as "… number overflow parsing '1e999'". The number is
-// used to find the place of the error, because the library does not report it.
+// Returns the quoted part of a message such as "… number overflow parsing '1e999'". The caller
+// searches the file for this number, because the library does not report the position of this kind
+// of error.
 std::string quoted_in(std::string_view what) {
   const auto begin = std::min(what.find('\''), what.size());
   const auto end = std::min(what.rfind('\''), what.size());

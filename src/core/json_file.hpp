@@ -1,6 +1,6 @@
 #pragma once
-// Reads and writes JSON files that people review and merge by hand. The reader reports the place of
-// an error in the file. The writer puts one value on each line.
+// Reads and writes JSON files that people review and merge by hand. When the reader rejects a file,
+// it reports the line of the error. The writer puts one value on each line.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,9 +16,9 @@ namespace triptych::core {
 
 class JsonFile;
 
-// A value in a JsonFile. The JsonFile must outlive it. If the value does not have the requested
-// type, every accessor throws an InputError that states the file, the line and the path of the
-// value in the file.
+// A value in a JsonFile. The JsonFile must outlive the node. If the value does not have the
+// requested type, every accessor throws an InputError that states the file, the line and the path
+// of the value in the file.
 class JsonNode {
  public:
   JsonNode(const JsonFile& file, const Json& value, std::vector<std::string> path)

@@ -1,7 +1,8 @@
 #pragma once
 // Converts JSON to text. Strings from drivers and file names may contain invalid UTF-8. Invalid
-// bytes are replaced, because an error would prevent any output. Hidden characters (core/text.hpp)
-// are written as \uXXXX, which a JSON parser reads as the same character.
+// bytes are replaced instead of reported, because an error would prevent all output. Hidden
+// characters (core/text.hpp) are written as \uXXXX, which a JSON parser reads as the same
+// character.
 
 #include <cstdint>
 #include <span>
@@ -13,8 +14,8 @@
 
 namespace triptych::core {
 
-// Returns the text of a JSON value on one line, or, if `indent` is not negative, on several lines
-// that are indented by this number of spaces per level.
+// Returns the JSON text of a value. The text has a single line if `indent` is negative, or several
+// lines that are indented by `indent` spaces per level.
 [[nodiscard]] std::string json_text(const Json& json, int indent = -1);
 
 // Returns the content hash of a value. It is computed from the CBOR encoding (RFC 8949) with sorted
@@ -24,8 +25,8 @@ namespace triptych::core {
   return content_hash(std::as_bytes(std::span(bytes)));
 }
 
-// Returns the text as it would be read back from JSON, with invalid bytes replaced. Valid UTF-8 is
-// unchanged.
+// Returns `text` with invalid UTF-8 bytes replaced, exactly as it would be read back from JSON.
+// Valid UTF-8 is returned unchanged.
 [[nodiscard]] inline std::string mended_utf8(const std::string& text) {
   return Json::parse(json_text(text)).get<std::string>();
 }

@@ -19,8 +19,8 @@ struct NamedFile {
   std::string file;  // empty if the user named no file
 };
 
-// Throws InputError if an output file is also an input file, or is written twice. A target that is
-// not a regular file, such as /dev/null, may be written several times.
+// Throws InputError if an output file is also an input file, or if two output files are the same
+// file. A target that is not a regular file, such as /dev/null, may be used several times.
 void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<NamedFile>& written);
 
 // Like write_file(), but also creates the folder of the file if it is missing. Throws IoError.

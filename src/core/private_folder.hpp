@@ -14,11 +14,11 @@ namespace triptych::core {
 // stays open, so files can still be opened relative to it if the folder is renamed.
 class PrivateFolder {
  public:
-  // Creates `root` and root/names[0]/names[1]/… with mode 0700 if they are missing. Throws an
-  // IoError that states the folder and the reason in two cases:
+  // Creates `root` and root/names[0]/names[1]/… with mode 0700 if they are missing. If other users
+  // can read a folder below `root`, the constructor removes their permission. It throws an IoError
+  // that states the folder and the reason in two cases:
   // - A folder below `root` is a symbolic link or not a folder, belongs to another user, or can be
-  //   written by other users, who may have put something there. If others can only read it, the
-  //   constructor removes their permission instead.
+  //   written by other users, so that its content cannot be trusted.
   // - Other users can rename the content of `root`, because they can write to it and it has no
   //   sticky bit.
   PrivateFolder(const std::filesystem::path& root, std::span<const std::string> names);
@@ -38,9 +38,9 @@ class PrivateFolder {
 };
 
 // Returns the folder "triptych-UID/NAME" in the system's folder for temporary files, where UID is
-// the user id and NAME is `name`. It is used for files that must outlive the process.
+// the user id and NAME is `name`. The folder is used for files that must outlive the process.
 [[nodiscard]] PrivateFolder private_temporary_folder(const std::string& name);
-// Returns "triptych-UID", the first part of that path, which is unique to the current user.
+// Returns "triptych-UID", the folder name that is unique to the current user.
 [[nodiscard]] std::string name_of_this_user();
 
 }  // namespace triptych::core

@@ -33,7 +33,7 @@ std::string within_quotes(std::string_view word) {
 }
 
 // Returns the word as a call of printf(1) inside double quotes. The format contains no '!', because
-// an interactive bash would replace it with an entry of its history.
+// an interactive bash would replace the '!' with an entry of its history.
 std::string within_printf(std::string_view word) {
   std::string text = "\"$(printf '";
   for (std::string_view rest = word; !rest.empty();) {

@@ -17,8 +17,8 @@ namespace triptych::core {
 // command stays on one line and the hidden characters are visible. Line ends at the end of such a
 // word are appended in single quotes, because $(…) would drop them.
 [[nodiscard]] std::string shell_quoted(std::string_view word);
-// Whether a shell accepts the assignment NAME=VALUE for this name. A variable with another name can
-// be set only by `env`.
+// Returns whether a shell accepts the assignment NAME=VALUE for this name. A variable with any
+// other name can be set only by `env`.
 [[nodiscard]] bool is_shell_name(std::string_view name);
 // Returns the prefix that sets these variables for a command, such as "A=1 B='x y'", or "env
 // 'A.B=1'" if a shell does not accept one of the names. The prefix ends with a space. It is empty
@@ -27,12 +27,13 @@ namespace triptych::core {
 // Quotes each word and joins the words with spaces.
 [[nodiscard]] std::string shell_command(std::span<const std::string> words);
 
-// Converts text for one line on a terminal. Control characters become escapes such as "\x1b", line
-// ends become "\n", other hidden characters (core/text.hpp) become escapes such as "\u{202e}", and
-// invalid UTF-8 becomes U+FFFD. Text that is longer than `limit` characters is cut, and then its
-// last character is "…".
+// Makes text safe to print on one line of a terminal. Control characters become escapes such as
+// "\x1b", line ends become "\n", other hidden characters (core/text.hpp) become escapes such as
+// "\u{202e}", and invalid UTF-8 becomes U+FFFD. Text that is longer than `limit` characters is cut,
+// so that it has `limit` characters and ends with "…".
 [[nodiscard]] std::string printable(std::string_view text, std::size_t limit = 2000);
-// Converts text of several lines in the same way, but keeps its line ends and does not cut it.
+// Makes text safe to print on several lines of a terminal. Like printable(), but keeps line ends
+// and does not cut the text.
 [[nodiscard]] std::string printable_lines(std::string_view text);
 // Returns the escape that printable() writes instead of a hidden character.
 [[nodiscard]] std::string visible(std::string_view character);

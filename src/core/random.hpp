@@ -1,7 +1,7 @@
 #pragma once
-// A random number generator whose sequence is the same on every machine and with every standard
-// library. The distributions of <random> are not used, because their algorithms depend on the
-// implementation.
+// A random number generator that produces the same sequence on every machine and with every
+// standard library. The distributions of <random> are not used, because their algorithms depend on
+// the implementation.
 
 #include <cstdint>
 

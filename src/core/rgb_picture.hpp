@@ -1,5 +1,5 @@
 #pragma once
-// 8-bit images, as they are displayed.
+// 8-bit images for display.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,8 +16,8 @@ struct RgbPicture {
   std::vector<std::uint8_t> rgb;  // three values for each pixel
 };
 
-// Converts an image to the pixels that write_png() writes. The image is composited over black and
-// clamped to [0, 1]. NaN becomes magenta.
+// Converts an image to the 8-bit pixels that write_png() stores. The image is composited over black
+// and clamped to [0, 1]. NaN becomes magenta.
 [[nodiscard]] RgbPicture to_srgb(const Image& image);
 
 // Throws InputError if the picture is empty or `rgb` does not have three values for each pixel.

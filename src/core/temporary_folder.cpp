@@ -13,7 +13,7 @@ namespace triptych::core {
 TemporaryFolder::TemporaryFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "triptych-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr) {
-    throw IoError(fmt::format("cannot create a temporary folder with a name like {}", name));
+    throw IoError(fmt::format("cannot create a temporary folder from the template {}", name));
   }
   path_ = name;
 }

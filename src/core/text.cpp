@@ -15,8 +15,8 @@ bool is_continuation(unsigned char byte) {
   return byte >= 0x80 && byte <= 0xBF;
 }
 
-// Whether the second byte may follow the first byte. Excludes overlong encodings, surrogates, and
-// code points beyond U+10FFFF.
+// Returns whether the second byte may follow the first byte. Excludes overlong encodings,
+// surrogates, and code points beyond U+10FFFF.
 bool may_follow(unsigned char first, unsigned char second) {
   if (!is_continuation(second)) return false;
   if (first == 0xE0) return second >= 0xA0;

@@ -20,8 +20,8 @@ std::vector<std::string> all_in(const std::vector<Beginning>& parts,
   return {all.begin(), all.end()};
 }
 
-// Converts the strings to the form in which the store returns them (valid UTF-8), so that the seals
-// match.
+// Replaces invalid UTF-8, as the store does, so that a seal computed before storing matches the
+// seal of the data that are read back.
 std::vector<std::string> mended(std::vector<std::string> texts) {
   for (std::string& each : texts) each = core::mended_utf8(each);
   return texts;

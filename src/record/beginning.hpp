@@ -29,19 +29,19 @@ struct Unusable {
   [[nodiscard]] std::string api() const { return what.substr(0, what.find(' ')); }
 };
 
-// The part of a run that one command contributed: the requested devices and the devices that were
-// found. A run that was resumed or merged has several parts.
+// The part of a run that one command contributed: the devices that the user requested, and the
+// devices that were found. A run that was resumed or merged has several parts.
 struct Beginning {
   std::string host = {};
   std::string program = {};               // the version of Triptych that measured; empty if unknown
-  std::vector<std::string> asked = {};    // globs that select device ids; empty: all devices
+  std::vector<std::string> asked = {};    // requested device ids, as globs; empty: all devices
   std::vector<std::string> found = {};    // ids of all devices that were found
   std::vector<std::string> devices = {};  // ids of the devices to be measured
   std::vector<Unusable> unusable = {};
   bool operator==(const Beginning&) const = default;
 
-  // Whether the command requested a device with this id, and whether it requested any device of
-  // this API.
+  // asks_for() returns whether the command requested the device with this id. asks_for_api()
+  // returns whether it requested any device of this API.
   [[nodiscard]] bool asks_for(std::string_view device) const;
   [[nodiscard]] bool asks_for_api(std::string_view api) const;
 };
@@ -54,8 +54,8 @@ void from_json(const nlohmann::json& json, Beginning& beginning);
 // Sorts the parts and removes duplicates. The result does not depend on the order of `parts`.
 [[nodiscard]] std::vector<Beginning> joined(std::vector<Beginning> parts);
 
-// devices_of() returns the ids of all devices that any part planned to measure, and found_in() the
-// ids of all devices that any part found.
+// devices_of() returns the ids of all devices that any part planned to measure. found_in() returns
+// the ids of all devices that any part found.
 [[nodiscard]] std::vector<std::string> devices_of(const std::vector<Beginning>& parts);
 [[nodiscard]] std::vector<std::string> found_in(const std::vector<Beginning>& parts);
 

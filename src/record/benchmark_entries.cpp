@@ -15,7 +15,7 @@ Json patch(const Json& from, const Json& to) {
   Json changes = Json::object();
   for (const auto& [key, value] : to.items()) {
     const auto before = from.find(key);
-    // Types are compared too, because 1 and 1.0 are equal as numbers but are written differently.
+    // Also compares the types, because 1 and 1.0 are equal as numbers but are written differently.
     if (before == from.end() || before->type() != value.type() || *before != value) {
       changes[key] = value;
     }

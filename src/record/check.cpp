@@ -7,8 +7,8 @@
 namespace triptych::record {
 namespace {
 
-// The name of each check. This is a switch rather than a table, so that the compiler warns about a
-// check without a name.
+// Returns the name of a check, or an empty string if there is no such check. This is a switch
+// rather than a table, so that the compiler warns about a check without a name.
 constexpr std::string_view checked_name(Check check) {
   switch (check) {
     case Check::image:

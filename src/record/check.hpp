@@ -1,6 +1,6 @@
 #pragma once
-// The checks that can be applied to a run. A plan lists the checks that apply to it, and the judge
-// has a function for each check.
+// The checks of a run. A plan lists the checks that apply to it, and the judge has a function for
+// each check.
 
 #include <cstdint>
 #include <set>
@@ -12,11 +12,11 @@ namespace triptych::record {
 enum class Check : std::uint8_t {
   image,        // the image, compared with the reference image within a derived bound
   counters,     // Triptych's own counters, compared exactly
-  statistics,   // the driver's pipeline statistics, compared exactly for each driver version
-  cost,         // instructions per frame, compared for each driver version
-  code,         // the GPU compiler's report, compared exactly for each driver version
+  statistics,   // the driver's pipeline statistics, compared exactly within a driver version
+  cost,         // instructions per frame, compared within a driver version
+  code,         // the GPU compiler's report, compared exactly within a driver version
   memory,       // bytes allocated on the device, compared exactly
-  timing,       // frame times; reported, but they affect the verdict only if the user requests it
+  timing,       // frame times, which affect the verdict only if the user requests it
   correlation,  // the cost on one device as a function of the cost on another device
   accuracy,     // orders of convergence, and the error as a function of run time
   stress        // scores for stress scenes
@@ -26,8 +26,8 @@ enum class Check : std::uint8_t {
 
 using Checks = std::set<Check>;
 [[nodiscard]] Checks every_check();
-// Convert between checks and a list of their names such as "image,counters", which is empty if
-// there are no checks. checks_of() throws InputError for an unknown name.
+// Convert between checks and a comma-separated list of their names, such as "image,counters". The
+// list is empty if there are no checks. checks_of() throws InputError for an unknown name.
 [[nodiscard]] std::string text_of(const Checks& checks);
 [[nodiscard]] Checks checks_of(std::string_view text);
 

@@ -1,6 +1,6 @@
 #pragma once
-// A compiler's report about the device code that it generated. The code is not executed to obtain
-// the report.
+// The report of a compiler about the device code that it generated, which is available without
+// executing the code.
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
@@ -14,8 +14,8 @@ struct Executable {
   // the statistics that Triptych counts in the disassembly ("Instructions" and those that begin
   // with "Loop"). A statistic that a driver does not report is absent, never zero.
   std::map<std::string, double> statistics;
-  // Content hash of the disassembly, which is the key for Store::listing(). Empty if there is no
-  // disassembly.
+  // The content hash of the disassembly, which is also its key for Store::listing(). Empty if there
+  // is no disassembly.
   std::string assembly = {};
   bool operator==(const Executable&) const = default;
 };

@@ -5,8 +5,8 @@
 
 namespace triptych::record {
 
-// The factors that determine a record's data_hash. The hash depends on their resolved levels, in
-// which "auto" is replaced by the level that the device chooses.
+// The factors that determine a record's data_hash. The hash depends on their resolved levels:
+// "auto" is replaced by the level that the device chooses.
 inline constexpr std::array<std::string_view, 5> data_factors{"data", "voxel", "colour", "window",
                                                               "mapping"};
 

@@ -1,5 +1,5 @@
 #pragma once
-// Faults that occur while a device is opened, calibrated or closed, so they do not belong to any
+// Faults that occur while a device is opened, calibrated or closed. They do not belong to any
 // configuration.
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace triptych::record {
 
 enum class DeviceFaultKind : std::uint8_t {
   clock_reads_zero,      // the device's timer reads 0 for work that takes time
-  clock_rate_wrong,      // the duration of a timer tick is not the one that the device reports
+  clock_rate_wrong,      // a timer tick does not last as long as the device reports
   clock_not_written,     // the driver never wrote a time stamp
   statistics_all_zero,   // pipeline statistics of a frame that drew something are all 0
   statistics_crash,      // the driver crashes when it reads pipeline statistics
@@ -25,7 +25,7 @@ enum class DeviceFaultKind : std::uint8_t {
 
 struct DeviceFault {
   DeviceFaultKind kind = DeviceFaultKind::clock_reads_zero;
-  std::string subject = {};     // an identifier, such as a kind of work or a statistic
+  std::string subject = {};     // what is affected, such as a kind of work or a statistic
   std::string detail = {};      // the message of the driver, the library or the exception
   std::string last_words = {};  // the worker's last output
   bool operator==(const DeviceFault&) const = default;

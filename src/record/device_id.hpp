@@ -4,8 +4,8 @@
 
 namespace triptych::record {
 
-// Returns the id of the device with this number in the driver's list, counted from 1. The first
-// device has the id `id`, the second device has the id "<id>#2", and so on.
+// Returns the id of the device with this 1-based number in the driver's list. The first device has
+// the id `id`, the second device has the id "<id>#2", and so on.
 [[nodiscard]] std::string numbered_id(std::string_view id, int number);
 
 // Returns the family of a device, which is derived from its id. Drivers for different APIs that

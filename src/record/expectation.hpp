@@ -10,18 +10,19 @@
 
 namespace triptych::record {
 
-// Selects another record of the same run and device. Its configuration differs only in these
-// factors, which have these values. Values are written as in the key of a configuration, which
-// always contains data, camera and technique, and any other factor only if it does not have its
-// default value.
+// Selects another record of the same run and device. The map contains the factors in which the
+// configuration of the other record differs, and their values there. Values are written as in the
+// key of a configuration. Such a key always contains data, camera and technique, and any other
+// factor only if it does not have its default value.
 using Changed = std::map<std::string, std::string>;
 
-// The image equals the image of another configuration.
+// The image must equal the image of another configuration.
 struct SamePicture {
   Changed changed;
-  bool mirrored_x = false;  // whether left and right are exchanged
-  bool mirrored_y = false;  // whether top and bottom are exchanged
-  // Pixel (0, 0) equals the pixel at this position of the other image, which may be larger.
+  bool mirrored_x = false;  // whether left and right are exchanged in the other image
+  bool mirrored_y = false;  // whether top and bottom are exchanged in the other image
+  // The position in the other image that corresponds to pixel (0, 0) of this image. The other image
+  // may be larger.
   std::array<int, 2> at{0, 0};
   bool to_the_bit = true;  // if false: equal within the sum of both images' bounds
   bool same_ids = true;    // if false: ids are not compared, because the images number particles
@@ -29,13 +30,14 @@ struct SamePicture {
   float depth_scale = 1;  // depth in the other image divided by depth in this image; a power of two
 };
 
-// Every pixel has exactly this colour.
+// Every pixel must have exactly this colour.
 struct OneColour {
   std::array<float, 4> rgba{};
 };
 
-// The counter `counter` is at most `factor` times the counter `of`, or at most `factor` if `of` is
-// empty. `of` is read from the same record, or from another record if `changed` selects one.
+// The counter `counter` must be at most `factor` times the counter `of`, or at most `factor` if
+// `of` is empty. The counter `of` is read from the same record, or from another record if `changed`
+// selects one.
 struct CountAtMost {
   std::string counter;
   double factor = 0;
@@ -43,8 +45,8 @@ struct CountAtMost {
   Changed changed = {};
 };
 
-// A device may skip the case, stating the reason, because the case exceeds limits that some devices
-// have. A device that does not skip the case must draw it.
+// A device may skip the case and state a reason, because the case exceeds limits that some devices
+// have. A device that does not skip the case must draw it correctly.
 struct MayBeRefused {};
 
 struct Expectation {

@@ -1,6 +1,6 @@
 #pragma once
-// Reads and writes lists of the form "factor=value,factor=value". They name configurations and
-// scenes in stores, in baselines, in patterns and on the command line.
+// Reads and writes lists of the form "factor=value,factor=value". Such lists identify
+// configurations and scenes in stores, in baselines, in patterns and on the command line.
 
 #include <map>
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace triptych::record {
 
-// Returns a value in the form in which it is written in a list. A comma becomes '%2C' and '='
-// becomes '%3D', as in URLs (RFC 3986, 2.1). In a list, both characters are therefore always
-// separators, and a list can be split without knowing the values. '%' becomes '%25' only if it
-// would otherwise begin one of these three sequences. All other text is unchanged.
+// Escapes a value for use in a list. A comma becomes '%2C' and '=' becomes '%3D', as in URLs (RFC
+// 3986, 2.1). In a list, both characters are therefore always separators, and a list can be split
+// without knowing the values. '%' becomes '%25' only if it would otherwise begin one of these three
+// sequences. All other characters are unchanged.
 [[nodiscard]] std::string escaped(std::string_view value);
 // The inverse of escaped(). Text without an escape sequence is unchanged.
 [[nodiscard]] std::string unescaped(std::string_view text);

@@ -1,13 +1,13 @@
 #pragma once
-// Distinguishes records that have an image to compare from records without one.
+// Distinguishes records that have an image to be compared from records that have none.
 
 #include "record/record.hpp"
 
 namespace triptych::record {
 
-// Whether the record has an image. The technique speed_of_light computes sums instead of an image,
-// and a compile-only device draws nothing. A test checks that the technique's name here agrees with
-// the catalogue, which states the techniques that draw no image.
+// Returns whether the record has an image. There is no image for the technique speed_of_light,
+// which only computes sums, and for a compile-only device, which draws nothing. A test compares the
+// technique's name with the catalogue, which lists the techniques that draw no image.
 [[nodiscard]] inline bool has_picture(const Record& record) {
   return record.technique != "speed_of_light" && record.code.empty();
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Converts between the values of enumerations and their names, with one table for both directions.
+// Converts between enumerators and their names. One table serves both directions.
 
 #include <fmt/format.h>
 
@@ -24,8 +24,8 @@ template <typename Enum, std::size_t N>
   return "unknown";
 }
 
-// Returns the value with this name. If there is none, throws an InputError that lists the valid
-// names. `what` is the kind of name in the message, such as "outcome".
+// Returns the enumerator with this name. If there is none, throws an InputError that lists the
+// valid names. In the message, `what` describes the enumeration, such as "outcome".
 template <typename Enum, std::size_t N>
 [[nodiscard]] Enum named_in(const Names<Enum, N>& names, std::string_view what,
                             std::string_view name) {

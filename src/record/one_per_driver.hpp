@@ -9,8 +9,8 @@
 namespace triptych::record {
 
 // Returns the first device for each combination of API, device name, driver and driver version. EGL
-// and OSMesa therefore count as one OpenGL driver: they differ only in how a device is opened and
-// how an image is read.
+// and OSMesa therefore count as one OpenGL driver, because they differ only in how a device is
+// opened and how an image is read back.
 [[nodiscard]] inline std::vector<Device> one_per_driver(std::span<const Device> devices) {
   const auto driver_of = [](const Device& device) {
     return std::tie(device.api, device.name, device.driver, device.driver_version);

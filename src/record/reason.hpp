@@ -1,6 +1,7 @@
 #pragma once
 // The reason why a configuration was not measured, as data. report/words/ converts it to sentences.
-// `detail` and `last_words` quote messages of drivers and libraries, so no code compares them.
+// `detail` and `last_words` contain messages from drivers and libraries, so code must not compare
+// them.
 
 #include <chrono>
 #include <cstdint>
@@ -35,7 +36,7 @@ enum class Cause : std::uint8_t {
   api_error,         // `subject` is the call, `code` the code that it returned
   device_lost,       // `subject` and `code` have the same meaning as for api_error
   not_drawn,         // the driver reported success, but drew nothing
-  out_of_memory,     // no host memory for the data `subject`; "limit_bytes" is the limit, if any
+  out_of_memory,     // not enough host memory for the data `subject`; limit: "limit_bytes", if any
   error,             // any other exception
   signal,            // the worker was killed by the signal "signal"
   exit_code,         // the worker exited early with the code "exit_code"
@@ -62,8 +63,8 @@ struct Reason {
   Cause cause = Cause::none;
   Stage stage = Stage::working;
   std::map<std::string, double> numbers = {};  // by name; each name contains the unit
-  std::string subject = {};  // an identifier, such as a call, a device or a data set
-  std::string code = {};     // the error code of an API call
+  std::string subject = {};                    // the name of an API call, a device, a data set, …
+  std::string code = {};                       // the error code of an API call
   // The configuration was not attempted, because other configurations with the levels
   // `shared_levels` failed in this way. If `shared_levels` is empty, the failure did not depend on
   // any factor of the plan.
@@ -74,11 +75,11 @@ struct Reason {
   bool operator==(const Reason&) const = default;
 
   [[nodiscard]] std::optional<double> number(const std::string& name) const;
-  // Returns the time limit that was exceeded. Empty if the cause is not a timeout.
+  // Returns the time limit that was exceeded, or nullopt if the cause is not a timeout.
   [[nodiscard]] std::optional<std::chrono::seconds> limit() const;
 };
 
-// Whether two reasons are of the same kind, regardless of their messages and time limits.
+// Returns whether two reasons are of the same kind, regardless of their messages and time limits.
 [[nodiscard]] bool is_same_kind(const Reason& a, const Reason& b);
 // Returns a string that is equal for two reasons if and only if they are of the same kind.
 [[nodiscard]] std::string kind_of(const Reason& reason);

@@ -14,8 +14,8 @@
 namespace triptych::record {
 namespace {
 
-// Escapes a part of a key, so that the key stays on one line and "; " occurs only between its
-// parts.
+// Escapes a part of a key, so that the key stays on one line and "; " occurs only as the separator
+// of its parts.
 std::string one_line(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -31,8 +31,8 @@ std::string one_line(std::string_view text) {
   return result;
 }
 
-// Keeps letters and digits, in lower case. Every sequence of other characters becomes one '-',
-// except at the ends.
+// Returns the letters, digits and dots of the text, with letters in lower case. Every sequence of
+// other characters becomes one '-', except at the beginning and at the end.
 std::string slug(std::string_view text, std::size_t longest) {
   std::string result;
   for (const char c : text) {
@@ -49,8 +49,8 @@ std::string slug(std::string_view text, std::size_t longest) {
   return result;
 }
 
-// Test ids consist of [a-z0-9_.:-], because readers of CTest and JUnit output split and quote other
-// characters.
+// Converts text for use in a test id. Test ids consist of [a-z0-9_.:-], because tools that process
+// CTest and JUnit output split or quote other characters.
 std::string test_id_part(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -65,13 +65,14 @@ std::string test_id_part(std::string_view text) {
   return result;
 }
 
-// Returns a quantile by linear interpolation between the two order statistics next to share·(n−1).
+// Returns a quantile by linear interpolation between the two order statistics next to the index
+// share·(n−1).
 double quantile_of_sorted(const std::vector<double>& sorted, double share) {
   const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
   const double weight = place - static_cast<double>(below);
-  // w = 0 is a special case, because 0·b is NaN for an infinite b.
+  // A weight of 0 is a special case, because 0·∞ is NaN.
   return weight == 0 ? sorted[below] : (1 - weight) * sorted[below] + weight * sorted[above];
 }
 

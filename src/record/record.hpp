@@ -1,6 +1,6 @@
 #pragma once
-// The measurements: one Record for each configuration, device and run. The judge and the reports
-// read only records, so they also work on a machine that has none of the devices.
+// The measurements. There is one Record for each configuration, device and run. The judge and the
+// reports need only records, so they also work on a machine that has none of the devices.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,9 +30,9 @@ struct Device {
   std::string driver_version;  // as the driver reports it, on one line
   std::string api_version;
   std::string cpu_features;  // the CPU features for which code is generated; empty for a GPU
-  // Those environment variables that are set and that affect code generation.
+  // The environment variables that affect code generation and that were set.
   std::map<std::string, std::string> environment;
-  std::map<std::string, std::string> limits;  // under the API's own names
+  std::map<std::string, std::string> limits;  // the keys are the API's own names
   // One entry for each statistic; empty if no calibration scene was drawn. The calibration depends
   // only on the driver, so it is not part of any key.
   std::map<std::string, StatisticWorth> statistics_calibration = {};
@@ -42,20 +42,20 @@ struct Device {
   // executes.
   std::string compiles_for = {};
 
-  // Returns everything on which times and the exact bits of images depend, on one line: id, driver
+  // Returns a line with everything that determines times and the exact bits of images: id, driver
   // version, API version, environment, and the CPU features or (for a GPU) the name of the
   // hardware. key_hash() returns a short file name that is derived from the key.
   [[nodiscard]] std::string key() const;
   [[nodiscard]] std::string key_hash() const;
-  // Returns a key for everything on which pipeline statistics depend: id and driver version. The
-  // key can be used as a file name. It consists of a readable part and a hash.
+  // Returns a key for everything that determines pipeline statistics: id and driver version. The
+  // key consists of a readable part and a hash, and can be used as a file name.
   [[nodiscard]] std::string statistics_key() const;
   bool operator==(const Device&) const = default;
 };
 
-// Whether the clock of a device is trusted, for one kind of work ("compute", "draw"). For a
-// calibration workload, the device time is divided by the wall-clock time; the median and the range
-// of these ratios are stored.
+// States whether the clock of a device is trusted for one kind of work ("compute", "draw"). The
+// calibration computes the ratio of device time to wall-clock time for each frame of a workload,
+// and stores the median and the range of these ratios.
 struct ClockTrust {
   std::string work;
   bool offered = false;  // whether the device reports a time
@@ -67,8 +67,8 @@ struct ClockTrust {
   bool operator==(const ClockTrust&) const = default;
 };
 
-// Counts by name, such as pipeline statistics or instructions. A count that a device cannot provide
-// is absent, never zero. The names of the pipeline statistics are input_assembly_vertices,
+// Counts by name, for example pipeline statistics or instructions. A count that a device cannot
+// provide is absent, never zero. The names of the pipeline statistics are input_assembly_vertices,
 // input_assembly_primitives, vertex_invocations, geometry_invocations, geometry_primitives,
 // clipping_invocations, clipping_primitives, fragment_invocations, tessellation_control_patches,
 // tessellation_evaluation_invocations and compute_invocations.
@@ -86,15 +86,16 @@ struct Record {
   std::map<std::string, std::string> factors;  // all factors, including defaults
 
   Outcome outcome = Outcome::failed;
-  // Set for every outcome except measured, and for records whose frames were copied.
+  // The reason for the outcome. Set for every outcome except `measured`, and also for records whose
+  // frames were copied.
   Reason reason;
-  // The configuration of the same run and device from which the frames were copied, because both
-  // configurations do the same work in this scene. Empty if this configuration itself was measured.
+  // The configuration whose frames were copied, because it does the same work in this scene. It
+  // belongs to the same run and device. Empty if this configuration itself was measured.
   std::string same_as;
   std::string injected;  // name of an injected fault; such a record is never accepted as a baseline
 
-  // Times in nanoseconds, one for each timed frame. The device times are used if the device's clock
-  // is trusted for this kind of work, otherwise the wall-clock times.
+  // Times in nanoseconds, one for each timed frame. Results are based on the device times if the
+  // device's clock is trusted for this kind of work, and otherwise on the wall-clock times.
   std::vector<double> wall_ns;
   std::vector<double> device_ns;  // empty if the device reports no time
   bool device_clock_trusted = false;
@@ -107,28 +108,29 @@ struct Record {
   std::uint64_t peak_memory_bytes = 0;  // peak memory of the worker process so far
 
   // The instructions that the worker executed during one frame of the timed build, grouped by the
-  // location of the executed code: "device_code", "driver", "libc", "program". There are also
+  // location of the executed code: "device_code", "driver", "libc", "program". Two more entries are
   // "allocations", the number of memory allocations, and "misses", the cache misses of device code
-  // in a simulated cache. Empty if instructions were not counted. `prepare_cost` contains the same
-  // for the preparation.
+  // in a simulated cache. Empty if instructions were not counted. `prepare_cost` contains the
+  // corresponding counts for the preparation.
   Counts cost;
   Counts prepare_cost;
   Code code;  // for plans with the check `code`; empty if the compiler reported nothing
   std::string
-      counted_by;  // the emulator that counted, its version, and the processor that it simulates
-  Counts memory;            // bytes allocated on the device for this configuration, by kind
-  Counts energy;            // microjoules per frame, by meter; empty if there are no meters
-  Counts counters;          // Triptych's own counters; empty if no counting frame was drawn
+      counted_by;   // the emulator that counted `cost`, its version, and the CPU that it simulates
+  Counts memory;    // bytes allocated on the device for this configuration, by kind
+  Counts energy;    // microjoules per frame, by meter; empty if there are no meters
+  Counts counters;  // Triptych's own counters; empty if no counting frame was drawn
   Counts statistics;        // the driver's pipeline statistics
   std::string image;        // content hash, the key for Store::image(); empty without an image
   std::string data_hash;    // content hash of the scene's data
   std::string kernel_hash;  // content hash of the device code
-  // Properties of the device that determine the bound of the image, such as "filter_weight_error".
+  // Properties of the device that determine the error bound of the image, such as
+  // "filter_weight_error".
   std::map<std::string, double> precision;
   std::string benchmark_json;  // Google Benchmark's own output for this configuration
 
-  // Whether the configuration was drawn only for its image and its counts, without warm-up and
-  // timing. A record that was timed but whose times were lost does not count as untimed.
+  // Returns whether the configuration was drawn only for its image and its counts, without warm-up
+  // and timing. A record that was timed but whose times were lost does not count as untimed.
   [[nodiscard]] bool untimed() const {
     return outcome == Outcome::measured && warm_up_frames == 0 && wall_ns.empty();
   }
@@ -138,8 +140,8 @@ struct Record {
   // Returns the number of bytes that device code loaded into the simulated cache, which has lines
   // of 64 bytes.
   [[nodiscard]] std::optional<std::uint64_t> fetched_bytes() const;
-  // time_ns() returns the times of the clock that is used, and clock() returns the name of that
-  // clock: "device" or "wall".
+  // time_ns() returns the times on which results are based, and clock() returns the name of the
+  // clock that measured them: "device" or "wall".
   [[nodiscard]] const std::vector<double>& time_ns() const;
   [[nodiscard]] const std::vector<double>& time_ns_by(std::string_view clock) const {
     return clock == "wall" ? wall_ns : device_ns;
@@ -150,8 +152,8 @@ struct Record {
   [[nodiscard]] std::string test_id(std::string_view check) const;
 };
 
-// Whether the configuration was skipped because its input is broken. This is not the device's
-// fault, so the configuration cannot be judged.
+// Returns whether the configuration was skipped because its input is broken. This is not the
+// device's fault, so the configuration cannot be judged.
 [[nodiscard]] inline bool has_bad_input(const Record& record) {
   return record.outcome == Outcome::skipped && record.reason.cause == Cause::bad_input;
 }
@@ -172,8 +174,8 @@ struct Run {
   Checks checks = {};                // the checks that the plan lists
   std::string plan_hash = {};        // hash of the plan's YAML
   std::uint64_t configurations = 0;  // number of configurations to be measured on each device
-  // One entry for each command that measured for this run. Empty in a store that was not written by
-  // a command.
+  // One entry for each command that contributed measurements to this run. Empty in a store that was
+  // not written by a command.
   std::vector<Beginning> begun = {};
   std::string planned_hash = {};  // hash of the keys of these configurations (Store::planned())
 };

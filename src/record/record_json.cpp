@@ -72,7 +72,7 @@ void decode(const Json& json, double& value) {
 }
 
 void decode(const Json& json, std::string& value) {
-  if (!json.is_string()) throw core::InputError("expected text");
+  if (!json.is_string()) throw core::InputError("expected a string");
   value = json.get<std::string>();
 }
 
@@ -88,9 +88,9 @@ void decode(const Json& json, Executable& value) {
 template <typename T>
 requires std::is_integral_v<T>
 void decode(const Json& json, T& value) {
-  // Negative numbers are rejected too, because every integer in a record is a count. In JSON that
-  // this code created, a count may have the signed or the unsigned number type of the JSON library.
-  // A count that was parsed from text always has the unsigned type.
+  // Also rejects negative numbers, because every integer in a record is a count. In JSON that this
+  // code created, a count may have the signed or the unsigned number type of the JSON library. A
+  // count that was parsed from text always has the unsigned type.
   const bool natural =
       json.is_number_unsigned() || (json.is_number_integer() && json.get<std::int64_t>() >= 0);
   if (!natural ||
@@ -163,7 +163,8 @@ void visit_fields(auto& trust, Visit&& visit) requires
   visit("verdict", trust.verdict);
 }
 
-// These lists do not contain the enumerations, because they are stored by name (read_name()).
+// The following lists do not contain the enumerations, because these are stored by name (see
+// read_name()).
 template <typename Visit>
 void visit_fields(auto& reason, Visit&& visit) requires
     std::is_same_v<std::remove_cvref_t<decltype(reason)>, Reason> {

@@ -11,11 +11,11 @@ struct Record;
 // Returns a name such as "volume.quick.raycast.mandelbulb_96.surfaces.orbit_y_1_8.s0_5.v192" for
 // the configuration key "camera=orbit_y:1/8,data=generate:mandelbulb:96,step=0.5,…". The name
 // contains the suite, the plan, and the values of technique, data, transfer function and camera.
-// All other factors that differ from their defaults follow, sorted by name. Each is written as its
-// name and value; step is abbreviated as `s` and viewport as `v`. The name depends only on the
-// arguments, so it stays the same when a plan changes. It contains only letters, digits, '_' and
-// '.'. All configurations of a plan have different names, unless two values differ only in
-// characters that a name cannot contain, or in a file name extension.
+// These are followed by the names and values of all other factors that differ from their defaults,
+// sorted by name. The names of two factors are abbreviated: step is `s`, and viewport is `v`. The
+// name depends only on the arguments, so it stays the same when a plan changes. It contains only
+// letters, digits, '_' and '.'. All configurations of a plan have different names, unless two
+// values differ only in characters that a name cannot contain, or in a file name extension.
 [[nodiscard]] std::string short_name(std::string_view suite, std::string_view plan,
                                      std::string_view configuration);
 [[nodiscard]] std::string short_name(const Record& record);
@@ -23,8 +23,8 @@ struct Record;
 // Returns the name without suite and plan: "raycast.mandelbulb_96.surfaces.orbit_y_1_8.s0_5.v192".
 [[nodiscard]] std::string short_name(std::string_view configuration);
 
-// Whether a glob matches the key of the configuration, its short name, or its short name without
-// suite and plan.
+// Returns whether a glob matches the key of the configuration, its short name, or its short name
+// without suite and plan.
 [[nodiscard]] bool names_configuration(const std::string& glob, std::string_view suite,
                                        std::string_view plan, std::string_view configuration);
 

@@ -1,6 +1,6 @@
 #pragma once
-// How accurately a driver counts a pipeline statistic, which is determined by drawing scenes whose
-// correct counts are known (measure/protocol/statistics_calibration.hpp).
+// Describes how accurately a driver counts a pipeline statistic. To find out, Triptych draws scenes
+// whose correct counts are known (measure/protocol/statistics_calibration.hpp).
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -10,11 +10,11 @@
 namespace triptych::record {
 
 enum class Worth : std::uint8_t {
-  exact,          // the correct number in every scene
+  exact,          // correct in every scene
   counts,         // always equal to Triptych's counter `counter`, which is a different quantity
-  proportional,   // always `low` times the correct number
-  inflated,       // between `low` and `high` times the correct number
-  differs,        // not the correct number in at least one scene
+  proportional,   // always `low` times the correct count
+  inflated,       // between `low` and `high` times the correct count
+  differs,        // wrong in at least one scene
   unsteady,       // changes when the same frame is drawn again
   absent,         // never reported
   unknown,        // a scene could not be drawn
@@ -25,14 +25,14 @@ enum class Worth : std::uint8_t {
 
 struct StatisticWorth {
   Worth worth = Worth::exact;
-  double low = 1;   // smallest ratio of the reported to the correct number
-  double high = 1;  // largest such ratio
+  double low = 1;   // smallest ratio of the reported count to the correct count
+  double high = 1;  // largest ratio of the reported count to the correct count
   std::string counter = {};
   std::string detail = {};  // names of the affected scenes
   bool operator==(const StatisticWorth&) const = default;
 
   [[nodiscard]] bool is_exact() const { return worth == Worth::exact; }
-  // Whether the number changes when the same frame is drawn again. Such a statistic is never
+  // Returns whether the count changes when the same frame is drawn again. Such a statistic is never
   // compared.
   [[nodiscard]] bool is_unsteady() const { return worth == Worth::unsteady; }
 };

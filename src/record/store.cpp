@@ -18,8 +18,8 @@
 namespace triptych::record {
 namespace {
 
-// While an object of this class exists, each commit is flushed to the disk, so that it and all
-// earlier commits survive a power failure.
+// While an object of this class exists, each commit is flushed to the disk, so that this commit and
+// all earlier commits survive a power failure.
 class WaitsForDisk {
  public:
   explicit WaitsForDisk(SQLite::Database& database) : database_(database) {
@@ -70,8 +70,8 @@ const std::filesystem::path& Store::file() const {
 }
 
 // This check is necessary because SQLite works around most damage without reporting it. quick_check
-// reads every page, which takes 0.2 s for a store of 50 MB. It does not compare indexes with their
-// tables.
+// reads every page, which takes 0.2 s for a store of 50 MB, but it does not compare indexes with
+// their tables.
 void Store::require_whole() const {
   on_store(state_->file, [&] {
     SQLite::Statement row(state_->database, "PRAGMA quick_check(1)");
@@ -114,9 +114,9 @@ void Store::begin(const std::string& run, const Beginning& beginning,
       known.planned_hash = hash_of_planned(planned);
       insert_run(state_->database, known);
     });
-    // If the run is killed, a copy of the store's file without its log must still contain the
-    // beginning of this run. Otherwise the latest run in the copy would be a previous run, which
-    // may have passed.
+    // If the run is killed, even a copy of the store without its log must contain the beginning of
+    // this run. Otherwise the latest run in the copy would be a previous run, which may have
+    // passed.
     static_cast<void>(state_->database.tryExec("PRAGMA wal_checkpoint(PASSIVE)"));
   });
 }

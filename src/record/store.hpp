@@ -1,8 +1,8 @@
 #pragma once
-// The store is one SQLite file (in WAL mode) with runs, devices and their clocks, records with
-// every raw sample, and images. Each record is appended in its own transaction, so a run that is
-// killed loses at most the record that it was about to write. docs/store.md describes the tables
-// and has example queries.
+// The store is a single SQLite file (in WAL mode) that contains runs, devices and their clocks,
+// records with every raw sample, and images. Each record is appended in its own transaction, so a
+// run that is killed loses at most the record that it was about to write. docs/store.md describes
+// the tables and shows example queries.
 
 #include <chrono>
 #include <cstddef>
@@ -22,14 +22,14 @@
 
 namespace triptych::record {
 
-// The reference image of a scene. For each pixel, it has a bound on the difference between the
-// reference image and a device's image.
+// The reference image of a scene, with a bound for each pixel. The bound limits the difference
+// between the reference image and a device's image.
 struct TruthImage {
   std::string scene;
-  std::string version;  // of the reference renderer and its error model; an image from another
-                        // version is rendered again
+  std::string version;  // version of the reference renderer and its error model; an image from
+                        // another version is rendered again
   std::vector<std::byte> image;  // EXR
-  std::vector<std::byte> bound;  // EXR, the same in every channel
+  std::vector<std::byte> bound;  // EXR with equal values in all channels
   std::string own_seal = {};     // see measure/truth/own_seal.hpp; empty if the origin is unknown
 };
 
@@ -40,12 +40,15 @@ class Store {
 
   // Opens the store. Throws IoError if the file cannot be opened or written, or if the disk is
   // full. Throws InputError if the file is not a store or has another schema version; the message
-  // states both versions and what to do. If another process is writing, every call waits up to
-  // `busy_limit` and then throws IoError. A call that writes also throws IoError if the file was
-  // removed or renamed. `file` is always a file name, even if it has a special meaning in SQLite,
-  // such as ":memory:". An empty name is rejected. A store in a read-only folder can be read unless
-  // its writer was killed, because then the latest records are in the log, which cannot be replayed
-  // in such a folder. Only one thread may use a Store at a time.
+  // states both versions and what to do. `file` is always a file name, even if it has a special
+  // meaning in SQLite, such as ":memory:". An empty name is rejected.
+  //
+  // If another process is writing, every call waits up to `busy_limit` and then throws IoError. A
+  // call that writes also throws IoError if the file was removed or renamed. Only one thread may
+  // use a Store at a time.
+  //
+  // A store in a read-only folder can be read unless the process that wrote it was killed. In that
+  // case, the latest records are still in the log, which cannot be replayed in such a folder.
   Store(const std::filesystem::path& file, Mode mode,
         std::chrono::milliseconds busy_limit = std::chrono::seconds(10));
   ~Store();
@@ -56,19 +59,20 @@ class Store {
 
   [[nodiscard]] const std::filesystem::path& file() const;
 
-  // Throws InputError if SQLite finds that the file is damaged. Must be called before anything is
-  // judged. Reads the whole file once.
+  // Throws InputError if SQLite finds that the file is damaged. Call this function before judging
+  // any records. It reads the whole file once.
   void require_whole() const;
 
   // Adds a run, or replaces the run with the same id. The functions below throw InputError if the
   // run of a device or record was not added.
   void add_run(const Run& run);
-  // Returns the latest run of the plan. If there is none, adds this run and returns it. If several
-  // processes call this at once, one adds its run and the others find it.
+  // Returns the latest run of the plan. If there is none, adds `run` and returns it. If several
+  // processes call this function at the same time, one of them adds its run and all others return
+  // that run.
   [[nodiscard]] Run latest_run_or_add(const Run& run);
   // Records that a command is about to measure these configurations for the run, which must exist.
-  // The entry is flushed to the disk immediately, so that a reader can see what is missing if the
-  // run is interrupted.
+  // The entry is flushed to the disk immediately. If the run is interrupted, a reader can therefore
+  // determine which records are missing.
   void begin(const std::string& run, const Beginning& beginning,
              std::span<const std::string> configurations);
   void add_device(const std::string& run, const Device& device,
@@ -79,21 +83,21 @@ class Store {
       const Record& record);  // replaces the record of the same run, configuration and device
   // Records that a configuration is about to be measured. When this function returns, everything
   // that was stored so far is on the disk, because the measurement may crash the machine. Returns
-  // how often this function was called for the configuration, including this call, since a record
-  // of it was last added. unbegin_record() reverts one call if the user interrupted the run.
+  // the number of calls for this configuration, including this call, since a record of the
+  // configuration was last added. unbegin_record() reverts one call if the user interrupted the
+  // run.
   int begin_record(const std::string& run, const std::string& configuration,
                    const std::string& device);
   void unbegin_record(const std::string& run, const std::string& configuration,
                       const std::string& device);
   void set_truth(const TruthImage& truth);
-  // Adds a disassembly, to which records refer by its content hash. Does nothing if the hash
-  // exists.
+  // Adds a disassembly. Records refer to it by its content hash. Does nothing if the hash exists.
   void add_listing(std::string_view hash, std::string_view text);
 
   [[nodiscard]] std::vector<Run> runs() const;  // oldest first
   [[nodiscard]] std::optional<Run> latest_run(std::string_view plan) const;
   // Returns the sorted keys of all configurations that the run was to measure. Throws InputError if
-  // the list was changed after it was stored.
+  // this list was changed after it was stored.
   [[nodiscard]] std::vector<std::string> planned(const Run& run) const;
   // Returns the keys of the configurations for which the run has a record on this device.
   [[nodiscard]] std::set<std::string> configurations(std::string_view run,
@@ -105,11 +109,12 @@ class Store {
   [[nodiscard]] std::vector<DeviceEntry> devices(std::string_view run) const;
   [[nodiscard]] std::vector<Record> records(
       std::string_view run) const;  // sorted by device, then by the order of addition
-  // Visits the records in the order in which they were added, with one record in memory at a time,
-  // because a store may be larger than the memory. An exception from `visit` stops the iteration.
+  // Visits the records in the order in which they were added. Keeps only one record in memory at a
+  // time, because a store may be larger than the memory. An exception from `visit` stops the
+  // iteration.
   void visit_records(std::string_view run, const std::function<void(const Record&)>& visit) const;
-  // Returns the names that occur in a table with names and values ("factor", "cost", …) for the
-  // records of the run.
+  // Returns the names that occur in the rows of the run's records in a table with names and values,
+  // such as "factor" or "cost".
   [[nodiscard]] std::set<std::string> names(std::string_view run, std::string_view table) const;
   [[nodiscard]] std::uint64_t count_records(std::string_view run, std::string_view device) const;
   [[nodiscard]] bool has_record(std::string_view run, std::string_view configuration,

@@ -18,8 +18,8 @@ namespace {
 // Only one thread uses a connection at a time, so SQLite need not lock a mutex in every call.
 constexpr int one_thread = SQLITE_OPEN_NOMUTEX;
 
-// Whether there is a log from a writer that did not close the store. If the log were ignored, the
-// latest records would be missing without notice.
+// Returns whether there is a log left by a writer that did not close the store. If the log were
+// ignored, the latest records would be missing without notice.
 bool has_log(const std::filesystem::path& file) {
   std::error_code ignored;
   const auto size = std::filesystem::file_size(file.string() + "-wal", ignored);
@@ -77,9 +77,9 @@ SQLite::Database open_to_read(const std::filesystem::path& file,
   return database;
 }
 
-// Switches to WAL mode. If several processes do so at once, SQLite rejects all but one of them
-// immediately, regardless of the busy limit, because each process holds a read lock for which
-// another process waits. Therefore this function tries again until the busy limit.
+// Switches to WAL mode. If several processes do this at the same time, SQLite rejects all but one
+// of them immediately, regardless of the busy limit, because each process holds a read lock that
+// another process is waiting for. Therefore this function tries again until the busy limit.
 void write_ahead(SQLite::Database& database, std::chrono::milliseconds busy_limit) {
   const auto end = std::chrono::steady_clock::now() + busy_limit;
   for (;;) {
@@ -109,7 +109,7 @@ SQLite::Database open_to_append(const std::filesystem::path& file,
   write_ahead(database, busy_limit);
   // In WAL mode, synchronous = NORMAL keeps all data when a process dies. Only a power failure can
   // lose the latest transactions, and even then the file stays intact. Data that must survive a
-  // power failure are flushed to the disk (Store::begin_record).
+  // power failure are flushed to the disk explicitly (see Store::begin_record()).
   database.exec("PRAGMA synchronous = NORMAL");
   database.exec("PRAGMA foreign_keys = ON");
   return database;
@@ -155,16 +155,16 @@ void require_file(const std::filesystem::path& file, SQLite::Database& database)
                         database.execAndGet("PRAGMA journal_mode").getString() == "wal";
   if (!lost_log && (answer != SQLITE_OK || moved == 0)) return;
   throw core::IoError(fmt::format(
-      "{}: was removed or renamed while it was open; data that are added now would be lost",
+      "{}: was removed or renamed while it was open; data added from now on would be lost",
       lost_log ? log.string() : file.string()));
 }
 
 void throw_damaged(const std::filesystem::path& file, std::string_view what) {
   throw core::InputError(
       {.file = file.string()},
-      fmt::format(
-          "is damaged ({}): measure again; 'sqlite3 FILE .recover' may recover the remaining data",
-          what));
+      fmt::format("is damaged ({}); measure again, or try to recover the remaining data with "
+                  "'sqlite3 FILE .recover'",
+                  what));
 }
 
 void throw_store_error(const std::filesystem::path& file, const SQLite::Exception& error) {
@@ -178,7 +178,7 @@ void throw_store_error(const std::filesystem::path& file, const SQLite::Exceptio
       throw_damaged(file, what);
     case SQLITE_FULL:
       throw core::IoError(
-          fmt::format("{}: the disk is full; data that were added before are intact", name));
+          fmt::format("{}: the disk is full; the data added so far are intact", name));
     case SQLITE_READONLY:
       throw core::IoError(fmt::format(
           "{}: cannot be written, because the file or its folder is read-only ({})", name, what));
@@ -193,8 +193,8 @@ void throw_store_error(const std::filesystem::path& file, const SQLite::Exceptio
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       throw core::IoError(
-          fmt::format("{}: another process has locked it for too long ({}); try again when that "
-                      "process has finished",
+          fmt::format("{}: another process has locked the store for too long ({}); try again when "
+                      "that process has finished",
                       name, what));
     default:
       throw core::IoError(fmt::format("{}: {}", name, what));

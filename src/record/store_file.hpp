@@ -1,6 +1,6 @@
 #pragma once
-// Opens the file of a Store, creates its tables, and converts SQLite's errors to those of this
-// project.
+// Opens the file of a Store, creates its tables, and converts SQLite errors to this project's error
+// types.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -16,8 +16,8 @@
 
 namespace triptych::record {
 
-// Opens a store that has this program's schema version. Throws the errors that the constructor of
-// Store throws.
+// Opens a store, which must have this program's schema version. Throws the same exceptions as the
+// constructor of Store.
 [[nodiscard]] SQLite::Database open_store_file(const std::filesystem::path& file, Store::Mode mode,
                                                std::chrono::milliseconds busy_limit);
 
@@ -37,8 +37,8 @@ void require_file(const std::filesystem::path& file, SQLite::Database& database)
 
 [[noreturn]] void throw_damaged(const std::filesystem::path& file, std::string_view what);
 
-// Runs `action`. Converts SQLite errors, and errors in the values of columns, to errors of this
-// project.
+// Runs `action`. Converts SQLite errors, and errors in the content of columns, to this project's
+// error types.
 template <typename Action>
 decltype(auto) on_store(const std::filesystem::path& file, Action&& action) {
   try {

@@ -18,9 +18,9 @@
 namespace triptych::record {
 namespace {
 
-// The columns of the table `record`, in the order in which they are written and read. Columns that
-// can be derived from a record (clock, frames, medians) are written for users' queries but never
-// read.
+// The columns of the table `record`, in the order in which they are written and read. The derived
+// columns (clock, frames, medians) are computed from a record. They are written for users' queries
+// but never read.
 constexpr std::string_view record_columns =
     "run, suite, plan, configuration, scene, technique, device, outcome, cause, stage, "
     "numbers, subject, code, not_tried, shared_levels, detail, last_words, injected, "
@@ -104,7 +104,7 @@ void insert_samples(const SQLite::Database& database, std::int64_t record, std::
 using RecordsBySeq = std::unordered_map<std::int64_t, Record*>;
 
 // Calls `read(record, row)` for every row of a table that belongs to a record of the run. The first
-// column refers to the record; `columns` are the other columns.
+// column of the table refers to the record; `columns` lists the columns to read.
 template <typename Read>
 void read_rows(const SQLite::Database& database, std::string_view table, std::string_view columns,
                std::string_view order, std::string_view run, const RecordsBySeq& records,
@@ -178,7 +178,7 @@ void require_record_seal(const Row& row, const Record& record) {
                fmt::format("the record of {} on {}", record.configuration, record.device));
 }
 
-// Reads the rows of one of the other tables that belong to a record, with a statement that is
+// Reads the rows that belong to a record from a table other than `record`, with a statement that is
 // prepared only once.
 class RowsOf {
  public:

@@ -1,7 +1,7 @@
 #pragma once
-// Writes runs and their devices to the store's tables and reads them. Callers handle the
-// transactions. Used by store.cpp and by merges, which write to a file that is not a complete store
-// yet.
+// Writes runs and their devices to the store's tables, and reads them. Callers handle the
+// transactions. This file is used by store.cpp and by merges, which write to a file that is not a
+// complete store yet.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -16,7 +16,7 @@
 
 namespace triptych::record {
 
-// Inserts a run, or replaces the run with the same id. insert_device() does the same for a device.
+// Inserts a run, or replaces the run with the same id.
 void insert_run(const SQLite::Database& database, const Run& run);
 // Inserts the keys of the configurations that the run is to measure. Skips keys that exist already.
 void insert_planned(const SQLite::Database& database, const std::string& run,
@@ -31,7 +31,7 @@ void insert_planned(const SQLite::Database& database, const std::string& run,
 // See Store::runs.
 [[nodiscard]] std::vector<Run> read_runs(const SQLite::Database& database);
 
-// Inserts a device of a run, which must exist.
+// Inserts a device of a run, or replaces the device with the same id. The run must exist.
 void insert_device(const SQLite::Database& database, const std::string& run, const Device& device,
                    const std::vector<ClockTrust>& clocks);
 // See Store::devices.

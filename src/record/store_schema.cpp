@@ -15,7 +15,7 @@ namespace {
 constexpr int application_id = 0x54524950;  // "TRIP": distinguishes a store from other SQLite files
 
 // docs/store.md explains the tables. STRICT makes SQLite reject values of the wrong type that other
-// programs may write to the store. NaN is stored as NULL, because SQLite converts NaN to NULL.
+// programs may write to the store. NaN is stored as NULL, because SQLite cannot store NaN.
 constexpr const char* schema = R"sql(
 CREATE TABLE run (
   seq INTEGER PRIMARY KEY,
@@ -282,8 +282,9 @@ void require_our_objects(const SQLite::Database& database, const std::filesystem
   for (const auto& [object, statement] : found) {
     if (object.first == "table" || our_objects().contains(object)) continue;
     throw core::InputError({.file = file.string()},
-                           fmt::format("has the {} {}, which Triptych did not create and which may "
-                                       "change data that are read or added; remove it",
+                           fmt::format("contains the {} {}, which Triptych did not create and "
+                                       "which could change data when they are read or added; "
+                                       "remove it",
                                        object.first, object.second));
   }
 }
@@ -308,15 +309,15 @@ void require_our_schema(const SQLite::Database& database, const std::filesystem:
   if (found == Store::schema_version) return require_our_objects(database, file);
   throw core::InputError(
       {.file = file.string()},
-      fmt::format("the store has schema version {}, but this program reads version {}: {}, or "
+      fmt::format("the store has schema version {}, but this program reads version {}; {}, or "
                   "name another file with --store",
                   found, Store::schema_version,
                   found > Store::schema_version ? "use the newer Triptych that wrote it"
                                                 : "measure again, or use the older Triptych"));
 }
 
-// Two processes may open the same empty file at once. The second process waits for the lock and
-// then finds that the tables exist.
+// Two processes may open the same empty file at the same time. The second process waits for the
+// lock and then finds that the tables exist.
 void create_schema(SQLite::Database& database) {
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::EXCLUSIVE);
   if (!is_blank(database)) return;

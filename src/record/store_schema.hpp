@@ -8,7 +8,7 @@
 
 namespace triptych::record {
 
-// Whether the database is still empty.
+// Returns whether the database is still empty.
 [[nodiscard]] bool is_blank(const SQLite::Database& database);
 
 // Creates the tables, unless another process has created them in the meantime.

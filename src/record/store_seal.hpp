@@ -1,6 +1,6 @@
 #pragma once
-// Seals are hashes that are stored next to the data from which they were computed. SQLite detects
-// broken pages, but not a changed value in an intact page.
+// Seals are hashes that are stored next to the data from which they were computed. They are needed
+// because SQLite detects broken pages, but not a changed value in an intact page.
 
 #include <string>
 #include <string_view>
@@ -13,8 +13,8 @@ namespace triptych::record {
 
 [[nodiscard]] std::string seal_of(const Run& run);
 [[nodiscard]] std::string seal_of(const Device& device, const std::vector<ClockTrust>& clocks);
-// The hash of the measurements in a record. It does not depend on the run, so the same record has
-// the same seal in two stores.
+// Returns the hash of everything in a record except the id of its run. Therefore the same record
+// has the same seal in two stores.
 [[nodiscard]] std::string seal_of(const Record& record);
 [[nodiscard]] std::string seal_of(const TruthImage& truth);
 

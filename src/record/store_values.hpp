@@ -38,8 +38,8 @@ class Binder {
     }
     return *this;
   }
-  // The bits of unsigned 64-bit numbers are stored unchanged, so SQL shows numbers from 2⁶³ as
-  // negative numbers.
+  // The bits of unsigned 64-bit numbers are stored unchanged, so SQL queries return numbers from
+  // 2⁶³ as negative numbers.
   template <typename T>
   requires std::integral<T> Binder& operator<<(T number) {
     statement_.bind(++index_, static_cast<std::int64_t>(number));
@@ -66,8 +66,8 @@ class Reader {
 
   Reader& operator>>(std::string& text) {
     const SQLite::Column column = row_.getColumn(index_++);
-    // The size is limited, because parsing a string and computing its seal need several times its
-    // size in memory.
+    // The size is limited, because parsing a string and computing its seal need several times as
+    // much memory as the string itself.
     constexpr int most = 64 << 20;
     if (column.getBytes() > most) {
       throw core::InputError(fmt::format("contains a string of {} bytes; the limit is {} bytes",

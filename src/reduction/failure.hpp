@@ -12,14 +12,14 @@
 
 namespace triptych::reduction {
 
-// How a frame fails: it ended without an image, its image is wrong, or its counters are wrong.
+// How a frame fails: it ends without an image, its image is wrong, or its counters are wrong.
 using Failure = judge::Observation;
 
-// Returns whether two frames fail in the same way, regardless of the numbers. All wrong counters
-// count as the same way.
+// Returns whether two frames fail in the same way, regardless of the numbers. Frames with wrong
+// counters always fail in the same way, whichever counters are wrong.
 [[nodiscard]] bool is_same_kind(const Failure& a, const Failure& b);
 
-// The data with which a record is compared.
+// The functions that provide the data with which a record is compared.
 struct Evidence {
   judge::FindTruth truth;
   std::function<core::Image(const record::Record&)> picture;  // returns the record's image
@@ -31,8 +31,8 @@ struct Evidence {
 
 // Returns the first of these failures that applies: the frame ended without an image, its image
 // exceeds its error bound, or its counters differ from those of the other device. Returns nullopt
-// if none applies or if the frame was skipped. Throws the same exceptions as the functions in
-// `evidence`.
+// if no failure applies or if the frame was skipped. Throws the exceptions that the functions in
+// `evidence` throw.
 [[nodiscard]] std::optional<Failure> failure_of(const record::Record& record,
                                                 const Evidence& evidence);
 

@@ -45,8 +45,8 @@ std::string text_of(const Sized& sized) {
 }
 
 // Returns 1, 2, 3, 4, 6, 8, 12, …, and then sizes that approach `size` from below in ever smaller
-// steps. If all sizes above a threshold fail, the search finds a size near this threshold in few
-// steps.
+// steps. If all sizes above a threshold fail, this sequence lets the search come close to the
+// threshold in few steps.
 std::vector<int> smaller_sizes(int size) {
   std::set<int> sizes;
   for (int each = 1; each < size; each *= 2) {

@@ -20,8 +20,8 @@ bool is_taken(const measure::Suite& suite, const measure::Factor& factor,
   }
 }
 
-// Returns the factors, beginning with those that make a frame smaller, because then all further
-// frames are drawn faster.
+// Returns the factors, beginning with those that make a frame smaller, because all later frames are
+// then drawn faster.
 std::vector<const measure::Factor*> in_order(const measure::Suite& suite) {
   std::vector<const measure::Factor*> factors;
   for (const measure::Factor& each : suite.factors()) factors.push_back(&each);
@@ -50,7 +50,7 @@ class Search {
   }
 
  private:
-  // Replaces levels of one factor as often as possible. Returns whether any level was replaced.
+  // Simplifies one factor as often as possible. Returns whether its level changed.
   bool make_plainer(const measure::Factor& factor) {
     bool any = false;
     while (take_first(factor)) any = true;

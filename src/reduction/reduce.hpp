@@ -1,6 +1,6 @@
 #pragma once
-// Makes a failing configuration smaller as long as it still fails, by greedy delta debugging over
-// the levels of its factors.
+// Simplifies a failing configuration as long as it still fails, by greedy delta debugging over the
+// levels of its factors.
 
 #include <functional>
 #include <optional>
@@ -21,7 +21,7 @@ struct Step {
   std::string factor;
   std::string from;
   std::string to;
-  int frame = 0;  // number of the frame that failed with this level, counted from 1
+  int frame = 0;  // 1-based number of the frame that failed with the new level
 };
 
 struct Reduction {
@@ -33,14 +33,15 @@ struct Reduction {
                          // simpler level of any factor fails in the same way
 };
 
-// Reduces `start`. `first` describes how `start` fails. Every smaller configuration must fail in
-// the same way. The result depends only on the results of `attempt`, which is called at most once
-// per configuration.
+// Reduces `start`, whose failure is `first`. Only configurations that fail in the same way are
+// accepted. The result depends only on the results of `attempt`, which is called at most once per
+// configuration.
 [[nodiscard]] Reduction reduce(const measure::Suite& suite, const measure::Configuration& start,
                                const Failure& first, int most_frames, const Try& attempt,
                                const std::function<void(const Step&)>& on_step);
 
-// Returns, for each factor that changed, its first and its last level, in the suite's order.
+// Returns the first and the last level of each factor that changed, in the suite's order of
+// factors.
 [[nodiscard]] std::vector<Step> changes(const measure::Suite& suite,
                                         const measure::Configuration& start,
                                         const measure::Configuration& smallest);

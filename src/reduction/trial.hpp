@@ -13,10 +13,10 @@
 
 namespace triptych::reduction {
 
-// The results of drawing the first frame twice. This is done because a failure that does not repeat
-// cannot be reduced.
+// The results of drawing the first frame twice. It is drawn twice because a failure that does not
+// repeat cannot be reduced.
 struct FirstFrames {
-  std::optional<Failure> first;  // nullopt: the frame is right and was drawn only once
+  std::optional<Failure> first;  // nullopt: the frame is correct and was drawn only once
   std::optional<Failure> again;
 
   [[nodiscard]] bool repeats() const { return first && again && is_same_kind(*again, *first); }
@@ -50,9 +50,9 @@ class Trial {
 };
 
 // Returns the time after which a frame of the search counts as hung. The limit should be short,
-// because each hanging frame takes this time. But if it is too short, a driver that takes a long
-// time to crash would look as if it hangs. Therefore the limit is derived from the time of the
-// first frame, which is drawn with the limit of a normal run.
+// because each hanging frame uses it up completely. However, with too short a limit, a driver that
+// takes a long time to crash would seem to hang. Therefore the limit is derived from the time of
+// the first frame, which is drawn with the limit of a normal run.
 [[nodiscard]] std::chrono::seconds limit_by_first_frame(const measure::Suite& suite,
                                                         const std::string& device,
                                                         const measure::Configuration& start,

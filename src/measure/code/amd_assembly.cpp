@@ -16,8 +16,8 @@ enum class Kind { vector, scalar, load, memory, branch, wait };
 
 // The ways in which device code can read a volume, from the most to the least likely: through a
 // sampler, from an image without a sampler, from a texel buffer, or from plain memory (OpenCL C).
-// If a program uses several of these ways, it is assumed to read the volume in the most likely way,
-// and lookup tables in the other ways.
+// If a program uses several of these ways, the most likely way is assumed to read the volume, and
+// all others to read lookup tables.
 enum class Fetch { sample, image, texels, memory, none };
 
 struct Line {
@@ -31,8 +31,8 @@ bool starts_with_any(std::string_view text, std::span<const std::string_view> st
                              [&](std::string_view start) { return text.starts_with(start); });
 }
 
-// Returns the kind of an instruction, or nullopt if `operation` is not an instruction. The kinds and prefixes
-// are those of AMD's instruction set manuals.
+// Returns the kind of an instruction, or nullopt if `operation` is not an instruction. The kinds
+// and prefixes follow AMD's instruction set manuals.
 std::optional<Kind> kind_of(std::string_view operation) {
   static constexpr std::array<std::string_view, 2> branches{"s_branch", "s_cbranch"};
   static constexpr std::array<std::string_view, 13> waits{
@@ -74,8 +74,8 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// Returns a label without its prefix, because LLVM writes the label of a block as "BB0_3:" but
-// refers to it as ".LBB0_3" in branches.
+// Returns a label without its prefix, so that definitions and uses match. LLVM defines the label of
+// a block as "BB0_3:" but refers to it as ".LBB0_3" in branches.
 std::string label_of(std::string_view text) {
   if (text.starts_with('.')) text.remove_prefix(1);
   if (text.starts_with('L')) text.remove_prefix(1);
@@ -122,8 +122,8 @@ InstructionCounts count(std::span<const Line> lines) {
   return counts;
 }
 
-// Returns a map from the first line of each loop to the line after its last line. A branch back to
-// a block ends a loop that begins at that block.
+// Returns a map from the index of the first line of each loop to the index after its last line. A
+// branch back to a block ends a loop that begins at that block.
 std::map<std::size_t, std::size_t> loops_of(const Program& program) {
   std::map<std::size_t, std::size_t> loops;
   for (std::size_t at = 0; at < program.lines.size(); ++at) {

@@ -41,8 +41,8 @@ bool is_digit(char c) {
 
 void CompiledCode::add(const std::string& name, std::map<std::string, double> statistics,
                        std::string assembly) {
-  // Some drivers report hashes among their statistics. They are left out, because a hash does not
-  // describe the quality of the code, and changes with the names in a shader.
+  // Removes the hashes that some drivers report among their statistics. A hash does not describe
+  // the quality of the code, and it changes with the names in a shader.
   std::erase_if(statistics, [](const auto& each) {
     return each.first.find("hash") != std::string::npos ||
            each.first.find("Hash") != std::string::npos;

@@ -1,5 +1,5 @@
 #pragma once
-// Collects a compiler's report about the executables of a configuration.
+// Collects the compiler's report about the executables of a configuration.
 
 #include <map>
 #include <string>

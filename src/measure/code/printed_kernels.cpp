@@ -16,8 +16,8 @@ std::string_view take_line(std::string_view& text) {
 }
 
 // Returns the kernel's name in a line such as "=== Printing nir for 'raycast' after spirv_to_nir"
-// or "=== Printing nir variant 'Default' for 'raycast' before driver finalization"; empty for other
-// lines.
+// or "=== Printing nir variant 'Default' for 'raycast' before driver finalization". Returns an
+// empty string for all other lines.
 std::string_view kernel_in(std::string_view line) {
   constexpr std::string_view start = "=== Printing nir ";
   constexpr std::string_view before_name = "for '";

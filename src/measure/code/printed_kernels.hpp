@@ -1,7 +1,7 @@
 #pragma once
-// Reads the output that rusticl on radeonsi prints to standard error while it builds a program, if
-// the environment variables RUSTICL_DEBUG=nir and AMD_DEBUG=cs,asm are set: the names of kernels,
-// their disassembly and their statistics.
+// Parses the output that rusticl on radeonsi prints to standard error while it builds a program, if
+// the environment variables RUSTICL_DEBUG=nir and AMD_DEBUG=cs,asm are set. The output contains the
+// names of the kernels, their disassembly and their statistics.
 
 #include <map>
 #include <string>

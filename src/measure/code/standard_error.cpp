@@ -15,7 +15,8 @@ namespace {
 
 // Redirects standard error to a file in memory while this object exists. The C stream `stderr` is
 // unbuffered by default. Here it is line-buffered, because Mesa prints each word of a disassembly
-// with a separate call, and the resulting system calls took a quarter of the compile time.
+// with a separate call. Without buffering, the resulting system calls took a quarter of the compile
+// time.
 class Redirected {
  public:
   Redirected()

@@ -1,6 +1,6 @@
 #pragma once
-// The interface between API-independent code and the backend of one API. Callers name techniques
-// and never call the API themselves. They call these functions in this order: list → open →
+// The interface between API-independent code and the backend of one API. Callers select techniques
+// by name and never call the API directly. They call the functions in this order: list → open →
 // unsupported → prepare → frame → image.
 
 #include <cstdint>
@@ -27,14 +27,14 @@ struct VolumeWork {
   technique::RaycastOptions options;
 };
 
-// A scene with particles. Its images have depth (Z, the distance along the view axis) and ids. Its
-// counters are technique::particle_counts.
+// A scene with particles. Its images contain depth (Z, the distance along the view axis) and ids.
+// Its counters are those in technique::particle_counts.
 struct ParticleWork {
   scene::ParticleScene scene;
   technique::ParticleOptions options;
-  // The camera of an extra frame that is drawn before the first frame. Culling::occlusion uses the
-  // visibility in the extra frame. If empty, the extra frame has the same camera as all other
-  // frames.
+  // The camera of an extra frame that is drawn before the first frame, in order to set up the
+  // visibility information that Culling::occlusion uses. If empty, the extra frame has the same
+  // camera as all other frames.
   std::optional<scene::Camera> camera_before = {};
 
   // Returns the work with the camera of the extra frame.
@@ -77,13 +77,13 @@ class Prepared {
   virtual ~Prepared() = default;
 
   // Overwrites all outputs of a frame (image, ids, depth, counters) with values that no frame
-  // produces: until the next frame is drawn, image() returns NaN in every channel. Otherwise, a
-  // frame that was not drawn would leave the values of an earlier frame and seem correct. Never
-  // called within the timed or counted part of a frame.
+  // produces. Until the next frame is drawn, image() returns NaN in every channel. Without this
+  // function, a frame that was not drawn would leave the values of an earlier frame and seem
+  // correct. It is never called within the timed or counted part of a frame.
   virtual void poison() = 0;
   // Draws one frame and waits for it without spinning. Throws ApiError, DeviceLost, NotDrawn.
   [[nodiscard]] virtual Frame frame(Purpose purpose) = 0;
-  // Reads the image of the latest frame back from the device.
+  // Reads back the image of the latest frame from the device.
   [[nodiscard]] virtual core::Image image() = 0;
   // Returns the hash of the timed build's device code and build options.
   [[nodiscard]] virtual std::string kernel_hash() const = 0;
@@ -101,21 +101,22 @@ struct VolumeKind {
   // The smallest format that represents the data exactly.
   scene::VoxelFormat native = scene::VoxelFormat::f32;
   std::array<int, 3> size{1, 1, 1};
-  std::optional<technique::Sampler> sampler = std::nullopt;  // the one that the plan sets, if any
-  // True if one filtered value is sufficient for each sample. False for shading, the quadrature
-  // `cells`, double precision, and volumes that are drawn in parts.
+  std::optional<technique::Sampler> sampler = std::nullopt;  // the sampler set by the plan, if any
+  // Whether one filtered value is sufficient for each sample. This is not the case for shading, the
+  // quadrature `cells`, double precision, and volumes that are drawn in parts.
   bool filter_suffices = true;
   [[nodiscard]] bool may_be_packed() const {
     return sampler.value_or(technique::Sampler::packed) == technique::Sampler::packed;
   }
 };
 
-// Properties of the device's rasterizer that the API does not specify but that determine which
-// fragments a primitive covers.
+// Properties of the device's rasterizer that the API leaves open but that determine which fragments
+// a primitive covers.
 struct Rasterizer {
   int sub_pixel_bits = 8;  // vertices are snapped to a grid of 2⁻ᵇ pixels, where b is this number
-  // Triptych makes points larger than their sprites by this many pixels, because a driver may round
-  // point sizes down. A driver may instead round them up, by the same amount.
+  // The number of pixels by which Triptych makes points larger than their sprites, because a driver
+  // may round point sizes down by up to this amount. A driver may also round them up by up to this
+  // amount.
   double point_margin = 0;
   double largest_point = 0;  // in pixels, without the margin; larger sprites are drawn as quads
 };
@@ -135,33 +136,33 @@ class Device {
 
   [[nodiscard]] virtual const record::Device& info() const = 0;
 
-  // Returns nullopt if the device can draw the work. Otherwise returns the reason: a missing
-  // feature, a limit that the scene exceeds (with both numbers), or insufficient memory.
+  // Returns nullopt if the device can draw the work, and otherwise the reason why it cannot: a
+  // missing feature, a limit that the scene exceeds (with both numbers), or insufficient memory.
   [[nodiscard]] virtual std::optional<std::string> unsupported(const Work& work) const = 0;
 
   [[nodiscard]] virtual VolumePath default_path(const VolumeKind& volume) const = 0;
 
   // Returns the largest error of this device's trilinear filter, as a fraction of the difference
-  // between neighbouring voxels. It is measured by a probe when the device is opened. For
-  // Sampler::manual it is 0 except for round-off.
+  // between neighbouring voxels. A probe measures this error when the device is opened. For
+  // Sampler::manual, it is 0 except for round-off.
   [[nodiscard]] virtual double filter_weight_error(const VolumePath& path) const = 0;
 
   // Returns nullopt if the device has no rasterizer.
   [[nodiscard]] virtual std::optional<Rasterizer> rasterizer() const { return std::nullopt; }
 
-  // Returns the bytes that the backend has currently allocated on the device, as "buffers" and
-  // "images". "moved" counts the bytes that every frame of the prepared work uploads to the device
-  // (technique/volume/parts.hpp). Memory that the driver allocates for itself is not included.
-  // The result is empty if the backend does not count its memory.
+  // Returns the number of bytes that the backend has currently allocated on the device, as
+  // "buffers" and "images". "moved" is the number of bytes that every frame of the prepared work
+  // uploads to the device (technique/volume/parts.hpp). Memory that the driver allocates for itself
+  // is not included. The result is empty if the backend does not count its memory.
   [[nodiscard]] virtual record::Counts memory() const { return {}; }
 
   // Throws NotSupported, ApiError, DeviceLost.
   [[nodiscard]] virtual std::unique_ptr<Prepared> prepare(const Work& work) = 0;
 
-  // Compiles the timed build and returns the compiler's report. Nothing is drawn. On a compile-only
-  // device (record::Device::compiles_for), no data are uploaded either, and frame() and image()
-  // throw NotSupported. Throws the same exceptions as prepare(), and NotSupported if the driver
-  // reports nothing.
+  // Compiles the timed build and returns the compiler's report, without drawing anything. On a
+  // compile-only device (record::Device::compiles_for), no data are uploaded either, and frame()
+  // and image() throw NotSupported. Throws the same exceptions as prepare(), and NotSupported if
+  // the driver reports nothing.
   [[nodiscard]] virtual Compiled compile(const Work& /*work*/) {
     throw core::NotSupported("this driver reports no statistics for the code that it generates");
   }

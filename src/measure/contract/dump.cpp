@@ -35,7 +35,7 @@ std::string write_dump(std::string_view name, std::string_view extension, std::s
   std::ofstream list(*folder / "what-was-given.txt", std::ios::app);
   list << file << ": " << about << '\n';
   if (!list.flush()) {
-    throw core::IoError((*folder / "what-was-given.txt").string() + " cannot be written");
+    throw core::IoError("cannot write " + (*folder / "what-was-given.txt").string());
   }
   return file;
 }

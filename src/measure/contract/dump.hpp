@@ -1,6 +1,6 @@
 #pragma once
 // Writes everything that a driver receives to files, for `render --dump FOLDER`. Backends call
-// write_dump() when device code is compiled and when buffers are uploaded.
+// write_dump() when they compile device code and when they upload buffers.
 
 #include <cstddef>
 #include <filesystem>
@@ -11,14 +11,14 @@
 
 namespace triptych::measure {
 
-// Returns the folder in the environment variable TRIPTYCH_DUMP, or nullopt if nothing is to be
-// written.
+// Returns the folder that the environment variable TRIPTYCH_DUMP names, or nullopt if the variable
+// is not set, which means that nothing is to be written.
 [[nodiscard]] std::optional<std::filesystem::path> dump_folder();
 
-// Writes a file to the dump folder and appends a line with the file's name and `about` to
-// what-was-given.txt in that folder, which therefore lists all files in the order of the calls. The
-// file's name is `name`, a content hash and `extension`, so equal contents share one file. Returns
-// the file's name. Does nothing if dump_folder() is empty.
+// Writes a file to the dump folder. The file's name consists of `name`, a content hash and
+// `extension`, so equal contents share one file. Also appends a line with the file's name and
+// `about` to what-was-given.txt in that folder, which therefore lists all files in the order of the
+// calls. Returns the file's name. Does nothing if dump_folder() returns nullopt.
 std::string write_dump(std::string_view name, std::string_view extension,
                        std::span<const std::byte> content, const std::string& about);
 std::string write_dump(std::string_view name, std::string_view extension, std::string_view content,

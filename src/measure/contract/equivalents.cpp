@@ -12,8 +12,8 @@
 namespace triptych::measure {
 namespace {
 
-// A bound on the rounding of alpha, which is computed as 1 − T + T·background in floats: three
-// roundings of numbers up to 1, each by at most half of 2⁻²³.
+// An upper bound on the rounding error of alpha, which is computed as 1 − T + T·background in
+// floats: three roundings of numbers up to 1, each with an error of at most half of 2⁻²³.
 constexpr double alpha_rounding = 0x1.0p-22;
 
 std::string reason_for(const PlainWork& known, const PlainWork& wanted, double transmittance) {
@@ -28,7 +28,7 @@ std::string reason_for(const PlainWork& known, const PlainWork& wanted, double t
   if (known.ends_below != wanted.ends_below) {
     reasons.push_back(fmt::format("ert: no ray's transmittance falls below {:.3g}", transmittance));
   }
-  return reasons.empty() ? "the levels are the same on this device"
+  return reasons.empty() ? "the levels have the same effect on this device"
                          : fmt::format("{}", fmt::join(reasons, "; "));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Configurations that do exactly the same work in a scene. Only one of them is measured, and all
-// others copy its results.
+// Finds configurations that do exactly the same work in a scene. Only one of them is measured, and
+// its results are copied to all others.
 
 #include <map>
 #include <optional>
@@ -18,10 +18,11 @@ struct Equivalent {
   std::string reason;  // for display, such as "skip: no brick of this scene is empty"
 };
 
-// The configurations that one device has measured. Two configurations that differ only in the
-// threshold for early ray termination are equivalent if no ray's transmittance falls below either
-// threshold. Whether this is true follows from the image of one of them. A suite knows all other
-// equivalences in advance (Suite::plain).
+// The configurations that one device has measured. Suites know most equivalences in advance
+// (Suite::plain()). This class finds one more, which depends on an image: two configurations that
+// differ only in the threshold for early ray termination are equivalent if no ray's transmittance
+// falls below either threshold. The image of one of the configurations shows whether this is the
+// case.
 class Equivalents {
  public:
   [[nodiscard]] std::optional<Equivalent> find(const PlainWork& plain) const;
@@ -39,9 +40,9 @@ class Equivalents {
   std::map<Configuration, std::vector<Known>> known_;  // by PlainWork::levels
 };
 
-// Returns the smallest transmittance of the rays of all pixels, which is computed from the alpha of
-// a premultiplied image and of the work's background. Returns 0 if the background is opaque or the
-// scene is not a volume.
+// Returns the smallest transmittance among the rays of all pixels. It is computed from the alpha
+// channel of a premultiplied image and from the work's background. Returns 0 if the background is
+// opaque or the scene is not a volume.
 [[nodiscard]] double least_transmittance(const Work& work, const core::Image& picture);
 
 }  // namespace triptych::measure

@@ -14,8 +14,8 @@ enum class Decides : std::uint8_t { the_picture, how_it_is_made };
 
 [[nodiscard]] Factor choice(std::string name, std::vector<std::string> levels, std::string standard,
                             Decides decides, std::string summary);
-// `words` are named values that may be written instead of a number. The suite defines their
-// meaning.
+// Creates a numeric factor. `words` are named values that may be used instead of a number. The
+// suite defines their meaning.
 [[nodiscard]] Factor number(std::string name, double minimum, double maximum, std::string standard,
                             Decides decides, std::string summary,
                             std::vector<std::string> words = {});
@@ -33,7 +33,7 @@ enum class Decides : std::uint8_t { the_picture, how_it_is_made };
 // Returns the value of a numeric factor.
 [[nodiscard]] double as_number(const Configuration& configuration, const std::string& factor);
 
-// Returns the value of "camera" in frame.json.
+// Returns the value of the key "camera" in frame.json.
 [[nodiscard]] nlohmann::json camera_json(const scene::Camera& camera);
 
 }  // namespace triptych::measure

@@ -1,5 +1,5 @@
 #pragma once
-// Probes of features that visualization programs use, but that no scene of Triptych needs. Each
+// Probes of features that visualization programs use but that Triptych's scenes do not need. Each
 // probe is one small computation or draw with a known result.
 
 #include <cstddef>
@@ -39,7 +39,7 @@ struct FeatureProbe {
   std::function<ProbedFeature()> run;
 };
 
-// A device that can probe features implements this in addition to measure::Device.
+// A device that can probe features implements this interface in addition to measure::Device.
 class ProbesFeatures {
  public:
   ProbesFeatures() = default;

@@ -14,8 +14,8 @@ class Pace {
 
   void operator()(const Loading& loading) {
     if (!loading.note.empty()) {
-      // The same data may be loaded again, for example in another voxel format. Notes are reported
-      // only once.
+      // Reports each note only once, because the same data may be loaded again, for example in
+      // another voxel format.
       if (notes_.insert(loading.what + ": " + loading.note).second) tell_(loading);
       return;
     }

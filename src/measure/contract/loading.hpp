@@ -1,6 +1,6 @@
 #pragma once
-// Progress of loading a large data set: a suite reports it, a worker sends it to its supervisor,
-// and the program shows it.
+// The progress of loading a large data set. A suite reports it, a worker sends it to its
+// supervisor, and the program displays it.
 
 #include <chrono>
 #include <functional>
@@ -10,17 +10,18 @@ namespace triptych::measure {
 
 struct Loading {
   std::string what;  // the value of the factor `data`
-  double share = 0;  // share of the load that is done, in [0, 1]
-  // A sentence about a property of the data that had to be guessed or ignored; usually empty.
+  double share = 0;  // completed fraction of the load, in [0, 1]
+  // A sentence about a property of the data that had to be guessed or ignored. Usually empty.
   std::string note = {};
 };
 
 using OnLoading = std::function<void(const Loading&)>;
 
-// Returns a function that forwards only useful reports to `tell`. It forwards none for a load
-// shorter than two seconds. For a longer load, it forwards at most one report every two seconds,
-// and the end of the load (share 1). A report whose name differs from the previous one, or whose
-// share is smaller, begins a new load. Notes are forwarded once. Tests replace `now`.
+// Returns a function that forwards only useful reports to `tell`. If a load takes less than two
+// seconds, no reports are forwarded. If it takes longer, at most one report every two seconds and
+// the final report (share 1) are forwarded. A report begins a new load if its name differs from
+// that of the previous report or if its share is smaller. Each note is forwarded only once. Tests
+// replace the clock `now`.
 [[nodiscard]] OnLoading paced(
     OnLoading tell,
     std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now);

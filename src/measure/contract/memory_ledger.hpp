@@ -1,6 +1,5 @@
 #pragma once
-// Sums up the memory that a backend uses on its device. Each buffer and image of the backend has an
-// entry.
+// Tracks the memory that a backend uses on its device. Each buffer and each image has an entry.
 
 #include <atomic>
 #include <cstdint>
@@ -55,7 +54,7 @@ class MemoryLedger {
 
   [[nodiscard]] Entry buffer(std::uint64_t bytes) const { return {sums_, &Sums::buffers, bytes}; }
   [[nodiscard]] Entry image(std::uint64_t bytes) const { return {sums_, &Sums::images, bytes}; }
-  // Counts the bytes that every frame uploads to the device. Keep the entry for as long as such
+  // Counts bytes that every frame uploads to the device. Keep the entry alive for as long as such
   // frames are drawn.
   [[nodiscard]] Entry moved(std::uint64_t bytes) const { return {sums_, &Sums::moved, bytes}; }
 

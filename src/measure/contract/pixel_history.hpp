@@ -1,7 +1,7 @@
 #pragma once
 // Interfaces for the history of one pixel, which consists of the device's results and the results
-// that the reference renderer expects. A Prepared or a Suite that can report them implements one of
-// these interfaces in addition to its own.
+// that the reference renderer expects. A class derived from Prepared or Suite that can report such
+// results also implements one of these interfaces.
 
 #include <cstdint>
 #include <span>
@@ -13,7 +13,7 @@
 
 namespace triptych::measure {
 
-// The position of a pixel, counted from the upper left corner.
+// The position of a pixel, relative to the upper left corner of the image.
 struct PixelPlace {
   int x = 0;
   int y = 0;
@@ -21,11 +21,12 @@ struct PixelPlace {
 
 // The reason that TracesPixel::trace() states if it rejects a work.
 inline constexpr const char* not_traced =
-    "the history of a pixel is recorded only for the quadratures midpoint and preintegrated, not "
-    "for cells";
+    "the history of a pixel cannot be recorded with quadrature=cells; use quadrature=midpoint or "
+    "quadrature=preintegrated";
 
-// A prepared work that can draw a frame with a build of its device code that records the samples of
-// one pixel. This build also counts, because it has the same control flow as the counting build.
+// A prepared work that can also draw a frame with a build of its device code that records the
+// samples of one pixel. This build also counts, because it has the same control flow as the
+// counting build.
 class TracesPixel {
  public:
   TracesPixel() = default;
@@ -33,8 +34,9 @@ class TracesPixel {
   TracesPixel& operator=(const TracesPixel&) = delete;
   virtual ~TracesPixel() = default;
 
-  // Draws the frame; afterwards Prepared::image() returns its image. Throws the same exceptions as
-  // Prepared::frame(), and NotSupported if the technique records nothing.
+  // Draws the frame and returns the samples of the pixel (x, y). Prepared::image() then returns the
+  // image of this frame. Throws the same exceptions as Prepared::frame(), and NotSupported if the
+  // technique cannot record samples.
   [[nodiscard]] virtual technique::RayTrace trace(int x, int y) = 0;
 };
 
@@ -46,8 +48,9 @@ class ExpectsRay {
   ExpectsRay& operator=(const ExpectsRay&) = delete;
   virtual ~ExpectsRay() = default;
 
-  // The parameters are those of SuiteWithTruth::truth. Throws NotSupported for a quadrature whose
-  // samples cannot be compared one by one.
+  // Returns the expected samples of the pixel (x, y). All other parameters have the same meaning as
+  // in SuiteWithTruth::truth(). Throws NotSupported for a quadrature whose samples cannot be
+  // compared one by one.
   [[nodiscard]] virtual accuracy::ExpectedRay expected_ray(
       const Configuration& configuration, const std::map<std::string, double>& precision, int x,
       int y) = 0;
@@ -62,13 +65,14 @@ class ExpectsSprites {
   ExpectsSprites& operator=(const ExpectsSprites&) = delete;
   virtual ~ExpectsSprites() = default;
 
-  // Returns the indices of the particles that the pixel's ray may hit, from front to back,
-  // including hidden particles. The parameters are those of SuiteWithTruth::truth.
+  // Returns the indices of the particles that the ray of the pixel (x, y) may hit, from front to
+  // back, including hidden particles. All other parameters have the same meaning as in
+  // SuiteWithTruth::truth().
   [[nodiscard]] virtual std::vector<std::uint32_t> particles_near(
       const Configuration& configuration, const std::map<std::string, double>& precision, int x,
       int y) = 0;
-  // Returns the expected result in the pixel if the scene has only these particles. The bounds are
-  // those for the whole scene.
+  // Returns the expected result in the pixel (x, y) for a scene that consists only of these
+  // particles. The error bounds are those for the complete scene.
   [[nodiscard]] virtual accuracy::ExpectedSurface expected_surface(
       const Configuration& configuration, const std::map<std::string, double>& precision,
       std::span<const std::uint32_t> particles, int x, int y) = 0;

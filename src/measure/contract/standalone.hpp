@@ -14,11 +14,11 @@ namespace triptych::measure {
 // zeros.
 [[nodiscard]] std::string c_words(std::string_view name, std::span<const std::byte> bytes);
 
-// Returns "static const char NAME[] = …;" with string literals for the text.
+// Returns "static const char NAME[] = …;", where the text is written as string literals.
 [[nodiscard]] std::string c_text(std::string_view name, std::string_view text);
 
-// Returns the template with each "@NAME@" replaced by its value. Throws std::out_of_range for a
-// name without a value.
+// Returns the template with each "@NAME@" replaced by its value. Throws std::out_of_range if a name
+// has no value.
 [[nodiscard]] std::string fill_template(std::string_view text,
                                         const std::map<std::string, std::string>& values);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The names of stress data in plans, "stress:CASE" or "stress:CASE:VARIANT". If another factor,
-// such as the camera, has the level `own`, it has the value that the stress case defines.
+// The names of stress data in plans: "stress:CASE" or "stress:CASE:VARIANT". If another factor,
+// such as the camera, has the level `own`, the stress case defines its value.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,9 +31,10 @@ template <typename Case>
                      choice.variant);
 }
 
-// Finds the case of a stress name in `cases`, which must outlive the result. A Case has a `name`
-// and `variants`. Returns nullopt if `data` does not begin with "stress:". For an unknown case or
-// variant, throws an InputError that lists the known names.
+// Finds the case and the variant that the stress name `data` selects from `cases`, which must
+// outlive the result. A Case has the members `name` and `variants`. Returns nullopt if `data` does
+// not begin with "stress:". For an unknown case or variant, throws an InputError that lists the
+// known names.
 template <typename Case>
 [[nodiscard]] std::optional<StressChoice<Case>> choose_stress(std::string_view data,
                                                               const std::vector<Case>& cases) {

@@ -1,6 +1,6 @@
 #pragma once
-// The interface between plans and a suite: the factors of the suite, and the work of a
-// configuration.
+// The interface between plans and a suite. A suite defines its factors and converts a configuration
+// to work that a device can draw.
 
 #include <cstdint>
 #include <filesystem>
@@ -31,31 +31,30 @@ enum class FactorKind : std::uint8_t {
 struct Factor {
   std::string name;
   FactorKind kind = FactorKind::text;
-  std::vector<std::string> levels;  // for a number: words that may replace it
+  std::vector<std::string> levels;  // for a number: words that may be used instead
   double minimum = 0;               // for a number
   double maximum = 0;
-  std::string standard;  // the default value; "auto": the default path of the device
+  std::string standard;  // the default value; "auto": the device chooses the level
   bool of_scene = true;  // true: determines the image; false: only how it is computed
-  // True for a factor that was added to the suite after scene keys had been stored. A scene key
-  // does not contain the factor if it has its default.
+  // True for a factor that was added to the suite after scene keys had been stored. To keep those
+  // keys valid, a scene key contains such a factor only if it does not have its default value.
   bool silent_default = false;
-  // The levels that "auto" stands for in a plan, if "auto" is not the default: all of them are
-  // measured, and the fastest is reported (measure/request/fastest.hpp).
+  // The levels that "auto" stands for in a plan, unless "auto" is the default value. All of these
+  // levels are measured, and the fastest is reported (measure/request/fastest.hpp).
   std::vector<std::string> automatic = {};
   std::string summary;  // one line with unit and source, for --help and docs
 };
 
-// Factor → value in its canonical spelling ("0.5", "orbit_y:1/8"). Every factor of the suite is
-// present.
+// A map from each factor of the suite to its value in canonical spelling ("0.5", "orbit_y:1/8").
 using Configuration = std::map<std::string, std::string>;
 
-// The work of a configuration, reduced to the levels that have an effect in its scene.
+// A configuration, reduced to the levels that affect the work in its scene.
 struct PlainWork {
-  // Every level that has no effect in this scene is replaced by a simpler level, and the factor for
-  // early ray termination is removed. Configurations with the same levels and the same `ends_below`
-  // have the same frames.
+  // The levels of all factors except early ray termination. Every level that has no effect in this
+  // scene is replaced by a simpler level. Configurations with equal `levels` and equal `ends_below`
+  // have identical frames.
   Configuration levels;
-  double ends_below = 0;  // a ray ends if its transmittance falls below this; 0: never
+  double ends_below = 0;  // a ray ends if its transmittance falls below this value; 0: never
   std::map<std::string, std::string> why = {};  // factor → reason why its level is replaced
 };
 
@@ -68,11 +67,12 @@ class Suite {
 
   [[nodiscard]] virtual std::string_view name() const = 0;
   [[nodiscard]] virtual const std::vector<Factor>& factors() const = 0;
-  // Checks a value that satisfies the rules of its FactorKind further. Throws an InputError that
-  // states the expected form.
+  // Applies the suite's own rules to a value that already satisfies the rules of its FactorKind.
+  // Throws an InputError that states the expected form.
   virtual void check(const Factor& factor, std::string_view value) const = 0;
 
-  // Returns the generators that data=generate:NAME:… may name, or none if the suite has no data.
+  // Returns the generators that can be used as NAME in data=generate:NAME:…. Returns an empty list
+  // if the suite has no data.
   [[nodiscard]] virtual std::vector<scene::GeneratorInfo> generators() const { return {}; }
 
   // The plans that come with the suite: their short names, such as "quick", and their YAML.
@@ -83,22 +83,22 @@ class Suite {
   // an empty string if the data is available.
   [[nodiscard]] virtual std::string missing_data(const Configuration& configuration) const = 0;
 
-  // Creates the work to be drawn. Levels "auto" are resolved with the device and written back to
-  // `configuration`. The suite keeps the last data set loaded, so that neighbouring configurations
-  // of a plan share it.
+  // Creates the work to be drawn. Replaces "auto" levels in `configuration` by the levels that suit
+  // the device. The suite keeps the most recently loaded data set, so that consecutive
+  // configurations of a plan can share it.
   [[nodiscard]] virtual Work work(Configuration& configuration, const Device& device) = 0;
-  // Returns the plain work of a configuration whose "auto" levels are resolved. A level may be
-  // replaced only if all samples, fragments and counts stay the same; an equal image is not
-  // sufficient.
+  // Returns the plain work of a configuration whose "auto" levels have been replaced. An
+  // implementation may replace a level only if all samples, fragments and counts stay the same. It
+  // is not sufficient that the image stays the same.
   [[nodiscard]] virtual PlainWork plain(const Configuration& configuration, const Work&) const {
     return {.levels = configuration};
   }
-  // Returns a work for calibrating clocks. It is small enough for a very slow device;
-  // calibrate_clock() makes it longer on a fast device. Its image has no meaning.
+  // Returns a work for calibrating clocks. It is small enough for a very slow device; on a fast
+  // device, calibrate_clock() enlarges it. Its image has no meaning.
   [[nodiscard]] virtual Work calibration(technique::Work kind) = 0;
 
-  // Sets the function that receives progress reports while data is loaded, or none if it is empty.
-  // paced() reduces the number of reports.
+  // Sets the function that receives progress reports while data is loaded. An empty function
+  // disables the reports. paced() reduces their number.
   void tell_of_loading(OnLoading tell) { on_loading_ = std::move(tell); }
 
  protected:
@@ -110,11 +110,11 @@ class Suite {
   OnLoading on_loading_;
 };
 
-// The image to which a scene converges as its sampling is refined. The difference of an image from
-// its limit contains the sampling error and all other errors.
+// The image to which a scene converges as its sampling is refined. The difference between an image
+// and its limit contains the sampling error and all other errors.
 struct Limit {
   core::Image image;
-  // The largest distance of each pixel from the exact limit, in all four channels.
+  // The maximum distance of each pixel from the exact limit, in all four channels.
   core::Image uncertainty;
 };
 
@@ -125,36 +125,38 @@ class SuiteWithTruth : public Suite {
   // the device's path. Throws the same exceptions as Suite::work().
   [[nodiscard]] virtual accuracy::TruthPair truth(
       const Configuration& configuration, const std::map<std::string, double>& precision) = 0;
-  // Returns what another program needs to draw the same frame, as in the file `frame.json` that
-  // `triptych render` writes: "viewport", "camera" and the scene.
+  // Returns the description that another program needs to draw the same frame: "viewport", "camera"
+  // and the scene. `triptych render` writes it to the file `frame.json`.
   [[nodiscard]] virtual nlohmann::json describe(const Configuration& configuration) = 0;
   // Returns lines that describe the data of a configuration, for `render --describe`. Throws the
   // same exceptions as Suite::work().
   [[nodiscard]] virtual std::vector<std::string> describe_data(const Configuration& /*chosen*/) {
     return {};
   }
-  // Two configurations with the same key share their reference image and bound.
+  // Returns a key. Configurations with the same key share their reference image and its bound.
   [[nodiscard]] virtual std::string truth_key(const Configuration& configuration,
                                               const std::map<std::string, double>& precision) = 0;
 
-  // Returns, for each counter that depends on rounding, the allowed difference between two correct
-  // devices. Other counters are absent.
+  // Returns the difference that is allowed between two correct devices, for each counter that
+  // depends on rounding. All other counters are absent.
   [[nodiscard]] virtual std::map<std::string, double> open_counts(
       const Configuration&, const std::map<std::string, double>&) {
     return {};
   }
 
-  // Returns the content hash of a configuration's current data in the configuration's voxel format,
-  // with "auto" resolved. It equals Record::data_hash if the data have not changed since the
-  // measurement. Empty if there is no data. Throws the same exceptions as Suite::work().
+  // Returns the content hash of a configuration's data, as currently stored and in the
+  // configuration's voxel format, with "auto" resolved. It equals Record::data_hash if the data
+  // have not changed since the measurement. Empty if there is no data. Throws the same exceptions
+  // as Suite::work().
   [[nodiscard]] virtual std::string data_hash(const Configuration&) { return {}; }
 
-  // Two configurations with the same key share their limit. The key is empty if there is no limit.
+  // Returns a key. Configurations with the same key share their limit. The key is empty if there is
+  // no limit.
   [[nodiscard]] virtual std::string limit_key(const Configuration&) { return {}; }
-  // Returns the limit of a configuration that has a limit_key.
+  // Returns the limit of a configuration. Its limit_key() must not be empty.
   [[nodiscard]] virtual Limit limit(const Configuration&) { return {}; }
-  // Returns the closed-form image, if the scene has one. It differs from the limit by what the grid
-  // of the data and the tables cannot represent.
+  // Returns the image that results from the closed-form solution, if the scene has one. It differs
+  // from the limit by the errors that the grid of the data and the finite tables introduce.
   [[nodiscard]] virtual std::optional<core::Image> closed_form(const Configuration&) {
     return std::nullopt;
   }
@@ -166,7 +168,7 @@ class SuiteWithTruth : public Suite {
 };
 
 // Returns the factors of a configuration that determine the image, in canonical spelling:
-// "camera=…,data=…". Factors with `silent_default` are left out if they have their defaults.
+// "camera=…,data=…". A factor with `silent_default` is left out if it has its default value.
 [[nodiscard]] std::string scene_key(const Suite& suite, const Configuration& configuration);
 
 }  // namespace triptych::measure

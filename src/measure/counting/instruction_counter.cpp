@@ -52,8 +52,8 @@ record::Counts InstructionCounter::between(const Snapshot& before, const Snapsho
   return counts;
 }
 
-// This thread itself executes a few hundred instructions each time it falls asleep and wakes up, so
-// fewer than `own` instructions between two readings count as quiet.
+// This thread itself executes a few hundred instructions each time it falls asleep and wakes up.
+// Therefore fewer than `own` instructions between two readings count as quiet.
 void InstructionCounter::wait_until_quiet() const {
   constexpr std::uint64_t own = 2000;
   constexpr std::chrono::milliseconds pause{2};

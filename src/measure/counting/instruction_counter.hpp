@@ -17,7 +17,8 @@ class InstructionCounter {
   // Counts since the process began, in the order of counting/protocol.h.
   using Snapshot = std::array<std::uint64_t, TRIPTYCH_COUNTS>;
 
-  // Returns nullopt if this process runs without the emulator, or under another tool.
+  // Returns nullopt if this process does not run under the emulator, or runs under another Valgrind
+  // tool.
   [[nodiscard]] static std::optional<InstructionCounter> of_this_process();
 
   [[nodiscard]] Snapshot now() const;
@@ -36,8 +37,8 @@ class InstructionCounter {
   }
 
   // Waits until no other thread executes instructions, but no longer than two seconds. Otherwise,
-  // the instructions of a driver thread that is still writing a cache would be included in the
-  // count of the next frame.
+  // the count of the next frame would include the instructions of a driver thread that is still
+  // writing a cache.
   void wait_until_quiet() const;
 
  private:

@@ -59,12 +59,12 @@ std::vector<PlacedOverride> placed(const Overrides& overrides, const Suite& suit
   std::vector<PlacedOverride> all;
   for (const auto& [name, texts] : overrides) {
     const core::FilePlace place{.file = "--set " + name};
-    // A separate variable avoids a false warning of GCC 14 about a dangling reference.
+    // A separate variable avoids a false warning from GCC 14 about a dangling reference.
     const PlacedText placed_name{.text = name, .place = place};
     const Factor& factor = factor_of(suite, placed_name);
     if (std::ranges::find(all, &factor, &PlacedOverride::factor) != all.end()) {
       throw core::InputError(place,
-                             "the factor is set twice; put all its values into one list: a,b");
+                             "the factor is set twice; list all its values at once: factor=a,b");
     }
     if (texts.empty()) throw core::InputError(place, "expected factor=value or factor=a,b");
     std::vector<PlacedText> values;
@@ -84,7 +84,8 @@ std::vector<std::string> values_in(const BlockText& block, const Factor& factor)
   return found == block.values.end() ? std::vector{standard_of(factor)} : found->second;
 }
 
-// Keeps only those of the block's values that are also in `values`. Returns false if none is left.
+// Keeps only those of the block's values that are also in `values`. Returns false if no value would
+// be left.
 bool keep_values(const std::vector<std::string>& values, const Factor& factor, BlockText& block) {
   const std::vector<std::string> known = values_in(block, factor);
   std::vector<std::string> kept;
@@ -97,12 +98,16 @@ bool keep_values(const std::vector<std::string>& values, const Factor& factor, B
   return true;
 }
 
-// Applies the overrides to all blocks of a plan, and returns which blocks are used. If all values
-// of an override occur in the plan, the override selects configurations: each block keeps only
-// these values, and a block that has none of them is left out. Replacing the values in each block
-// instead would create combinations that the plan does not contain and for which no baselines are
-// stored. If an override has a value that does not occur in the plan, it replaces the values in
-// every block. If every block would be left out, all overrides replace values instead.
+// Applies the overrides to all blocks of a plan, and returns which blocks are used. There are two
+// cases:
+// - If all values of an override occur in the plan, the override selects configurations. Each block
+//   keeps only these values, and a block that has none of them is left out. Replacing the values in
+//   each block instead would create combinations that the plan does not contain and for which no
+//   baselines are stored.
+// - If an override has a value that does not occur in the plan, it replaces the values in every
+//   block.
+//
+// If the selection would leave out every block, all overrides replace values instead.
 std::vector<bool> apply_to_all(const std::vector<PlacedOverride>& overrides, const Suite& suite,
                                std::vector<BlockText>& blocks) {
   std::vector<BlockText> chosen = blocks;
@@ -213,11 +218,11 @@ core::FilePlace longest_place(const PlanSource& source, const ValuesByFactor& va
   return place;
 }
 
-// More configurations in one run are treated as a mistake: at a tenth of a second each, they would
-// take more than a day.
+// The limit for a run. More configurations are treated as a mistake, because they would take more
+// than a day at a tenth of a second each.
 constexpr std::size_t most_configurations = 1'000'000;
-// A list may have more configurations than a run, because listing does not store them. This limit
-// keeps the time for listing below a day.
+// The limit for a list. It is higher than the limit for a run, because listing does not store the
+// configurations. It keeps the time for listing below a day.
 constexpr std::size_t most_listed = 100'000'000;
 
 // A plan that was read, but whose configurations have not been generated yet.

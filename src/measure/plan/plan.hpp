@@ -21,16 +21,16 @@ struct Plan {
   // Ordered so that the data set changes least often, then the pipeline, and the view most often.
   std::vector<Configuration> configurations;
   std::vector<std::string> varied;  // factors with more than one value
-  // The checks by which the plan's runs are judged. Only the measurements that these checks need
+  // The checks by which the plan's runs are judged. Only the measurements needed for these checks
   // are made. For example, clocks are read only for the check `timing`, and workers run under the
   // emulator only for the check `cost`.
   record::Checks checks = standard_checks();
   // The hash of the plan's YAML, which distinguishes plans with the same name. Empty if the plan
   // has no YAML.
   std::string hash;
-  std::string argument = {};         // as typed by the user
+  std::string argument = {};         // the plan argument as typed by the user
   std::set<std::string> named = {};  // factors that the YAML or an override sets
-  // The factors with the value "auto", which requests the fastest of their levels.
+  // The factors with the value "auto", for which the fastest level is to be found.
   std::set<std::string> automatic = {};
 
   [[nodiscard]] static record::Checks standard_checks();
@@ -45,15 +45,16 @@ struct Plan {
 using Overrides = std::vector<std::pair<std::string, std::vector<std::string>>>;
 using FindSuite = std::function<Suite&(std::string_view name)>;  // throws InputError
 
-// Loads a plan. `name_or_file` is "SUITE/PLAN" or a YAML file. Throws InputError with file, line
-// and column for an unknown or duplicate factor, a wrong type or level (with the nearest known
-// name), an empty list, a duplicate value, and for more than a million configurations. The plan
-// contains only the configurations of the shard.
+// Loads a plan. `name_or_file` is "SUITE/PLAN" or a YAML file. The plan contains only the
+// configurations of the shard. Throws InputError with file, line and column for an unknown or
+// duplicate factor, a wrong type or level (with the most similar known name), an empty list, a
+// duplicate value, and for more than a million configurations.
 [[nodiscard]] Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
                              const FindSuite& find_suite, const Shard& shard = {});
 
-// Loads a plan without storing its configurations, which are passed to `use` one after the other.
-// Throws the same exceptions as load_plan(), but allows up to a hundred million configurations.
+// Loads a plan without storing its configurations. Instead, they are passed to `use` one after the
+// other. Throws the same exceptions as load_plan(), but allows up to a hundred million
+// configurations.
 Plan list_plan(std::string_view name_or_file, const Overrides& overrides,
                const FindSuite& find_suite, const Shard& shard,
                const std::function<void(const Suite&, const Configuration&)>& use);
@@ -66,13 +67,13 @@ Plan list_plan(std::string_view name_or_file, const Overrides& overrides,
 // exceptions as load_plan().
 [[nodiscard]] Plan default_plan(const Suite& suite, const Overrides& overrides);
 
-// Returns the canonical "factor=value,…", sorted by name, which identifies a configuration within
-// its suite. It contains the factors that differ from the suite's defaults, and always `technique`,
-// `data` and `camera`.
+// Returns the key that identifies a configuration within its suite, in the canonical form
+// "factor=value,…", sorted by name. It contains the factors that differ from the suite's defaults,
+// and always `technique`, `data` and `camera`.
 [[nodiscard]] std::string configuration_key(const Suite& suite, const Configuration& configuration);
 
-// Returns the kinds of work (technique::name_of) in the plan's configurations, without duplicates.
-// If times are measured, the clocks are calibrated for these kinds.
+// Returns the kinds of work (technique::name_of()) that occur in the plan's configurations, without
+// duplicates. If times are measured, the clocks are calibrated for these kinds.
 [[nodiscard]] std::vector<std::string> work_kinds(const Plan& plan);
 
 }  // namespace triptych::measure

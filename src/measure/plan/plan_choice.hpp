@@ -11,15 +11,18 @@ namespace triptych::measure {
 struct PlanChoice {
   std::vector<std::string> set = {};  // each is "factor=a,b"
   std::string shard = {};             // "i/n"; empty: the whole plan
-  // Each of these options selects some of the configurations: those that match one of the globs
-  // (record::names_configuration), those that the file lists, and one n-th of the remaining ones.
+  // Each of these options selects some of the configurations:
+  // - `filter` selects those that match one of its globs (record::names_configuration()).
+  // - `caselist` selects those that the file lists.
+  // - `fraction` selects one n-th of the configurations that the other options leave.
   std::vector<std::string> filter = {};
   std::string caselist = {};  // a file with a configuration's name or key in each line
   std::string fraction = {};  // "1/n"
 
-  // Whether the whole plan is loaded, without changes.
+  // Returns whether the whole plan is loaded without changes.
   [[nodiscard]] bool is_whole() const { return set.empty() && shard.empty() && !selects(); }
-  // Whether configurations are selected by their names or keys, so that possibly none is left.
+  // Returns whether configurations are selected individually. In this case, the selection may be
+  // empty.
   [[nodiscard]] bool selects() const {
     return !filter.empty() || !caselist.empty() || !fraction.empty();
   }
@@ -27,8 +30,8 @@ struct PlanChoice {
   [[nodiscard]] std::string selection_text() const;
 
   // Loads the selected part of a plan with load_plan(). A fraction always selects the same
-  // configurations, because they are chosen by the hashes of their keys, and it selects at least
-  // one. All functions throw core::InputError.
+  // configurations, because they are chosen by the hashes of their keys. It selects at least one
+  // configuration. All functions of this class throw core::InputError.
   [[nodiscard]] Plan load(const std::string& plan, const FindSuite& find_suite) const;
   // Converts each "factor=a,b" in `set` to {factor, {a, b}}. A value may be escaped by
   // record::escaped().

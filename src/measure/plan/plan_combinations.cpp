@@ -11,9 +11,9 @@
 namespace triptych::measure {
 namespace {
 
-// Returns the rank of a factor by the time that a change of its level takes, longest first: 0 for
-// loading data (which includes mapping its values), 1 for building a pipeline, 2 for resizing the
-// viewport, and 3 for moving the camera.
+// Returns the rank of a factor by the time that a change of its level takes, where 0 is the
+// slowest: 0 for loading data (which includes mapping its values), 1 for building a pipeline, 2 for
+// resizing the viewport, and 3 for moving the camera.
 int speed_of(const Factor& factor) {
   if (factor.name == "data" || factor.name == "window" || factor.name == "mapping") return 0;
   if (factor.name == "viewport") return 2;
@@ -102,7 +102,7 @@ bool Combinations::has(const Block& block, const Configuration& configuration) {
   });
 }
 
-// Counts like an odometer: the last axis changes at every step.
+// Enumerates the combinations like an odometer: the last axis changes at every step.
 void Combinations::for_each_of(const std::string& data, const Use& use) const {
   for (auto block = blocks_.begin(); block != blocks_.end(); ++block) {
     if (!contains(data_of(*block), data)) continue;

@@ -1,6 +1,6 @@
 #pragma once
 // All combinations of the factors' values, in the order in which they are measured. They are
-// generated one at a time and not stored.
+// generated one at a time and never stored.
 
 #include <cstddef>
 #include <functional>
@@ -18,8 +18,8 @@ namespace triptych::measure {
 // default.
 using ValuesByFactor = std::map<std::string, std::vector<std::string>>;
 
-// Returns the factors of the suite. Factors that are slow to change come first, because they vary
-// least often.
+// Returns the factors of the suite, sorted by the time that a change of their level takes, longest
+// first. The first factors vary least often.
 [[nodiscard]] std::vector<const Factor*> slowest_first(const Suite& suite);
 
 // The combinations of one or more blocks of values, without duplicates, one data set after the
@@ -34,15 +34,15 @@ class Combinations {
   // Throws InputError for an invalid shard.
   void for_each(const Shard& shard, const Use& use) const;
 
-  // Returns the number of combinations of a block, including those that other blocks also contain.
-  // Saturates at the largest value of the type.
+  // Returns the number of combinations of a block, including combinations that also occur in other
+  // blocks. Saturates at the largest value of the type.
   [[nodiscard]] std::size_t most_of(std::size_t block) const;
 
   // Returns the factors with more than one value.
   [[nodiscard]] std::vector<std::string> varied() const;
 
  private:
-  // A factor and its values. Earlier axes vary more slowly.
+  // A factor and its values. The first axis of a block varies least often.
   struct Axis {
     std::string factor;
     std::vector<std::string> values;
@@ -54,7 +54,7 @@ class Combinations {
   void for_each_of(const std::string& data, const Use& use) const;
 
   std::vector<Block> blocks_;
-  // All data sets in order; one empty name if there is no factor `data`.
+  // All data sets in order, or a single empty name if there is no factor `data`.
   std::vector<std::string> data_;
 };
 

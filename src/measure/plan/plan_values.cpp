@@ -32,7 +32,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 // Parses a finite number. Returns nullopt for any other text. The canonical spelling of a number is
-// the shortest text that is read back as the same double, so 0.5, .5 and 5e-1 are the same value.
+// the shortest text that is read back as the same double. Therefore 0.5, .5 and 5e-1 are spellings
+// of the same value.
 std::optional<double> parse_number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double number = 0;
@@ -64,8 +65,8 @@ std::string canonical_choice(const Factor& factor, const PlacedText& value) {
                                      suggestion(value.text, factor.levels)));
 }
 
-// A value must not contain control characters or line ends, because a configuration is written on
-// one line of a list, a table or a baseline, and as a part of JSON and XML.
+// Rejects control characters and line ends, because a configuration must fit on one line of a list,
+// a table or a baseline, and must be usable in JSON and XML.
 std::string canonical_text(const Factor& factor, const PlacedText& value) {
   if (value.text.empty() || !core::is_line(value.text)) {
     throw core::InputError(value.place,
@@ -103,8 +104,8 @@ bool stands_for_several(const Factor& factor, const PlacedText& value) {
   return value.text == "auto" && !factor.automatic.empty();
 }
 
-// Replaces "PATH:*/n" of a text factor by PATH:0/n to PATH:(n−1)/n, and "auto" by the factor's
-// automatic levels. Each new value has the place of the text that it replaces.
+// Replaces "PATH:*/n" in a text factor by PATH:0/n to PATH:(n−1)/n, and "auto" by the factor's
+// automatic levels. Each new value inherits the place of the text that it replaces.
 std::vector<PlacedText> with_ranges(const Factor& factor, const std::vector<PlacedText>& values) {
   constexpr std::string_view all = ":*/";
   constexpr int most = 10'000;

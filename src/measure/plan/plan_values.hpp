@@ -17,13 +17,13 @@ namespace triptych::measure {
 // Returns the default of a factor in its canonical spelling.
 [[nodiscard]] std::string standard_of(const Factor& factor);
 
-// Whether "auto" is among the values and stands for several levels of the factor.
+// Returns whether "auto" is among the values and stands for several levels of the factor.
 [[nodiscard]] bool is_automatic(const Factor& factor, const std::vector<PlacedText>& given);
 
-// Returns each value in its canonical spelling. For a text factor "PATH:*/n" stands for n values,
-// PATH:0/n to PATH:(n−1)/n, and "auto" stands for the factor's automatic levels. Throws InputError
-// with the place of a value that is not a number, out of range, not a level, rejected by the suite,
-// or duplicated.
+// Returns each value in its canonical spelling. In a text factor, "PATH:*/n" stands for n values,
+// PATH:0/n to PATH:(n−1)/n. "auto" stands for the factor's automatic levels. Throws an InputError
+// with the place of the value if a value is not a number, out of range, not a level, rejected by
+// the suite, or duplicated.
 [[nodiscard]] std::vector<std::string> canonical_values(const Suite& suite, const Factor& factor,
                                                         const std::vector<PlacedText>& given);
 

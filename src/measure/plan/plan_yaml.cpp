@@ -11,7 +11,7 @@
 namespace triptych::measure {
 namespace {
 
-// yaml-cpp counts lines and columns from 0.
+// Converts the 0-based lines and columns of yaml-cpp to 1-based numbers.
 core::FilePlace place_of(const std::string& file, const YAML::Mark& mark) {
   if (mark.is_null()) return {.file = file};
   return {.file = file, .line = mark.line + 1, .column = mark.column + 1};
@@ -22,7 +22,7 @@ core::FilePlace place_of(const std::string& file, const YAML::Mark& mark) {
   throw core::InputError(place_of(file, node.Mark()), message);
 }
 
-// Records where the last document begins, and ignores all contents.
+// Records where the last document begins, and ignores its content.
 class DocumentStarts : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark& mark) override { last_ = mark; }
@@ -44,9 +44,10 @@ class DocumentStarts : public YAML::EventHandler {
   YAML::Mark last_;
 };
 
-// If yaml-cpp finds a token at the root that cannot begin a document, such as a comma, it does not
-// consume the token and reports an empty document again and again, so that LoadAll would fill the
-// memory. Therefore only a second document is requested, never a third.
+// Rejects a file with more than one document. Never requests a third document, because of a defect
+// in yaml-cpp: if a token at the root cannot begin a document, such as a comma, yaml-cpp does not
+// consume the token and reports an empty document again and again. LoadAll() would therefore fill
+// the memory.
 void refuse_second_document(const std::string& yaml, const std::string& file) {
   std::istringstream stream(yaml);
   YAML::Parser parser(stream);
@@ -57,9 +58,9 @@ void refuse_second_document(const std::string& yaml, const std::string& file) {
   const bool said = position < yaml.size() && yaml.compare(position, 3, "---") == 0;
   throw core::InputError(
       place_of(file, mark),
-      said
-          ? "a second YAML document begins here, but a plan must be a single document"
-          : "not valid YAML: the plan has ended here, and this text cannot begin another document");
+      said ? "a second YAML document begins here, but a plan must be a single document"
+           : "not valid YAML: this text follows the end of the plan and cannot begin a new "
+             "document");
 }
 
 YAML::Node load(std::string_view yaml, const std::string& file) {
@@ -126,7 +127,7 @@ record::Checks checks_of(const std::vector<PlacedText>& names) {
   return checks;
 }
 
-// Remembers the places of keys and rejects duplicate keys, because yaml-cpp accepts a mapping in
+// Records the places of keys and rejects duplicate keys, because yaml-cpp accepts a mapping in
 // which a key occurs twice.
 class Keys {
  public:

@@ -1,6 +1,6 @@
 #pragma once
-// Parses a plan's YAML to strings with their places in the file. They are not interpreted, because
-// the suite is not known yet. Only plan.cpp uses this file.
+// Parses a plan's YAML into strings with their places in the file. The strings are not interpreted,
+// because the suite is not known yet. Only plan.cpp uses this file.
 
 #include <string>
 #include <string_view>
@@ -26,14 +26,15 @@ struct PlanText {
   std::string summary;
   record::Checks checks;           // empty if the plan does not state any
   std::vector<PlanEntry> entries;  // in the order of the file, without duplicate factors
-  // The blocks under `also`. Each of them adds combinations, in which its entries replace the
-  // entries above.
+  // The blocks under `also`. Each block adds combinations in which the entries of the block replace
+  // the plan's own entries for the same factors.
   std::vector<std::vector<PlanEntry>> also;
 };
 
-// Parses the YAML of a plan. Error messages use `file` as its name. Throws InputError if the text
-// is not YAML or not one mapping, or for a missing `suite`, a duplicate key, an empty list, a value
-// that is missing or not a scalar, or an `also` that is not a list of mappings.
+// Parses the YAML of a plan. Error messages call it `file`. Throws InputError in these cases:
+// - The text is not YAML, or is not a single mapping.
+// - `suite` is missing, a key is duplicated, or a list is empty.
+// - A value is missing or not a scalar, or `also` is not a list of mappings.
 [[nodiscard]] PlanText parse_plan(std::string_view yaml, const std::string& file);
 
 }  // namespace triptych::measure

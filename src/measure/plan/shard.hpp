@@ -2,9 +2,10 @@
 
 namespace triptych::measure {
 
-// The index-th of `count` parts of a plan, counted from 1. As far as possible, each part has the
-// same number of whole data sets. The configurations of the remaining data sets are distributed one
-// by one, so that each part has the same number of them or one more.
+// The part of a plan with the 1-based number `index`, if the plan is divided into `count` parts. As
+// far as possible, all parts have the same number of complete data sets. The configurations of the
+// remaining data sets are distributed one by one, so that their numbers in any two parts differ by
+// at most one.
 struct Shard {
   int index = 1;
   int count = 1;

@@ -16,8 +16,8 @@
 namespace triptych::measure {
 namespace {
 
-// Collects the library's own JSON in a string. Numbers that JSON cannot represent, such as the
-// coefficient of variation of times that are all 0, are removed, because the library would print
+// Collects the library's own JSON output in a string. Removes numbers that JSON cannot represent,
+// such as the coefficient of variation of times that are all 0, because the library would print
 // them as invalid JSON.
 class StringReporter : public benchmark::JSONReporter {
  public:
@@ -67,16 +67,16 @@ BenchmarkResult run_registered(const std::string& name, int frames) {
   StringReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter, "all");
   if (reporter.executed() != frames) {
-    throw core::Error(fmt::format("Google Benchmark ran {} of {} frames of {}", reporter.executed(),
-                                  frames, name));
+    throw core::Error(fmt::format("Google Benchmark ran {} instead of {} frames of {}",
+                                  reporter.executed(), frames, name));
   }
   return {.total_ns = reporter.total_ns(),
           .entries = nlohmann::json::parse(reporter.text()).at("benchmarks")};
 }
 
-// The library does not handle exceptions, and aborts when one of several repetitions reports an
-// error. Therefore the first exception is stored, the remaining iterations do nothing, and the
-// exception is rethrown afterwards.
+// Stores the first exception, so that it can be rethrown after the loop. The remaining iterations
+// do nothing. This is necessary because the library does not handle exceptions, and aborts if one
+// of several repetitions reports an error.
 class Guarded {
  public:
   template <typename Body>

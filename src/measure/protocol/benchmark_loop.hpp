@@ -1,7 +1,7 @@
 #pragma once
-// Runs the timed loops with Google Benchmark. Only one benchmark is registered at a time. It is run
-// and removed, and nothing is printed. Its JSON entries are kept, so that tools for Google
-// Benchmark can be used.
+// Runs the timed loops with Google Benchmark. Only one benchmark is registered at a time, and it is
+// removed after it has run. Google Benchmark prints nothing, but its JSON entries are kept, so that
+// tools for Google Benchmark can process them.
 
 #include <functional>
 #include <map>
@@ -10,13 +10,14 @@
 
 namespace triptych::measure {
 
-// Initializes the library and makes it independent of its environment variables (BENCHMARK_*).
+// Initializes Google Benchmark and makes it independent of its environment variables (BENCHMARK_*).
 // The call is cheap and may be repeated.
 void initialize_benchmarks();
 
 struct BenchmarkResult {
   double total_ns = 0;  // total time of all iterations and repetitions
-  // An array: the entries of the repetitions, then those of mean, median, minimum, quartiles, …
+  // An array with the entries of the repetitions, followed by the entries of mean, median, minimum,
+  // quartiles, …
   nlohmann::json entries;
 };
 
@@ -26,8 +27,8 @@ struct IterationTime {
   std::map<std::string, double> facts;
 };
 
-// Runs each frame as a separate repetition, whose time is the one that `frame` returns
-// (UseManualTime). The JSON contains every sample and the library's statistics. An exception from
+// Runs each frame as a separate repetition, whose time is the time that `frame` returns
+// (UseManualTime()). The JSON contains every sample and the library's statistics. An exception from
 // `frame` ends the loop and is rethrown unchanged. Throws core::Error if the library did not run
 // the requested number of frames.
 [[nodiscard]] BenchmarkResult time_frames(const std::string& name, int frames,

@@ -38,9 +38,9 @@ std::string percent(double ratio) {
   return fmt::format("{:.1f} %", 100 * ratio);
 }
 
-// Whether a clock with these ratios of device time to wall time can be trusted. If there are at
-// least five ratios, one of them may be too low, because the scheduler may wake the thread late. No
-// ratio may be too high, because correct device time is never longer than wall time.
+// Returns whether a clock with these ratios of device time to wall time can be trusted. If there
+// are at least five ratios, one of them may be too low, because the scheduler may wake the thread
+// late. No ratio may be too high, because correct device time is never longer than wall time.
 bool believable(const std::vector<double>& ratios) {
   const auto low = std::ranges::count_if(
       ratios, [](double ratio) { return !(ratio >= ClockLimits::least_ratio); });
@@ -69,7 +69,7 @@ std::string verdict_of(const record::ClockTrust& trust, double wall_ns, std::siz
 }
 
 // Makes the frames of a work take longer, by finer steps along the rays or by more pixels for the
-// same particles. This does not change the kind of work. Returns false if the work cannot be made
+// same particles. The kind of work stays the same. Returns false if the frames cannot be made any
 // longer.
 bool lengthen(Work& work, double factor) {
   if (auto* volume = std::get_if<VolumeWork>(&work.scene)) {
@@ -94,15 +94,15 @@ std::unique_ptr<Prepared> prepare_long_enough(Device& device, Work work) {
   constexpr int most_attempts = 4;
   std::unique_ptr<Prepared> prepared = device.prepare(work);
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    // The second frame is drawn because the first frame is a cold start. It is not needed if the
-    // first frame is too short already, because a later frame does not take longer.
+    // A second frame is drawn because the first frame is a cold start. It is not needed if the
+    // first frame is already too short, because later frames do not take longer.
     double frame_ns = prepared->frame(Purpose::timing).wall_ns;
     if (!(frame_ns < ClockLimits::least_frame_ns)) {
       frame_ns = prepared->frame(Purpose::timing).wall_ns;
       if (!(frame_ns < ClockLimits::least_frame_ns)) break;
     }
-    // The aim is 1.5 times the required length, because a part of the frame's time does not grow
-    // with the work.
+    // Aims at 1.5 times the required length, because part of the frame's time does not grow with
+    // the work.
     const double missing = 1.5 * ClockLimits::least_frame_ns / std::max(frame_ns, 1e3);
     if (!lengthen(work, std::clamp(missing, 2.0, 64.0)) || device.unsupported(work)) break;
     prepared.reset();
@@ -113,9 +113,9 @@ std::unique_ptr<Prepared> prepare_long_enough(Device& device, Work work) {
 
 }  // namespace
 
-// Calibration images are large, and reading one may take longer than drawing it, so only the first
-// and the last image are checked. If a frame in between drew nothing, its ratio would be outside
-// the limits for a trusted clock.
+// Checks only the first and the last image, because calibration images are large, and reading an
+// image back may take longer than drawing it. If a frame in between drew nothing, its ratio would
+// be outside the limits for a trusted clock.
 record::ClockTrust calibrate(Prepared& prepared, technique::Work work_kind) {
   FrameProof proof(prepared);
   const int frames = frames_within_budget(proof.draw(Purpose::timing).wall_ns);
@@ -170,10 +170,14 @@ record::ClockTrust calibrate_clock(Device& device, Suite& suite, technique::Work
   }
 }
 
-// If the ticks of a clock have a wrong length, its device times exceed the wall times, or they are
-// a constant fraction of them, within 5 %. If a clock leaves out launches and waits, this fraction
-// varies by more than 5 % from frame to frame. If a clock leaves out the work itself, the fraction
-// is less than 2 % (lavapipe around dispatches: 0.0003); such a clock is not reported here.
+// Distinguishes three kinds of untrusted clocks by the ratio of device time to wall time:
+// - If the ticks have a wrong length, the ratio exceeds 1 or is constant within 5 %.
+// - If the clock leaves out launches and waits, the ratio varies by more than 5 % from frame to
+//   frame.
+// - If the clock leaves out the work itself, the ratio is less than 2 % (lavapipe around
+//   dispatches: 0.0003).
+//
+// Only the first kind is a fault.
 std::optional<record::DeviceFault> clock_fault(const record::ClockTrust& trust) {
   using enum record::DeviceFaultKind;
   constexpr double steady = 1.05;

@@ -13,7 +13,7 @@
 namespace triptych::measure {
 namespace {
 
-// Returns the number of pixels that differ. Bits are compared, so that a NaN equals itself.
+// Returns the number of pixels that differ. Compares bits, so that a NaN equals itself.
 template <class Value>
 std::size_t pixels_that_differ(const std::vector<Value>& one, const std::vector<Value>& other,
                                std::size_t per_pixel) {
@@ -62,8 +62,8 @@ void FrameProof::start() {
   if (before.pixel_count() > 0) std::copy_n(before.rgba.begin(), filling_.size(), filling_.begin());
 }
 
-// Returns the number of pixels that still have the fill value. A NaN that the device computed has
-// different bits, so it counts as a value.
+// Returns the number of pixels that still contain the fill value. A NaN that the device computed
+// has different bits, so it does not count as the fill value.
 std::size_t FrameProof::pixels_without_value(const core::Image& image) const {
   return count_pixels(image, [this](std::span<const float, 4> pixel) {
     return std::memcmp(pixel.data(), filling_.data(), sizeof filling_) == 0;
@@ -84,8 +84,8 @@ void FrameProof::read(std::string_view what) {
   }
   if (without_value_ > first_without_value_) {
     throw NotDrawn(
-        fmt::format("{}: {} of {} pixels still have the value with which they were filled before "
-                    "the frame, compared with {} pixels in the first frame",
+        fmt::format("{}: {} of {} pixels still contain the fill value that was written before the "
+                    "frame, compared with {} pixels in the first frame",
                     what, without_value_, pixels, first_without_value_));
   }
 }

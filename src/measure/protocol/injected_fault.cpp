@@ -68,7 +68,7 @@ bool is_mishap(std::string_view fault) {
   return false;
 }
 
-// Whether a configuration has all levels of a list such as "technique=raycast,step=2".
+// Returns whether a configuration has all levels of a list such as "technique=raycast,step=2".
 bool has_levels(const std::string& configuration, const std::string& levels) {
   const auto wanted = record::parse_factor_list(levels);
   const auto there = record::parse_factor_list(configuration);
@@ -79,7 +79,7 @@ bool has_levels(const std::string& configuration, const std::string& levels) {
 }
 
 [[noreturn]] void crash() {
-  std::signal(SIGSEGV, SIG_DFL);  // a sanitizer's handler would turn the signal into an exit code
+  std::signal(SIGSEGV, SIG_DFL);  // a sanitizer's handler would exit with a code instead
   std::raise(SIGSEGV);
   std::abort();
 }

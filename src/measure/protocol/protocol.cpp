@@ -28,9 +28,9 @@ struct WarmUp {
 };
 
 // Draws the warm-up frames, during which drivers compile code, fault in pages and wake threads. If
-// frames are very short, more than the minimum number are drawn, until they have taken a tenth of
-// the loop's time. The fastest frame determines how many frames fill the loop, so that the loop
-// does not end too early.
+// frames are very short, more frames than the minimum are drawn, until their total time is a tenth
+// of the loop's time. The time of the fastest frame determines how many frames fill the loop, so
+// that the loop does not end too early.
 WarmUp warm_up(FrameProof& proof, const Protocol& protocol) {
   WarmUp result;
   const double enough_ns = protocol.least_loop_ns / 10;
@@ -54,10 +54,10 @@ bool is_trusted(technique::Work kind, const std::vector<record::ClockTrust>& clo
   });
 }
 
-// Draws the timed frames. If the device reported no time for one of them, all device times are
-// dropped, because with gaps they could no longer be paired with the wall times. The benchmark's
-// real time is the wall time. Device time is an additional key, because only after all frames is it
-// known whether device times are plausible.
+// Draws the timed frames. If the device reported no time for one of the frames, all device times
+// are discarded, because they could no longer be paired with the wall times. In the benchmark's
+// entries, the real time is the wall time. Device time is an additional key, because whether device
+// times are plausible is known only after the last frame.
 core::Json time_into(record::Record& record, FrameProof& proof, int frames, const std::string& name,
                      double& work_ns) {
   std::vector<std::optional<double>> device_ns;
@@ -82,8 +82,8 @@ core::Json time_into(record::Record& record, FrameProof& proof, int frames, cons
   return std::move(result.entries);
 }
 
-// Adds the counts to every entry that describes a frame, because they are the same for every frame.
-// Does not add them to the entries about spread (stddev, cv).
+// Adds the counts to every entry that describes a frame, because all frames have the same counts.
+// Does not add them to the entries that describe the spread of times (stddev, cv).
 void add_counts(core::Json& entries, const record::Counts& counts) {
   for (core::Json& entry : entries) {
     const std::string aggregate = entry.value("aggregate_name", "");
@@ -122,8 +122,8 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
     work_ns += drawing.ns();
     return frame;
   };
-  // After a camera jump, the cells that the previous frame did not show are drawn in another order,
-  // so the image may differ.
+  // After a camera jump, cells that were not visible in the previous frame are drawn in another
+  // order, so the image may differ.
   const auto check = [&](std::string_view what) {
     if (protocol.camera_jumps) {
       proof.check_drawn(what);
@@ -135,14 +135,14 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
   result.image = proof.check("the first frame");
   if (protocol.statistics) {
     record.statistics = draw(Purpose::statistics).counts;
-    check("the frame for the statistics");
+    check("the statistics frame");
   }
   if (protocol.counters) {
     record.counters = draw(Purpose::counters).counts;
-    proof.check_drawn("the frame for the counters");
+    proof.check_drawn("the counting frame");
   }
-  // The same commands are submitted again, because a driver that executes them only the first time
-  // would have passed all checks so far.
+  // Submits the same commands again, because a driver that executes them only the first time would
+  // have passed all checks so far.
   static_cast<void>(draw(Purpose::timing));
   check("the second frame");
   record.image = image_hash(result.image);
@@ -175,7 +175,7 @@ Measurement count_instructions(Prepared& prepared, const Protocol& protocol,
   }
   if (protocol.counters) {
     record.counters = proof.draw(Purpose::counters).counts;
-    proof.check_drawn("the frame for the counters");
+    proof.check_drawn("the counting frame");
   }
   record.kernel_hash = prepared.kernel_hash();
   record.outcome = record::Outcome::measured;
@@ -214,12 +214,12 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
   if (protocol.statistics) {
     proof.start();
     record.statistics = counted([&] { return prepared.frame(Purpose::statistics); }).counts;
-    proof.check("the frame for the statistics");
+    proof.check("the statistics frame");
   }
   if (protocol.counters) {
     proof.start();
     record.counters = counted([&] { return prepared.frame(Purpose::counters); }).counts;
-    proof.check_drawn("the frame for the counters");
+    proof.check_drawn("the counting frame");
   }
   std::vector<double> loop_wall_ns;
   loop_wall_ns.reserve(static_cast<std::size_t>(record.loop_frames));

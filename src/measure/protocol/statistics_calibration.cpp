@@ -37,7 +37,7 @@ std::shared_ptr<const scene::ParticleSet> particles_of(std::vector<std::array<fl
 }
 
 // Returns a work whose camera is at the origin and looks along −z. Culling is off, because not
-// every API would count its compute pass together with the draw.
+// every API would include its compute pass in the statistics of the draw.
 ParticleWork seen_from_origin(std::vector<std::array<float, 4>> spheres, int width, int height,
                               double fov_y_deg) {
   ParticleWork work;
@@ -51,7 +51,7 @@ ParticleWork seen_from_origin(std::vector<std::array<float, 4>> spheres, int wid
   return work;
 }
 
-// The sprite of a sphere around the eye covers the whole viewport.
+// Returns a scene with a single sphere around the eye, whose sprite covers the whole viewport.
 ParticleWork around_the_eye() {
   return seen_from_origin({{0, 0, 0, 1}}, 66, 50, 60);
 }
@@ -60,9 +60,9 @@ constexpr int small_columns = 10;
 constexpr int small_rows = 10;
 constexpr std::uint64_t small_sprites = std::uint64_t{small_columns} * small_rows;
 
-// A grid of spheres that are 5 pixels wide in the image, in cells of 7 × 6.2 pixels. No sprite
-// touches another sprite or the border, and each sprite has a different position relative to the
-// pixel grid.
+// Returns a scene with a grid of spheres. Each sphere is 5 pixels wide in the image, in a cell of 7
+// × 6.2 pixels. No sprite touches another sprite or the border, and each sprite has a different
+// position relative to the pixel grid.
 ParticleWork many_small() {
   constexpr int width = 70;
   constexpr int height = 62;
@@ -83,8 +83,9 @@ ParticleWork many_small() {
   return seen_from_origin(std::move(spheres), width, height, fov_y_deg);
 }
 
-// A technique that draws a quad for each sphere, and the pipeline statistics for each visible quad.
-// The two primitives of each quad that reach the clipping stage are not listed.
+// A technique that draws a quad for each sphere, and the values of its pipeline statistics for each
+// visible quad. The two primitives of each quad that reach the clipping stage are not listed,
+// because they are the same for all techniques.
 struct QuadTechnique {
   std::string_view id;
   record::Counts counts;
@@ -141,8 +142,8 @@ std::vector<CalibrationScene> draw_scenes() {
   return scenes;
 }
 
-// A scene with one compute invocation for each pixel. Width and height are multiples of every
-// work-group size that is used.
+// Returns a scene with one compute invocation for each pixel. Width and height must be multiples of
+// every work-group size that is used.
 CalibrationScene compute_scene(int width, int height) {
   VolumeWork volume;
   volume.scene.grid = std::make_shared<const scene::VoxelGrid>(
@@ -167,8 +168,9 @@ std::optional<std::uint64_t> find_count(const record::Counts& counts, const std:
   return found == counts.end() ? std::optional<std::uint64_t>{} : found->second;
 }
 
-// Adds the readings of one scene, or none if the device reports no statistics at all. If Triptych's
-// counters do not contain the number of fragments, the driver's number is not judged.
+// Adds the readings of one scene. Adds nothing if the device reports no statistics at all. If
+// Triptych's counters do not contain the number of fragments, the driver's number of fragments is
+// not judged.
 void read_scene(Device& device, const CalibrationScene& scene, Readings& readings) {
   const auto prepared = device.prepare(scene.work);
   const record::Counts first = prepared->frame(Purpose::statistics).counts;
@@ -195,14 +197,15 @@ std::string text_of(const std::optional<std::uint64_t>& count) {
   return count ? fmt::format("{}", *count) : "nothing";
 }
 
-// Returns the name of Triptych's counter that equals the statistic in every scene, or an empty
+// Returns the name of the counter of Triptych that equals the statistic in every scene, or an empty
 // string if there is none.
 std::string counted_by_us(const std::vector<CalibrationReading>& readings) {
   for (const auto& [name, value] : readings.front().ours) {
     const bool same = std::ranges::all_of(readings, [&](const CalibrationReading& each) {
       return find_count(each.ours, name) == each.first;
     });
-    // A statistic that is always 0 counts nothing, even if one of Triptych's counters is also 0.
+    // A statistic that is always 0 does not count anything, even if one of Triptych's counters is
+    // also always 0.
     const bool any = std::ranges::any_of(
         readings, [](const CalibrationReading& each) { return each.first.value_or(0) > 0; });
     if (same && any) return name;
@@ -260,7 +263,7 @@ record::StatisticWorth calibration_verdict(const std::vector<CalibrationReading>
   }
   const auto [low, high] = std::ranges::minmax(readings, {}, multiple);
   if (low.first == std::uint64_t{0}) return differences(readings);
-  // The fractions are compared by cross-multiplication, which does not round.
+  // Compares the ratios by cross-multiplication, which avoids rounding.
   const bool same_multiple =
       std::ranges::all_of(readings, [&first = readings.front()](const CalibrationReading& each) {
         return *each.first * first.expected == *first.first * each.expected;
@@ -301,8 +304,8 @@ Calibration calibrate_statistics(Device& device, technique::Work kind,
                                   .detail = fmt::format("{} ({})", error.what(), scene.name)});
       }
     }
-    // A device that reports nothing for the first scene, as under OpenCL, reports nothing for the
-    // others either.
+    // A device that reports nothing for the first scene, as under OpenCL, also reports nothing for
+    // all other scenes.
     if (readings.empty() && unknown.empty()) break;
   }
   Calibration calibration;
@@ -313,7 +316,8 @@ Calibration calibrate_statistics(Device& device, technique::Work kind,
                        .detail = fmt::format("{} statistics were read", readings.size())});
   }
   for (const auto& [name, each] : readings) calibration[name] = calibration_verdict(each);
-  // If a scene failed, the remaining scenes are not sufficient to judge its statistics.
+  // If a scene failed, the remaining scenes are not sufficient to judge the statistics of that
+  // scene.
   for (const auto& [name, reason] : unknown) calibration[name] = reason;
   return calibration;
 }

@@ -1,8 +1,8 @@
 #pragma once
-// Determines how exactly a driver counts pipeline statistics. Vulkan and GL leave most of these
-// numbers to the implementation, and drivers differ. When a device is opened, scenes with known
-// numbers are therefore drawn, and each statistic gets a verdict. Statistics of two drivers are
-// compared only if both count exactly (judge/gate/check_statistics.cpp).
+// Determines how accurately a driver counts pipeline statistics. Vulkan and OpenGL leave most of
+// these counts to the implementation, and drivers differ. Therefore scenes with known counts are
+// drawn when a device is opened, and each statistic gets a verdict. Statistics of two drivers are
+// compared only if both drivers count exactly (judge/gate/check_statistics.cpp).
 
 #include <cstdint>
 #include <map>
@@ -15,21 +15,22 @@
 
 namespace triptych::measure {
 
-// A calibration scene, and the numbers that a driver reports if it counts exactly.
+// A calibration scene, and the counts that a driver reports if it counts exactly.
 struct CalibrationScene {
   std::string name;  // for display, such as "one quad over 66×50 pixels"
   Work work;
   record::Counts expected;
-  // Whether the expected number of fragments is taken from Triptych's counter `fragments`.
+  // Whether Triptych's counter `fragments` provides the expected number of fragments.
   bool counts_fragments = false;
 };
 
-// Returns the scenes for one kind of work. Widths and heights of drawn images are not multiples of
-// 4, so that a driver that counts whole blocks of pixels is detected.
+// Returns the scenes for one kind of work. The widths and heights of drawn images are not multiples
+// of 4, so that a driver that counts complete blocks of pixels is detected.
 [[nodiscard]] std::vector<CalibrationScene> calibration_scenes(technique::Work kind);
 
-// A statistic in a scene, as it was read in two frames, `first` and `again`. Each is nullopt if the
-// device reported other statistics of the frame but not this one.
+// The values of a statistic that the device reported for two frames of a scene, `first` and
+// `again`. A value is nullopt if the device reported other statistics for the frame, but not this
+// one.
 struct CalibrationReading {
   std::string scene;
   std::uint64_t expected = 0;
@@ -38,16 +39,16 @@ struct CalibrationReading {
   record::Counts ours = {};  // Triptych's counters for the scene
 };
 
-// Returns the verdict on the statistic. `proportional` requires at least two scenes, and `inflated`
-// requires that no reading is too low. There must be at least one reading, and expected > 0 in
-// each.
+// Returns the verdict on a statistic. `proportional` requires at least two scenes. `inflated`
+// requires that no reading is too low. There must be at least one reading, and `expected` must be
+// greater than 0 in each reading.
 [[nodiscard]] record::StatisticWorth calibration_verdict(
     const std::vector<CalibrationReading>& readings);
 
-// Returns the verdict on every statistic of the scenes that the device can draw. The result is
+// Returns the verdicts on all statistics in the scenes that the device can draw. The result is
 // empty if the device reports no statistics at all (OpenCL). If the API reports an error while a
-// scene is drawn, its statistics are `unknown`. Statistics that are all 0 or never become available
-// are added to `faults`. Throws DeviceLost.
+// scene is drawn, the statistics of that scene are `unknown`. A device fault is added to `faults`
+// if all statistics are 0 or if they never become available. Throws DeviceLost.
 [[nodiscard]] std::map<std::string, record::StatisticWorth> calibrate_statistics(
     Device& device, technique::Work kind, std::vector<record::DeviceFault>* faults = nullptr);
 

@@ -40,14 +40,14 @@ std::vector<std::string> levels_of(const Suite& suite, std::string_view name) {
   return levels;
 }
 
-// Returns the name of a scene, "camera=…,data=…". It contains all factors that the request does not
-// change.
+// Returns the name of a scene, "camera=…,data=…". It contains the factors that the request does not
+// choose.
 std::string scene_of(const Suite& suite, Configuration configuration) {
   for (const char* name : chosen_factors) configuration[name] = factor_of(suite, name).standard;
   return configuration_key(suite, configuration);
 }
 
-// Rounds down to 9 significant bits, so that values in plans are short.
+// Rounds down to 9 significant bits, so that the numbers in plans are short.
 double rounded_down(double value) {
   const double unit = std::exp2(std::floor(std::log2(value)) - 8);
   return std::floor(value / unit) * unit;
@@ -79,12 +79,12 @@ class Search {
     }
     const auto nothing = accuracy::errors_of_nothing(limit->image);
     if (nothing.of(request_.metric) <= request_.error) {
-      result.out_of_reach.push_back(
-          fmt::format("{}: an empty image already meets {}, because its error is {:.3g} and only "
-                      "{} of {} pixels show anything: request a smaller error, another metric, or "
-                      "a scene that covers more pixels",
-                      name, text_of(request_), nothing.of(request_.metric), nothing.covered,
-                      limit->image.pixel_count()));
+      result.out_of_reach.push_back(fmt::format(
+          "{}: an empty image already meets {}, because its error is {:.3g} and only "
+          "{} of {} pixels differ from the background; request a smaller error, another "
+          "metric, or a scene that covers more pixels",
+          name, text_of(request_), nothing.of(request_.metric), nothing.covered,
+          limit->image.pixel_count()));
       return;
     }
     search_on_few_pixels(scene);
@@ -103,14 +103,14 @@ class Search {
       if (!least || found.error < least->error) least = found;
     }
     if (result.plan.configurations.size() > before) return;
-    result.out_of_reach.push_back(
-        fmt::format("{}: no step has an error of at most {:.3g}, the step's share of {}; the "
-                    "smallest error is {:.3g}, in an image of {} pixels",
-                    name, step_error_, text_of(request_), least->error, least->viewport));
+    result.out_of_reach.push_back(fmt::format(
+        "{}: no step size meets an error of {:.3g}, the step-size share of {}; the smallest "
+        "error is {:.3g}, in an image of {} pixels",
+        name, step_error_, text_of(request_), least->error, least->viewport));
   }
 
  private:
-  // A step, its error, and the size of the image from which the error was computed.
+  // A step, its error, and the size of the image that was used to compute the error.
   struct Found {
     double step = 0;
     double error = 0;
@@ -138,20 +138,20 @@ class Search {
     limit_of_few_pixels_ = suite_.limit(coarse).image;
   }
 
-  // Returns the longest step for the quadrature of the candidate. It is estimated from an image of
-  // few pixels, and then checked with the whole image.
+  // Returns the longest step for the candidate's quadrature. It is first estimated from an image of
+  // few pixels, and then checked with the complete image.
   [[nodiscard]] Found longest_step(Configuration candidate, const core::Image& limit) {
     const std::string viewport = std::exchange(candidate["viewport"], few_pixels_);
     accuracy::StepLimits limits = limits_;
-    // The quadrature `cells` cuts a ray into ⌈1/step⌉ parts between two voxel planes, so steps
-    // above 1 are all equal.
+    // The quadrature `cells` divides a ray into ⌈1/step⌉ parts between two voxel planes, so all
+    // steps of 1 or more are equivalent.
     if (candidate.at("quadrature") == "cells") limits.longest = std::min(limits.longest, 1.0);
     const accuracy::StepError guess = accuracy::longest_step(step_error_, limits, [&](double step) {
       candidate["step"] = text_of_step(step);
       return error(limit_of_few_pixels_, suite_.truth(candidate, {}).truth);
     });
-    // An error from few pixels is only an estimate. However, if it exceeds the requested error by
-    // this factor, the error of the whole image exceeds it too.
+    // An error computed from few pixels is only an estimate. However, if it exceeds the requested
+    // error by this factor, the error of the complete image exceeds the requested error, too.
     constexpr double far = 4;
     if (!(guess.error <= far * step_error_)) return {guess.step, guess.error, few_pixels_};
     candidate["viewport"] = viewport;
@@ -171,7 +171,7 @@ class Search {
       candidate["skip"] = skip;
       plan.configurations.push_back(candidate);
     }
-    // Other quadratures have no samples that could be merged, and only one way to skip.
+    // All other quadratures have no samples that could be merged, and only one skipping mode.
     if (candidate.at("quadrature") != "midpoint") return;
     const double merged = rounded_down(accuracy::merging_share * request_.error);
     candidate["skip"] = "bricks";
@@ -216,8 +216,8 @@ ErrorAnswer answer_of(const Group& group, const RequestedError& request) {
 ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite, const RequestedError& request,
                            Truths& truths, const std::function<void(const std::string&)>& tell) {
   if (plan.counted()) {
-    throw core::InputError(
-        fmt::format("--error compares times, but plan {} counts instructions instead", plan.name));
+    throw core::InputError(fmt::format(
+        "--error requires a plan that measures times, but plan {} counts instructions", plan.name));
   }
   ErrorRequest result{.plan = plan, .out_of_reach = {}};
   result.plan.checks.insert(record::Check::timing);
@@ -233,7 +233,7 @@ ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite, const Reques
     if (suite.missing_data(scene).empty()) {
       search.add(scene, result);
     } else {
-      result.plan.configurations.push_back(scene);  // is reported as skipped when it is measured
+      result.plan.configurations.push_back(scene);  // will be reported as skipped
     }
   }
   return result;
@@ -245,7 +245,7 @@ std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records
   std::map<std::pair<std::string, std::string>, Group> groups;
   for (const record::Record& record : records) {
     if (record.outcome == record::Outcome::skipped) continue;
-    // These are the levels that the plan requested. record.factors cannot be used, because it has
+    // Uses the levels that the plan requested. record.factors cannot be used, because it contains
     // resolved levels where the plan has "auto".
     const auto asked = record::parse_factor_list(record.configuration);
     Group& group = groups[{record.device, scene_of(suite, asked)}];

@@ -1,6 +1,6 @@
 #pragma once
-// `--error E`: finds the configurations that meet a requested error, and, after they have been
-// measured, the fastest of them.
+// Implements `--error E`: finds the configurations that meet a requested error and, after they have
+// been measured, the fastest of them.
 
 #include <functional>
 #include <string>
@@ -20,31 +20,34 @@ struct ErrorRequest {
   std::vector<std::string> out_of_reach;
 };
 
-// Chooses `step`, `quadrature`, `ert`, `skip` and `adapt`. The plan's values of these factors are
-// ignored.
+// Chooses the levels of `step`, `quadrature`, `ert`, `skip` and `adapt`. The plan's levels of these
+// factors are ignored.
 //
 // For each scene of the plan, the result contains one candidate for every quadrature and skipping
-// mode. Its step is the longest step with which the error of the reference image, computed with the
-// candidate's sample positions, stays within the step's share of the requested error. Early ray
-// termination gets its own share. If samples can be merged, another candidate merges them. The step
-// is estimated with an image of few pixels (accuracy::search_size), and then shortened until the
-// error of the whole image stays within the share. Throws InputError for a suite without these
-// factors.
+// mode. The requested error is divided into shares for the step size, for early ray termination and
+// for merging samples. The step of a candidate is the longest step with which the error of the
+// reference image, computed at the candidate's sample positions, stays within the share for the
+// step size. If samples can be merged, there is one more candidate, which merges them. The step is
+// estimated with an image of few pixels (accuracy::search_size()), and then shortened until the
+// error of the complete image stays within the share.
+//
+// Throws InputError for a suite without these factors.
 [[nodiscard]] ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite,
                                          const accuracy::RequestedError& request, Truths& truths,
                                          const std::function<void(const std::string&)>& tell);
 
-// For one scene and device, the fastest record whose image meets the error.
+// The fastest record of one scene and device whose image meets the error.
 struct ErrorAnswer {
   std::string device;
-  std::string scene;                       // the factors that were not chosen
+  std::string scene;                       // the factors that the request did not choose
   const record::Record* record = nullptr;  // null if no candidate meets the error on the device
   accuracy::PictureErrors errors;          // errors of the record, or of the closest candidate
   accuracy::PictureErrors nothing;         // errors of an empty image
-  double time_ns = 0;                      // time of the record
+  double time_ns = 0;                      // median frame time of the record
 };
-// The records must outlive the result. If a device drew no candidate of a scene although the scene
-// was not skipped, its answer has no numbers.
+// Returns the answers for all scenes and devices in the records, which must outlive the result. If
+// a device drew no candidate for a scene although the scene was not skipped, its answer contains no
+// numbers.
 [[nodiscard]] std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records,
                                                     const Suite& suite,
                                                     const accuracy::RequestedError& request,

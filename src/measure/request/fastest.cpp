@@ -54,7 +54,7 @@ Ruler ruler_of(const std::vector<const Record*>& measured) {
   return std::ranges::all_of(measured, by_device) ? Ruler::device_clock : Ruler::wall_clock;
 }
 
-// Keeps, of all contestants with the same levels of the chosen factors, only the fastest.
+// Keeps only the fastest of all contestants that have the same levels of the chosen factors.
 void keep_fastest(std::vector<Contestant>& contestants, const std::set<std::string>& chosen) {
   std::ranges::stable_sort(contestants, {}, &Contestant::amount);
   std::set<std::string> seen;
@@ -90,7 +90,7 @@ std::string praise(const Contestant& contestant, Ruler ruler) {
                      contestant.usually / 1e6, ruler == Ruler::device_clock ? "device" : "wall");
 }
 
-// Removes techniques from the plan that took more than twice the time of the fastest one.
+// Removes techniques from the plan that took more than twice as long as the fastest technique.
 void keep_in_question(Plan& plan, const FastestAnswer& answer) {
   std::set<std::string> techniques;
   for (const Contestant& each : answer.contestants) {

@@ -1,7 +1,7 @@
 #pragma once
-// `technique: auto`: every technique is measured, and the fastest technique for each scene and
-// device is reported with its numbers. The choice depends only on records, so the same records
-// always lead to the same choice.
+// Implements `technique: auto`: every technique is measured, and the fastest technique for each
+// scene and device is reported with its numbers. The choice depends only on records, so the same
+// records always lead to the same choice.
 
 #include <functional>
 #include <set>
@@ -13,47 +13,48 @@
 
 namespace triptych::measure {
 
-// The measurement that is compared: times on the device clock if it is trusted for all contestants,
-// otherwise times on the wall clock, or, for plans that count them, the instructions of device code
-// and driver.
+// The measurement that is compared. For plans that count instructions, it is the number of
+// instructions in device code and driver. Otherwise it is the time on the device clock if that
+// clock is trusted for all contestants, or else the time on the wall clock.
 enum class Ruler : std::uint8_t { device_clock, wall_clock, instructions };
 
 struct Contestant {
   const record::Record* record = nullptr;
-  // Nanoseconds of the fastest frame (disturbances only add time), or instructions.
+  // The time of the fastest frame in nanoseconds, or the number of instructions. The fastest frame
+  // is used because disturbances only add time.
   double amount = 0;
-  double usually = 0;  // median in nanoseconds; for instructions the same as `amount`
+  double usually = 0;  // median frame time in nanoseconds; for instructions, equal to `amount`
 };
 
 struct FastestAnswer {
   std::string device;
-  std::string scene;  // the factors that were not chosen
+  std::string scene;  // the factors that are not chosen automatically
   Ruler ruler = Ruler::wall_clock;
-  std::vector<Contestant> contestants;  // fastest first; if equal, in the order of measurement
+  std::vector<Contestant> contestants;  // fastest first; ties in the order of measurement
   std::vector<const record::Record*> not_drawn;
 };
 
-// Returns an answer for every scene and device with more than one level of the chosen factors. If a
-// combination of levels was measured repeatedly, its fastest record counts. The records must
-// outlive the result.
+// Returns an answer for every scene and device for which several levels of the chosen factors were
+// measured. If a combination of levels was measured repeatedly, its fastest record counts. The
+// records must outlive the result.
 [[nodiscard]] std::vector<FastestAnswer> answer_fastest(const std::vector<record::Record>& records,
                                                         const Suite& suite,
                                                         const std::set<std::string>& chosen);
 
-// The result of trials of a plan with one scene on one device: a short trial of all techniques, and
-// a second trial of those that may still be the fastest, because a disturbance may have doubled a
-// time in the first trial. If no technique can be chosen, there is no answer, or an answer without
-// contestants. The answers point to the records.
+// The result of trials of a plan with one scene on one device. The first trial is short and
+// contains all techniques. The second trial contains the techniques that may still be the fastest,
+// because a disturbance may have doubled a time in the first trial. If no technique can be chosen,
+// there is no answer, or an answer without contestants. The answers point to the records.
 struct FastestTried {
   std::vector<record::Record> records;
   std::vector<FastestAnswer> answers;
 };
-// `trial` measures the plan and returns its records.
+// Runs the trials. `trial` measures a plan and returns its records.
 [[nodiscard]] FastestTried try_for_fastest(
     Plan plan, const Suite& suite,
     const std::function<std::vector<record::Record>(const Plan&)>& trial);
 
-// Returns one line with the chosen levels and their advantage over each alternative. An alternative
+// Returns a line with the chosen levels and their advantage over each alternative. An alternative
 // is called equally fast if its fastest frame did not take longer than the median frame of the
 // chosen levels.
 [[nodiscard]] std::string describe(const FastestAnswer& answer,

@@ -1,6 +1,7 @@
 #pragma once
-// The request that `triptych view` sends to the program that shows the window. Both programs come
-// from the same build. The request is the only argument of the second program, as JSON.
+// The request that `triptych view` sends to the program that displays the window. Both programs
+// come from the same build. The request is passed in JSON format, as the only argument of the
+// second program.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -11,8 +12,8 @@
 
 namespace triptych::measure {
 
-// A device, with environment variables that are set for its driver ("NAME=VALUE"). With different
-// variables, the window can show two drivers of one device side by side.
+// A device, and the environment variables ("NAME=VALUE") that are set for its driver. By using
+// different variables, the window can show two drivers of one device side by side.
 struct ViewSide {
   std::string device;
   std::vector<std::string> environment = {};

@@ -75,8 +75,8 @@ Done DeviceRun::perform(const Configuration& configuration, const std::string& k
   return done;
 }
 
-// A failure under the emulator is recorded as a skip, because the emulator may have caused it.
-// Other plans draw the same configuration without the emulator.
+// Records a failure under the emulator as a skip, because the emulator may have caused it. Other
+// plans draw the same configuration without the emulator.
 void DeviceRun::only_counted(record::Record& record) const {
   if (record.outcome == record::Outcome::measured) {
     record.counted_by = std::get<Emulator>(find_emulator()).name;
@@ -108,8 +108,8 @@ void DeviceRun::finish() {
   context_.store.add_device(context_.run, *known_, clocks_);
 }
 
-// Reads the clock calibration with which a resumed run began, so that all records of the run use
-// the same calibration.
+// Restores the device's entry from the store when a run is resumed, so that all records of the run
+// use the same clock calibration.
 void DeviceRun::remember() {
   for (auto& entry : context_.store.devices(context_.run)) {
     if (entry.device.id != device_) continue;
@@ -129,8 +129,8 @@ Protocol DeviceRun::protocol() const {
     protocol.picture = context_.plan.judges_pictures();
     protocol.counters = context_.plan.judges_counters();
   }
-  // A plan without times draws every configuration, because it also tests whether equivalent
-  // configurations have equal images.
+  // A plan without times draws every configuration. In this way, it also tests whether
+  // configurations that should be equivalent have equal images.
   protocol.measure_every = protocol.measure_every || !context_.plan.timed();
   return protocol;
 }
@@ -142,7 +142,7 @@ Job DeviceRun::job(const Configuration& configuration, const std::string& key) c
           .faults = faults_for(context_.options.faults, key, device_)};
 }
 
-// Fills in the configuration, the scene and the device of a record.
+// Sets the run, the configuration, the scene and the device of a record.
 void DeviceRun::sign(const Job& job, const std::string& key, record::Record& record) const {
   record.run = context_.run;
   record.suite = context_.plan.suite;
@@ -155,13 +155,14 @@ void DeviceRun::sign(const Job& job, const std::string& key, record::Record& rec
   if (record.factors.empty()) record.factors = job.configuration;
 }
 
-// A driver may keep compiled code, which takes a few megabytes for each new configuration. If the
-// worker's peak memory grows by more than that for most configurations, the driver does not free
-// its memory. Peaks are compared, because reusing freed memory does not raise the peak.
+// Detects a driver that does not free its memory: the worker's peak memory grows by more than
+// `most_growth` for most configurations. Smaller growth is normal, because a driver may keep a few
+// megabytes of compiled code for each new configuration. Peaks are compared, because reusing freed
+// memory does not raise the peak.
 void DeviceRun::watch_memory(std::uint64_t peak_bytes) {
   constexpr std::size_t least_configurations = 8;
   constexpr std::uint64_t most_growth = std::uint64_t{16} << 20U;
-  // A smaller peak comes from a new worker.
+  // If the peak is smaller than before, a new worker has been started.
   if (!peaks_.empty() && peak_bytes < peaks_.back()) peaks_.clear();
   peaks_.push_back(peak_bytes);
   const bool known = std::ranges::any_of(known_->faults, [](const record::DeviceFault& each) {
@@ -181,8 +182,9 @@ void DeviceRun::watch_memory(std::uint64_t peak_bytes) {
   context_.store.add_device(context_.run, *known_, clocks_);
 }
 
-// A calibration scene that failed may have left the driver in a state in which it does not draw any
-// more. The configurations are therefore drawn by a new worker, which does not calibrate.
+// Opens the worker. If a calibration scene failed, the driver may be in a state in which it no
+// longer draws anything. In this case, a second worker, which does not calibrate, draws the
+// configurations.
 bool DeviceRun::ensure_worker() {
   bool is_spoilt = false;
   const auto open = [&] {
@@ -220,7 +222,7 @@ void DeviceRun::greet(const Hello& hello) {
 std::chrono::seconds DeviceRun::limit() const {
   const std::chrono::seconds asked = context_.options.limit;
   if (context_.plan.counted()) return std::max(counted_limit, asked);
-  // A limit that the user sets applies even if it is shorter.
+  // A limit set by the user applies even if it is shorter.
   return context_.plan.compiled() && asked == record::standard_limit ? compiled_limit : asked;
 }
 

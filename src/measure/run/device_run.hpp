@@ -28,8 +28,8 @@ struct RunContext {
   std::vector<std::string> kinds;  // kinds of work whose clocks are needed
 };
 
-// The result of one configuration on one device. `work_ns` is the part of its time that was spent
-// on the device's work.
+// The result of one configuration on one device. `work_ns` is the part of the elapsed time that was
+// spent on the device's work.
 struct Done {
   record::Record record;
   std::vector<std::byte> exr = {};
@@ -37,7 +37,7 @@ struct Done {
   double work_ns = 0;
 };
 
-// Measures configurations on one device. A worker that has died is replaced for the next
+// Measures configurations on one device. If a worker has died, a new worker measures the next
 // configuration. If two attempts in a row to start a worker fail, no further attempt is made.
 class DeviceRun {
  public:
@@ -45,21 +45,23 @@ class DeviceRun {
 
   using Ended = WorkerSlot::Ended;
 
-  // All functions throw Interrupted, and InputError if the device has changed since the run began.
+  // All functions throw Interrupted. They throw InputError if the device has changed since the run
+  // began.
 
   // Measures the configuration by the complete protocol.
   [[nodiscard]] Done perform(const Configuration& configuration, const std::string& key,
                              const OnLoading& on_loading);
 
-  // Returns a record with the outcome `why`, without drawing the configuration on the device.
+  // Returns a record with the outcome and the reason in `why`, without drawing the configuration.
   [[nodiscard]] Done pass_by(const Configuration& configuration, const std::string& key,
                              const Ended& why) const;
 
-  // Lets the worker exit normally.
+  // Lets the worker exit, and stores a device fault if the worker crashes or hangs while it closes
+  // the device.
   void finish();
 
-  // Returns the time for opening the device and calibrating its clocks. It counts as the device's
-  // time, not as overhead.
+  // Returns the time spent on opening the device and calibrating its clocks. It counts as time of
+  // the device, not as overhead.
   [[nodiscard]] double opening_ns() const { return slot_.opening_ns(); }
 
  private:
@@ -71,14 +73,14 @@ class DeviceRun {
   void greet(const Hello& hello);
   [[nodiscard]] Job job(const Configuration& configuration, const std::string& key) const;
   void sign(const Job& job, const std::string& key, record::Record& record) const;
-  // The time limit for one configuration.
+  // Returns the time limit for one configuration.
   [[nodiscard]] std::chrono::seconds limit() const;
   [[nodiscard]] Done ask(const Job& job, const OnLoading& on_loading);
-  // Reports a worker whose memory grows from configuration to configuration.
+  // Records a device fault if the worker's memory grows from configuration to configuration.
   void watch_memory(std::uint64_t peak_bytes);
   void only_counted(record::Record& record) const;
-  // Returns the reason why this machine cannot count instructions, if the plan counts them; nullopt
-  // otherwise.
+  // If the plan counts instructions but this machine cannot count them, returns the reason.
+  // Otherwise returns nullopt.
   [[nodiscard]] std::optional<record::Reason> no_emulator() const;
 
   const RunContext& context_;

@@ -1,6 +1,6 @@
 #pragma once
-// Draws a single frame in this process, with no other frame before it, for debuggers and for tools
-// that record API calls.
+// Draws a single frame in this process, without any other frame before it, for debuggers and for
+// tools that record API calls.
 
 #include <optional>
 #include <span>
@@ -21,7 +21,7 @@ struct TracedPixel {
   PixelPlace place;
   technique::RayTrace trace;  // only for a volume
   core::Image image;          // the image that the tracing build drew
-  // For particles, instead of `trace` and `image`.
+  // For particles, used instead of `trace` and `image`.
   std::optional<accuracy::SpriteHistory> sprites = {};
 };
 
@@ -29,13 +29,13 @@ struct FrameInProcess {
   record::Record record;
   core::Image image;
   record::Device device;
-  std::optional<TracedPixel> traced;  // set if a pixel was named
+  std::optional<TracedPixel> traced;  // set if a pixel was specified
 };
 
-// Draws the only configuration of the plan: opens the device, prepares it, draws one frame and
-// reads its image. Nothing is calibrated, counted or repeated. If RenderDoc is loaded into the
-// process, its capture contains the frame and nothing else, and its file name begins with
-// `capture`. If a pixel is named, further frames are drawn to record its history. Throws the
+// Draws the only configuration of the plan: opens the device, prepares the technique, draws one
+// frame and reads the image back. Nothing is calibrated, counted or repeated. If RenderDoc is
+// loaded into the process, it captures exactly this frame, to a file whose name begins with
+// `capture`. If a pixel is specified, further frames are drawn to record its history. Throws the
 // exceptions of the device's functions, and InputError for a pixel outside the image.
 [[nodiscard]] FrameInProcess draw_in_process(const Backend& backend, std::string_view device_id,
                                              Suite& suite, const Plan& plan,

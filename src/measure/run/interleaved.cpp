@@ -74,7 +74,8 @@ class Interleaved::Slot {
   [[nodiscard]] const Hello& hello() const { return hello_; }
   [[nodiscard]] const record::Reason& why_closed() const { return slot_.why_closed(); }
 
-  // Like WorkerSlot::open. Later workers use the clock calibration of the first worker.
+  // Like WorkerSlot::open(). Replacement workers use the clock calibration of the side's first
+  // worker.
   bool open() {
     return slot_.open(
         [this] {
@@ -160,7 +161,8 @@ Interleaved::Interleaved(InterleavedOptions options, const SideOptions& a, const
   }
   slots_[0] = std::make_unique<Slot>(Side::a, a, options_, interrupts_);
   slots_[1] = std::make_unique<Slot>(Side::b, b, options_, interrupts_);
-  // Clocks are calibrated one after the other, so that neither side disturbs the other.
+  // Opens the sides one after the other, so that neither side disturbs the clock calibration of the
+  // other side.
   for (const auto& each : slots_) {
     if (!each->open()) throw record::NotMeasured(record::Outcome::skipped, each->why_closed());
   }

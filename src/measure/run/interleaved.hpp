@@ -1,10 +1,10 @@
 #pragma once
 // Measures two workers that take turns on one machine (interleaved A/B), so that a disturbance
-// slows down both. A block has four batches. Their order is chosen at random, either ABBA or BAAB,
-// so that a drift that is linear over the four batches cancels out of the difference. If batches
-// are short, a block repeats the four batches several times and uses the minimum for each of the
-// four. A disturbance of one side's processor lasts for tens of milliseconds and can only
-// make a batch slower, so the minimum removes it.
+// slows down both workers. A block consists of four batches. Their order is chosen at random,
+// either ABBA or BAAB, so that a drift that is linear over the four batches cancels out of the
+// difference. If batches are short, a block repeats the four batches several times and uses the
+// minimum time of each batch. Disturbances on the CPU last for tens of milliseconds and can only
+// make a batch slower, so the minimum removes them.
 
 #include <array>
 #include <chrono>
@@ -28,9 +28,10 @@ namespace triptych::measure {
 enum class Side : std::uint8_t { a, b };
 [[nodiscard]] std::string_view name_of(Side side);
 
-// One side could not measure a configuration: it does not support it, an error occurred, or its
-// worker died, exceeded the time limit or lost the device. The work of both sides on this
-// configuration has ended. For the next configuration, new workers are started if necessary.
+// Thrown if a side could not measure a configuration: it does not support the configuration, an
+// error occurred, or its worker died, exceeded the time limit or lost the device. The work of both
+// sides on this configuration has ended. For the next configuration, new workers are started if
+// necessary.
 class SideEnded : public record::NotMeasured {
  public:
   SideEnded(Side side, record::Outcome outcome, record::Reason reason)
@@ -45,32 +46,33 @@ class SideEnded : public record::NotMeasured {
 // each value is the minimum over the repetitions.
 struct SideTimes {
   std::array<double, 2> wall_ns{};
-  std::optional<std::array<double, 2>> device_ns;  // set if reported for every frame
+  std::optional<std::array<double, 2>> device_ns;  // set if reported for all frames
 };
 
 struct Block {
-  bool b_first = false;  // the order is B A A B, otherwise A B B A
+  bool b_first = false;  // whether the order of the batches is BAAB instead of ABBA
   SideTimes a;
   SideTimes b;
 };
 
 enum class SideClock : std::uint8_t { wall, device };
 
-// Returns d = ½(ln b₁ + ln b₂ − ln a₁ − ln a₂) for each block, where a and b are the batch times of
-// the sides. SideClock::device requires that the blocks have device times. A time of 0 counts as
-// one nanosecond.
+// Returns d = ½(ln b₁ + ln b₂ − ln a₁ − ln a₂) for each block, where a₁, a₂, b₁ and b₂ are the
+// times of the batches of both sides. SideClock::device requires that the blocks have device times.
+// A time of 0 counts as one nanosecond.
 [[nodiscard]] std::vector<double> differences(std::span<const Block> blocks, SideClock clock);
 
-// Whether the device times of both sides are plausible (plausible(), measure/protocol/clock.hpp).
+// Returns whether the device times of both sides are plausible (see plausible() in
+// measure/protocol/clock.hpp).
 [[nodiscard]] bool device_clock_holds(std::span<const Block> blocks);
 
 struct InterleavedOptions {
   std::string suite;
   std::vector<std::string> kinds;  // kinds of work in the plan, for which the clocks are calibrated
-  std::chrono::seconds limit{60};  // time limit for one answer; a worker that exceeds it is killed
+  std::chrono::seconds limit{60};  // time limit for one answer, after which the worker is killed
   std::chrono::seconds start_limit{60};  // time limit for opening a device and calibrating
-  // Frames that are shorter than this are drawn in batches that last this long. The number of
-  // frames in a batch is the same on both sides.
+  // If a frame is shorter than this time, several frames are drawn in each batch, so that the batch
+  // lasts this long. Batches of both sides have the same number of frames.
   double least_batch_ns = 1e6;
   // A block repeats its four batches until it lasts this long.
   double least_block_ns = 40e6;
@@ -86,25 +88,26 @@ class Interleaved {
   Interleaved(const Interleaved&) = delete;
   Interleaved& operator=(const Interleaved&) = delete;
 
-  // The device and its clocks, as the first worker of the side reported them.
+  // Returns the device and its clocks, as reported by the first worker of the side.
   [[nodiscard]] const Hello& hello(Side side) const;
 
-  // All functions below throw SideEnded, and Interrupted if a signal asks the program to stop.
+  // All functions below throw SideEnded. They throw Interrupted if a signal asks the program to
+  // stop.
 
-  // Makes both sides prepare the configuration, keep it and draw a few frames. These frames warm up
-  // both sides. Their times on `clock` determine the number of frames in a batch and how often a
+  // Makes both sides prepare the configuration, keep it prepared, and draw a few frames to warm up.
+  // The times of these frames on `clock` determine the number of frames in a batch, and how often a
   // block repeats its batches. The previous configuration is released.
   void hold(const Configuration& configuration,
             const std::array<std::vector<std::string>, 2>& faults, SideClock clock,
             const OnLoading& on_loading = {});
   [[nodiscard]] int frames_per_batch() const noexcept { return frames_per_batch_; }
-  // How often a block repeats its four batches.
+  // Returns how often a block repeats its four batches.
   [[nodiscard]] int times_per_block() const noexcept { return times_per_block_; }
-  // Measures one block of the configuration that is held.
+  // Measures one block of the prepared configuration.
   [[nodiscard]] Block block();
   void release();
 
-  // Replaces both workers with new workers, which keep no configuration.
+  // Replaces both workers with new workers, which have no prepared configuration.
   void restart();
 
  private:

@@ -4,7 +4,7 @@
 
 namespace triptych::measure {
 
-// Returns a run of the plan that begins now and has a new id. `program` is RunOptions::program.
+// Returns a run of the plan with a new id, which starts now. `program` is RunOptions::program.
 [[nodiscard]] record::Run new_run(const Plan& plan, const std::string& program);
 
 }  // namespace triptych::measure

@@ -69,7 +69,8 @@ void count(const record::Record& record, RunResult& result) {
   }
 }
 
-// Copies the results of an equivalent configuration's frames, except for its benchmark entry.
+// Copies the results of a measured configuration to the record of an equivalent configuration,
+// except for the benchmark entries.
 void take_over(record::Record& record, const record::Record& measured) {
   record.wall_ns = measured.wall_ns;
   record.device_ns = measured.device_ns;
@@ -165,7 +166,7 @@ void PlanRun::measure(const std::string& device, const Configuration& configurat
   const std::string key = configuration_key(context_.suite, configuration);
   Done done = attempt(device, configuration, key, report);
   if (done.record.outcome == record::Outcome::measured) share_frames(done.record);
-  // The image is added first, because a record must never name an image that does not exist.
+  // Adds the image first, because a record must never refer to an image that does not exist.
   if (!done.exr.empty()) context_.store.add_image(done.record.image, done.exr);
   for (const auto& [hash, text] : done.listings) context_.store.add_listing(hash, text);
   context_.store.add_record(done.record);
@@ -175,8 +176,8 @@ void PlanRun::measure(const std::string& device, const Configuration& configurat
   report.done(done.record);
 }
 
-// Measures a configuration, unless two earlier attempts began but never ended. Otherwise, a driver
-// that crashes the machine would crash it again with each --resume.
+// Measures a configuration, unless two earlier attempts began but never ended. Without this limit,
+// a driver that crashes the machine would crash it again with each --resume.
 Done PlanRun::attempt(const std::string& device, const Configuration& configuration,
                       const std::string& key, Report& report) {
   if (const auto end = failures_of(device).foretold(configuration)) {
@@ -198,21 +199,22 @@ Done PlanRun::attempt(const std::string& device, const Configuration& configurat
   }
 }
 
-// If the record shares the frames of an equivalent configuration, copies their results into it.
-// Otherwise keeps a copy of the record, because later records may share its frames.
+// If the record belongs to a configuration that is equivalent to a measured one, copies the results
+// of that configuration. Otherwise keeps a copy of the record, because later configurations may be
+// equivalent to this one.
 void PlanRun::share_frames(record::Record& record) {
   if (record.same_as.empty()) {
     record::Record& kept = measured_[{record.device, record.configuration}];
     kept = record;
-    kept.benchmark_json.clear();  // the largest part, which is never copied
+    kept.benchmark_json.clear();  // the largest part of a record, which take_over() does not copy
   } else {
     take_over(record, measured_.at({record.device, record.same_as}));
   }
 }
 
-// Whether the plan contains the record's configuration, the run contains its device, and the record
-// is not to be drawn again. Records of other configurations exist if a run is resumed with a
-// smaller plan.
+// Returns whether the plan contains the record's configuration, the run contains its device, and
+// the record is not to be measured again. If a run is resumed with a smaller plan, it contains
+// records of configurations that the plan does not contain.
 bool PlanRun::is_ours(const record::Record& record) const {
   return std::ranges::find(devices_, record.device) != devices_.end() &&
          !context_.options.again.contains({record.device, record.configuration}) &&

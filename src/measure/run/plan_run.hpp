@@ -1,5 +1,5 @@
 #pragma once
-// Measures one plan on all its devices. Several plans may be measured together.
+// Measures one plan on all devices of a run. Several plans may be measured at the same time.
 
 #include <functional>
 #include <map>
@@ -18,8 +18,8 @@ namespace triptych::measure {
 
 class Report;
 
-// Every record is written to the store as soon as it exists. measure_all() throws the same
-// exceptions as run_plans().
+// Writes every record to the store as soon as it exists. measure_all() throws the same exceptions
+// as run_plans().
 class PlanRun {
  public:
   using Tell = std::function<void(const Progress&)>;
@@ -27,7 +27,7 @@ class PlanRun {
   // All arguments must outlive this object.
   PlanRun(const RunContext& context, const std::vector<std::string>& devices, const Tell& tell);
 
-  // Measures all configurations by the complete protocol, except those of which a resumed run
+  // Measures all configurations by the complete protocol, except those for which a resumed run
   // already has a record.
   [[nodiscard]] RunResult measure_all();
 

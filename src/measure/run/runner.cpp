@@ -28,9 +28,9 @@ std::vector<std::string> kinds_of(const Plan& plan, const Protocol& protocol) {
   return plan.timed() && asked ? work_kinds(plan) : std::vector<std::string>{};
 }
 
-// The run to be resumed is found by the plan's name, so the plan may have changed since the run
-// began. If it has changed, throws if the run contains a configuration that the plan no longer
-// contains.
+// Throws InputError if the run that is to be resumed contains a configuration that the plan does
+// not contain. This can happen because the run is found by the plan's name only, and the plan may
+// have changed since the run began.
 void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& suite,
                          const record::Store& store) {
   if (run.plan_hash == plan.hash) return;
@@ -41,15 +41,15 @@ void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& 
   for (const record::Record& record : store.records(run.id)) {
     if (keys.contains(record.configuration)) continue;
     throw core::InputError(
-        fmt::format("run {} of plan {} contains {}, which this plan does not contain: the plan has "
-                    "changed, or it is another plan with the same name; leave out --resume to "
+        fmt::format("run {} of plan {} contains {}, which this plan does not contain, because the "
+                    "plan has changed or is another plan with the same name; leave out --resume to "
                     "start a new run",
                     run.id, plan.name, record.configuration));
   }
 }
 
-// Returns the id of the run to which records are added: a new run, or the plan's latest run if it
-// is resumed. Stores the planned configurations before anything is measured.
+// Returns the id of the run to which records are to be added: the plan's latest run if it is
+// resumed, or else a new run. Stores the planned configurations before anything is measured.
 std::string open_run(const PlannedRun& planned, const std::vector<std::string>& devices,
                      record::Store& store) {
   const auto& [plan, suite, options] = planned;
@@ -82,7 +82,7 @@ void refuse_bad_options(const RunOptions& options) {
   for (const InjectedFault& each : options.faults) check_fault(each.fault);
 }
 
-// Combines the progress of parallel parts: adds up their numbers and reports the longest remaining
+// Combines the progress of parallel parts. Adds up their numbers, and reports the longest remaining
 // time.
 class JointProgress {
  public:
@@ -123,15 +123,15 @@ void add(const RunResult& part, RunResult& sum) {
   sum.overhead_ns += part.overhead_ns;
 }
 
-// A part of a run, which is measured on one device.
+// A part of a run that is measured on one device.
 struct Part {
   const RunContext* context;
   std::string device;
 };
 
-// Measures parts in parallel. This is used only if no times are measured, so that parts cannot
-// disturb each other's times. Each part has its own connection to the store. If parts fail, the
-// first error is thrown after all parts have ended.
+// Measures parts in parallel. This function is used only if nothing is timed, because parallel
+// parts would disturb each other's times. Each part has its own connection to the store. If a part
+// fails, the first error is thrown after all running parts have ended.
 std::vector<RunResult> measure_side_by_side(const std::vector<Part>& parts, std::size_t at_once,
                                             const PlanRun::Tell& on_progress) {
   JointProgress joint(on_progress);
@@ -171,9 +171,9 @@ std::size_t processors() {
   return std::max(1U, std::thread::hardware_concurrency());
 }
 
-// Divides a plan into parts, none of which is empty. Each part has pieces from all over the plan,
-// so that all parts take about the same time although neighbouring configurations are similar. The
-// configurations of a piece are neighbours, so that they share their data.
+// Divides a plan into parts, none of which is empty. Each part consists of pieces from all over the
+// plan. In this way, all parts take about the same time, although neighbouring configurations are
+// similar. Each piece consists of neighbouring configurations, so that they can share their data.
 std::vector<Plan> parts_of(const Plan& plan, std::size_t count) {
   constexpr std::size_t pieces_each = 8;
   constexpr std::size_t longest_piece = 16;

@@ -28,19 +28,21 @@ struct RunOptions {
   // The time limit of one configuration. A worker that exceeds it is killed and replaced.
   std::chrono::seconds limit = record::standard_limit;
   std::chrono::seconds start_limit{60};  // time limit for opening a device and calibrating
-  bool resume = false;                   // continue the plan's latest run and keep its records
-  // The device and the configuration of each record that a resumed run contains but measures again.
+  bool resume = false;                   // continues the plan's latest run and keeps its records
+  // The device and the configuration of each record that is to be measured again although a resumed
+  // run already contains it.
   std::set<std::pair<std::string, std::string>> again = {};
   std::vector<InjectedFault> faults;
-  // The number of workers that run at the same time if nothing is timed; one device may have
-  // several. 0: one for each device, but not more than there are processors.
+  // The maximum number of workers that run at the same time if nothing is timed. One device may
+  // have several workers. 0: one worker for each device, but not more than there are CPU cores.
   int jobs = 0;
   std::vector<std::string> worker_command;           // see SideOptions::command
   std::vector<std::string> worker_environment = {};  // see SideOptions::environment
-  // The devices that the command requested, those that it found, and those that it measures.
+  // The devices that the command requested, the devices that it found, and the devices that it
+  // measures.
   record::Beginning begun = {};
-  // The version of the program with its commit, which is stored in the run. If empty, only the
-  // version is stored.
+  // The version of the program, including its commit, which is stored in the run. If this is empty,
+  // only the version number is stored.
   std::string program = {};
 };
 
@@ -51,57 +53,61 @@ struct Progress {
   int total = 0;
   std::chrono::seconds left{0};
   const record::Record* record = nullptr;  // the record that was just completed
-  std::optional<Loading> loading;  // if `record` is null: loading for the current configuration
+  std::optional<Loading> loading;          // if `record` is null: progress of loading the data
 };
 
 struct RunResult {
   std::string run;  // id of the run in the store
-  // The number of records of each outcome, on all devices; with `resume`, including earlier
-  // records.
+  // The number of records with each outcome, on all devices. If a run was resumed, this includes
+  // its earlier records.
   int measured = 0;
   // The number of measured records whose results were copied from an equivalent configuration
   // (measure/contract/equivalents.hpp).
   int taken_over = 0;
   int skipped = 0;
   int failed = 0;        // failed, crashed, hung or lost
-  int there_before = 0;  // number of these records that a resumed run already contained
+  int there_before = 0;  // number of these records that a resumed run already had
   double wall_ns = 0;
-  // Sum of the wall-clock times of all devices; more than wall_ns if they ran in parallel.
+  // The sum of the wall-clock times of all devices. It exceeds wall_ns if devices were measured in
+  // parallel.
   double devices_ns = 0;
-  // The part of devices_ns that was not spent on opening devices, preparing and drawing.
+  // The part of devices_ns that was spent on anything other than opening devices, preparing and
+  // drawing.
   double overhead_ns = 0;
 };
 
-// Returns a few lines about the result of the plan's run. `store` is the file of the store.
+// Returns a few lines that describe the result of a plan's run. `store` is the file of the store.
 [[nodiscard]] std::string describe(const RunResult& result, const std::string& plan,
                                    const std::string& store);
 
-// One of the plans that are measured together.
+// A plan that is measured together with other plans.
 struct PlannedRun {
   const Plan& plan;
   const Suite& suite;
   const RunOptions& options;
 };
 
-// Measures every configuration of each plan on every device. If times are measured, the devices are
-// measured one after the other, so that they do not disturb each other. A crash, a hang or a lost
-// device affects only one configuration. If the worker of a device cannot be started twice in a
-// row, all remaining configurations of the device fail with that reason. Each plan has its own run
-// and its own result. Throws InputError for an unknown fault, for environment variables that must
-// not be set while measuring, for a resumed run whose device has changed, and for a resumed run
-// that contains something that the changed plan does not measure; IoError if the store cannot be
-// written; Interrupted.
+// Measures every configuration of each plan on every device. Each plan has its own run and its own
+// result. If times are measured, the devices are measured one after the other, so that they do not
+// disturb each other. A crash, a hang or a lost device affects only one configuration. If two
+// attempts in a row to start a device's worker fail, all remaining configurations of the device
+// fail with the same reason.
+//
+// Throws InputError for an unknown fault, for environment variables that must not be set while
+// measuring, for a resumed run whose device has changed, and for a resumed run that contains
+// configurations that the changed plan no longer contains. Throws IoError if the store cannot be
+// written. Throws Interrupted if a signal asks the program to stop.
 [[nodiscard]] std::vector<RunResult> run_plans(
     std::span<const PlannedRun> runs, const std::vector<std::string>& devices, record::Store& store,
     const std::function<void(const Progress&)>& on_progress);
 
-// Returns the injected faults that apply to none of the configurations on these devices. If they
-// were not reported, a user who injects a fault and sees a pass would think that the fault was not
-// detected.
+// Returns the injected faults that do not apply to any of the configurations on these devices. They
+// must be reported, because otherwise a user who injects a fault and sees a pass would think that
+// the fault was not detected.
 [[nodiscard]] std::vector<InjectedFault> faults_that_hit_nothing(
     std::span<const PlannedRun> runs, const std::vector<std::string>& devices);
 
-// One plan that is measured on two sides. Each side is written to its own run.
+// A plan that is measured on two sides. Each side is written to its own run.
 struct SidesRun {
   const Plan& plan;
   const Suite& suite;
@@ -109,8 +115,8 @@ struct SidesRun {
   std::array<RunOptions, 2> options;
 };
 
-// Measures both sides, in parallel if nothing is timed, otherwise one after the other. Throws the
-// same exceptions as run_plans().
+// Measures both sides: one after the other if times are measured, and otherwise in parallel. Throws
+// the same exceptions as run_plans().
 [[nodiscard]] std::array<RunResult, 2> run_sides(
     const SidesRun& sides, record::Store& store,
     const std::function<void(const Progress&)>& on_progress);

@@ -1,7 +1,8 @@
 #pragma once
-// A driver fault that ends the worker usually affects many configurations, and each of them takes a
-// new worker or the whole time limit. Therefore, if two configurations have failed in the same way,
-// similar configurations are not tried.
+// Avoids trying configurations that are likely to fail. A driver fault that ends the worker usually
+// affects many configurations, and each of them would require a new worker or take up the whole
+// time limit. Therefore, after two configurations have failed in the same way, similar
+// configurations are not tried.
 
 #include <map>
 #include <optional>
@@ -18,22 +19,25 @@ namespace triptych::measure {
 // The failures of one device in one plan.
 class SameFailure {
  public:
-  // `varied`: the factors that have more than one value in the plan; the reason names their levels.
+  // `varied` contains the factors that have more than one value in the plan. Reasons state the
+  // levels of these factors.
   explicit SameFailure(std::vector<std::string> varied) : varied_(std::move(varied)) {}
 
   void saw(const Configuration& configuration, const record::Record& record);
 
   struct Foretold {
     record::Outcome outcome;
-    // The reason of the configurations that were tried, with the levels that they share. It is
-    // marked as not tried.
+    // The reason why the tried configurations failed, with the levels that they share. It is marked
+    // as not tried.
     record::Reason reason;
   };
   // Returns the predicted outcome of the configuration, or nullopt if it has to be tried. A factor
   // is irrelevant if two configurations that differ in this factor failed in the same way. A
   // configuration is predicted to fail like an earlier configuration that crashed, hung or lost the
-  // device if two conditions are met: both differ only in irrelevant factors, and no configuration
-  // that differs from the earlier one only in irrelevant factors was measured successfully.
+  // device if both of these conditions are met:
+  // - The two configurations differ only in irrelevant factors.
+  // - No configuration that differs from the earlier configuration only in irrelevant factors was
+  //   measured successfully.
   [[nodiscard]] std::optional<Foretold> foretold(const Configuration& configuration) const;
 
  private:

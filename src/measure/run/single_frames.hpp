@@ -1,6 +1,6 @@
 #pragma once
-// Draws frames one at a time, so that each configuration can be chosen after the previous frame was
-// seen.
+// Draws frames one at a time, so that each configuration can be chosen according to the results of
+// the previous frame.
 
 #include <string>
 
@@ -8,20 +8,21 @@
 
 namespace triptych::measure {
 
-// One device with its worker, which is replaced if it dies. For each configuration, it draws one
-// frame for the image and one frame for the counters. No times are measured. Records and images are
-// written to the store. All arguments must outlive this object.
+// A device with its worker, which is replaced if it dies. For each configuration, the worker draws
+// one frame for the image and one frame for the counters. No times are measured. Records and images
+// are written to the store. All arguments must outlive this object.
 class SingleFrames {
  public:
   // Throws InputError in the same cases as run_plans().
   SingleFrames(const Suite& suite, std::string device, record::Store& store,
                const RunOptions& options, InterruptGuard& interrupts);
 
-  // Throws Interrupted, and IoError if the store cannot be written.
+  // Draws the frames of a configuration and returns its record. Throws Interrupted if a signal asks
+  // the program to stop, and IoError if the store cannot be written.
   [[nodiscard]] record::Record draw(const Configuration& configuration);
 
-  // Returns the device as it was when it was opened. Throws InputError if the device was never
-  // opened.
+  // Returns the description of the device from the time when it was opened. Throws InputError if
+  // the device was never opened.
   [[nodiscard]] record::Device device() const;
 
  private:

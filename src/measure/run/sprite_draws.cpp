@@ -12,8 +12,8 @@ namespace {
 using accuracy::Particles;
 using accuracy::SurfaceDifference;
 
-// Limits on the number of draws, because a device takes some milliseconds to prepare and draw even
-// a few spheres.
+// Limits on the number of draws. They are needed because a device takes some milliseconds to
+// prepare and draw even a few spheres.
 constexpr std::size_t most_rows = 64;
 constexpr int most_draws = 128;
 
@@ -46,7 +46,7 @@ class SpriteDraws {
                                      place_.x, place_.y);
   }
 
-  // Returns the pixel if the device draws only these particles.
+  // Returns the pixel after the device has drawn only these particles.
   [[nodiscard]] accuracy::ShownSurface shown(const Particles& particles) {
     std::get<ParticleWork>(work_.scene).scene.particles =
         std::make_shared<const scene::ParticleSet>(scene::particle_subset(*all_, particles));

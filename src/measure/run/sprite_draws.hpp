@@ -1,7 +1,7 @@
 #pragma once
 // Determines the history of one pixel of a particle scene. For each sphere that the pixel's ray may
-// hit, the device draws a frame that contains only this sphere, with the technique, the camera and
-// the device code of the whole frame.
+// hit, the device draws a frame that contains only this sphere. The technique, the camera and the
+// device code are the same as for the complete frame.
 
 #include <map>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace triptych::measure {
 
-// The arguments of the reference renderer.
+// The arguments of the reference renderer's functions.
 struct Described {
   const Configuration& configuration;
   const std::map<std::string, double>& precision;  // Record::precision
@@ -20,10 +20,10 @@ struct Described {
 
 [[nodiscard]] accuracy::ShownSurface shown_at(const core::Image& image, PixelPlace place);
 
-// Returns the history of the pixel. `whole` is the pixel in the frame with all particles. If it is
-// wrong although each sphere alone is drawn correctly, the device draws fewer and fewer particles
-// as long as the pixel remains wrong. Throws NotSupported if the suite does not implement
-// ExpectsSprites, and the errors of the device.
+// Returns the history of the pixel. `whole` is the pixel in the frame with all particles. If that
+// pixel is wrong although each sphere alone is drawn correctly, the function searches for a small
+// set of particles with which the pixel is still wrong. Throws NotSupported if the suite does not
+// implement ExpectsSprites. Also throws the exceptions of the device's functions.
 [[nodiscard]] accuracy::SpriteHistory sprite_history(Device& device, const Work& work, Suite& suite,
                                                      const Described& described, PixelPlace place,
                                                      const accuracy::ShownSurface& whole);

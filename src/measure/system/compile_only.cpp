@@ -20,7 +20,7 @@ struct Driver {
   std::string_view id;    // the beginning of device ids; the GPU family follows
   std::string_view name;  // short name of the driver
   std::string_view stub;  // the library with the stub of the kernel interface; empty: not needed
-  std::string_view icd;   // start of the Vulkan driver's file name; empty: not a Vulkan driver
+  std::string_view icd;   // beginning of the Vulkan driver's file name; empty: not a Vulkan driver
 };
 constexpr std::array<Driver, 4> drivers{{
     {"vulkan:radv-", "radv", "", "radeon_icd"},
@@ -29,7 +29,7 @@ constexpr std::array<Driver, 4> drivers{{
     {"opencl:rusticl-", "rusticl", "libamdgpu_noop_drm_shim.so", ""},
 }};
 
-// The chip that the stub of the nouveau kernel driver pretends to be, for each GPU family.
+// The chip that the stub of the nouveau kernel driver simulates for each GPU family.
 struct Chip {
   std::string_view family;
   std::string_view chipset;
@@ -85,8 +85,8 @@ std::string file_in(const fs::path& folder, std::string_view start, std::string_
   return found.empty() ? std::string() : found.front();
 }
 
-// Searches the folders of the driver files that the environment names, then the folders that the
-// Vulkan loader searches. Returns the first JSON file whose name begins with `start`.
+// Returns the first JSON file whose name begins with `start`. Searches the folders of the driver
+// files that the environment names, and then the folders that the Vulkan loader searches.
 std::string find_icd(std::string_view start, std::span<const std::string> overrides) {
   std::vector<fs::path> folders;
   for (const char* variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
@@ -131,7 +131,7 @@ void add_stub(const Driver& driver, const std::string& family,
   const std::string stub = find_library(driver.stub, overrides);
   if (stub.empty()) {
     throw core::NotSupported(
-        fmt::format("{} is missing: install the package mesa-drm-shim (available in Debian 13 and "
+        fmt::format("{} is missing; install the package mesa-drm-shim (available in Debian 13 and "
                     "bookworm-backports)",
                     driver.stub));
   }
@@ -171,14 +171,14 @@ std::vector<std::string> compile_only_environment(std::string_view device_id,
   const auto device = compile_only(device_id);
   if (!device) return {};
   const Driver& driver = *driver_of(device_id);
-  // Caches are turned off, because the driver does not report statistics of a program that it loads
+  // Turns off caches, because the driver does not report statistics for a program that it loads
   // from a cache.
   std::vector<std::string> environment{"MESA_SHADER_CACHE_DISABLE=true"};
   if (!driver.icd.empty()) {
     const std::string icd = find_icd(driver.icd, overrides);
     if (icd.empty()) {
       throw core::NotSupported(
-          fmt::format("no Vulkan driver file {}*.json was found: install the package "
+          fmt::format("no Vulkan driver file {}*.json was found; install the package "
                       "mesa-vulkan-drivers{}",
                       driver.icd, driver.name == "nvk" ? " from Debian 13 or later" : ""));
     }
@@ -188,7 +188,7 @@ std::vector<std::string> compile_only_environment(std::string_view device_id,
   if (driver.name == "radv") environment.push_back("RADV_FORCE_FAMILY=" + device->family);
   if (!driver.stub.empty()) add_stub(driver, device->family, overrides, environment);
   if (driver.name == "radeonsi") {
-    // The driver reports statistics and disassembly of the stages that are named here.
+    // The driver reports statistics and disassembly for the shader stages that are listed here.
     environment.emplace_back("AMD_DEBUG=vs,tcs,tes,gs,ps,cs,asm");
     environment.emplace_back("LIBGL_ALWAYS_SOFTWARE=false");
   } else if (driver.name == "rusticl") {

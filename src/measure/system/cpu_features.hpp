@@ -8,11 +8,12 @@
 
 namespace triptych::measure {
 
-// Returns the processor's instruction-set flags that device-code compilers use, sorted and
-// separated by spaces: "avx avx2 avx512f fma …". Empty if /proc/cpuinfo does not contain them.
+// Returns the instruction-set flags of the CPU that affect generated device code, sorted and
+// separated by spaces: "avx avx2 avx512f fma …". Returns an empty string if /proc/cpuinfo does not
+// contain such flags.
 [[nodiscard]] std::string cpu_features();
 
-// Returns those of the named environment variables that are set, with their values.
+// Returns the names and values of those environment variables in `names` that are set.
 [[nodiscard]] std::map<std::string, std::string> set_variables(
     std::span<const std::string_view> names);
 

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::array error_signals{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
 
-// The signal handlers have a separate stack, because after a stack overflow there is no space left
-// on the thread's stack.
+// The size of the separate stack for the signal handlers. They need a separate stack because a
+// stack overflow leaves no space on the thread's own stack.
 constexpr std::size_t handler_stack_bytes = std::size_t{64} << 10U;
 
 void say(std::string_view text) {
@@ -23,8 +23,8 @@ void say(std::string_view text) {
   static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
 }
 
-// Writes the call stack. Calls only functions that a signal handler may call. backtrace() loads a
-// library in its first call, so write_stack_of_crashes() calls it once before any signal arrives.
+// Writes the call stack. Calls only functions that are safe in a signal handler. The first call of
+// backtrace() loads a library, so write_stack_of_crashes() calls it once before any signal arrives.
 void write_stack() {
   constexpr int most_frames = 24;
   constexpr int own_frames = 3;  // this function, the handler and the kernel's trampoline
@@ -37,7 +37,7 @@ void write_stack() {
 
 void on_error(int signal) {
   write_stack();
-  // The default action was restored before the handler ran, so raising the signal again ends the
+  // The default action was restored before this handler ran, so raising the signal again ends the
   // process.
   std::raise(signal);
 }

@@ -2,11 +2,11 @@
 
 namespace triptych::measure {
 
-// Installs signal handlers that write the call stack of the thread to stderr, one frame on each
-// line, with the names of exported functions if they are known. They do so if a signal ends the
-// process because of an error (SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT). SIGUSR2 also writes the
-// call stack but does not end the process; a supervisor sends it to find out where a process hangs.
-// A driver that sets its own handlers replaces these handlers.
+// Installs signal handlers that write the call stack of the thread to stderr, one frame per line,
+// with the names of exported functions where they are known. The handlers run if an error signal
+// (SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT) ends the process. The handler for SIGUSR2 also writes
+// the call stack but does not end the process. The supervisor sends SIGUSR2 to find out where a
+// process hangs. If a driver installs its own handlers, they replace these handlers.
 void write_stack_of_crashes();
 
 }  // namespace triptych::measure

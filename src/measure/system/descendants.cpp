@@ -45,8 +45,8 @@ std::vector<pid_t> children_of(pid_t parent) {
   return children;
 }
 
-// The children of this process. There is only one such object, because children belong to the whole
-// process.
+// The children of this process. There is only one object of this type, because children belong to
+// the whole process.
 struct Children {
   std::mutex mutex;
   bool inherits = false;
@@ -59,9 +59,9 @@ Children& children() {
   return all;
 }
 
-// Kills the inherited processes. Their children are inherited in turn, so this is repeated until
-// there are none. The number of rounds is limited, because processes may be started faster than
-// they can be killed.
+// Kills the inherited processes. When a process is killed, this process inherits its children.
+// Therefore the function repeats this until no inherited process is left. The number of rounds is
+// limited, because processes may be started faster than they can be killed.
 void kill_orphans(const Children& all) {
   constexpr int most_rounds = 200;
   for (int round = 0; round < most_rounds; ++round) {

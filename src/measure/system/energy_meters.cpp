@@ -25,13 +25,13 @@ std::optional<Value> value_of(const fs::path& file) {
   return std::nullopt;
 }
 
-// Whether a counter works. In a virtual machine, a counter may exist but stay at 0.
+// Returns whether a counter works. In a virtual machine, a counter may exist but stay at 0.
 bool counts(const fs::path& file) {
   return value_of<std::uint64_t>(file).value_or(0) > 0;
 }
 
-// Returns the entries of a folder whose names begin with `prefix`, sorted by name, or none if the
-// folder does not exist.
+// Returns the entries of a folder whose names begin with `prefix`, sorted by name. Returns an empty
+// list if the folder does not exist.
 std::vector<fs::path> entries(const fs::path& folder, std::string_view prefix) {
   std::set<fs::path> found;
   std::error_code error;
@@ -43,10 +43,12 @@ std::vector<fs::path> entries(const fs::path& folder, std::string_view prefix) {
 
 }  // namespace
 
-// The reading of one meter over several frames, from its first update to its last.
+// The energy counted by one meter over several frames, from the first update of the meter to the
+// last.
 class EnergyMeters::Span {
  public:
-  // Must be called between frames, with the value of the meter after this number of frames.
+  // Must be called between frames. `microjoules` is the value of the meter after `frames` frames
+  // and `ns` nanoseconds, and `range` is Meter::range.
   void see(std::uint64_t microjoules, int frames, double ns, std::uint64_t range) {
     if (seen_ && microjoules != last_) {
       if (renewed_) {
@@ -93,9 +95,9 @@ std::vector<std::string> EnergyMeters::names() const {
   return names;
 }
 
-// Of the parts of a package, only the memory is used, because it is the only part that the
-// package's own meter does not include. `psys` is not used: it measures the whole machine including
-// the packages, which would be counted twice.
+// Adds the meters of the packages and of their memory. The memory is the only part of a package
+// that the package's own meter does not include. The zone `psys` is not used, because it measures
+// the whole machine including the packages, which would be counted twice.
 void EnergyMeters::find_processors(const fs::path& system) {
   for (const fs::path& zone : entries(system / "class/powercap", "intel-rapl:")) {
     const std::string name = value_of<std::string>(zone / "name").value_or("");
@@ -125,7 +127,8 @@ void EnergyMeters::find_intel_cards(const fs::path& system) {
   }
 }
 
-// Uses the names and types of the functions in nvml.h, version 12. A result of 0 means success.
+// Loads the functions under the names and with the types of nvml.h, version 12. They return 0 for
+// success.
 void EnergyMeters::find_nvidia_cards(const fs::path& nvml) {
   using Card = struct nvmlDevice_st*;
   void* library = ::dlopen(nvml.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);

@@ -1,6 +1,6 @@
 #pragma once
-// Measures energy if the machine has meters. A meter counts the energy of a whole component,
-// including its idle power and the energy that other programs use.
+// Measures energy if the machine has energy meters. A meter measures the energy of a complete
+// component, including idle power and the energy used by other programs.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,23 +15,23 @@ namespace triptych::measure {
 
 class EnergyMeters {
  public:
-  // Finds the meters of this machine that this process may read, in microjoules:
-  //   package-0, package-0/dram   processors and their memory, from Linux's powercap (RAPL); most
-  //                               systems allow only root to read them
-  //   i915-0, xe-0                Intel's GPUs, from their kernel drivers' hwmon
-  //   nvidia-0                    NVIDIA's GPUs since Volta, from NVML
-  // Tests set `system` and `nvml`.
+  // Finds the meters that this process may read. All values are in microjoules. The meters are:
+  //   package-0, package-0/dram   CPUs and their memory, from Linux's powercap interface (RAPL);
+  //                               most systems allow only root to read them
+  //   i915-0, xe-0                Intel GPUs, from the hwmon interface of their kernel drivers
+  //   nvidia-0                    NVIDIA GPUs since Volta, from NVML
+  // Tests replace `system` and `nvml`.
   explicit EnergyMeters(const std::filesystem::path& system = "/sys",
                         const std::filesystem::path& nvml = "libnvidia-ml.so.1");
 
   [[nodiscard]] std::vector<std::string> names() const;
 
-  // Returns the microjoules per frame for each meter, measured while frames are drawn one after the
-  // other. Meters are updated only from time to time: RAPL's every millisecond, NVIDIA's up to ten
-  // times a second. For each meter, the frames between two updates that are at least a tenth of a
-  // second apart are used. Frames are drawn until every meter has had such updates, but for at most
-  // a second or three frames, whichever is longer; a meter without such updates is absent. Without
-  // meters nothing is drawn.
+  // Draws frames one after the other, and returns the energy per frame in microjoules for each
+  // meter. Meters are updated only from time to time: RAPL meters every millisecond, NVIDIA meters
+  // up to ten times a second. Therefore the energy is computed for the frames between two updates
+  // that are at least a tenth of a second apart. Drawing ends when every meter has had two such
+  // updates, but at the latest after one second or three frames, whichever is longer. A meter
+  // without two such updates is absent from the result. If there are no meters, nothing is drawn.
   [[nodiscard]] record::Counts of_a_frame(const std::function<void()>& draw) const;
 
  private:

@@ -45,7 +45,7 @@ std::vector<CachePlace> cache_places() {
   if (const std::string home = variable("HOME"); !home.empty()) {
     places.push_back({std::filesystem::path(home) / ".cache", "triptych"});
   }
-  // The name contains the user, because all users share the folder for temporary files.
+  // The name contains the user id, because all users share the folder for temporary files.
   std::error_code error;
   const auto temporary = std::filesystem::temp_directory_path(error);
   if (!error) places.push_back({temporary, core::name_of_this_user()});
@@ -61,8 +61,8 @@ std::string as_file_name(std::string_view device_id) {
   return name;
 }
 
-// Locks the folder's lock file and returns its descriptor, which is empty if another process holds
-// the lock.
+// Locks the folder's lock file and returns its descriptor. The descriptor is empty if another
+// process holds the lock.
 FileDescriptor try_lock(const core::PrivateFolder& folder) {
   FileDescriptor lock(
       ::openat(folder.fd(), "lock", O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600));
@@ -86,7 +86,8 @@ std::string_view name_in(std::string_view entry) {
   return entry.substr(0, entry.find('='));
 }
 
-// Whether the text continues with NAME=, so that a comma before it ends the previous value.
+// Returns whether the text begins with NAME=, which means that a comma before it ends the previous
+// value.
 bool begins_a_variable(std::string_view text) {
   const auto letter = [](char c) {
     return std::isalpha(static_cast<unsigned char>(c)) || c == '_';
@@ -122,7 +123,7 @@ CacheFolder::CacheFolder(std::string_view device_id) {
     }
   }
   throw core::IoError(fmt::format(
-      "no cache folder can be used for {}: set XDG_CACHE_HOME to a folder that belongs to you{}",
+      "no cache folder can be used for {}; set XDG_CACHE_HOME to a folder that belongs to you{}",
       device_id, reasons));
 }
 
@@ -165,7 +166,7 @@ std::vector<std::string> parse_environment(std::string_view text, const std::str
   std::vector<std::string> environment;
   for (std::string_view rest = text;;) {
     if (!begins_a_variable(rest)) {
-      throw core::InputError(fmt::format("{}: expected NAME=VALUE, got '{}'", where, rest));
+      throw core::InputError(fmt::format("{}: expected NAME=VALUE, found '{}'", where, rest));
     }
     std::size_t end = rest.find(',');
     while (end != std::string_view::npos && !begins_a_variable(rest.substr(end + 1))) {

@@ -1,5 +1,5 @@
 #pragma once
-// Environment variables for drivers: defaults that drivers need to work well in a worker process,
+// Environment variables for drivers: defaults that make drivers work well in a worker process,
 // variables that are not passed on to a worker, and variables that must not be set while measuring.
 
 #include <filesystem>
@@ -14,7 +14,7 @@
 
 namespace triptych::measure {
 
-// A variable that workers get unless the user has set it.
+// A variable that is set for workers unless the user has set it.
 struct EnvironmentDefault {
   std::string_view name;
   std::string_view value;  // "{cache}" stands for the worker's own cache folder
@@ -23,15 +23,15 @@ struct EnvironmentDefault {
 };
 [[nodiscard]] std::span<const EnvironmentDefault> environment_defaults();
 
-// A cache folder that only one worker at a time uses. It is kept after the run, so that later runs
-// find code that was compiled before. Its path is ROOT/<device>-<n>. ROOT is
-// $XDG_CACHE_HOME/triptych, ~/.cache/triptych or a folder in the system's folder for temporary
-// files, and n is the first number that no other worker uses. The folder is reserved until this
-// object is destroyed, even if the worker is replaced. Drivers load compiled code from the folder,
-// so it must be a folder that only this user can access (core/private_folder.hpp).
+// A cache folder for a single worker. It remains after the run, so that later runs find the code
+// that was compiled before. Its path is ROOT/<device>-<n>. ROOT is $XDG_CACHE_HOME/triptych,
+// ~/.cache/triptych or a folder in the system's folder for temporary files, and n is the first
+// number that no other worker uses. The folder is reserved until this object is destroyed, even if
+// the worker is replaced. Because drivers load compiled code from the folder, only this user may
+// have access to it (core/private_folder.hpp).
 class CacheFolder {
  public:
-  // Throws IoError with the reasons if none of these folders can be used.
+  // Throws an IoError that states the reasons if none of these folders can be used.
   explicit CacheFolder(std::string_view device_id);
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
@@ -40,14 +40,14 @@ class CacheFolder {
   FileDescriptor lock_;
 };
 
-// Returns a folder with this name next to the cache folders of the workers. Throws IoError in the
-// same cases as CacheFolder.
+// Returns a folder with this name, in the same place as the cache folders of the workers. Throws
+// IoError in the same cases as CacheFolder.
 [[nodiscard]] core::PrivateFolder cache_folder(const std::string& name);
 
 // Returns the complete environment of a worker for this device, as "NAME=VALUE". It contains the
 // variables of this process, except those that configure Google Benchmark (BENCHMARK_*), and the
-// defaults that are not set. `overrides` ("NAME=VALUE") take precedence over both. "{cache}" in a
-// value stands for the cache folder.
+// defaults for variables that are not set. The variables in `overrides` ("NAME=VALUE") take
+// precedence over both. "{cache}" in a value stands for the path of the cache folder.
 [[nodiscard]] std::vector<std::string> worker_environment(
     std::string_view device_id, const CacheFolder& cache,
     std::span<const std::string> overrides = {});
@@ -57,11 +57,11 @@ class CacheFolder {
 [[nodiscard]] std::vector<std::string> parse_environment(std::string_view text,
                                                          const std::string& where);
 
-// Returns the reason why nothing may be measured with the environment variables of this process, or
-// nullopt if there is none. (LP_PERF makes llvmpipe skip work, so that times and images would be
-// wrong.)
+// Returns the reason why the environment variables of this process make measuring impossible, or
+// nullopt if there is no such reason. For example, LP_PERF makes llvmpipe skip work, so that times
+// and images would be wrong.
 [[nodiscard]] std::optional<std::string> forbids_measuring();
-// Does the same for the environment of a worker, as "NAME=VALUE".
+// Does the same for the environment of a worker, given as "NAME=VALUE".
 [[nodiscard]] std::optional<std::string> forbids_measuring(
     std::span<const std::string> environment);
 

@@ -8,8 +8,8 @@
 namespace triptych::measure {
 namespace {
 
-// Positions in the table of functions that RENDERDOC_GetAPI returns for version 1.1.2 and later.
-// New versions only append to it.
+// The positions of functions in the table that RENDERDOC_GetAPI returns for version 1.1.2 and
+// later. New versions only append functions to the table.
 constexpr int version = 10102;
 enum Place : std::size_t { set_file = 11, start = 19, end = 21 };
 

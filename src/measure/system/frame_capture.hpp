@@ -3,12 +3,13 @@
 
 namespace triptych::measure {
 
-// While this object exists, RenderDoc captures all frames, on any device. Uses RenderDoc's
-// in-application interface (renderdoc_app.h). Does nothing if RenderDoc is not loaded into the
-// process, and never loads it.
+// Makes RenderDoc capture all frames on all devices while this object exists. Uses RenderDoc's
+// in-application interface (renderdoc_app.h). Has no effect unless RenderDoc is already loaded into
+// the process.
 class FrameCapture {
  public:
-  // `file`: the path for captures, without the extension; empty: RenderDoc chooses it.
+  // `file` is the path for captures, without the extension. If it is empty, RenderDoc chooses the
+  // path.
   explicit FrameCapture(const std::string& file);
   FrameCapture(const FrameCapture&) = delete;
   FrameCapture& operator=(const FrameCapture&) = delete;

@@ -3,10 +3,10 @@
 
 namespace triptych::measure {
 
-// Restores the default floating-point arithmetic of this thread: rounding to nearest, with
-// subnormal numbers. Drivers that generate code change both, and some drivers do not restore them,
-// so that data that are generated afterwards would not be bit-identical. Returns a description of
-// the wrong rounding mode, or an empty string if the rounding mode was correct.
+// Restores the default floating-point mode of this thread: rounding to nearest, without flushing
+// subnormal numbers to zero. Drivers that generate code change both settings, and some drivers do
+// not restore them. Without this function, data generated afterwards would not be bit-identical.
+// Returns a description of the rounding mode if it was wrong, or an empty string if it was correct.
 [[nodiscard]] std::string restore_arithmetic();
 
 }  // namespace triptych::measure

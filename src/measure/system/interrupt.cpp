@@ -15,7 +15,7 @@ InterruptGuard::InterruptGuard() {
   for (const int each : {SIGINT, SIGTERM, SIGPIPE}) sigaddset(&ours, each);
   signals_ = FileDescriptor(::signalfd(-1, &ours, SFD_CLOEXEC | SFD_NONBLOCK));
   if (!signals_ || ::pthread_sigmask(SIG_BLOCK, &ours, &before_) != 0) {
-    throw core::IoError("cannot set up the handling of interrupts");
+    throw core::IoError("cannot set up interrupt handling");
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Turns SIGINT and SIGTERM into events for which a loop can wait together with its pipes, so that
-// the process does not end in the middle of its work.
+// Converts SIGINT and SIGTERM to events on a file descriptor. A loop can wait for them together
+// with its pipes, so the process does not end in the middle of its work.
 
 #include <atomic>
 #include <csignal>
@@ -12,9 +12,9 @@
 
 namespace triptych::measure {
 
-// Thrown if a signal asked the run to stop. Its workers have ended, and every record so far is in
-// the store, so the run can be resumed. Callers that have a store and an option --resume print how
-// to continue.
+// Thrown if a signal asked the run to stop. At this point, its workers have ended, and every record
+// so far is in the store, so the run can be resumed. Callers that have a store and an option
+// --resume print how to continue.
 class Interrupted : public core::Error {
  public:
   explicit Interrupted(int signal, const std::string& what = "interrupted")
@@ -26,8 +26,9 @@ class Interrupted : public core::Error {
 };
 
 // While this object exists, SIGINT, SIGTERM and SIGPIPE are blocked in the calling thread and
-// arrive at fd(). Writing to a pipe without a reader then returns an error. The destructor restores
-// the previous state, and raises an interrupt again if take() has not returned it.
+// arrive at fd(). With SIGPIPE blocked, writing to a pipe without a reader returns an error. The
+// destructor restores the previous state. If a signal arrived that take() has not returned, the
+// destructor raises it again.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -37,8 +38,8 @@ class InterruptGuard {
 
   // The descriptor is readable if a signal has arrived.
   [[nodiscard]] int fd() const noexcept { return signals_.get(); }
-  // Returns the interrupting signal if one has arrived. SIGPIPE is ignored. Once a signal has
-  // arrived, all further calls on all threads return it.
+  // Returns SIGINT or SIGTERM if it has arrived; ignores SIGPIPE. Once a signal has arrived, all
+  // further calls on all threads return it.
   [[nodiscard]] std::optional<int> take();
 
  private:

@@ -28,12 +28,12 @@ struct Pipe {
   FileDescriptor write;
 };
 
-// Duplicates a pipe's end to a descriptor number above all numbers that the child uses, so that no
-// dup2 in the child overwrites the source of another dup2.
+// Moves one end of a pipe to a descriptor number above all numbers that the child uses, so that no
+// dup2() in the child overwrites the source of another dup2().
 FileDescriptor raised(FileDescriptor low) {
   constexpr int above_childs_numbers = 16;
   FileDescriptor high(::fcntl(low.get(), F_DUPFD_CLOEXEC, above_childs_numbers));
-  if (!high) fail("cannot duplicate a pipe's end", errno);
+  if (!high) fail("cannot duplicate one end of a pipe", errno);
   return high;
 }
 
@@ -52,8 +52,8 @@ void set_non_blocking(const FileDescriptor& fd) {
   }
 }
 
-// Uses the number of the system call, because the header of glibc 2.36 declares pidfd_open without
-// C linkage. The descriptor is always close-on-exec.
+// Uses the system call directly, because the header of glibc 2.36 declares pidfd_open() without C
+// linkage. The descriptor is always close-on-exec.
 FileDescriptor open_pid_fd(pid_t pid) {
   return FileDescriptor(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
 }
@@ -78,13 +78,13 @@ class FileActions {
 
  private:
   static void check(int error) {
-    if (error != 0) fail("cannot prepare a worker's files", error);
+    if (error != 0) fail("cannot prepare a worker's file descriptors", error);
   }
   posix_spawn_file_actions_t actions_{};
 };
 
-// The child gets its own process group, no blocked signals, and the default action for signals that
-// the parent may have changed.
+// Attributes that give the child its own process group, no blocked signals, and the default action
+// for signals that the parent may have changed.
 class Attributes {
  public:
   Attributes() {
@@ -107,13 +107,13 @@ class Attributes {
 
  private:
   static void check(int error) {
-    if (error != 0) fail("cannot prepare the start of a worker", error);
+    if (error != 0) fail("cannot prepare a worker's process attributes", error);
   }
   posix_spawnattr_t attributes_{};
 };
 
-// Returns pointers for posix_spawn, which takes char* for historical reasons but does not write to
-// the strings.
+// Returns pointers for posix_spawn(), which expects char* for historical reasons but does not write
+// to the strings.
 std::vector<char*> pointers(const std::vector<std::string>& texts) {
   std::vector<char*> result;
   result.reserve(texts.size() + 1);
@@ -199,8 +199,8 @@ Process::~Process() {
 }
 
 void Process::kill() noexcept {
-  // The whole group is killed, because it outlives its leader while a grandchild (such as a
-  // driver's linker) is running.
+  // Kills the whole process group, because the group outlives its leader while a grandchild (such
+  // as a driver's linker) is running.
   if (pid_ > 0) ::kill(-pid_, SIGKILL);
 }
 
@@ -216,8 +216,8 @@ std::optional<Exit> Process::wait(std::chrono::milliseconds limit) {
     if (ready == 0) return std::nullopt;
     if (errno != EINTR) fail("cannot wait for a worker", errno);
   }
-  // This kills processes that the child left behind. It is safe, because no other process gets the
-  // child's id until the child is reaped.
+  // Kills processes that the child left behind. This is safe, because no other process can get the
+  // child's id before the child is reaped.
   kill();
   int status = 0;
   if (::waitpid(pid_, &status, 0) != pid_) fail("cannot reap a worker", errno);

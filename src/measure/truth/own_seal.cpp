@@ -35,8 +35,9 @@ std::string read_key(const core::PrivateFolder& folder) {
   return got == static_cast<ssize_t>(key_bytes) ? key : std::string();
 }
 
-// Creates the key. It is written to another file, which is then linked under the final name, so
-// that all processes use the first key if several processes create keys at the same time.
+// Creates the key. It is first written to another file, and then linked under its final name. If
+// several processes create keys at the same time, all of them then use the key that was linked
+// first.
 void make_key(const core::PrivateFolder& folder) {
   std::string key(key_bytes, '\0');
   if (::getrandom(key.data(), key.size(), 0) != static_cast<ssize_t>(key.size())) return;

@@ -1,7 +1,8 @@
 #pragma once
-// Distinguishes reference images that this user's own program rendered from reference images that
-// came with a store. All other seals in a store are hashes that anybody can compute. Therefore,
-// whoever provides a store could widen the bounds in it until every image is within its bound.
+// Distinguishes reference images that the program of this user rendered from reference images that
+// came with a store. The latter cannot be trusted, because all other seals in a store are hashes
+// that anybody can compute. Whoever provides a store could therefore widen the bounds in it until
+// every image is within its bound.
 
 #include <optional>
 #include <string>
@@ -10,8 +11,8 @@
 
 namespace triptych::measure {
 
-// Returns the HMAC-SHA256 (RFC 2104) of a reference image with its bound. The key is random; it is
-// stored in this user's cache folder and is created when it is first needed. Returns nullopt if no
+// Returns the HMAC-SHA256 (RFC 2104) of a reference image and its bound. The key is random. It is
+// created when it is first needed, and stored in this user's cache folder. Returns nullopt if no
 // such folder can be used. In that case, no stored reference image is trusted, and all reference
 // images are rendered again.
 [[nodiscard]] std::optional<std::string> own_seal(const record::TruthImage& truth);

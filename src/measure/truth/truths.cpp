@@ -12,8 +12,9 @@
 namespace triptych::measure {
 namespace {
 
-// Returns the key of a record's reference image and bound in memory. Computing it is cheaper than
-// computing SuiteWithTruth::truth_key, which loads the data to find out whether they have changed.
+// Returns the key under which a record's reference image and bound are kept in memory.
+// SuiteWithTruth::truth_key() would be more expensive, because it loads the data to find out
+// whether they have changed.
 std::string memory_key(const record::Record& record) {
   std::string key = record.suite + " " + record.scene;
   for (const char* factor : {"ert", "adapt", "voxel", "precision", "ray"}) {
@@ -24,7 +25,7 @@ std::string memory_key(const record::Record& record) {
   return key;
 }
 
-// Returns the value for the key, which is created if it does not exist.
+// Returns the value for the key. If it does not exist, calls `make` to create it.
 template <typename Value, typename Make>
 const Value& known_or_made(std::map<std::string, Value>& known, const std::string& key,
                            const Make& make) {

@@ -1,5 +1,6 @@
 #pragma once
-// The reference image, bound, limit and expectations of a record, which are computed by its suite.
+// Provides the reference image, the error bound, the limit and the expectations for a record. They
+// are computed by the record's suite.
 
 #include <functional>
 #include <map>
@@ -16,25 +17,25 @@ namespace triptych::measure {
 
 using FindSuiteWithTruth = std::function<SuiteWithTruth&(std::string_view)>;  // throws InputError
 
-// Provides the reference images of records. Each image is rendered only once. It is kept in memory
-// as long as this object exists and, if the store is writable, stored for later processes. If data
-// is missing, every function throws the suite's exception.
+// Each image is rendered only once. It is kept in memory as long as this object exists and, if the
+// store is writable, stored for later processes. If data is missing, every function throws the
+// suite's exception.
 class Truths {
  public:
   Truths(FindSuiteWithTruth suite, record::Store& store)
       : suite_(std::move(suite)), store_(store) {}
 
   [[nodiscard]] const accuracy::TruthPair& of(const record::Record& record);
-  // Returns the conditions that the record must satisfy in addition to its bound.
+  // Returns the conditions that the record must satisfy in addition to its error bound.
   [[nodiscard]] std::vector<record::Expectation> expectations_of(
       const record::Record& record) const {
     return suite_(record.suite).expectations(record.factors);
   }
   // See SuiteWithTruth::open_counts.
   [[nodiscard]] const std::map<std::string, double>& open_counts_of(const record::Record& record);
-  // See SuiteWithTruth::data_hash; empty if the data is not available.
+  // See SuiteWithTruth::data_hash. Returns an empty string if the data is unavailable.
   [[nodiscard]] std::string data_hash_of(const record::Record& record);
-  // Returns nullptr if the record's scene has no limit.
+  // Returns the limit of the record's scene, or nullptr if the scene has none.
   [[nodiscard]] const accuracy::LimitPicture* limit_of(const record::Record& record);
   // Returns the image to which a record of the store refers.
   [[nodiscard]] core::Image picture_of(const record::Record& record) const {
@@ -45,8 +46,8 @@ class Truths {
   [[nodiscard]] accuracy::TruthPair find_or_render(const record::Record& record);
   [[nodiscard]] accuracy::LimitPicture find_or_render_limit(const record::Record& record,
                                                             const std::string& key);
-  // Returns the pair that is stored under these names. If there is none, calls `render` and stores
-  // the result.
+  // Returns the pair of images that is stored for this scene and version. If there is none, calls
+  // `render` and stores the result.
   [[nodiscard]] accuracy::TruthPair kept(const std::string& scene, const std::string& version,
                                          const std::function<accuracy::TruthPair()>& render);
 

@@ -15,7 +15,7 @@
 namespace triptych::measure {
 namespace {
 
-// Runs a probe. Sets `lost` if the device cannot be used any longer.
+// Runs a probe. Sets `lost` if the device has been lost and must be opened again.
 ProbedFeature run_probe(const FeatureProbe& probe, bool& lost) {
   try {
     return probe.run();
@@ -42,13 +42,13 @@ ProbedFeature as_probed(const nlohmann::json& json) {
           .detail = json.at("detail")};
 }
 
-// The process that probes one device. If the process dies, the next request starts a new process.
+// A process that probes one device. If the process dies, the next request starts a new one.
 class Prober {
  public:
   Prober(std::string device, std::chrono::seconds limit)
       : device_(std::move(device)), limit_(limit), cache_(device_) {}
 
-  // Returns the answer, or the reason why the process gave none.
+  // Returns the answer, or the reason why the process did not answer.
   std::variant<nlohmann::json, record::Reason> ask(const nlohmann::json& request) {
     if (!link_) {
       link_ = std::make_unique<WorkerLink>(

@@ -15,12 +15,12 @@ namespace triptych::measure {
 struct FeatureRow {
   std::string name;
   ProbedFeature probed;
-  std::optional<record::Reason> ended = {};  // set if the process crashed or exceeded the limit
+  std::optional<record::Reason> ended = {};  // set if the process crashed or hung
 };
 
-// Runs all probes of the device in their order, or only the probe with the name `only` if it is not
-// empty. If the device cannot be opened, the result is one row without a name that states the
-// reason. `limit` is the time limit for each probe.
+// Runs all probes of the device in their order. If `only` is not empty, runs only the probe with
+// this name. `limit` is the time limit for each probe. If the device cannot be opened, the result
+// is a single row without a name, which states the reason.
 [[nodiscard]] std::vector<FeatureRow> probe_features(const std::string& device,
                                                      const std::string& only,
                                                      std::chrono::seconds limit);

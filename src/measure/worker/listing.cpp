@@ -19,9 +19,11 @@ namespace triptych::measure {
 namespace {
 
 constexpr std::chrono::seconds listing_limit{30};
-// On a busy machine it takes half a minute to load the driver of a compile-only device.
+// The limit is long, because loading the driver of a compile-only device takes half a minute on a
+// busy machine.
 constexpr std::chrono::seconds compiler_limit{120};
-// Opening a device may compile code, and calibrating its clocks draws frames.
+// The limit is long, because opening a device may compile code, and calibrating its clocks draws
+// frames.
 constexpr std::chrono::seconds greeting_limit{120};
 
 core::Json as_json(const Listing& listing) {
@@ -41,7 +43,7 @@ Listing from_json(const core::Json& json) {
   return listing;
 }
 
-// Starts this program as `command`, sends `request` and returns its only answer.
+// Starts this program with `command`, sends the request and returns the only answer.
 WorkerLink::Reply ask_once(const std::vector<std::string>& command, const std::string& device_id,
                            const Message& request, std::chrono::seconds limit) {
   InterruptGuard interrupts;
@@ -83,7 +85,8 @@ bool any_matches(const std::vector<std::string>& globs, const std::string& id) {
 // `listing`.
 void list_compiler(const std::string& id, Listing& listing) {
   constexpr const char* newer =
-      "but a newer driver may: Mesa 25.0 in Debian 13 supports AMD's GPU families up to gfx1201";
+      "but a newer driver may; for example, Mesa 25.0 in Debian 13 supports AMD's GPU families up "
+      "to gfx1201";
   const std::string api = id.substr(0, id.find(':'));
   const auto refuse = [&](std::string reason) {
     listing.broken.push_back({.what = id, .reason = std::move(reason)});
@@ -98,10 +101,11 @@ void list_compiler(const std::string& id, Listing& listing) {
           fmt::format("the installed driver did not respond within {} s", compiler_limit.count()));
     }
     if (answer == nullptr) {
-      // RADV aborts if it does not know the requested family.
+      // RADV aborts if it does not support the requested GPU family.
       listing.broken.push_back({.what = id,
                                 .reason = std::string("the installed driver exited without an "
-                                                      "answer; it may not know this GPU family, ") +
+                                                      "answer; it may not support this GPU "
+                                                      "family, ") +
                                           newer,
                                 .ended = reason_of(reply)});
       return;
@@ -109,7 +113,7 @@ void list_compiler(const std::string& id, Listing& listing) {
     for (record::Device& device : from_json(answer->json).devices) {
       if (device.id == id) return listing.devices.push_back(std::move(device));
     }
-    refuse(std::string("the installed driver does not know this GPU family, ") + newer);
+    refuse(std::string("the installed driver does not support this GPU family, ") + newer);
   } catch (const core::NotSupported& error) {
     refuse(error.what());
   }
@@ -128,7 +132,7 @@ void list_compiler(const std::string& id, Listing& listing) {
   for (const Broken& each : listing.broken) {
     known += fmt::format("; {}{}{}", each.what, each.reason.empty() ? " cannot be used" : ": ",
                          each.reason);
-    // If RADV does not know a family, it prints a message and aborts.
+    // If RADV does not support a GPU family, it prints a message and aborts.
     if (each.ended && !each.ended->last_words.empty()) {
       known += fmt::format(" (its last output: {})", each.ended->last_words);
     }
@@ -233,8 +237,8 @@ Greeting greet(const record::Device& device, const std::string& suite) {
 }
 
 void answer_listing(const Backend& backend) {
-  // Waits for the request first. If this process answered and exited earlier, the other process
-  // could no longer write its request to the pipe.
+  // Waits for the request first. If this process answered and exited before, the other process
+  // could not write its request to the pipe any more.
   static_cast<void>(receive(Process::child_request_fd));
   send(Process::child_answer_fd, {.json = as_json(backend.list()), .binary = {}});
 }

@@ -1,18 +1,18 @@
 #pragma once
-// This program starts itself again in separate processes that use devices. If it is started as
-// "worker --device ID", it calls serve_worker(). If it is started as "list-api API", it calls
-// answer_listing() (measure/worker/listing.hpp).
+// This program starts itself again in separate processes that use devices. A process that is
+// started as "worker --device ID" calls serve_worker(). A process that is started as "list-api API"
+// calls answer_listing() (measure/worker/listing.hpp).
 
 #include <string>
 #include <vector>
 
 namespace triptych::measure {
 
-// Returns the path of this program's file.
+// Returns the path of this program's executable file.
 [[nodiscard]] std::string own_program();
 
-// Returns the value of SideOptions::command for this program or for another build of it. `more`
-// contains further arguments.
+// Returns a value for SideOptions::command that starts a worker of this program or of another build
+// of it. `more` contains additional arguments.
 [[nodiscard]] std::vector<std::string> worker_command(std::string program = own_program(),
                                                       const std::vector<std::string>& more = {});
 

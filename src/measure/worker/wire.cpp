@@ -67,7 +67,8 @@ void write_all(int fd, const void* data, std::size_t size) {
   }
 }
 
-// Reads this many bytes, or fewer if the pipe is closed first. Returns the number of bytes.
+// Reads `size` bytes, or fewer if the pipe is closed first. Returns the number of bytes that were
+// read.
 std::size_t read_all(int fd, void* data, std::size_t size) {
   auto* next = static_cast<std::byte*>(data);
   std::size_t done = 0;
@@ -88,8 +89,8 @@ bool is(const Message& message, std::string_view type) {
   return message.json.is_object() && message.json.value("type", "") == type;
 }
 
-// Converts JSON errors to InputError, because a message that lacks a member is invalid input from
-// the other process.
+// Converts JSON errors to InputError, because a message without an expected member is invalid input
+// from the other process.
 template <typename Read>
 auto reading(std::string_view type, Read read) {
   try {

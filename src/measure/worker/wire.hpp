@@ -1,20 +1,20 @@
 #pragma once
-// The messages between the supervisor and a worker, which are sent over two pipes. Both processes
-// run the same program on the same machine, so numbers are sent in native byte order. A message is
+// The messages that the supervisor and a worker exchange over two pipes. Both processes run the
+// same program on the same machine, so numbers are sent in native byte order. A message consists of
 //   8 bytes magic number, 4 bytes size of the JSON text, 4 bytes size of the binary part, the JSON
 //   text, the binary part
 //
-//   supervisor → worker   start    the suite, the kinds of work in the plan, the clocks that are
-//                                  known already
+//   supervisor → worker   start    the suite, the kinds of work in the plan, the clocks whose
+//                                  calibration is already known
 //   worker → supervisor   hello    the device and its clocks, or
 //                         refused  the reason why the device cannot be used
 //   supervisor → worker   job      one configuration with the protocol and its injected faults
-//   worker → supervisor   loading  progress of loading a large data set; any number of these
-//                                  messages precede the answer
-//   worker → supervisor   answer   the record and the time taken; the binary part is the EXR image
-// These messages are used to measure two workers by interleaved A/B:
+//   worker → supervisor   loading  the progress of loading a large data set; any number of these
+//                                  messages may precede the answer
+//   worker → supervisor   answer   the record and the time spent; the binary part is the EXR image
+// The following messages are used for interleaved A/B measurements with two workers:
 //   supervisor → worker   hold     one configuration that the worker prepares and keeps
-//   supervisor → worker   frames   the number of timed frames to draw of the kept configuration
+//   supervisor → worker   frames   the number of timed frames to draw with the kept configuration
 //   supervisor → worker   release  makes the worker free the kept configuration
 //   worker → supervisor   turn     the answer to each of these three requests: the times of the
 //                                  drawn frames, or the reason why there are none; `loading`
@@ -42,7 +42,7 @@ struct Message {
 // Writes the whole message. Throws IoError if the other process has closed the pipe.
 void send(int fd, const Message& message);
 // Waits for one message. Returns nullopt if the other process has closed the pipe. Throws IoError
-// if it closed the pipe within a message, and InputError for bytes that are not a message.
+// if the pipe was closed within a message, and InputError for bytes that are not a message.
 [[nodiscard]] std::optional<Message> receive(int fd);
 
 // Assembles messages from the pieces that are read from a pipe.
@@ -61,9 +61,10 @@ class MessageBuffer {
 struct Start {
   std::string suite;
   std::vector<std::string> kinds;  // see technique::name_of
-  // The clocks that are known already, so that a replaced worker need not calibrate them again.
+  // The clocks whose calibration is already known, so that a replacement worker need not calibrate
+  // them again.
   std::vector<record::ClockTrust> clocks;
-  // False if the driver crashed when pipeline statistics were read, so they must not be requested.
+  // Whether pipeline statistics may be requested. False if the driver crashed when they were read.
   bool statistics = true;
 };
 
@@ -74,9 +75,9 @@ struct Hello {
 
 struct Refused {
   record::Reason reason;
-  // Whether the device does not support what is requested.
+  // Returns whether the device does not support the request.
   [[nodiscard]] bool unsupported() const { return reason.cause == record::Cause::not_supported; }
-  // Whether there is a refusal. False if the worker sent its Hello instead.
+  // Returns whether this is really a refusal. It is not if the worker sent its Hello instead.
   [[nodiscard]] bool is_one() const { return reason.cause != record::Cause::none; }
 };
 
@@ -88,14 +89,16 @@ struct Job {
 };
 
 struct Answer {
-  // All fields that do not depend on the plan. In `factors`, every "auto" is resolved.
+  // All fields of the record that do not depend on the plan. In `factors`, every "auto" is
+  // resolved.
   record::Record record;
-  double worker_ns = 0;  // time from reading the job until the answer is ready
+  double worker_ns = 0;  // time between reading the job and completing the answer
   std::map<std::string, std::string> listings = {};  // disassemblies by content hash
   std::vector<std::byte> exr;
 };
 
-// Requests that the worker prepare a configuration and keep it in place of the previous one.
+// Requests that the worker prepare a configuration, and keep it in place of the previous
+// configuration.
 struct Hold {
   Configuration configuration;
   std::vector<std::string> faults;
@@ -111,9 +114,9 @@ struct Release {};
 // configuration.
 struct Batch {
   record::Outcome outcome = record::Outcome::measured;
-  record::Reason reason;          // set for every outcome except measured
-  std::vector<double> wall_ns;    // one for each frame
-  std::vector<double> device_ns;  // empty unless the device reported it for every frame
+  record::Reason reason;          // set for every outcome except `measured`
+  std::vector<double> wall_ns;    // one time for each frame
+  std::vector<double> device_ns;  // empty unless the device reported a time for every frame
 };
 
 [[nodiscard]] Message to_message(const Start& start);
@@ -127,8 +130,8 @@ struct Batch {
 [[nodiscard]] Message to_message(const Release& release);
 [[nodiscard]] Message to_message(const Batch& batch);
 
-// These functions return nullopt if the message has another type, and throw InputError if a member
-// is missing.
+// Each of these functions returns nullopt if the message has another type, and throws InputError if
+// a member is missing.
 [[nodiscard]] std::optional<Start> as_start(const Message& message);
 [[nodiscard]] std::optional<Hello> as_hello(const Message& message);
 [[nodiscard]] std::optional<Refused> as_refused(const Message& message);

@@ -32,8 +32,9 @@
 namespace triptych::measure {
 namespace {
 
-// Returns the peak memory of this process since it began. ru_maxrss is used only if /proc is
-// unavailable, because it survives exec: a worker would begin with the peak of its supervisor.
+// Returns the peak memory of this process since its start. ru_maxrss is used only if /proc is
+// unavailable, because exec() does not reset it: a worker would begin with the peak of its
+// supervisor.
 std::uint64_t peak_memory_bytes() {
   std::ifstream lines("/proc/self/status");
   for (std::string line; std::getline(lines, line);) {
@@ -51,7 +52,8 @@ technique::Work kind_named(std::string_view name) {
   throw core::InputError(fmt::format("unknown kind of work '{}'", name));
 }
 
-// Returns the protocol of the job, with the settings that depend on the work.
+// Returns the protocol of the job, after adjusting the settings that depend on the work and the
+// device.
 Protocol protocol_for(const Job& job, const Work& work, bool has_statistics) {
   Protocol protocol = job.protocol;
   protocol.statistics = protocol.statistics && has_statistics;
@@ -79,8 +81,8 @@ class MissingData : public core::NotSupported {
   std::string data_;
 };
 
-// Returns the reason for exhausted host memory. It contains the memory limit of the worker, if
-// --memory or the user's resource limits set one.
+// Returns the reason for a failure due to exhausted host memory. It contains the memory limit of
+// the worker, if --memory or the user's resource limits set a limit.
 record::Reason out_of_memory(const std::string& data) {
   record::Reason reason{.cause = record::Cause::out_of_memory, .subject = data};
   rlimit limit{};
@@ -94,8 +96,8 @@ record::Reason api_reason(record::Cause cause, const core::ApiError& error) {
   return {.cause = cause, .subject = error.call(), .code = error.code(), .detail = error.what()};
 }
 
-// Runs `act` and converts each type of error to the outcome of the configuration. `data` is the
-// data set that is named if memory is exhausted.
+// Runs `act`, and converts each type of error to the outcome of the configuration. `data` is the
+// name of the data set that is reported if memory is exhausted.
 template <typename Act, typename OnFailure>
 void outcome_of(const Act& act, const std::string& data, const OnFailure& on_failure) {
   using record::Cause;
@@ -130,13 +132,13 @@ class Worker {
         info_(device_->info()),
         clocks_(std::move(clocks)) {}
 
-  // Includes the results of the calibrations that this worker made.
+  // Returns the device, including the results of this worker's calibrations.
   [[nodiscard]] const record::Device& info() const { return info_; }
   [[nodiscard]] const std::vector<record::ClockTrust>& clocks() const { return clocks_; }
 
-  // Calibrates the clock and the pipeline statistics for each kind of work. Leaves out the kinds
-  // whose clock is known already, because the supervisor also has their statistics calibration.
-  // `statistics`: whether pipeline statistics may be read.
+  // Calibrates the clock and the pipeline statistics for each kind of work. Leaves out those kinds
+  // whose clock is already known, because the supervisor then also has their statistics
+  // calibration. `statistics` states whether pipeline statistics may be read.
   void calibrate_for(const std::vector<std::string>& kinds, bool statistics) {
     has_statistics_ = statistics;
     if (!info_.compiles_for.empty()) return;
@@ -206,8 +208,8 @@ class Worker {
         [&] { act(batch); }, data_,
         [&](record::Outcome outcome, record::Reason reason) {
           batch = {.outcome = outcome, .reason = std::move(reason), .wall_ns = {}, .device_ns = {}};
-          // The objects of a lost device are not freed, because drivers fail most often in that
-          // case.
+          // Does not free the objects of a lost device, because this is where drivers fail most
+          // often.
           if (outcome == record::Outcome::lost) {
             static_cast<void>(held_.release());
           } else {
@@ -217,8 +219,9 @@ class Worker {
     return batch;
   }
 
-  // Fails the configuration during which a driver changed the floating-point arithmetic of this
-  // process, because data that are generated later would differ from the accepted data.
+  // Reports a failure of the configuration during which a driver changed the floating-point mode of
+  // this process, because data generated afterwards would not be bit-identical to the accepted
+  // data.
   template <typename OnFailure>
   void blame_arithmetic(const OnFailure& on_failure) {
     std::string changed = restore_arithmetic();
@@ -256,8 +259,8 @@ class Worker {
     return work;
   }
 
-  // Like supported_work(), but throws BadInput for broken input. The message names the place in the
-  // input.
+  // Like supported_work(), but throws BadInput for broken input. The message contains the place in
+  // the input.
   Work work_or_skip(Configuration& configuration, const std::vector<std::string>& faults) {
     try {
       return supported_work(configuration, faults);
@@ -353,20 +356,20 @@ class Worker {
   record::Device info_;
   std::vector<record::ClockTrust> clocks_;
   std::optional<InstructionCounter> counter_;
-  // Created when the first loop needs it, because the constructor loads a library.
+  // Created only when a loop needs the meters, because the constructor loads a library.
   std::optional<EnergyMeters> meters_;
   std::unique_ptr<Prepared> held_;
   std::optional<FrameProof> proof_;  // for the configuration in `held_`
   Equivalents equivalents_;
-  bool has_statistics_ = true;  // false if reading pipeline statistics revealed a fault
+  bool has_statistics_ = true;  // false if reading pipeline statistics caused a device fault
   // The wrong rounding mode that the driver set while the device was opened and calibrated.
   std::string changed_arithmetic_;
   std::string data_;         // name of the current configuration's data
-  double measuring_ns_ = 0;  // time of the last job for which measure() itself accounts
+  double measuring_ns_ = 0;  // time that the latest job spent on measuring
 };
 
-// Makes the kernel kill this worker when its supervisor dies. Otherwise, a worker that hangs in a
-// driver call, for example, would keep using the device.
+// Makes the kernel kill this worker when its supervisor dies. Otherwise, the worker could continue
+// to use the device, for example if it hangs in a driver call.
 void die_with_parent() {
   const pid_t parent = ::getppid();
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -415,8 +418,8 @@ int serve(const Backend& backend, std::string_view device_id, const FindSuite& f
   send(answer_fd, to_message(Hello{.device = worker.info(), .clocks = worker.clocks()}));
 
   while (const auto message = receive(request_fd)) {
-    // Freeing the objects of a lost device is where drivers fail most often, so the process exits
-    // without freeing them.
+    // Exits without freeing the objects of a lost device, because this is where drivers fail most
+    // often.
     if (serve_one(worker, *message, answer_fd) == record::Outcome::lost) ::_exit(0);
   }
   return 0;

@@ -16,8 +16,8 @@
 namespace triptych::measure {
 namespace {
 
-// Reads everything that is available from a non-blocking descriptor. Returns false if the other
-// process has closed the pipe.
+// Reads all available bytes from a non-blocking descriptor. Returns false if the other process has
+// closed the pipe.
 template <typename Take>
 bool drain(int fd, Take take) {
   std::array<char, 65536> piece;
@@ -33,8 +33,8 @@ bool drain(int fd, Take take) {
   }
 }
 
-// Whether the process was ended by a signal that other processes send and that drivers do not
-// raise.
+// Returns whether the process was ended by a signal that comes from other processes, and that
+// drivers do not raise.
 bool is_ordered(const Exit& exit) {
   return exit.signal == SIGKILL || exit.signal == SIGTERM || exit.signal == SIGINT;
 }
@@ -79,8 +79,8 @@ WorkerLink::Reply WorkerLink::ask(const Message& request, std::chrono::milliseco
   for (;;) {
     const bool in_time = wait_for_event(deadline);
     if (const auto signal = interrupts_.take()) throw Interrupted(*signal);
-    // This is read before the pipe is, so that everything that a worker wrote before its end is
-    // then available.
+    // Reads `ended_` before it reads the pipe. If the worker has ended by then, everything that it
+    // wrote is available.
     const bool over = ended_;
     read_answer();
     read_log();
@@ -118,7 +118,7 @@ std::optional<record::DeviceFault> WorkerLink::finish() {
   std::optional<Exit> exit;
   do {
     exit = process_.wait(step);
-    read_log();  // a process that waits for space in a full pipe cannot exit
+    read_log();  // empties the pipe, because a process that is blocked by a full pipe cannot exit
   } while (!exit && std::chrono::steady_clock::now() < deadline);
   if (!exit) {
     ask_for_stack();
@@ -184,8 +184,8 @@ bool WorkerLink::wait_for_event(Deadline deadline) {
 }
 
 std::optional<Exit> WorkerLink::reap() {
-  // A worker that closed its answer pipe is about to exit. It is not killed immediately, so that
-  // its exit status can be read.
+  // Waits before killing the worker. A worker that closed its answer pipe is about to exit, and its
+  // exit status is needed.
   constexpr std::chrono::seconds patience{2};
   auto exit = process_.wait(patience);
   if (!exit) {
@@ -219,9 +219,9 @@ record::Reason WorkerLink::bury_for(record::Reason reason) {
   return reason;
 }
 
-// Waits for a signal that ends this process, and throws Interrupted if it arrives. A batch system
-// that ends a job ends the worker and this process at the same time. If the worker ends first, its
-// configuration is not at fault.
+// Waits for a signal that asks this process to stop, and throws Interrupted if it arrives. When a
+// batch system ends a job, it ends the worker and this process at the same time. If the worker ends
+// first, the configuration must not be blamed for it.
 void WorkerLink::await_own_end() {
   const Deadline deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
   for (;;) {
@@ -230,8 +230,8 @@ void WorkerLink::await_own_end() {
     pollfd event{interrupts_.fd(), POLLIN, 0};
     ::poll(&event, 1, static_cast<int>(std::max<std::int64_t>(0, left.count())));
     if (const auto signal = interrupts_.take()) throw Interrupted(*signal);
-    // The loop continues until the deadline, because another thread may have read the signal but
-    // not yet stored it.
+    // Continues until the deadline, because another thread may have read the signal but not yet
+    // stored it.
     if (std::chrono::steady_clock::now() >= deadline) return;
   }
 }

@@ -17,12 +17,12 @@
 
 namespace triptych::measure {
 
-// Keeps the end of a worker's output, up to a fixed size.
+// Keeps the last part of a worker's output, up to a fixed size.
 class LogTail {
  public:
   void append(std::string_view text);
   void clear() noexcept { text_.clear(); }
-  // Returns the last lines that are not blank, separated by " | ".
+  // Returns the last `count` non-blank lines, separated by " | ".
   [[nodiscard]] std::string last_lines(std::size_t count) const;
 
  private:
@@ -36,20 +36,20 @@ class WorkerLink {
   struct Died {
     record::Reason reason;
   };
-  // The worker gave no answer within the limit and was killed.
+  // The worker did not answer within the time limit and was killed.
   struct Late {
     record::Reason reason;
   };
   using Reply = std::variant<Message, Died, Late>;
 
-  // Throws IoError if the command cannot be started.
+  // Starts the worker. Throws IoError if the command cannot be started.
   WorkerLink(const std::vector<std::string>& command, const std::vector<std::string>& environment,
              InterruptGuard& interrupts);
 
-  // Sends a request and waits for the reply. After Died and Late, the process has been reaped and
-  // the link must not be used any longer. Throws Interrupted if a signal asks the supervisor to
-  // stop. If the worker reports loading progress before its answer, it is passed to `on_loading`,
-  // which may be empty.
+  // Sends a request and waits for the reply. If the reply is Died or Late, the process has been
+  // reaped, and the link must not be used any longer. If the worker reports loading progress before
+  // its answer, the progress is passed to `on_loading`, unless `on_loading` is empty. Throws
+  // Interrupted if a signal asks the supervisor to stop.
   [[nodiscard]] Reply ask(const Message& request, std::chrono::milliseconds limit,
                           const OnLoading& on_loading = {});
 
@@ -59,15 +59,16 @@ class WorkerLink {
                                                    std::chrono::milliseconds limit);
 
   // Lets an idle worker exit by itself, so that drivers can write their caches. Kills the worker if
-  // it does not exit within a few seconds. Returns a fault if the driver crashes or hangs
-  // meanwhile.
+  // it does not exit within a few seconds. Returns a device fault if the worker crashes or hangs
+  // while it exits.
   std::optional<record::DeviceFault> finish();
 
  private:
   using Deadline = std::chrono::steady_clock::time_point;
 
   void read_answer();
-  // Returns the answer if it has arrived. Passes loading progress that precedes it to `on_loading`.
+  // Returns the answer if it has arrived. Passes loading progress that arrived before the answer to
+  // `on_loading`.
   [[nodiscard]] std::optional<Message> next_answer(const OnLoading& on_loading);
   void read_log();
   // Waits for an event on any of the descriptors. Returns false if the deadline passes first.
@@ -78,7 +79,7 @@ class WorkerLink {
   // Waits until the worker has ended, after killing it if necessary. Returns how it ended.
   [[nodiscard]] std::optional<Exit> reap();
   void await_own_end();
-  // Asks a worker that hangs to print the call stack of its thread, which is then part of the log.
+  // Makes a hanging worker write the call stack of its thread to the log.
   void ask_for_stack();
   [[nodiscard]] std::string last_words() const;
 

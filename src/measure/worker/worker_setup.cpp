@@ -15,8 +15,8 @@
 namespace triptych::measure {
 namespace {
 
-// Gives Mesa a separate shader cache. The default cache is shared by all programs, so a worker with
-// additional environment variables must not use it.
+// Sets a separate shader cache for Mesa. The default cache is shared by all programs, so a worker
+// with additional environment variables must not use it.
 void keep_shaders_apart(std::vector<std::string>& environment) {
   constexpr const char* name = "MESA_SHADER_CACHE_DIR";
   const auto sets_it = [&](const std::string& entry) {

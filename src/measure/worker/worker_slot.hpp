@@ -26,20 +26,20 @@ class WorkerSlot {
       : setup_(std::move(setup)), interrupts_(interrupts) {}
 
   // Starts a worker if there is none. Returns true if there is a worker now. A new worker receives
-  // the message that `start` returns, and its greeting is passed to `greeted`, which may throw an
-  // exception to reject the worker. If two attempts in a row to start a worker fail, or if the
-  // device does not support what is requested, no further attempt is made: this call and all later
-  // calls return false, and why_closed() has the reason.
+  // the message that `start` returns. Its greeting is passed to `greeted`, which may throw an
+  // exception to reject the worker. No further attempt is made if two attempts in a row fail, or if
+  // the device does not support the request. In these cases, this call and all later calls return
+  // false, and why_closed() returns the reason.
   bool open(const std::function<Start()>& start, const std::function<void(const Hello&)>& greeted);
   [[nodiscard]] const record::Reason& why_closed() const noexcept { return why_closed_.reason; }
-  // Whether the reason is that the device does not support what is requested.
+  // Returns whether the slot is closed because the device does not support the request.
   [[nodiscard]] bool unsupported() const noexcept { return why_closed_.unsupported(); }
 
   // Returns the worker. The slot must be occupied.
   [[nodiscard]] WorkerLink& worker() const { return *worker_; }
   [[nodiscard]] bool occupied() const noexcept { return worker_ != nullptr; }
 
-  // How a worker ended that gave no answer.
+  // How a worker ended that did not answer.
   struct Ended {
     record::Outcome outcome;
     record::Reason reason;
@@ -49,18 +49,20 @@ class WorkerSlot {
   [[nodiscard]] std::variant<Answer, Ended> ask(const Message& job, std::chrono::milliseconds limit,
                                                 const OnLoading& on_loading);
 
-  // Lets the worker exit normally. Returns a fault if the driver crashes or hangs meanwhile.
+  // Lets the worker exit normally. Returns a device fault if the worker crashes or hangs while it
+  // exits.
   std::optional<record::DeviceFault> finish();
   void vacate() noexcept { worker_.reset(); }  // kills the worker if it still runs
-  // Vacates the slot if the device is lost or a frame was not drawn, because after some errors,
-  // drivers ignore all further commands without reporting an error.
+  // Vacates the slot if the device is lost or a frame was not drawn. After such errors, drivers may
+  // ignore all further commands without reporting an error.
   void vacate_after(record::Outcome outcome, const record::Reason& reason) noexcept;
 
-  // Returns the total time that all workers of this slot took to open the device.
+  // Returns the total time that the workers of this slot have spent on opening the device and
+  // calibrating.
   [[nodiscard]] double opening_ns() const noexcept { return opening_ns_; }
 
  private:
-  // Starts a worker. If the worker sends its greeting, the result contains no reason. Otherwise it
+  // Starts a worker. The result contains no reason if the worker sent its greeting. Otherwise it
   // contains the reason why there is no worker.
   [[nodiscard]] Refused try_to_open(const Start& start,
                                     const std::function<void(const Hello&)>& greeted);
@@ -69,7 +71,7 @@ class WorkerSlot {
   InterruptGuard& interrupts_;
   std::unique_ptr<WorkerLink> worker_;
   Refused why_closed_;
-  // Set if the driver crashes when pipeline statistics are read.
+  // Set if the driver crashes while pipeline statistics are read.
   std::optional<record::DeviceFault> statistics_fault_;
   double opening_ns_ = 0;
 };

@@ -21,9 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The largest number of stores that are merged at once, because each open store needs three file
-// descriptors and a share of the memory. More stores are merged in groups of this size, and then
-// the results of the groups are merged.
+// The maximum number of stores that are merged at once. It is limited because each open store needs
+// three file descriptors and a share of the memory. If there are more stores, they are merged in
+// groups of this size, and then the results of the groups are merged.
 constexpr std::size_t most_at_once = 64;
 constexpr int source_cache_kib = 96 << 10;  // shared by all sources
 constexpr int out_cache_kib = 96 << 10;
@@ -57,8 +57,8 @@ class Aside {
   std::vector<fs::path> files_;
 };
 
-// Runs `action`, which writes to an intermediate file. Errors name `out`, the file that the user
-// requested, because intermediate files are removed.
+// Runs `action`, which writes to an intermediate file. Error messages name `out`, the file that the
+// user requested, because intermediate files are removed.
 template <typename Action>
 decltype(auto) on_new_store(const fs::path& out, Action&& action) {
   try {
@@ -97,7 +97,8 @@ class Writing {
     }
   }
 
-  // Returns, for each run, how many records were copied and how many were not.
+  // Writes the runs. Returns, for each run, how many records were copied and how many were left
+  // out.
   std::vector<RecordCounts> write(const std::vector<Input>& inputs, const std::vector<Run>& runs,
                                   DataSeen& data, const RecordCopy::Tell& tell) {
     return on_new_store(out_file_, [&] {
@@ -179,7 +180,7 @@ void require_no_store(const fs::path& out) {
   if (fs::exists(out, ignored)) {
     throw core::InputError({.file = out.string()},
                            "exists already; choose another name, or remove this file if the stores "
-                           "that are merged contain all of its records");
+                           "to be merged contain all of its records");
   }
   // SQLite would treat a left-over log as the log of the new store.
   if (fs::exists(out.string() + "-wal", ignored) && !fs::is_empty(out.string() + "-wal", ignored)) {
@@ -200,8 +201,8 @@ void add(const std::vector<RecordCounts>& part, std::vector<RecordCounts>& sum) 
   }
 }
 
-// Writes the records and images of all inputs to an intermediate file, in as many steps as
-// necessary.
+// Writes the records and images of all inputs to an intermediate file. Merges in several steps if
+// there are more than `most_at_once` inputs.
 struct Stepwise {
   const std::vector<Run>& runs;
   const RecordCopy::Tell& tell;
@@ -233,10 +234,11 @@ struct Stepwise {
   }
 };
 
-// Adds the runs after the records, because the number of configurations is known only from the
-// records. Until now the file has had no log, because the output of a failed merge is simply
-// removed. Finally, the file gets the journal mode that is needed for appending to it, and is
-// flushed to the disk so that it survives a power failure.
+// Adds the runs. This happens after the records have been copied, because the number of
+// configurations is known only from the records. While the file is written, it has no log, because
+// the output of a failed merge is simply removed. At the end, the file is switched to the journal
+// mode that is needed for appending to it, and is flushed to the disk, so that it survives a power
+// failure.
 void add_runs(const fs::path& file, const fs::path& out, const std::vector<MergedRun>& runs) {
   on_new_store(out, [&] {
     SQLite::Database store = open_new_store_file(file);
@@ -258,7 +260,7 @@ void add_runs(const fs::path& file, const fs::path& out, const std::vector<Merge
 
 namespace {
 
-// Returns the devices that the run was to measure, and those that are stored for the run.
+// Returns the devices that the run was to measure, and the devices that are stored for the run.
 std::set<std::string> devices_in(const Store& store, const Run& run) {
   const std::vector<std::string> begun = devices_of(run.begun);
   std::set<std::string> devices(begun.begin(), begun.end());
@@ -289,7 +291,8 @@ std::vector<Gap> gaps_of(const Store& store) {
   const auto is_empty = [](const Run& run) {
     return run.configurations == 0 && !run.begun.empty();
   };
-  // A shard of several plans may be empty for small plans, but not for all plans.
+  // A shard of several plans may contain no configurations of the small plans, but it must contain
+  // configurations of at least one plan.
   if (!runs.empty() && std::ranges::all_of(runs, is_empty)) {
     for (const Run& run : runs) gaps.push_back({run.plan, "", 0, 0});
   }

@@ -18,13 +18,13 @@ struct Gap {
   std::string plan;
   std::string device;  // empty if the gap affects the whole plan
   std::uint64_t records = 0;
-  // The number of configurations to be measured; 0 if the run had nothing to measure.
+  // The number of configurations that were to be measured; 0 if there were none.
   std::uint64_t configurations = 0;
   // The keys of the configurations without a record, if the run lists its configurations.
   std::vector<std::string> missing = {};
 };
-// Returns the gaps in a store. A complete shard has no gaps. If the shards of all plans in the
-// store are empty, there is a gap for each plan.
+// Returns the gaps in a store. A complete shard has no gaps. If the shards of all plans in a store
+// are empty, every plan counts as a gap.
 [[nodiscard]] std::vector<Gap> gaps_of(const Store& store);
 
 struct MergeResult {
@@ -38,18 +38,18 @@ struct MergeResult {
   std::uint64_t older_runs = 0;
 };
 
-// Writes a store with one run for each plan. The run has the smallest id and the earliest start
-// time of its parts, and the system facts of all parts. If there are several records of the same
-// configuration and device, records without an injected fault are preferred, then measured records,
-// then skipped records, and then the record with the smallest seal. If a device's clocks were
-// calibrated several times, the calibration with the smallest seal is kept. The new store is
-// byte-identical for every order of the stores, and also if a store is merged twice. Memory use
-// does not grow with the number of records or stores.
+// Writes a store with one run for each plan. A merged run has the smallest id and the earliest
+// start time of its parts, and the system facts of all parts. If there are several records of the
+// same configuration and device, only one of them is copied. Records without an injected fault are
+// preferred, then measured records, then skipped records, and then the record with the smallest
+// seal. If a device's clocks were calibrated several times, the calibration with the smallest seal
+// is kept. The new store is byte-identical for every order of the stores, and does not change if a
+// store is merged twice. Memory use does not grow with the number of records or stores.
 //
-// `out` appears only when everything has been written; an existing file is not overwritten. Throws
-// InputError if two stores have different texts or checks for the same plan, different devices with
-// the same id, or different data with the same name. Errors in reading and writing files are those
-// that Store throws.
+// `out` appears only when everything has been written. An existing file is not overwritten. Throws
+// InputError if two stores have different versions of a plan, different checks for the same plan,
+// different devices with the same id, or different data with the same name. Also throws the
+// exceptions that Store throws when a file cannot be read or written.
 [[nodiscard]] MergeResult merge_stores(const std::vector<std::filesystem::path>& stores,
                                        const std::filesystem::path& out,
                                        const RecordCopy::Tell& tell = {});

@@ -21,13 +21,13 @@ struct Source {
 
 class MergedRows {
  public:
-  // Whether row `a` is preferred to row `b`, which has the same key. The order is total except for
-  // identical rows.
+  // Returns whether row `a` is preferred to row `b`, which has the same key. The order is total
+  // except for identical rows.
   using Before = std::function<bool(const Query& a, const Query& b)>;
 
   // `select` must sort by its first `keys` columns, which must be of type TEXT. If `select` has a
-  // parameter, `parameters` has a value of the parameter for each source. All arguments must
-  // outlive this object.
+  // parameter, `parameters` contains its value for each source. All arguments must outlive this
+  // object.
   MergedRows(const std::vector<Source>& sources, std::string_view select, int keys, Before before,
              const std::vector<std::string>& parameters = {});
 
@@ -37,7 +37,7 @@ class MergedRows {
     std::vector<std::size_t> rest;  // the other sources that have a row with this key
   };
   // Advances to the next key. Returns nullptr after the last key. The returned row is valid until
-  // the next call. Throws the errors that Store throws when it reads a file.
+  // the next call. Throws the exceptions that Store throws when it reads a file.
   [[nodiscard]] const Row* next();
   [[nodiscard]] const Query& query(std::size_t source) const { return queries_[source]; }
 

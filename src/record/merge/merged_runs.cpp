@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Separates the system facts of several machines in one text.
+// Separates the system facts of several machines in one string.
 constexpr std::string_view separator = " | ";
 
 void add_parts(std::string_view text, std::set<std::string>& parts) {
@@ -29,7 +29,7 @@ void add_parts(std::string_view text, std::set<std::string>& parts) {
   }
 }
 
-// Joins the parts of both texts, without duplicates.
+// Joins the parts of both strings, without duplicates.
 std::string all_of(const std::string& a, const std::string& b) {
   if (a == b) return a;
   std::set<std::string> parts;
@@ -57,8 +57,8 @@ void require_same_plan(const Found<Run>& known, const Run& run, const fs::path& 
   if (run.checks != known.value.checks) {
     throw core::InputError(
         {.file = file.string()},
-        fmt::format("contains results for {} with the checks {}, but {} contains results with the "
-                    "checks {}; measure both with --timed, or both without it",
+        fmt::format("contains results for plan {} with the checks {}, but {} contains results with "
+                    "the checks {}; measure both with --timed, or both without it",
                     run.plan, text_of(run.checks), known.file.string(),
                     text_of(known.value.checks)));
   }
@@ -78,8 +78,8 @@ void add(const Run& run, Run& sum) {
 
 using Devices = std::map<std::string, Found<Store::DeviceEntry>>;
 
-// Adds a device. If several parts contain the same device, they differ only in the calibration of
-// its clocks, so the entry with the smallest seal is kept.
+// Adds a device. If several parts contain the same device, their entries differ only in the
+// calibration of its clocks, so the entry with the smallest seal is kept.
 void add(Store::DeviceEntry entry, const fs::path& file, Devices& devices) {
   const std::string id = entry.device.id;
   const auto found = devices.find(id);
@@ -101,7 +101,7 @@ void add(Store::DeviceEntry entry, const fs::path& file, Devices& devices) {
   }
 }
 
-// The merged run of a plan, to which each store that is read adds its part.
+// The run that results from merging the runs of a plan. Each store adds its part to it.
 struct Growing {
   Found<Run> first;
   Run sum;

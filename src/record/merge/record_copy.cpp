@@ -14,7 +14,7 @@
 namespace triptych::record {
 namespace {
 
-// The columns that the merge itself reads. Queries select them before all other columns.
+// The columns that the merge itself evaluates. Queries select them before all other columns.
 constexpr std::array<std::string_view, 8> named{"configuration", "device",    "outcome", "injected",
                                                 "seal",          "data_hash", "suite",   "seq"};
 namespace column {
@@ -55,10 +55,11 @@ bool has_fault(const Query& record) {
   return !record.text(column::injected).empty();
 }
 
-// Whether record `a` is preferred to record `b`. A record without an injected fault is preferred to
-// a record with an injected fault, even if only the latter was measured. Otherwise, a measured
-// record is preferred, because jobs are repeated to measure what failed before. The last rule,
-// which prefers the smaller seal, is arbitrary, but it does not depend on the order of the stores.
+// Returns whether record `a` is preferred to record `b`. A record without an injected fault is
+// preferred to a record with an injected fault, even if only the latter was measured. Otherwise, a
+// measured record is preferred, because users repeat jobs in order to measure what failed before.
+// The last rule, which prefers the smaller seal, is arbitrary, but it does not depend on the order
+// of the stores.
 bool is_before(const Query& a, const Query& b) {
   if (has_fault(a) != has_fault(b)) return has_fault(b);
   const int rank_a = rank_of(a.text(column::outcome));
@@ -66,8 +67,8 @@ bool is_before(const Query& a, const Query& b) {
   return rank_a != rank_b ? rank_a < rank_b : a.text(column::seal) < b.text(column::seal);
 }
 
-// Adds the factors of a record to `rows`. Returns those factors that determine the content of its
-// data.
+// Adds the factors of a record to `rows`. Returns those factors that determine the content of the
+// record's data.
 std::string add_factors(RowBatch& rows, Query& factors, std::int64_t record) {
   std::string data;
   while (factors.step()) {
@@ -155,8 +156,8 @@ void RecordCopy::prepare_parts() {
   }
 }
 
-// Reading takes as long as writing, so the next batch is read while the previous one is being
-// written.
+// Copies the records in batches. Because reading takes as long as writing, the next batch is read
+// while the previous batch is being written.
 RecordCounts RecordCopy::copy(const std::vector<std::string>& runs, const std::string& run) {
   const std::string select =
       fmt::format("SELECT {}, {} FROM record WHERE run = ?1 ORDER BY configuration, device",

@@ -54,19 +54,19 @@ class RecordCopy {
 
   // Copies the records of the runs `runs` into the run `run`. `runs` contains the id of a run for
   // each source (empty if the source has no run). Throws InputError if two data sets with the same
-  // name have different content. Also throws the errors that Store throws when it reads and writes
-  // a file.
+  // name have different content. Also throws the exceptions that Store throws when it reads and
+  // writes a file.
   [[nodiscard]] RecordCounts copy(const std::vector<std::string>& runs, const std::string& run);
 
  private:
-  // A table whose rows belong to records. Its first column refers to the record; `columns` are the
-  // other columns.
+  // A table whose rows belong to records. Its first column refers to the record; `columns` contains
+  // the names of all other columns.
   struct Part {
     std::string table;
     std::vector<std::string> columns;
     std::string select;
   };
-  // Several records with all their parts.
+  // A group of records, together with their rows in other tables.
   struct Batch {
     std::size_t count = 0;
     RowBatch records;
@@ -85,12 +85,12 @@ class RecordCopy {
   const std::vector<Source>& sources_;
   DataSeen& data_;
   const Tell& tell_;
-  std::vector<std::string> others_;  // columns of a record whose names this code does not need
+  std::vector<std::string> others_;  // columns of a record that are copied without being examined
   std::vector<Part> parts_;
   std::vector<std::vector<std::optional<Query>>> queries_;  // by source and part; empty: no rows
   RowWriter record_writer_;
   std::vector<RowWriter> part_writers_;
-  std::int64_t seq_ = 0;  // number of the record that was added last
+  std::int64_t seq_ = 0;  // number of the most recently added record
   std::string last_configuration_;
 };
 

@@ -24,7 +24,8 @@ class RowBatch {
 
   [[nodiscard]] std::size_t cells() const { return cells_.size(); }
   [[nodiscard]] std::size_t bytes() const { return texts_.size(); }
-  // Binds a value to a parameter of a statement, which must be executed before the batch changes.
+  // Binds a value to a parameter of a statement. The statement must be executed before the batch
+  // changes.
   void bind(Query& statement, int index, std::size_t cell) const;
 
  private:
