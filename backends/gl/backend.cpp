@@ -27,7 +27,7 @@ namespace {
 constexpr std::array<WindowSystem, 2> window_systems{
     {{"EGL", "-egl", &egl_candidates}, {"OSMesa", "-osmesa", &osmesa_candidates}}};
 
-// A driver that takes longer to report its name counts as hung; a cold start takes 0.1 s.
+// A driver that needs longer than this to report its name counts as hung. A cold start takes 0.1 s.
 constexpr std::chrono::seconds listing_limit{20};
 
 struct Opened {
@@ -78,7 +78,7 @@ class Walk {
   std::vector<Candidate> candidates_;
   std::size_t at_ = 0;
   std::optional<record::Device> first_;  // the default device, until its second occurrence
-  std::map<std::string, int> count_;     // number of devices by id
+  std::map<std::string, int> count_;     // number of devices found so far, by id
 };
 
 // Lists the devices as JSON, which the child process sends to its parent.

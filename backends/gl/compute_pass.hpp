@@ -7,7 +7,7 @@
 
 namespace triptych::gl_backend {
 
-// Returns the reason why shaders cannot use storage blocks, atomic counters and fences; empty if
+// Returns the reason why shaders cannot use storage blocks, atomic counters and fences; nullopt if
 // they can.
 [[nodiscard]] std::optional<std::string> storage_unsupported(const Api& gl);
 
@@ -17,7 +17,7 @@ class ComputePass final : public Pass {
  public:
   ComputePass(const Api& gl, int width, int height, int extra_work_stride);
 
-  // Returns the reason why an image of this size cannot be computed; empty if it can.
+  // Returns the reason why an image of this size cannot be computed; nullopt if it can.
   [[nodiscard]] static std::optional<std::string> unsupported(const Api& gl, int width, int height);
 
   [[nodiscard]] std::vector<Stage> stages(const Api& gl, const Constants& constants) const override;

@@ -25,8 +25,8 @@
 namespace triptych::gl_backend {
 namespace {
 
-// A sampler whose error is below this is as good as interpolation in the shader, whose rounding
-// errors are about 1e-6.
+// A sampler whose error is below this value is as good as interpolation in the shader, whose
+// rounding errors are about 1e-6.
 constexpr double exact_filter = 1e-5;
 
 struct Entry {
@@ -178,8 +178,9 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
   std::unique_ptr<Context> context_;
   Stamps stamps_;
   measure::Rasterizer rasterizer_;
-  // One error per voxel format; 1, the worst possible error, if the filter cannot be probed.
   std::uint64_t most_texels_ = 0;
+  // The filter error for each voxel format. It is 1, the worst possible error, if the filter cannot
+  // be probed.
   std::array<double, 4> filter_error_{1, 1, 1, 1};
 };
 

@@ -30,8 +30,8 @@ constexpr std::array<std::string_view, 11> code_variables{"GALLIUM_DRIVER",
                                                           "MESA_LOADER_DRIVER_OVERRIDE",
                                                           "TRIPTYCH_GL_DEBUG"};
 
-// Layered drivers, which forward all work to another driver. The renderer string of each begins
-// with `start`.
+// Layered drivers, which forward all work to another driver. The renderer string of a layered
+// driver begins with `start`.
 struct Layered {
   std::string_view start;
   std::string_view name;

@@ -32,7 +32,7 @@ using Sprites = std::vector<SpriteDraw>;
 [[nodiscard]] Sprites tessellated(std::string_view define);
 [[nodiscard]] Sprites from_geometry_stage(bool screen_aligned);
 
-// Returns the reason why these stages cannot draw the work on this device; empty if they can.
+// Returns the reason why these stages cannot draw the work on this device; nullopt if they can.
 [[nodiscard]] std::optional<std::string> sprites_unsupported(const Api& gl,
                                                              const measure::ParticleWork& work,
                                                              const Sprites& sprites);

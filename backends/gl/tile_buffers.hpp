@@ -22,7 +22,7 @@ class TileBuffers {
   enum class Cells : std::uint8_t { all, thinned };
 
   // Returns the reason why an image of this size, or one of its cells, exceeds the device's limits;
-  // empty if neither does.
+  // nullopt if neither does.
   [[nodiscard]] static std::optional<std::string> unsupported(const Api& gl,
                                                               const scene::ParticleScene& scene);
 

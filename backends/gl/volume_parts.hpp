@@ -1,5 +1,5 @@
 #pragma once
-// A volume whose voxels are on the device one part at a time (technique/volume/parts.hpp).
+// A volume of which the device stores only one part at a time (technique/volume/parts.hpp).
 
 #include <memory>
 #include <span>

@@ -14,7 +14,7 @@ namespace triptych::gl_backend {
 [[nodiscard]] Constants constants_of(const measure::VolumeWork& work);
 
 // Returns the reason why this volume and image exceed a limit that applies to every volume
-// technique (storage blocks, sizes of textures and buffers); empty if they do not.
+// technique (storage blocks, sizes of textures and buffers); nullopt if they do not.
 [[nodiscard]] std::optional<std::string> volume_unsupported(const Api& gl,
                                                             std::string_view technique,
                                                             const measure::VolumeWork& work);

@@ -24,7 +24,7 @@ struct BinTable {
 // chunks of stress:pile:200000 need 24,304 more bytes than 16 chunks would.
 [[nodiscard]] BinTable bin_table(int width, int height, std::size_t particles);
 
-// Returns the reason why the device cannot draw these particles with this technique; empty if it
+// Returns the reason why the device cannot draw these particles with this technique; nullopt if it
 // can.
 [[nodiscard]] std::optional<std::string> particle_defect(const Session& session,
                                                          std::string_view technique,

@@ -10,7 +10,7 @@
 
 namespace triptych::opencl_backend {
 
-// How to find the pixels of a particle (TRI_SPRITE in particle_sprite.cl).
+// The way in which the pixels of a particle are found (TRI_SPRITE in particle_sprite.cl).
 enum class Sprite : std::uint8_t {
   rectangle,  // no sprite: the pixels around the silhouette
   screen_quad,

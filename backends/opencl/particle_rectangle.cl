@@ -28,7 +28,7 @@ TRI_FN int last_pixel(float high, float half_extent, float pixel, int n) {
 }
 
 // Returns the interval that a sphere covers along one axis, with a margin of 1/64 pixel. The
-// injected fault removes 1 %.
+// injected fault removes 1 % of the interval.
 TRI_FN float2 covered(float a, float z, float r, float pixel, float scale) {
   float2 bounds = tri_sphere_interval(a, z, r);
   float low = bounds.x - 0.015625f * pixel;

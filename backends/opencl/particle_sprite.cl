@@ -360,7 +360,7 @@ TRI_FN int2 covered_row(const Polygon* polygon, int y) {
     int upper = down ? k : next;
     int lower = down ? next : k;
     if (polygon->y[upper] > at || polygon->y[lower] <= at) continue;
-    // ⌈x − ½⌉ of the crossing, in integers.
+    // Computes ⌈x − ½⌉ for the x coordinate of the crossing, in integer arithmetic.
     long height = polygon->y[lower] - polygon->y[upper];
     long crossing = (polygon->x[upper] - TRI_SUBPIXELS / 2) * height +
                     (long)(at - polygon->y[upper]) * (polygon->x[lower] - polygon->x[upper]);

@@ -17,8 +17,8 @@ namespace triptych::vulkan_backend {
                                                        const vk::raii::RenderPass& pass,
                                                        const Image& target);
 
-// Fills the only target of the framebuffer, which has this format, with NaN, because newly
-// allocated memory may contain a correct image from an earlier run.
+// Fills the framebuffer's only target, whose format is `format`, with NaN. Otherwise, newly
+// allocated memory could contain a correct image from an earlier run.
 void mark_unwritten(const Gpu& gpu, vk::Format format, const vk::raii::Framebuffer& framebuffer,
                     vk::Extent3D extent);
 

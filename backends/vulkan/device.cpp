@@ -40,10 +40,10 @@ const Entry* find_entry(std::string_view technique) {
   return found != entries.end() ? found : nullptr;
 }
 
-// A filter whose error is below this is as good as interpolation in single precision.
+// A filter whose error is below this value is as good as interpolation in single precision.
 constexpr double exact_filter = 1e-5;
 
-// Returns the error of each VoxelFormat; nullopt if the device cannot sample the format, or if it
+// Returns the filter error for each VoxelFormat; nullopt if the device cannot sample the format or
 // only compiles.
 std::array<std::optional<double>, 4> probe_filters(const Gpu& gpu) {
   if (!gpu.executes) return {};

@@ -21,8 +21,8 @@ namespace {
 constexpr std::uint32_t pass_count = 2;
 constexpr std::uint32_t storage_buffers = 5;  // bricks, output, counters, quadrature, pauses
 constexpr std::uint32_t texel_buffers = 4;    // cells, table, bricks, quadrature
-// The usages that allow shaders to read bricks and the quadrature either as storage buffers or as
-// texels.
+// The usage flags that allow shaders to read bricks and the quadrature either as storage buffers or
+// as texels.
 constexpr auto shader_buffer =
     vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformTexelBuffer;
 
@@ -214,8 +214,8 @@ vk::DescriptorSet VolumeResources::set(Pass pass) const {
   return sets_.at(pass == Pass::timed ? 0 : 1);
 }
 
-// Counting has its own descriptor set, because a set must not be written after recorded commands
-// use it.
+// Counting has its own descriptor set, because a set must not be updated once recorded commands use
+// it.
 void VolumeResources::bind_counters() {
   make_counters(pixels_ * technique::raycast_counter_stride);
   poison_counters();

@@ -282,7 +282,8 @@ std::filesystem::path image_beside(const std::filesystem::path& file, const Nift
 
 std::uint64_t start_of_voxels(const NiftiHeader& header) {
   const double offset = header.vox_offset();
-  // In a single file, four bytes after the header state whether extensions follow.
+  // If header and voxels are in a single file, four bytes after the header state whether extensions
+  // follow.
   const std::size_t least = header.is_single_file() ? header.header_bytes() + 4 : 0;
   if (offset == 0) return least;
   constexpr double most = 0x1.0p53;

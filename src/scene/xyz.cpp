@@ -194,8 +194,8 @@ void name_words(Atoms& atoms, bool numbered) {
   name_elements(atoms);
 }
 
-// Checks that a frame is followed by the end of the file or by the next number of atoms. In the
-// data set QM9, three other lines follow: frequencies, SMILES and InChI.
+// Checks that a frame is followed by the end of the file or by the next frame's number of atoms. In
+// files of the data set QM9, three other lines follow: frequencies, SMILES and InChI.
 void check_what_follows(LineReader& reader) {
   if (reader.at_end()) return;
   const std::string_view line = reader.require("a frame");
