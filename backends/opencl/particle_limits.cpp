@@ -57,7 +57,7 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
         "is {}",
         count, pixels, largest, most);
   }
-  // Of all techniques, quad_tess stores the most data per particle in its passes: 28 words. Every
+  // quad_tess stores more data per particle in its passes than any other technique: 28 words. Every
   // technique also stores for each particle the sphere in world and in camera space, the rectangle,
   // the colour and the id. For each pixel, it stores the image, the id and, for each pass, the
   // depth and the winner. Each pass also has a table of entry counts.

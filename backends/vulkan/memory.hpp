@@ -76,7 +76,7 @@ using Fill = std::function<void(std::size_t begin, std::span<std::byte> out)>;
 [[nodiscard]] Buffer make_buffer(const Gpu& gpu, std::size_t size, const Fill& fill,
                                  vk::BufferUsageFlags usage);
 
-// Does the same with bytes that already exist in host memory.
+// Creates a buffer in device memory from bytes that exist in host memory.
 [[nodiscard]] Buffer make_buffer(const Gpu& gpu, std::span<const std::byte> bytes,
                                  vk::BufferUsageFlags usage);
 

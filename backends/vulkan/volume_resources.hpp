@@ -36,7 +36,7 @@ enum Binding : std::uint32_t {
   return work.options.sampler == technique::Sampler::packed;
 }
 
-// What a pass over the image does.
+// The purpose of a pass over the image.
 enum class Pass : std::uint8_t {
   timed,     // draws the image, and the injected extra work if there is any
   counting,  // draws only the image, with the counters bound

@@ -32,7 +32,8 @@ struct Atoms {
     kinds.push_back(kind_index);
   }
 
-  // Takes over the kind names of `other`. `kinds` must already contain indices into these names.
+  // Moves the kind names from `other` to this object. `kinds` must already contain indices into
+  // these names.
   void take_names(Atoms&& other) {
     kind_names = std::move(other.kind_names);
     index_ = std::move(other.index_);
