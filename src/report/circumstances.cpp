@@ -61,8 +61,8 @@ std::vector<std::string> circumstances(std::span<const judge::GateResult* const>
   std::vector<std::string> lines;
   if (!injected.empty()) {
     lines.push_back(fmt::format(
-        "this verdict is a test of Triptych: {} record{} injected faults ({})", injected_records,
-        injected_records == 1 ? " has" : "s have", fmt::join(injected, ", ")));
+        "this verdict only tests Triptych, because {} record{} injected faults ({})",
+        injected_records, injected_records == 1 ? " has" : "s have", fmt::join(injected, ", ")));
   }
   for (const std::string& program : programs) {
     lines.push_back(fmt::format("measured by another build of Triptych: {}", program));

@@ -9,14 +9,14 @@
 
 namespace triptych::report {
 
-// Returns lines about: faults that were injected into the runs; builds of Triptych that measured,
-// other than the one that judges; runs that are older than a day; loaders and drivers that failed
-// during device enumeration, one line for each reason; and missing data files.
+// Returns lines about injected faults, other builds of Triptych that measured a part of a run, runs
+// that are older than a day, loaders and drivers that failed during device enumeration (one line
+// for each reason), and missing data files.
 [[nodiscard]] std::vector<std::string> circumstances(
     std::span<const judge::GateResult* const> results);
 
-// Whether a record was skipped because its data file is missing on this machine. The file is the
-// subject of the reason.
+// Returns whether a record was skipped because its data file, `reason.subject`, is missing on this
+// machine.
 [[nodiscard]] bool lacks_data(record::Outcome outcome, const record::Reason& reason);
 
 }  // namespace triptych::report

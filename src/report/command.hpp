@@ -11,14 +11,14 @@ namespace triptych::report {
 
 // The command line `triptych COMMAND OBJECT …`. `device` and `factors` may be empty.
 struct Command {
-  std::string command;  // "render"
+  std::string command;  // such as "render"
   std::string object;   // a suite or a plan
   std::string device;
   std::map<std::string, std::string> factors;  // factor levels for --set
   std::vector<std::string> injected = {};      // faults for --inject
   // The time limit for --limit, which is printed only if it is not the default.
   std::optional<std::chrono::seconds> limit = {};
-  std::vector<std::string> more = {};  // further words at the end of the command
+  std::vector<std::string> more = {};  // more arguments, which are appended to the command
   // Environment variables, which are printed before the command.
   std::map<std::string, std::string> environment = {};
 };

@@ -14,8 +14,8 @@ struct ComparisonCommand {
   std::string sides;                // "--a … --b …"
   std::vector<std::string> varied;  // the factors that distinguish the plan's configurations
 };
-// Returns the command that compares only this configuration, so that the whole time budget goes
-// into its verdict.
+// Returns the command that compares only this configuration, so that the whole time budget is spent
+// on its verdict.
 [[nodiscard]] std::string command_for(const comparison::Compared& compared,
                                       const ComparisonCommand& command);
 

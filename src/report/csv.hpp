@@ -17,8 +17,8 @@ using Cell = std::variant<std::monostate, std::string, double, std::uint64_t>;
 
 // Formats one field. NaN becomes an empty field. Text that contains a separator, a quotation mark
 // or a line break is quoted. Text that a spreadsheet would evaluate as a formula, or that begins
-// with an apostrophe, gets a leading apostrophe. Numbers have the fewest digits from which the same
-// number can be read again.
+// with an apostrophe, gets a leading apostrophe. Numbers are written with the fewest digits from
+// which exactly the same number can be parsed.
 [[nodiscard]] std::string csv_field(const Cell& cell);
 
 class CsvFile {

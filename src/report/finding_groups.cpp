@@ -199,7 +199,7 @@ class Grouping {
   }
 
   // Returns the devices with other drivers that fail in some of these configurations and pass in
-  // none.
+  // none of them.
   [[nodiscard]] std::vector<std::string> also_wrong(const Members& members) const {
     std::set<std::string> wrong;
     std::set<std::string> right;
@@ -354,7 +354,7 @@ bool is_open(const Finding& finding) {
 }
 
 std::string command_of(const Finding& finding, const judge::GateResult& result) {
-  // A skipped configuration cannot be reproduced: it would only be skipped again.
+  // There is no command for a skipped configuration, because it would only be skipped again.
   if (finding.device.empty() || finding.verdict == Verdict::skipped) return {};
   if (finding.configuration.empty() && finding.check != Check::correlation) return {};
   Command command{.command = "render",
@@ -370,7 +370,7 @@ std::string command_of(const Finding& finding, const judge::GateResult& result) 
     command.more.clear();
     return text_of(command);
   }
-  // Counting instructions has its own time limit.
+  // --limit does not apply, because counting instructions has its own time limit.
   if (finding.check == Check::cost) command.limit.reset();
   if (!is_told_by_a_picture(finding)) {
     if (!is_open(finding) || !is_known(result)) return {};

@@ -122,8 +122,8 @@ Html without_repeated_pictures(const Html& whole) {
 
 namespace {
 
-// Whether a cell contains a quantity: a number, with or without a unit of at most two letters:
-// "12.3 ms", "1 234", "-0.5 ± 0.1".
+// Returns whether a cell contains a quantity, such as "12.3 ms", "1 234" or "-0.5 ± 0.1": a number
+// that may have a unit of at most two letters.
 bool is_quantity(std::string_view cell) {
   cell = cell.substr(0, cell.find(" ±"));
   if (cell.empty() || (cell[0] != '-' && cell[0] != '+' &&
@@ -136,7 +136,7 @@ bool is_quantity(std::string_view cell) {
   return letters <= 2 && std::ranges::count(cell, '.') <= 1 && !is_time;
 }
 
-// Returns which columns contain only quantities, not counting the header and empty cells.
+// Returns which columns contain only quantities. Ignores the header and empty cells.
 std::vector<bool> columns_of_quantities(const Rows& rows) {
   std::vector<bool> result;
   for (std::size_t column = 0; column < rows.front().size(); ++column) {

@@ -91,7 +91,7 @@ class Content {
 using TableRow = std::vector<Content>;
 using Rows = std::vector<TableRow>;
 
-// Returns the text, in which a line may break after each of the characters ".:,=/".
+// Returns the text with a line-break opportunity after each of the characters ".:,=/".
 [[nodiscard]] Html breakable(std::string_view text);
 
 // Returns a "data:image/png;base64,…" URI.

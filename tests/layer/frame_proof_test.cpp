@@ -13,7 +13,7 @@ class UndrawnFrames : public LayerTest {
   void expect_all_found(std::string_view fault, std::string_view plan) const {
     const test::Result drawn = layered.draw(fault, plan);
     EXPECT_THAT(drawn.output, HasSubstr(" 0 measured")) << fault;
-    EXPECT_THAT(drawn.output, HasSubstr("that it did not draw")) << fault;
+    EXPECT_THAT(drawn.output, HasSubstr("but did not draw it")) << fault;
   }
 };
 
@@ -24,7 +24,7 @@ TEST_F(UndrawnFrames, CommandsExecutedOnlyOnceAreFound) {
 TEST_F(UndrawnFrames, AreFoundAmongTimedFrames) {
   const test::Result timed =
       layered.time("once_only", "volume", "--set sampler=manual --set technique=raycast");
-  EXPECT_THAT(timed.output, HasSubstr("that it did not draw"));
+  EXPECT_THAT(timed.output, HasSubstr("but did not draw it"));
 }
 
 }  // namespace

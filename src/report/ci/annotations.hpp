@@ -15,7 +15,8 @@ namespace triptych::report {
 [[nodiscard]] std::string github_annotations(std::span<const judge::GateResult> results,
                                              const FindingPlaces& places);
 
-// Returns a GitLab Code Quality report with all of these causes.
+// Returns a GitLab Code Quality report with all causes of regressions and all causes that could not
+// be judged.
 [[nodiscard]] std::string gitlab_code_quality(std::span<const judge::GateResult> results,
                                               const FindingPlaces& places);
 

@@ -21,7 +21,7 @@ std::string facts(const BugReport& report) {
   text += row("device", device.name);
   text += row("driver", device.driver + " " + device.driver_version);
   text += row("API", device.api_version);
-  text += row("processor features", device.cpu_features);
+  text += row("CPU features", device.cpu_features);
   for (const auto& [name, value] : device.environment) text += row(name, value);
   for (const char* name : {"os", "kernel", "processor", "triptych"}) {
     if (const auto found = report.system.find(name); found != report.system.end()) {
@@ -47,10 +47,11 @@ constexpr std::array files{
         "the error as a share of the pixel's bound: black is no error, white is the bound, cyan is "
         "beyond it"},
     File{"dump",
-         "all input of the driver: device code, options and buffers, and for some techniques a C "
-         "program that draws the frame; `compile.sh` compiles the device code"},
+         "everything that the driver receives: device code, options and buffers; for some "
+         "techniques, "
+         "also a C program that draws the frame; `compile.sh` compiles the device code"},
     File{"dump/pixel.txt",
-         "the device's results for the worst pixel, with the first difference marked"},
+         "the device's intermediate results for one wrong pixel, with the first difference marked"},
 };
 
 std::string list_of_files(const BugReport& report) {
@@ -84,9 +85,10 @@ std::string markdown(const BugReport& report) {
   for (const auto& [factor, level] : report.factors) text += row(factor, level);
   text += fmt::format("\nThe search drew {} frames. It simplified: {}.\n", report.frames,
                       markdown_escaped(text_of(report.changes)));
-  text += report.complete
-              ? "With a simpler level of any factor, the frame no longer fails in this way.\n"
-              : "The search stopped at its limit on frames, so a simpler frame may fail, too.\n";
+  text +=
+      report.complete
+          ? "With a simpler level of any factor, the frame no longer fails in this way.\n"
+          : "The search reached the maximum number of frames, so a simpler frame may also fail.\n";
   return text;
 }
 

@@ -20,7 +20,7 @@ struct SourcePlace {
 class FindingPlaces {
  public:
   struct Sources {
-    std::filesystem::path repository;  // the top folder of the repository
+    std::filesystem::path repository;  // the root folder of the repository
     std::filesystem::path baselines;   // the folder of the baselines that were used
     std::map<std::string, record::Device> devices = {};  // devices of all results, by id
     std::string job = {};  // the file that defines the CI job, relative to the repository

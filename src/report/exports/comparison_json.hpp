@@ -35,7 +35,7 @@ namespace triptych::report {
 
 // [{"device", "first_worse", "points": [{"store", "name", "started_at", "driver_version",
 // "triptych", "injected", "cost", "time", "changes", "differences", "worse"}]}]. "changes" contains
-// the differences as one string for people. Unknown values are left out.
+// the differences as one human-readable string. Unknown values are left out.
 [[nodiscard]] core::Json to_json(const std::vector<comparison::DeviceHistory>& history);
 
 [[nodiscard]] core::Json to_json(const comparison::SideBySide& table);

@@ -185,14 +185,14 @@ Columns<DeviceSource> device_columns() {
       {{"driver", "text", "", "name of the driver"}, of(&Device::driver)},
       {{"driver_version", "text", "", "as reported by the driver"}, of(&Device::driver_version)},
       {{"api_version", "text", "", "as reported by the driver"}, of(&Device::api_version)},
-      {{"cpu_features", "text", "", "processor features that code is generated for"},
+      {{"cpu_features", "text", "", "CPU features for which code is generated"},
        of(&Device::cpu_features)},
       {{"device_key", "text", "",
-        "identifies everything on which times and the bits of images depend"},
+        "identifies everything that affects times or the exact pixel values of images"},
        [](const DeviceSource& s) { return text(s.device.key()); }},
       {{"environment", "text", "", "JSON: environment variables that change code generation"},
        [](const DeviceSource& s) { return as_json(s.device.environment); }},
-      {{"limits", "text", "", "JSON: limits in the API's own names"},
+      {{"limits", "text", "", "JSON: device limits, named as in the API"},
        [](const DeviceSource& s) { return as_json(s.device.limits); }},
       {{"statistics_calibration", "text", "",
         "JSON: how exactly the driver counts each pipeline statistic"},
@@ -234,7 +234,7 @@ Columns<RecordSource> record_columns(const RecordNames& names) {
          &Record::factors);
   append(columns, names.cost, "cost_", {"", "integer", "", "cost of one frame: "}, &Record::cost);
   append(columns, names.memory, "memory_bytes_",
-         {"", "integer", "bytes", "memory on the device for this configuration: "},
+         {"", "integer", "bytes", "memory allocated on the device for this configuration: "},
          &Record::memory);
   append(columns, names.energy, "energy_uj_",
          {"", "integer", "microjoules", "energy of a frame, measured by the meter "},

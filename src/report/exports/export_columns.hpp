@@ -1,6 +1,6 @@
 #pragma once
 // The columns of exported tables. Each column has a description and a function that computes its
-// cell of a row.
+// cell in a row.
 
 #include <functional>
 #include <set>
@@ -45,7 +45,8 @@ struct RecordSource {
   const record::Record& record;
 };
 
-// The names of the factors, costs, kinds of memory and energy meters. Each gets its own column.
+// The names of the factors, costs, kinds of memory and energy meters. Each name gets its own
+// column.
 struct RecordNames {
   std::set<std::string> factors, cost, memory, energy;
 };

@@ -79,7 +79,7 @@ Columns<SampleSource> sample_columns() {
       {{"record", "integer", "", numbers}, [](const SampleSource& s) { return s.record; }},
       {{"clock", "text", "", "the clock: wall or device"},
        [](const SampleSource& s) { return std::string(s.clock); }},
-      {{"frame", "integer", "", "number of the frame, from 0"},
+      {{"frame", "integer", "", "0-based number of the frame"},
        [](const SampleSource& s) { return s.frame; }},
       {{"time_ns", "number", "ns", "time of the frame"},
        [](const SampleSource& s) { return s.ns; }},
@@ -121,9 +121,9 @@ Columns<CodeSource> code_columns() {
       {{"record", "integer", "", numbers}, [](const CodeSource& s) { return s.record; }},
       {{"executable", "text", "", "shader stage or kernel"},
        [](const CodeSource& s) { return s.executable; }},
-      {{"name", "text", "", "the driver's name of the statistic"},
+      {{"name", "text", "", "name of the statistic, as reported by the driver"},
        [](const CodeSource& s) { return s.name; }},
-      {{"value", "number", "", "the value, as the compiler reports it"},
+      {{"value", "number", "", "value of the statistic, as reported by the compiler"},
        [](const CodeSource& s) { return s.value; }},
   };
 }
@@ -141,9 +141,9 @@ Columns<ErrorSource> error_columns() {
         "which images converge as the step size approaches 0"},
        [](const ErrorSource& s) { return s.error.against; }},
       {{"metric", "text", "",
-        "rms: root mean square over all pixels and channels; covered: the same over the pixels "
-        "that "
-        "show something; p99.9: percentile over the pixels; max: largest error"},
+        "rms: root mean square over all pixels and channels; covered: root mean square over the "
+        "pixels that are not empty in the reference or limit image; p99.9: percentile over the "
+        "pixels; max: largest error"},
        [](const ErrorSource& s) { return s.error.metric; }},
       {{"error", "number", "full scale", "difference of linear colour values; white is 1"},
        [](const ErrorSource& s) { return s.error.error; }},

@@ -25,7 +25,7 @@ struct ExportRequest {
   std::filesystem::path folder;
   std::string made_by;                                  // the program and its version
   std::function<void(const record::Run&)> begins = {};  // called before each run is written
-  // Returns the errors of a record's image. With an empty function, the table of errors is not
+  // Returns the errors of a record's image. If the function is empty, the table of errors is not
   // written.
   std::function<std::vector<ImageError>(const record::Record&)> errors = {};
 };
@@ -33,10 +33,10 @@ struct ExportRequest {
 // The number of rows of each table.
 using ExportedRows = std::map<std::string, std::uint64_t>;
 
-// Writes one file for each table, and then dictionary.json, so that a folder without it reveals an
-// interrupted export. Holds only one record at a time in memory. Throws NotSupported if there is no
-// run of the plan, InputError if two stores contain the same run, whose records would be counted
-// twice, and IoError.
+// Writes one file for each table, and then dictionary.json. If dictionary.json is missing from a
+// folder, the export was interrupted. Holds only one record at a time in memory. Throws
+// NotSupported if there is no run of the plan. Throws InputError if two stores contain the same
+// run, because its records would be counted twice. Throws IoError if a file cannot be written.
 [[nodiscard]] ExportedRows export_tables(const std::vector<const record::Store*>& stores,
                                          const ExportRequest& request);
 

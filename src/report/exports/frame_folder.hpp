@@ -16,8 +16,8 @@ namespace triptych::report {
 [[nodiscard]] nlohmann::json frame_json(nlohmann::json scene, const record::Record& record,
                                         const record::Device& device);
 
-// Removes frame.json and the files that the functions below write. Otherwise, if drawing a frame
-// fails, a reader could mistake the images of an earlier frame for its images.
+// Removes frame.json and the files that the functions below write. Otherwise, if the next frame
+// fails, users could mistake the images of an earlier frame for images of the failed frame.
 void remove_frame(const std::filesystem::path& folder);
 
 // Writes `image` to NAME.exr and NAME.png. Throws IoError.
@@ -27,7 +27,7 @@ void write_picture(const std::filesystem::path& folder, const std::string& name,
 // The result of comparing an image with its reference image.
 struct HeldAgainstTruth {
   judge::Observation what;
-  bool has_difference = false;  // whether difference.png was written; it is not if the sizes differ
+  bool has_difference = false;  // whether difference.png was written; false if the sizes differ
   [[nodiscard]] bool right() const { return what.cause == judge::Cause::within_bound; }
 };
 

@@ -58,8 +58,9 @@ std::optional<double> cost_of(const accuracy::AccuracyCase& each, Cost cost) {
   return std::nullopt;
 }
 
-// Returns the name by which a case gets its colour: the family or, for a family with only one
-// member, the technique, because otherwise there would be as many colours as points.
+// Returns the name that determines the colour of a case: the name of its family. For a family with
+// only one member, returns the technique instead, because otherwise there could be as many colours
+// as points.
 std::string colour_name(const accuracy::AccuracyFamily& family,
                         const accuracy::AccuracyCase& each) {
   const auto technique = each.factors.find("technique");

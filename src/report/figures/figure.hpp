@@ -27,9 +27,9 @@ struct Axis {
   std::vector<double> contains = {};
 };
 
-// Returns about `wanted` ticks within [low, high]. Their distance is 1, 2 or 5 times a power of
-// ten. On a logarithmic axis, ticks are powers of ten and, if there are too few, multiples of
-// these.
+// Returns about `wanted` ticks within [low, high]. The distance between ticks is 1, 2 or 5 times a
+// power of ten. On a logarithmic axis, ticks are powers of ten and, if there are too few of them,
+// also multiples of powers of ten.
 [[nodiscard]] std::vector<double> ticks(double low, double high, bool logarithmic, int wanted);
 // Formats a number briefly: "0.05", "1e-6", "25k", "3M".
 [[nodiscard]] std::string short_number(double value);
@@ -83,7 +83,7 @@ class Figure {
   // Returns the data as CSV, with one row for each value of a series: series, horizontal position,
   // vertical position, tooltip.
   [[nodiscard]] std::string csv() const;
-  // Whether there is nothing to show.
+  // Returns whether the figure contains no marks.
   [[nodiscard]] bool empty() const { return shapes_.empty(); }
 
  private:

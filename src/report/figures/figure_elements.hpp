@@ -9,15 +9,17 @@
 
 namespace triptych::report {
 
-// Estimates the width of text in the font size of the style sheet from the mean width of a letter.
+// Estimates the width of text at the font size of the style sheet, using the mean width of a
+// letter.
 [[nodiscard]] double width_of(std::string_view text);
 
-// The largest number of characters of a name next to an axis (longest_name) and in a legend
-// (longest_entry). In a legend, a long name gets its own line, so it may be longer.
+// The maximum number of characters in a name next to an axis (longest_name) and in a legend
+// (longest_entry). The maximum for a legend is larger, because a long name gets its own line there.
 inline constexpr std::size_t longest_name = 34;
 inline constexpr std::size_t longest_entry = 64;
 
-// Shortens text with more characters in the middle, which is the least important part of a name.
+// Shortens text that is longer than `longest` characters. Removes the middle of the text, because
+// it is the least important part of a name.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t longest = longest_name);
 
 // Returns a tooltip for the enclosing element, or nothing if `text` is empty.

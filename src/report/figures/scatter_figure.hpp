@@ -23,7 +23,7 @@ struct ScatterFigure {
   std::string up;
   std::vector<Point> points;
   std::optional<Line> line = {};
-  // The smallest deviation at which a single configuration is reported; drawn as dashed lines.
+  // The smallest deviation at which a single configuration is reported; drawn as a dashed line.
   std::optional<double> shows_from = {};
 };
 

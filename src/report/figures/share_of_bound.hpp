@@ -16,8 +16,8 @@ struct ShareOfBound {
   core::Image image;
   int x = -1;  // the first pixel with the largest share; -1 if no pixel has an error
   int y = -1;
-  // Pixels beyond the bound that are marked with a ring, the worst first, because a single pixel is
-  // easily missed. Only pixels that are far enough apart get a ring, so that rings do not overlap.
+  // Pixels beyond the bound that get a ring, the worst first. The rings make single pixels
+  // noticeable. Only pixels that are far enough apart get a ring, so that rings do not overlap.
   struct Mark {
     int x;
     int y;

@@ -1,5 +1,5 @@
 #pragma once
-// Compares two texts line by line, for a side-by-side view.
+// Compares two multi-line strings line by line, for a side-by-side view.
 
 #include <string>
 #include <string_view>

@@ -1,6 +1,6 @@
 #pragma once
-// Reports how close the errors of images come to their bounds. A bound to which no image comes
-// close is a weak test.
+// Reports how close the errors of images come to their bounds. If no image comes close to its
+// bound, the bound is a weak test.
 
 #include <cstddef>
 #include <span>
@@ -17,7 +17,7 @@ struct NearestBound {
   std::string device;
   std::size_t pictures = 0;
   double share = 0;  // largest ratio of an error to its bound, over all pixels of correct images
-  std::string configuration;  // the configuration in which it occurs
+  std::string configuration;  // the configuration with this ratio
 };
 
 // Returns the results in the order of the plans, and for each plan by device. Callers must escape

@@ -36,7 +36,8 @@ const accuracy::AccuracyFamily& family_of(const AccuracyScene& scene, std::size_
   });
 }
 
-// Returns the largest front of any device for the image that `scene` shows.
+// Returns the front with the largest area among all devices, for the same limit image as in
+// `scene`.
 const accuracy::FrontArea& widest(const std::vector<AccuracyScene>& scenes,
                                   const AccuracyScene& scene) {
   const accuracy::FrontArea* best = &*scene.area;
@@ -76,8 +77,9 @@ std::string to_error(const AccuracyScene& scene, double goal) {
   return cost ? fmt::format("{:.1f} M instructions", *cost / 1e6) : "not reached";
 }
 
-// Appends the numbers of configurations that are on the front and that are dominated. Cost means
-// time or, if no time was measured, instructions. The cells are empty if neither was measured.
+// Appends the number of configurations on the front and the number of dominated configurations. The
+// cost is the time or, if no time was measured, the number of instructions. The cells are empty if
+// neither was measured.
 void append_standing(TableRow& row, const AccuracyScene& scene) {
   const auto add = [&](std::size_t front, std::size_t beaten) {
     row.push_back(fmt::to_string(front));

@@ -55,8 +55,8 @@ std::string name_of(const PictureScene& scene, const SameBits& group) {
   return name;
 }
 
-// Returns the reference image, or the reason why there is none: for example, the data file is
-// missing and the store does not contain the image.
+// Returns the reference image, or the reason why there is none. For example, the data file may be
+// missing and the store may not contain the reference image.
 std::variant<judge::TruthPair, std::string> truth_or_reason(const PictureSources& sources,
                                                             const record::Record& record) {
   try {
@@ -71,7 +71,7 @@ Html picture(const Image& image, std::string_view alt) {
                 data_uri(core::encode_png(image)), image.width, image.height, alt);
 }
 
-// Returns the image with rings around the marked pixels, which are beyond the bound.
+// Returns the image with rings around the marked pixels beyond the bound.
 Html ringed(const Html& image, const ShareOfBound& shares) {
   if (shares.marks.empty()) return image;
   Html rings;
@@ -152,7 +152,7 @@ Html verdict_text(const accuracy::ImageComparison& result, const ShareOfBound& s
                 right ? "pass" : "regression", text, worst, result.largest.error, result.rmse);
 }
 
-// Returns a tile that is shown instead of an image and states how the program ended.
+// Returns a tile that is shown instead of an image. It states the outcome, such as "crashed".
 Html tile(const record::Record& record) {
   const std::string_view what = record::name_of(record.outcome);
   return figure(markup("<div class=\"tile\" role=\"img\" aria-label=\"{}: {}, no image\">{}</div>",

@@ -1,6 +1,6 @@
 #pragma once
 // A panel with a device's image of a scene next to the reference image. If there is no image, the
-// panel states how the program ended.
+// panel states the reason, for example a crash.
 
 #include <cstddef>
 #include <string>

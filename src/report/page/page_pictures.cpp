@@ -40,8 +40,8 @@ struct Scene {
   std::string title;
   std::vector<Panel> panels;  // sorted by the error relative to the bound, the largest first
   [[nodiscard]] bool wrong() const { return panels.front().wrong; }
-  // The sort key: scenes with wrong images come first, then scenes in which nothing was drawn.
-  // Within these, the scene with the largest error relative to the bound comes first.
+  // Returns the sort key. Scenes with wrong images come first, the largest error relative to the
+  // bound first, and then scenes in which no image was drawn.
   [[nodiscard]] std::tuple<bool, bool, double> rank() const {
     return {wrong(), panels.front().drawn, wrong() ? panels.front().ratio : 0};
   }
@@ -79,7 +79,7 @@ Html part(const Scene& scene, std::size_t from, std::size_t to) {
 }
 
 constexpr std::size_t open_scenes = 6;
-// The largest number of panels that are not folded in a scene with a wrong image.
+// The maximum number of panels that are not folded in a scene with a wrong image.
 constexpr std::size_t open_panels = 4;
 
 Html scene_part(const Scene& scene, std::size_t from, std::size_t to) {

@@ -39,11 +39,11 @@ struct PictureSources {
   const JudgedPictures& judged;
 };
 
-// The verdict, with links to its causes.
+// Returns the verdict, with links to its causes.
 [[nodiscard]] Html verdict_card(const Overview& all, std::span<const PlanData> plans);
-// Filters for the content of the page. They are hidden until the script shows them.
+// Returns filters for the content of the page. They are hidden until the script shows them.
 [[nodiscard]] Html filters(std::span<const PlanData> plans);
-// The row of each check, and the findings by cause.
+// Returns a table with a row for each check, and the findings grouped by cause.
 [[nodiscard]] Html findings_section(const Overview& all, std::span<const PlanData> plans);
 // The images of all plans. Wrong images are visible or, if no image is wrong, one image of each
 // scene. All other images are folded.
@@ -53,29 +53,29 @@ struct Pictures {
 };
 [[nodiscard]] Pictures pictures_section(const PictureSources& sources,
                                         std::span<const PlanData> plans);
-// Whether the page has a panel for the record. The panel shows its image, or states how the program
-// ended.
+// Returns whether the page has a panel for the record. The panel shows the image of the record, or
+// states why there is none.
 [[nodiscard]] bool has_tile(const record::Record& record);
-// A dialog that compares two images of a scene with a slider. The script opens it.
+// Returns a dialog that compares two images of a scene with a slider. The script opens it.
 [[nodiscard]] Html comparison_dialog();
-// The definitions of the terms on the page, and the documentation of each check.
+// Returns the definitions of the terms on the page, and the documentation page for each check.
 [[nodiscard]] Html words_section(const Overview& all);
-// The devices of one plan.
+// Returns the devices of one plan.
 [[nodiscard]] Html devices_section(const PlanData& plan);
-// The values that differ from the stored values, by check, and the changes in cost and time as
-// bars.
+// Returns the values that differ from the stored values, by check, and the changes in cost and time
+// as bars.
 [[nodiscard]] Html changes_section(const PlanData& plan);
 [[nodiscard]] Html times_section(const PlanData& plan);
 [[nodiscard]] Html speed_of_light_section(const PlanData& plan);
-// The statistics that GPU compilers report. For code that got worse, also the disassembly next to
-// an earlier disassembly from the store.
+// Returns the statistics that GPU compilers report. For code that got worse, also shows the
+// disassembly next to an earlier disassembly from the store.
 [[nodiscard]] Html code_section(const record::Store& store, const PlanData& plan);
-// The numbers of samples or spheres that remain after skipping or culling, and that contribute to
-// the image.
+// Returns the number of samples or spheres that remain after skipping or culling, and the number of
+// them that contribute to the image.
 [[nodiscard]] Html needed_section(const PlanData& plan);
-// A scatter plot with a line for each pair of devices.
+// Returns a scatter plot for each pair of devices, with the fitted line.
 [[nodiscard]] Html correlation_section(const PlanData& plan);
-// Run time against error, for plans with the check `accuracy`.
+// Returns figures and tables of run time against error, for plans with the check `accuracy`.
 [[nodiscard]] Html accuracy_section(const PlanData& plan);
 [[nodiscard]] Html counts_section(const PlanData& plan);
 

@@ -80,7 +80,7 @@ bool is_bound(const record::Record& record) {
 
 Html devices_section(const PlanData& plan) {
   Rows rows{{"device", "name", "driver", "API"}};
-  Rows witnesses{{"device", "clock", "driver's statistics", "processor features, environment"}};
+  Rows witnesses{{"device", "clock", "driver's statistics", "CPU features, environment"}};
   for (const auto& [device, clocks] : plan.devices) {
     Html environment = markup("{}", device.cpu_features);
     for (const auto& [name, value] : device.environment) {
@@ -171,17 +171,17 @@ Html counts_section(const PlanData& plan) {
     text += folded(title, table(rows, "counts"));
   };
   section(
-      "Cost: instructions of one frame by the code that executes them; misses are 64-byte lines "
+      "Cost: instructions per frame, by the code that executes them; misses are 64-byte lines "
       "that device code loads into a simulated cache of 32 KiB",
       [](const record::Record& r) -> const record::Counts& { return r.cost; });
   section("Memory allocated on the device, bytes",
           [](const record::Record& r) -> const record::Counts& { return r.memory; });
-  section("Energy of a frame in microjoules, by meter; it includes all other work of the machine",
+  section("Energy per frame in microjoules, by meter; it includes all other work on the machine",
           [](const record::Record& r) -> const record::Counts& { return r.energy; });
   section("Triptych’s counters, from a build of the device code that is never timed",
           [](const record::Record& r) -> const record::Counts& { return r.counters; });
   section(
-      "Pipeline statistics as the drivers report them; an empty cell means that the driver does "
+      "Pipeline statistics as reported by the drivers; an empty cell means that the driver does "
       "not report the statistic",
       [](const record::Record& r) -> const record::Counts& { return r.statistics; });
   return text;

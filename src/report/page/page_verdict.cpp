@@ -305,18 +305,21 @@ Html words_section(const Overview& all) {
     std::string_view page;
   };
   constexpr std::array meanings{
-      Meaning{"reference image",
-              "the image that the double-precision renderer computes on the same sample positions "
-              "as the device",
-              "docs/accuracy.md"},
+      Meaning{
+          "reference image",
+          "the image that the double-precision renderer computes with the same sample positions "
+          "as the device",
+          "docs/accuracy.md"},
       Meaning{"bound", "the largest error that a correct device can have in a pixel",
               "docs/accuracy.md"},
       Meaning{"limit", "the image to which images converge as the step size approaches 0",
               "docs/accuracy.md"},
-      Meaning{"front", "the configurations that no other one beats in both error and time",
+      Meaning{"front",
+              "the configurations that no other configuration beats in both error and time",
               "docs/accuracy.md"},
       Meaning{"stored", "accepted with `triptych accept`", "docs/baselines.md"},
-      Meaning{"device key", "identifies everything on which times and the bits of images depend",
+      Meaning{"device key",
+              "identifies everything that affects times or the exact pixel values of images",
               "docs/glossary.md"},
   };
   Rows rows{{"term", "meaning", "documentation"}};

@@ -32,7 +32,7 @@ bool is_a_choice(const std::string& technique) {
 }
 
 // Returns the cheapest technique on the device: "tiles 2.5 ms". Considers only the techniques with
-// the largest number of configurations. Returns "" if the device measured none of them.
+// the largest number of configurations. Returns "" if none of them was measured on the device.
 std::string least_text(const SideBySide& table, const std::string& device) {
   std::size_t most = 0;
   for (const SideBySide::Row& row : table.rows) most = std::max(most, row.configurations);
@@ -86,8 +86,8 @@ std::string screen_of(const SideBySide& table) {
   }
   lines.push_back(std::move(least));
   return aligned(lines) +
-         fmt::format("\n{} of a frame, relative to the best device. {}.\n",
-                     table.clock.empty() ? "Instructions" : "Time by the " + table.clock + " clock",
+         fmt::format("\n{} per frame, relative to the best device. {}.\n",
+                     table.clock.empty() ? "Instructions" : "Time (" + table.clock + " clock)",
                      words::sentence(table));
 }
 

@@ -135,7 +135,7 @@ class Screen {
     if (shown > 0) add("");
   }
 
-  // Adds a line for each waived cause, because a reader of a pass has to know what is excused.
+  // Adds a line for each waived cause, because readers must know which failures a pass excuses.
   void waived(const Overview& all) {
     std::size_t shown = 0;
     for (const Cause& cause : all.aside) {

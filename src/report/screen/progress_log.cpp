@@ -12,7 +12,7 @@
 namespace triptych::report {
 namespace {
 
-// The largest number of failures that a log reports for each device of a plan.
+// The maximum number of failures that a log reports for each device of a plan.
 constexpr int most_failures_each = 3;
 constexpr std::string_view to_start_of_line = "\r\033[K";
 
@@ -95,8 +95,8 @@ std::string ProgressLog::bar(const Step& step) const {
   return fitted(text);
 }
 
-// Shortens the bar so that the last column stays empty. Some terminals would wrap a line that fills
-// it, and a wrapped line could not be removed.
+// Shortens the bar so that the last column stays empty. Some terminals wrap a line that fills the
+// last column, and a wrapped line cannot be erased.
 std::string ProgressLog::fitted(std::string_view text) const {
   return core::printable(core::printable(text), options_.width > 1 ? options_.width - 1 : 1);
 }

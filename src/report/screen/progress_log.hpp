@@ -13,8 +13,8 @@
 
 namespace triptych::report {
 
-// Decides when a log to which nothing was written for a while gets a sign of life. The intervals
-// grow, so that a run of an hour has about 20 of them.
+// Decides when to write a progress line to a log to which nothing was written for a while. The
+// intervals grow, so that the log of a one-hour run gets about 20 such lines.
 class SignsOfLife {
  public:
   using Clock = std::chrono::steady_clock;
@@ -29,9 +29,9 @@ class SignsOfLife {
   Clock::time_point last_;
 };
 
-// A terminal shows a progress bar in its last line, which is rewritten. A log gets a line for each
-// device of a plan, a line for each of the first failures, and a sign of life from time to time, so
-// that its length does not grow with the number of configurations.
+// On a terminal, the last line shows a progress bar, which is redrawn. A log gets a line for each
+// device of a plan, a line for each of the first few failures, and a progress line from time to
+// time, so that its length does not grow with the number of configurations.
 class ProgressLog {
  public:
   using Clock = std::chrono::steady_clock;
@@ -51,7 +51,8 @@ class ProgressLog {
 
   explicit ProgressLog(Options options);
 
-  // Returns the output after a step. It may be empty. Control characters in it are escaped.
+  // Returns the output after a step, which may be empty. Control characters in names and messages
+  // are escaped.
   [[nodiscard]] std::string next(const Step& step);
   // Returns the output while a large data set is being loaded, of which `share` is already loaded.
   [[nodiscard]] std::string loading(std::string_view data, double share);

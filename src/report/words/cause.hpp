@@ -10,8 +10,8 @@
 
 namespace triptych::report::words {
 
-// Returns the configuration, or "12 configurations" if there are several. Empty for a finding about
-// a whole device or plan.
+// Returns the configuration, or "12 configurations" if there are several. Returns "" for a finding
+// about a whole device or plan.
 [[nodiscard]] std::string subject(const FindingGroup& group);
 // Returns where the findings are: "vulkan:lavapipe, technique=raycast (12 configurations)", or the
 // plans if the findings belong to no device.
@@ -19,7 +19,7 @@ namespace triptych::report::words {
 // Returns the finding about the worst configuration, followed by the devices on which the
 // configurations pass.
 [[nodiscard]] std::string found(const Cause& cause);
-// States whether the driver is at fault. Empty if the results of the other devices do not show
+// States whether the driver is at fault. Returns "" if the results of other devices do not reveal
 // this.
 [[nodiscard]] std::string blame(const FindingGroup& group);
 // Returns found(), blame() and the advice in one line.

@@ -1,6 +1,6 @@
 #pragma once
-// The words for each check on screens and pages. A test compares the rows with
-// record::every_check.
+// The label and the result phrases of each check, for screens and pages. A test compares the rows
+// with record::every_check.
 
 #include <array>
 #include <string_view>

@@ -139,7 +139,7 @@ std::string range_of(const std::pair<double, double>& ratios) {
 struct KeyPart {
   std::string text;
   std::string variable = {};  // the name, if this part is an environment variable
-  bool processor = false;     // whether this part lists the features of the processor
+  bool processor = false;     // whether this part lists the CPU features
   bool operator==(const KeyPart&) const = default;
 };
 
@@ -311,7 +311,7 @@ std::string nothing_compared(const TimeReason& first) {
 std::string sides(const record::Device& a, const record::Device& b) {
   std::vector<KeyPart> parts_a = parts_of(a);
   std::vector<KeyPart> parts_b = parts_of(b);
-  // The list of processor features is long, so it is left out if it is equal on both sides.
+  // The list of CPU features is long, so it is left out if it is equal on both sides.
   const auto is_shared_processor = [](const std::vector<KeyPart>& other) {
     return [&other](const KeyPart& part) { return part.processor && has(other, part); };
   };
@@ -358,7 +358,7 @@ std::string sentence(const comparison::SideBySide& table) {
     }
     if (ratios.empty()) continue;
     text +=
-        fmt::format("; {} takes {:.2f} to {:.2f} times as much in the techniques that both have",
+        fmt::format("; {} takes {:.2f} to {:.2f} times as much in the techniques measured on both",
                     device, std::ranges::min(ratios), std::ranges::max(ratios));
   }
   return text;

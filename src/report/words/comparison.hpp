@@ -40,7 +40,7 @@ namespace triptych::report::words {
 [[nodiscard]] std::string headline(const comparison::ComparisonResult& result);
 
 // Summarizes a table of two or more devices: "gl:x is best in 5 of its 8 techniques; vulkan:y takes
-// 0.98 to 1.3 times as much in the techniques that both have".
+// 0.98 to 1.3 times as much in the techniques measured on both".
 [[nodiscard]] std::string sentence(const comparison::SideBySide& table);
 
 // States that a frame cannot be reduced, because it fails in a different way when it is drawn

@@ -103,10 +103,10 @@ std::string found(const Finding& finding) {
   if (!finding.subject.empty()) text += finding.subject + ": ";
   text += text_of(static_cast<const judge::Observation&>(finding));
   if (finding.measured_before) {
-    text += "; this device measured it when its baselines were accepted";
+    text += "; it was measured on this device when the baselines were accepted";
   }
   if (finding.excuse.of == Excuse::Of::expired) {
-    text += fmt::format("; a waiver for it expired on {} ({})", finding.excuse.expiry,
+    text += fmt::format("; its waiver expired on {} ({})", finding.excuse.expiry,
                         finding.excuse.reason);
   }
   for (const judge::Observation& each : finding.again) {
@@ -138,7 +138,7 @@ std::string advice(const Finding& finding) {
       return fmt::format("restore the baselines from version control, or start over with {}",
                          command);
     case Advice::count:
-      return "count instructions, which needs Valgrind, or leave the check out with --without cost";
+      return "count instructions (requires Valgrind), or leave out the check with --without cost";
     case Advice::judge_more:
       return fmt::format("request more checks, or accept the run with {}", command);
     case Advice::more_time:

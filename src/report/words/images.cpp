@@ -81,12 +81,12 @@ std::string reference_changed(const Observation& what) {
 std::string devices_compared(const Observation& what) {
   const bool agree = what.cause == judge::Cause::devices_agree;
   std::string text = fmt::format(
-      "the images of {} and {} differ the most: RMS {:.3g}, allowed {:.3g}", what.fact("device"),
-      what.fact("other"), what.number("rms"), what.number("allowed"));
+      "of all devices, {} and {} differ the most: RMS difference {:.3g}, allowed {:.3g}",
+      what.fact("device"), what.fact("other"), what.number("rms"), what.number("allowed"));
   if (agree) return text;
   return text + fmt::format(
-                    "; both are within their error bounds, but {} is farther from the reference "
-                    "image (RMSE {:.3g}; {} has {:.3g})",
+                    "; both are within their error bounds, but {0} is farther from the reference "
+                    "image (RMSE {1:.3g}, compared with {3:.3g} for {2})",
                     what.fact("device"), what.number("rmse"), what.fact("other"),
                     what.number("rmse_of_other"));
 }
@@ -95,9 +95,9 @@ std::string score(const Observation& what) {
   std::string text = fmt::format("the score is {:.0f} of {:.0f} points", what.number("score"),
                                  what.number("best"));
   if (what.numbers.contains("accepted")) {
-    text += fmt::format(", but {:.0f} were accepted", what.number("accepted"));
+    text += fmt::format(" (accepted: {:.0f})", what.number("accepted"));
   } else {
-    text += ", and no score is stored";
+    text += " (no score is stored)";
   }
   std::string_view separator = ": ";
   for (const Observation& each : what.because) {
@@ -109,8 +109,9 @@ std::string score(const Observation& what) {
 
 std::string farther_device(const Observation& what) {
   return fmt::format(
-      "the image differs from that of {} by RMS {:.3g}, allowed {:.3g}, and is farther from the "
-      "reference image (RMSE {:.3g}, compared with {:.3g})",
+      "the RMS difference from the image of {} is {:.3g}, allowed {:.3g}, and this image is "
+      "farther "
+      "from the reference image (RMSE {:.3g}, compared with {:.3g})",
       what.fact("other"), what.number("rms"), what.number("allowed"), what.number("rmse"),
       what.number("rmse_of_other"));
 }

@@ -27,7 +27,7 @@ std::string first_of(const std::vector<std::string>& names) {
 
 std::string nothing_measured(const Observation& what) {
   return fmt::format(
-      "nothing was measured: run {} has {} of {}, but none of them was measured on the requested "
+      "nothing was measured: run {} has {} for {}, but no measurement on any of the requested "
       "devices",
       what.fact("run"), counted(what.number("records"), "record", "records"), what.fact("plan"));
 }
@@ -47,7 +47,7 @@ std::string other_plan(const Observation& what) {
 
 std::string no_longer_reported(const Observation& what) {
   if (what.names.empty()) return "these values are missing, although the baselines contain them";
-  return fmt::format("these values are missing, although the baselines contain them, for {}",
+  return fmt::format("these values are missing for {}, although the baselines contain them",
                      examples(what.names));
 }
 
@@ -151,15 +151,16 @@ std::string sentence_of(const Observation& what) {
       return no_required_device(what);
     case Cause::device_missing:
       return fmt::format(
-          "no driver on this machine lists this device, but it was accepted on a machine with the "
-          "same driver version of {}",
+          "this device was not found, although it was accepted on a machine with the same driver "
+          "version for {} as this machine",
           what.fact("sibling"));
     case Cause::listing_failed:
-      return fmt::format("the devices of {} could not be listed, so some may be missing: {}",
+      return fmt::format("device enumeration failed for {}, so devices may be missing: {}",
                          what.fact("what"), text_of(what.reason));
     case Cause::no_description:
       return fmt::format(
-          "run {} has records of this device, but the store has lost the rows that describe it",
+          "run {} has records for this device, but the store lacks the rows that describe the "
+          "device",
           what.fact("run"));
     case Cause::checks_lost:
       return fmt::format("the plan no longer requests these accepted checks: {}",
@@ -167,7 +168,7 @@ std::string sentence_of(const Observation& what) {
     case Cause::missing:
       return missing(what);
     case Cause::extra:
-      return fmt::format("the run contains {} outside the plan", examples(what.names));
+      return fmt::format("the run contains {} not in the plan", examples(what.names));
     case Cause::other_plan:
       return other_plan(what);
     case Cause::other_data:
@@ -215,7 +216,7 @@ std::string sentence_of(const Observation& what) {
     case Cause::reference_changed:
       return reference_changed(what);
     case Cause::reference_as_stored:
-      return "the reference image is the accepted one";
+      return "the reference image has not changed since it was accepted";
     case Cause::devices_agree:
     case Cause::devices_disagree:
       return devices_compared(what);
@@ -229,7 +230,7 @@ std::string sentence_of(const Observation& what) {
     case Cause::frame_allocations:
       return changed_in(what, "the number of allocations per frame");
     case Cause::preparing:
-      return changed_in(what, "the driver's number of instructions during preparation");
+      return changed_in(what, "the number of driver instructions during preparation");
     case Cause::injected_memory:
       return "not compared, because the injected slowdown itself allocates memory";
     case Cause::other_executables:
@@ -245,7 +246,7 @@ std::string sentence_of(const Observation& what) {
     case Cause::times:
       return times(what);
     case Cause::other_clock:
-      return fmt::format("the stored times of {} were measured by another clock",
+      return fmt::format("the stored times of {} were measured with a different clock",
                          examples(what.names));
     case Cause::no_time:
       return "no time was measured";
@@ -258,7 +259,7 @@ std::string sentence_of(const Observation& what) {
                  : fmt::format("the time is meaningless, because the image is wrong: {}",
                                text_of(what.because.front()));
     case Cause::residuals_as_stored:
-      return fmt::format("the cost ratios of {} relative to {} are as stored",
+      return fmt::format("the cost ratios to {1} are as stored in {0}",
                          counted(what.number("configurations"), "configuration", "configurations"),
                          fmt::join(what.names, ", "));
     case Cause::residual_moved:

@@ -25,7 +25,7 @@ std::string signal_text(int signal) {
 }
 
 std::string out_of_memory_text(const Reason& reason) {
-  std::string text = fmt::format("ran out of host memory while using data {}", reason.subject);
+  std::string text = fmt::format("ran out of host memory while using the data {}", reason.subject);
   if (const auto limit = reason.number("limit_bytes")) {
     text += fmt::format("; the worker may allocate at most {:.0f} MiB", *limit / (1 << 20));
   }
@@ -47,7 +47,7 @@ std::string cause_text(const Reason& reason) {
     case record::Cause::error:
       return reason.detail;
     case record::Cause::not_drawn:
-      return with_detail("the driver reported a frame as finished that it did not draw",
+      return with_detail("the driver reported a frame as finished, but did not draw it",
                          reason.detail);
     case record::Cause::bad_input:
       return with_detail("invalid input", reason.detail);

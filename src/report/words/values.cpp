@@ -97,7 +97,7 @@ std::string values_changed(const Observation& what) {
 // Returns the totals over all configurations, in the format that Mesa developers use.
 std::string other_compiler(const Observation& what) {
   std::string text = fmt::format(
-      "not compared, because driver version {} has another compiler than the stored version {}",
+      "not judged, because driver version {} has a different compiler than the stored version {}",
       what.fact("driver_version"), what.fact("other_version"));
   text += fmt::format("; {:.0f} of {} changed", what.number("changed"),
                       counted(what.number("configurations"), "configuration", "configurations"));
@@ -115,7 +115,7 @@ std::string other_driver_statistics(const Observation& what) {
     constexpr std::size_t shown = 3;
     std::vector<Change> first = what.changes;
     first.resize(std::min(first.size(), shown));
-    text += fmt::format("{:.0f} of them differ from every stored driver: {}{}",
+    text += fmt::format("in {:.0f} of them, values differ from those of every stored driver: {}{}",
                         what.number("differences"), list(first),
                         what.changes.size() > shown ? "; …" : "");
   } else if (what.number("compared") == 0 && !what.names.empty()) {
@@ -175,9 +175,8 @@ std::string order(const Observation& what) {
   const std::string accepted = fmt::format("accepted {:.2f} ± {:.2f}", what.number("stored_order"),
                                            what.number("stored_half_width"));
   if (what.cause == judge::Cause::no_order) {
-    return "no order of convergence can be fitted, because too few errors come mainly from the "
-           "step "
-           "size; " +
+    return "no order of convergence can be fitted, because too few errors are dominated by the "
+           "step size; " +
            accepted;
   }
   return fmt::format("order of convergence {:.2f} ± {:.2f}, {}", what.number("order"),
@@ -209,7 +208,7 @@ std::string off_the_line(const Observation& what) {
                         what.number("configurations"));
   }
   return text +
-         "; this device was never accepted: either it is inherently slower here, or the code "
+         "; this device was never accepted, so either it is inherently slower here, or the code "
          "regressed";
 }
 
@@ -243,7 +242,7 @@ std::string refusal(const judge::CorrelationLine& line) {
       return fmt::format("the correlation of the logarithms is {:.3f}, but at least {} is needed",
                          line.rho, LineModel::least_rho);
     case LineRefusal::slope_out_of_range:
-      return fmt::format("the slope is {:.3f}, outside {} to {}", line.slope,
+      return fmt::format("the slope is {:.3f}, outside the range {} to {}", line.slope,
                          LineModel::least_slope, LineModel::largest_slope);
     case LineRefusal::large_scatter:
       return fmt::format("the scatter of the logarithms is {:.3f}, but at most {} is allowed",

@@ -73,7 +73,7 @@ TEST(SideBySide, ComparesTimesOnOneClock) {
   records[1].device_clock_trusted = true;
   EXPECT_EQ(side_by_side(records)->rows.at(0).best, "gl:x");
   EXPECT_THAT(report::screen_of(*side_by_side(records)),
-              HasSubstr("Time by the wall clock of a frame"));
+              HasSubstr("Time (wall clock) per frame"));
   records[0].device_clock_trusted = true;
   records[0].device_ns = {5e6};
   EXPECT_EQ(side_by_side(records)->rows.at(0).best, "gl:y");
