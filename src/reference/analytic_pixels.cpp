@@ -20,8 +20,8 @@ struct Chord {
   [[nodiscard]] double length() const { return end - begin; }
 };
 
-// This code is deliberately different from the renderer's, because the two check each other. It
-// clips the ray against one plane after the other.
+// Clips the ray of pixel (x, y) against one plane after the other. This code is deliberately
+// different from that of the renderer, because the two are checked against each other.
 Chord chord_of(const Setting& setting, int x, int y) {
   Chord chord;
   chord.direction =
@@ -66,8 +66,8 @@ double table_error(const Setting& setting, double length) {
   return length * alpha / (u * left) + 2.0 * float_rounding;
 }
 
-// The distances along the ray at which z crosses one of the planes, and both ends of the ray, in
-// ascending order.
+// Returns the distances along the ray at which z crosses one of the planes, and both ends of the
+// ray, in ascending order.
 std::vector<double> cuts(const Setting& setting, const Chord& chord,
                          const std::vector<double>& planes) {
   std::vector<double> at{chord.begin, chord.end};
@@ -81,7 +81,8 @@ std::vector<double> cuts(const Setting& setting, const Chord& chord,
   return at;
 }
 
-// The value g of the problems along z. It is constant in the outermost half voxels.
+// Returns the value g of the problems that vary only along z. It is constant in the outermost half
+// voxels.
 double height(const Setting& setting, double z) {
   const double half = 0.5 * setting.layer_z;
   return std::clamp(z, half, setting.extent.z - half) / setting.extent.z;
@@ -91,8 +92,8 @@ double z_at(const Setting& setting, const Chord& chord, double t) {
   return setting.camera.eye.z + t * chord.direction.z;
 }
 
-// The values of z at which the field has kinks, and those at which the table's representation of
-// the medium has kinks.
+// Returns the values of z at which the field or the table's representation of the medium has a
+// kink.
 std::vector<double> kinks(const Setting& setting) {
   std::vector<double> at{0.5 * setting.layer_z, setting.extent.z - 0.5 * setting.layer_z};
   for (const double g : setting.medium.kinks) at.push_back(g * setting.extent.z);
@@ -141,9 +142,9 @@ Radiance atmosphere_piece(const Setting& setting, double g0, double g1, double l
   return v1_constant(depth, colour, 1.0);
 }
 
-// ∫ |error of g| ds, where trilinear interpolation and, near the faces, clamping cause the error.
-// The derivatives are replaced by their maxima within a cell's diagonal: |∂ᵢg| = rᵢ·g/σ² and
-// |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ².
+// Returns ∫ |error of g| ds along the ray. The error is caused by trilinear interpolation and, near
+// the faces, by clamping. The derivatives are replaced by their maxima within the diagonal of a
+// cell: |∂ᵢg| = rᵢ·g/σ² and |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ².
 double blob_interpolation_error(const Setting& setting, const Chord& chord) {
   constexpr int intervals = 512;
   const double sigma = blob_sigma(setting);
@@ -168,8 +169,8 @@ double blob_interpolation_error(const Setting& setting, const Chord& chord) {
   return sum;
 }
 
-// The distances at which the ray crosses the planes of the outermost voxel centres, and both ends
-// of the ray, in ascending order.
+// Returns the distances at which the ray crosses the planes of the outermost voxel centres, and
+// both ends of the ray, in ascending order.
 std::vector<double> cuts_of_all_axes(const Setting& setting, const Chord& chord) {
   std::vector<double> at{chord.begin, chord.end};
   for (int axis = 0; axis < 3; ++axis) {
@@ -194,8 +195,8 @@ Closest closest_to_centre(const Setting& setting, const Chord& chord) {
   return {along, glm::length(to_centre - along * chord.direction)};
 }
 
-// The light of a medium with one colour. It depends only on the optical depth, which is tau times
-// length.
+// Returns the light of a medium with a single colour. It depends only on the optical depth, which
+// is tau times length.
 std::array<Radiance, 3> of_one_colour(const Setting& setting, double tau, double length) {
   std::array<Radiance, 3> channels;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -204,7 +205,7 @@ std::array<Radiance, 3> of_one_colour(const Setting& setting, double tau, double
   return channels;
 }
 
-// The length of the part of the ray that is within a radius of the centre.
+// Returns the length of the part of the ray that is within this radius of the centre.
 double length_within(const Chord& chord, const Closest& closest, double radius) {
   if (!(radius > closest.beside)) return 0;
   const double half = std::sqrt((radius - closest.beside) * (radius + closest.beside));
@@ -259,8 +260,8 @@ Wave wave_of(const Setting& setting) {
 
 AnalyticPixel constant_pixel(const Setting& setting, int x, int y) {
   const double length = chord_of(setting, x, y).length();
-  // The medium is defined by the table's float, so that float has no error. Only the rounding of
-  // the colour would remain, but the colour is exact in float.
+  // The opacity stored in the table as a float defines the medium, so it has no error. The colours
+  // are exact in float as well.
   const double tau = -std::log1p(-static_cast<double>(static_cast<float>(
                          -std::expm1(-setting.voxel * setting.medium.largest)))) /
                      setting.voxel;
@@ -348,9 +349,9 @@ AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y) {
   return finish(setting, channels, error);
 }
 
-// A colour is c·(ambient + diffuse·l) + specular·lⁿ with
-// l = |direction · z|·steepest/floor·sin(πz/L). The gradient is that of the continuous wave. The
-// model error includes the effect of central differences.
+// A shaded colour is c·(ambient + diffuse·l) + specular·lⁿ with l = |direction ·
+// z|·steepest/floor·sin(πz/L). The gradient is that of the continuous wave. The model error
+// includes the effect of central differences.
 AnalyticPixel wave_pixel(const Setting& setting, int x, int y) {
   const Chord chord = chord_of(setting, x, y);
   const Wave wave = wave_of(setting);

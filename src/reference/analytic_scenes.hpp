@@ -1,7 +1,7 @@
 #pragma once
-// Scenes that a device can draw and for which the exact value of every pixel is known as a
-// closed-form solution (closed_forms.hpp). The camera can be anywhere, because the solution uses
-// the ray and the chord of each pixel.
+// Scenes that a device can draw and for which every pixel has a closed-form solution
+// (closed_forms.hpp). The camera can be anywhere, because the solution is computed from the ray and
+// the chord of each pixel.
 
 #include <array>
 #include <functional>
@@ -35,7 +35,7 @@ inline constexpr std::array analytic_problems{
     AnalyticProblem::v9_wave};
 [[nodiscard]] std::string_view name_of(AnalyticProblem problem);
 [[nodiscard]] std::optional<AnalyticProblem> analytic_problem(std::string_view name);
-// Whether the image is shaded, with the defaults of scene::Shading.
+// Returns whether the image is shaded (with the defaults of scene::Shading).
 [[nodiscard]] bool is_shaded(AnalyticProblem problem);
 
 struct AnalyticOptions {
@@ -57,8 +57,8 @@ struct AnalyticPixel {
   double model_error = 0;
 };
 
-// In each problem, the value g varies with the position in such a way that the table can represent
-// the medium. A voxel has the value x = (½ + 255·g)/256, so that table entry k is at g = k/255.
+// In each problem, the position determines a value g, and the table maps g to the medium. A voxel
+// has the value x = (½ + 255·g)/256, so that table entry k is at g = k/255.
 //
 //   - The problems along z have g = z/L at voxel centres, so g is exactly linear between the first
 //     and the last voxel centre. In the outermost half voxels, the field is constant, and so is τ
@@ -74,9 +74,9 @@ struct AnalyticPixel {
 //     brightness is proportional to the gradient.
 //   - v3_plateaus: the kinks of the field, at the outermost voxel centres, are on the plateaus,
 //     which are the lowest and the highest fifth of z. The kinks of its medium are at table
-//     entries. A rule that is exact for a linear field therefore has only rounding errors, as long
-//     as a step along z does not reach from a kink of the field to one of the medium, which is a
-//     distance of size/5 − ½ voxels.
+//     entries. A rule that is exact for a linear field therefore has only rounding errors, unless a
+//     step along z is long enough to reach from a kink of the field to a kink of the medium, which
+//     is a distance of size/5 − ½ voxels.
 //
 // Derivation of the model error, with u the smallest spacing and α(g) = 1 − e^(−u·τ(g)):
 // interpolating α over 1/255 has an error of at most (1/255)²/8·max|α''|, and rounding to float

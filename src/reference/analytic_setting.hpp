@@ -12,7 +12,7 @@
 namespace triptych::reference {
 
 using Rgb = std::array<double, 3>;
-// τ and the colour (not premultiplied) as functions of g, with the derivatives of τ.
+// τ and the colour (not premultiplied) as functions of g, with bounds on the derivatives of τ.
 struct Medium {
   std::function<double(double)> tau;
   std::function<Rgb(double)> colour;
@@ -22,7 +22,7 @@ struct Medium {
   std::vector<double> kinks = {};  // positions of kinks, multiples of 1/255
 };
 
-// The box, the medium in it, and the ray of a pixel. Lengths are in world units.
+// The box, the medium in it, and the camera. Lengths are in world units.
 struct Setting {
   AnalyticOptions options;
   scene::Camera camera;
@@ -32,15 +32,15 @@ struct Setting {
   Medium medium;
 };
 
-// The standard deviation σ of v4_gaussian.
+// Returns the standard deviation σ of v4_gaussian.
 [[nodiscard]] double blob_sigma(const Setting& setting);
 
-// The value g of v8_trilinear: the product of the heights along all axes. Each height is constant
-// in the outermost half voxels.
+// Returns the value g of v8_trilinear at p, which is the product of the heights along all axes.
+// Each height is constant in the outermost half voxels.
 [[nodiscard]] double heights_product(const Setting& setting, const glm::dvec3& p);
 
-// The value g of v7_shell: the distance from the centre in units of `reach`, and 1 beyond. The
-// faces of the shell are halfway between two table entries.
+// The parameters of v7_shell. The value g is the distance from the centre in units of `reach`,
+// limited to 1. The faces of the shell are halfway between two table entries.
 struct Shell {
   double reach;
   double inner;

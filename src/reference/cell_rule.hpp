@@ -1,5 +1,5 @@
 #pragma once
-// Quadrature::cells along one ray, with its error bounds.
+// Applies Quadrature::cells along one ray and bounds the errors of a device.
 //
 // A piece is integrated by the two-point Gauss rule. Its optical depth is its length times the mean
 // of the extinctions τ₁ and τ₂ at the two points. The colour is assumed to be linear in y, the
@@ -17,9 +17,9 @@
 //   - The values at the points have errors, like those of a sample. They change the integrand along
 //     the ray.
 //   - The rule itself has an error, both on the device and here. It is estimated by halving a
-//     piece: this leaves a sixteenth of the error, so the change is 15/16 of the error. If an
-//     extremum of the field is within its error of a kink, a device may leave a piece uncut that is
-//     cut in two here, which multiplies the error of the rule by 16.
+//     piece, which leaves a sixteenth of the error. The change is therefore 15/16 of the error. If
+//     an extremum of the field is within its error of a kink, a device may leave a piece uncut that
+//     is cut in two here, which multiplies the error of the rule by 16.
 //
 // If a device makes the same cuts, its rule has nearly the same error as the rule here. Suppose
 // that an end of a piece of length h moves by ε. Then the rule and the integral of a function g
@@ -28,7 +28,6 @@
 // points that are looked up here cover more than three quarters of this range. A cut next to an
 // extremum moves by up to twice the error divided by the slope, because its distance from the
 // extremum exceeds its error. The total factor is therefore 3·4/3·2 = 8.
-// from the extremum exceeds its error. The factor is therefore eight.
 
 #include <algorithm>
 #include <array>
@@ -52,7 +51,7 @@
 
 namespace triptych::reference {
 
-// The number of points that a device looks up in one piece: two, or up to `open` more or fewer.
+// The points that a device looks up in one piece: normally `most`, but up to `open` more or fewer.
 struct OpenPoints {
   double begin = 0;  // distance of the piece from the ray's entry
   double end = 0;
@@ -90,8 +89,8 @@ class CellRule {
     if (slack > 0.0 && passed) take_visible(piece_beyond(ray, ray.length, ray.length + slack));
   }
 
-  // Calls take(points, opacity) for every piece in the same order, where `points` are those that a
-  // device looks up.
+  // Calls take(points, opacity) for every piece, from front to back, until `take` returns false.
+  // `points` describes the points that a device looks up.
   template <typename Take>
   void walk_open(const Ray& ray, Take take) {
     for_each_piece(ray, [&](const Part& part, double from, double to) {
@@ -124,7 +123,8 @@ class CellRule {
 
   [[nodiscard]] bool is_kink(double knot) const { return kinks_[static_cast<std::size_t>(knot)]; }
 
-  // Whether the field's extremum may pass a kink on a device but not here, or the reverse.
+  // Returns whether an extremum of the field may pass a kink on a device but not here, or vice
+  // versa.
   [[nodiscard]] bool touches_a_kink(const Cubic& cubic, double error) const {
     const std::array<double, 4> ends = cubic.monotone_ends();
     return std::any_of(ends.begin() + 1, ends.end() - 1, [&](double s) {
@@ -203,10 +203,10 @@ class CellRule {
     return true;
   }
 
-  // Returns the largest distance between a cut at t and the same cut on a device, wherever the
-  // device's ray begins. For an end of the part, it is the position error at the nearest plane of
-  // voxel centres. For any other cut, it is the error of the position at which the values pass a
-  // kink.
+  // Returns the largest distance between a cut at t and the same cut on a device, regardless of
+  // where the device's ray begins. For an end of the part, it is the position error at the nearest
+  // plane of voxel centres. For any other cut, it is the error of the position at which the values
+  // pass a kink.
   [[nodiscard]] double time_error(const Ray& ray, const Part& part, double t) const {
     if (t > part.begin && t < part.end) {
       const double s = (t - part.begin) / (part.end - part.begin);
@@ -248,14 +248,13 @@ class CellRule {
     return {nominal, nominal - doubtful_length(ray, from, to) / smallest_spacing_, nominal};
   }
 
-  // Returns the same ray with an additional uncertainty of all positions by up to `way` along the
-  // ray.
+  // Returns the ray with all positions additionally uncertain by up to `way` along the ray.
   [[nodiscard]] static Ray widened(Ray ray, double way) {
     ray.position_error = ray.position_error_within(way);
     return ray;
   }
 
-  // Returns a piece outside this ray's chord, which only the ray of a device may pass.
+  // Returns a piece beyond the chord of this ray, which is crossed only by a device's ray.
   [[nodiscard]] Piece piece_beyond(const Ray& ray, double from, double to) const {
     const Ray wide = widened(ray, 0.5 * (to - from));
     return gauss(wide, from, to, {0.0, 0.0, (to - from) / smallest_spacing_});

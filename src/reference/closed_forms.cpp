@@ -37,8 +37,8 @@ Radiance v3_segment(const LinearSegment& s) {
 
 namespace {
 
-// The differential equation E' = −(a + bt)·E gives the Taylor coefficients
-// (n+1)·eₙ₊₁ = −a·eₙ − b·eₙ₋₁. They are multiplied by lengthⁿ here.
+// Computes transmittance_integral() by a Taylor series. The differential equation E' = −(a + bt)·E
+// gives the Taylor coefficients (n+1)·eₙ₊₁ = −a·eₙ − b·eₙ₋₁. They are multiplied by lengthⁿ here.
 double taylor_integral(double a, double b, double length) {
   const double x = a * length;
   const double y = b * length * length;
@@ -92,7 +92,7 @@ double v9_difference_factor(double k, double delta) {
 
 namespace {
 
-// ∫ cos(phase + rate·t)·τ·e^(−τt) dt over [0, length].
+// Returns ∫ cos(phase + rate·t)·τ·e^(−τt) dt over [0, length].
 double lit_cosine(double tau, double phase, double rate, double length) {
   const std::complex<double> exponent{-tau, rate};
   const std::complex<double> integral =

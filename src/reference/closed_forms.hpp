@@ -35,39 +35,39 @@ struct LinearSegment {
 };
 [[nodiscard]] Radiance v3_segment(const LinearSegment& segment);
 
-// ∫ exp(−at − bt²/2) dt over [0, length], for a + bt ≥ 0 there, with a relative error of about
-// 1e-14. For b > 0, completing the square gives erf, which is expressed by erfcx so that nothing
-// overflows or cancels. For b < 0 it gives Dawson's function. Optically thin segments and b → 0 use
-// a Taylor series.
+// Returns ∫ exp(−at − bt²/2) dt over [0, length], for a + bt ≥ 0 there, with a relative error of
+// about 1e-14. For b > 0, completing the square gives erf, which is expressed by erfcx to avoid
+// overflow and cancellation. For b < 0 it gives Dawson's function. Optically thin segments and
+// b → 0 use a Taylor series.
 [[nodiscard]] double transmittance_integral(double a, double b, double length);
 
-// V4: the optical depth of τ = τ₀·exp(−r²/2σ²) along a line at distance p from the centre, between
-// s₀ and s₁ (measured from the point that is nearest to the centre):
+// V4: returns the optical depth of τ = τ₀·exp(−r²/2σ²) along a line at distance p from the centre,
+// between s₀ and s₁ (measured from the point that is nearest to the centre):
 // τ₀σ√(π/2)·e^(−p²/2σ²)·[erf(s₁/√2σ) − erf(s₀/√2σ)]. For the whole line it is τ₀σ√(2π)·e^(−p²/2σ²).
 [[nodiscard]] double v4_gaussian_depth(double tau0, double sigma, double p, double s0, double s1);
 
-// V5: the optical depth of τ = τ₀·e^(−z/H) from height z₀ to z₁ ≠ z₀ along a ray at an angle θ to
-// the axis: τ₀H·|e^(−z₀/H) − e^(−z₁/H)|/|cos θ|.
+// V5: returns the optical depth of τ = τ₀·e^(−z/H) from height z₀ to z₁ ≠ z₀ along a ray at an
+// angle θ to the axis: τ₀H·|e^(−z₀/H) − e^(−z₁/H)|/|cos θ|.
 [[nodiscard]] double v5_atmosphere_depth(double tau0, double scale_height, double z0, double z1,
                                          double cosine);
 
-// V6: two homogeneous layers; layer 1 is in front.
+// V6: returns the light of two homogeneous layers; layer 1 is in front.
 [[nodiscard]] Radiance v6_layers(double tau1, double colour1, double length1, double tau2,
                                  double colour2, double length2);
 
-// V9: the factor by which a central difference over Δ to either side changes the derivative of
-// sin(kx): (sin k(x+Δ) − sin k(x−Δ))/2Δ = k·cos(kx) · sin(kΔ)/(kΔ).
+// V9: returns the factor by which a central difference over Δ to either side changes the derivative
+// of sin(kx): (sin k(x+Δ) − sin k(x−Δ))/2Δ = k·cos(kx) · sin(kΔ)/(kΔ).
 [[nodiscard]] double v9_difference_factor(double k, double delta);
 
-// The light of V9: ∫ sinⁿ(phase + rate·t)·τ·e^(−τt) dt over [0, length], for τ > 0 and n that is 1
-// or even. It is computed as the Fourier sum of sinⁿ, where
-// ∫ e^(i(φ+ωt))·e^(−τt) dt = e^(iφ)·(e^((iω−τ)·length) − 1)/(iω − τ).
+// Returns the light of V9, ∫ sinⁿ(phase + rate·t)·τ·e^(−τt) dt over [0, length], for τ > 0 and an n
+// that is 1 or even. It is computed as the Fourier sum of sinⁿ, where ∫ e^(i(φ+ωt))·e^(−τt)
+// dt = e^(iφ)·(e^((iω−τ)·length) − 1)/(iω − τ).
 [[nodiscard]] double v9_lit_wave(double tau, int power, double phase, double rate, double length);
 
-// The scaled complementary error function e^(x²)·erfc(x) for x ≥ 0.
+// Returns the scaled complementary error function e^(x²)·erfc(x) for x ≥ 0.
 [[nodiscard]] double erfcx(double x);
 
-// Dawson's function e^(−x²)·∫₀ˣ e^(t²) dt.
+// Returns Dawson's function e^(−x²)·∫₀ˣ e^(t²) dt.
 [[nodiscard]] double dawson(double x);
 
 }  // namespace triptych::reference

@@ -8,8 +8,8 @@ namespace triptych::reference {
 
 namespace {
 constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
-// The transmittance below which everything behind contributes less than half a unit in the last
-// place to any double above 1e-3.
+// The transmittance below which everything behind contributes less than half an ulp to any double
+// above 1e-3.
 constexpr double invisible = 0x1.0p-64;
 }  // namespace
 

@@ -1,12 +1,13 @@
-// The limit for step → 0. The ray is cut at the planes of voxel centres; between these, the field
-// along the ray is a cubic polynomial. It is also cut where this cubic passes an entry of the
-// transfer function; between two entries, opacity and colour are linear in the cubic. Central
-// differences reach from p − 1 to p + 1, so the gradient g is also a cubic between the same planes.
-// With shading, the ray is also cut where g is perpendicular to the ray direction d and where |g|
-// passes the floor, which are the roots of g·d and of |g|² − floor². The integrand is therefore
-// smooth on every piece, and the three-point Gauss rule has order 6 there. A piece is halved until
-// halving changes its light by no more than the piece's share of the tolerance. The stated bound is
-// the sum of these changes. For order 6, it is about sixty times the error.
+// Computes the limit of the image for step → 0. The ray is cut at the planes of voxel centres.
+// Between these planes, the field along the ray is a cubic polynomial. The ray is also cut where
+// this cubic passes an entry of the transfer function. Between two entries, opacity and colour are
+// linear in the cubic. Central differences reach from p − 1 to p + 1, so the gradient g is also a
+// cubic between the same planes. With shading, the ray is also cut where g is perpendicular to the
+// ray direction d and where |g| passes the floor, which are the roots of g·d and of |g|² − floor².
+// The integrand is therefore smooth on every piece, and the three-point Gauss rule has order 6
+// there. A piece is halved until halving changes its light by no more than the piece's share of the
+// tolerance. The stated bound is the sum of these changes. For order 6, it is about sixty times the
+// error.
 
 #include <algorithm>
 #include <array>
@@ -32,11 +33,11 @@ namespace {
 
 using Rgba = std::array<double, 4>;
 
-// The largest number of times that a piece is halved. Only pieces on which opacity reaches 1 come
-// close to it.
+// The maximum number of times that a piece is halved. Only pieces on which opacity reaches 1 come
+// close to this limit.
 constexpr int most_halvings = 48;
-// The extinction per voxel length that represents opacity 1. It hides everything behind 1e-10 of a
-// voxel.
+// The extinction per voxel length that represents opacity 1. With this extinction, 1e-10 of a voxel
+// hides everything behind it.
 constexpr double most_extinction = 1e12;
 // A change that is smaller than this is attributed to rounding.
 constexpr double least_tolerance = 0x1.0p-48;
@@ -136,11 +137,11 @@ class ConvergedRaycaster {
     add(light, cell.length, begin, end, light(begin, end), 0);
   }
 
-  // Whether everything that follows is invisible at any tolerance.
+  // Returns whether everything that follows is invisible at any tolerance.
   [[nodiscard]] bool dark() const { return sum_.depth > 60.0; }
 
-  // Whether the piece from a to b is transparent. The piece is between two knots, where the same
-  // two entries are interpolated everywhere, so testing its middle is sufficient.
+  // Returns whether the piece from a to b is transparent. The piece is between two knots, where the
+  // same two entries are interpolated everywhere, so testing its middle is sufficient.
   [[nodiscard]] bool transparent(const Cell& cell, double a, double b) const {
     const double middle = std::clamp(cell.knot(0.5 * (a + b)), 0.0, 255.0);
     return table_.transparent({middle, middle, middle});
@@ -183,8 +184,8 @@ class ConvergedRaycaster {
     return {std::min(-std::log1p(-rgba[3]), most_extinction), looked.colour};
   }
 
-  // Integrates the piece from a to b. `whole` is the light of the piece if the rule is applied
-  // once.
+  // Integrates the piece from a to b. `whole` is the light of the piece according to a single
+  // application of the rule.
   template <typename Light>
   void add(const Light& light, double length, double a, double b, const PieceLight& whole,
            int level) {

@@ -1,5 +1,5 @@
 #pragma once
-// A cubic polynomial on [0, 1], and the positions where it passes whole numbers.
+// A cubic polynomial on [0, 1], and the positions where it passes integers.
 
 #include <algorithm>
 #include <array>
@@ -41,8 +41,8 @@ struct Cubic {
 
   [[nodiscard]] double slope(double s) const { return c1 + s * (2.0 * c2 + s * 3.0 * c3); }
 
-  // Appends every s in (0, 1), in ascending order, where the cubic passes one of the numbers 0, 1,
-  // …, 255, if `keep` returns true for that number.
+  // Appends every s in (0, 1), in ascending order, where the cubic passes one of the integers 0, 1,
+  // …, 255 for which `keep` returns true.
   template <typename Keep>
   void append_knots(std::vector<double>& at, Keep keep) const {
     const std::array<double, 4> ends = monotone_ends();
@@ -68,7 +68,7 @@ struct Cubic {
     const double half = c2;  // the extrema solve c1 + 2·half·s + 3·c3·s² = 0
     const double discriminant = half * half - 3.0 * c3 * c1;
     if (discriminant > 0.0) {
-      // Compute both roots from the sum in which nothing cancels.
+      // Compute both roots from a sum without cancellation.
       const double q = -(half + std::copysign(std::sqrt(discriminant), half));
       double a = c3 != 0.0 ? q / (3.0 * c3) : 0.0;
       double b = q != 0.0 ? c1 / q : 0.0;

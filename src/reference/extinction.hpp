@@ -20,7 +20,7 @@ namespace triptych::reference {
   return length > 0.0 ? length * extinction : 0.0;
 }
 
-// Returns the mean of −ln(1 − alpha) while alpha changes linearly from a to b. It uses the
+// Returns the mean of −ln(1 − alpha) for an alpha that changes linearly from a to b. It uses the
 // antiderivative F(α) = (1 − α)·ln(1 − α) + α or, where the difference of F would cancel, its
 // series around the middle.
 [[nodiscard]] inline double mean_extinction(double a, double b) {

@@ -156,8 +156,8 @@ typename Field<Stored>::Read Field<Stored>::read(const glm::dvec3& p, const glm:
   return result;
 }
 
-// Returns the error in stored units. Whatever the weights are, a device's value stays within the
-// range of the voxels.
+// Returns the error in stored units. It cannot exceed the range of the voxels, because an
+// interpolated value stays within this range for any weights.
 template <typename Stored>
 double Field<Stored>::error_of(const Read& read, const glm::dvec3& e) const {
   if (!read.local) return range_;

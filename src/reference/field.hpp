@@ -12,7 +12,7 @@
 
 namespace triptych::reference {
 
-// A value, and the largest difference from this value that the error model allows on a device.
+// A value, and the largest deviation from this value that the error model permits on a device.
 struct Bounded {
   double value = 0;
   double error = 0;
@@ -32,8 +32,8 @@ class Field {
 
   // Returns the value at p and its error, which is the sum of these terms:
   //
-  //   - For each axis, the position error times the largest difference of neighbouring voxels in
-  //     any cell that a device may read instead. (A trilinear field is Lipschitz continuous.)
+  //   - For each axis, the position error times the largest difference between neighbouring voxels
+  //     in any cell that a device may read instead. (A trilinear field is Lipschitz continuous.)
   //   - filter_weight_error times the spread of the eight voxels.
   //   - value_error.
   //   - voxel_rounding times (the value and all terms above except value_error). The reason is that
@@ -56,9 +56,9 @@ class Field {
   };
   using Corners = std::array<double, 8>;  // bit 0: x, bit 1: y, bit 2: z
 
-  // Bounds of how fast the field changes in a cell: for each axis the smallest and largest
-  // difference of two neighbouring voxels, and the largest difference of any two voxels of the
-  // cell.
+  // Bounds on how fast the field changes in a cell: for each axis, the smallest and the largest
+  // difference between two neighbouring voxels, and the largest difference between any two voxels
+  // of the cell.
   struct Slopes {
     glm::dvec3 lo;
     glm::dvec3 hi;

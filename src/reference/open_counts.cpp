@@ -46,7 +46,7 @@ class Crossings {
  public:
   Crossings(const BrickPlanes& planes, const Ray& ray) : planes_(planes), ray_(ray) {}
 
-  // Whether a device may assign the point p on the ray to either side of a plane.
+  // Returns whether a device may assign the point p on the ray to either side of a plane.
   [[nodiscard]] bool is_near(const glm::dvec3& p) const {
     if (planes_.edge == 0) return false;
     for (int axis = 0; axis < 3; ++axis) {
@@ -57,7 +57,7 @@ class Crossings {
     return false;
   }
 
-  // The number of planes that separate two points.
+  // Returns the number of planes that separate two points.
   [[nodiscard]] double between(const glm::dvec3& a, const glm::dvec3& b) const {
     if (planes_.edge == 0) return 0;
     double sum = 0;
@@ -65,8 +65,8 @@ class Crossings {
     return sum;
   }
 
-  // The number of planes that a device may cross at the same time as the previous plane, if the
-  // device's ray is within `position_error` voxels of this ray.
+  // Returns the number of planes that a device may cross at the same time as the previous plane, if
+  // the device's ray is within `position_error` voxels of this ray.
   [[nodiscard]] double ties(double position_error) const {
     if (planes_.edge == 0) return 0;
     struct Crossing {
@@ -130,8 +130,8 @@ struct Sight {
   StepOpacity opacity;
 };
 
-// Counts what may differ between devices for the pixels of one scene. Each thread has its own
-// object.
+// Counts the samples, bricks and rays that may differ between devices, for the pixels of one scene.
+// Each thread uses its own object.
 template <typename Stored>
 class Counter {
  public:
@@ -187,8 +187,8 @@ class Counter {
       tally.skipped += passed + (near ? 1 : 0);
       if (sight.possible) stops.add(sight.opacity);
       if (stops.must_end()) break;
-      // Bricks are visited until the end of a run of visible samples. A device may begin a run here
-      // and end the ray within this run.
+      // Bricks are visited until the end of a run of visible samples. Here, a device may begin a
+      // run and then end the ray within it, so all bricks of the run may differ.
       if (!ended && stops.may_end()) {
         const double rest = crossings.between(p, ray.entry + most * stride);
         tally.visited += rest;

@@ -1,6 +1,7 @@
 #pragma once
-// Computes the largest difference of a raycaster's counters between two correct devices. Some
-// counts depend on rounding. They are found ray by ray, with the same error bounds as for images.
+// Computes the largest permitted differences between the raycasting counters of two correct
+// devices. Counts differ if they depend on rounding. Such counts are found ray by ray, with the
+// same error bounds as for images.
 
 #include <map>
 #include <string>
@@ -13,7 +14,7 @@ namespace triptych::reference {
 // The planes at which a raycaster decides whether it can skip a brick. Along each axis they are at
 // origin + k·edge voxels.
 struct BrickPlanes {
-  int edge = 0;  // 0 if the raycaster does not skip
+  int edge = 0;  // 0 if the raycaster does not skip bricks
   double origin = 0;
 };
 
@@ -28,11 +29,11 @@ struct BrickPlanes {
 //   - the side of a plane between bricks to which a sample is assigned, if the sample is closer to
 //     the plane than its position error. This affects one sample and one brick. If the beginning of
 //     a leap moves, its end moves too, because the sizes of the skipped cubes differ by at most the
-//     distance between the cubes. Two sequences of leaps therefore interleave, and their numbers of
-//     leaps differ by at most one;
+//     distance between the cubes. Two sequences of leaps therefore interleave, and their lengths
+//     differ by at most one leap;
 //   - whether a brick between two planes is visited, if the ray crosses both planes at positions
 //     that are equal within their errors;
-//   - with quadrature cells, two points for each piece that is shorter than the uncertainty of its
+//   - with quadrature=cells, two points for each piece that is shorter than the uncertainty of its
 //     ends, and four points for an extremum that is within its error of a kink.
 [[nodiscard]] std::map<std::string, double> open_counts(const scene::VolumeScene& scene,
                                                         const ErrorModel& model,

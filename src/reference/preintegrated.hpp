@@ -1,5 +1,5 @@
 #pragma once
-// One step of quadrature preintegrated: the emission–absorption integral for a value that changes
+// One step of quadrature=preintegrated: the emission–absorption integral for a value that changes
 // linearly from the step's front to its back, through the piecewise linear transfer function.
 
 #include <array>
@@ -26,8 +26,8 @@ class Preintegration {
  public:
   Preintegration(const Table& table, const ErrorModel& model);
 
-  // Whether every value that a device may find is completely transparent. Here and below, `front`
-  // and `back` are normalised values, and `length` is in voxel lengths.
+  // Returns whether every value that a device may find is completely transparent. Here and below,
+  // `front` and `back` are normalised values, and `length` is in voxel lengths.
   [[nodiscard]] bool transparent(const Bounded& front, const Bounded& back) const;
   [[nodiscard]] Segment operator()(const Bounded& front, const Bounded& back,
                                    const StepLength& length) const;

@@ -207,8 +207,9 @@ void PreintegrationBound::add_end(const PathPiece& piece, double position, const
   }
 }
 
-// Whether those parts of cells at either end that only a device enters may be deeper than a chunk.
-// Each of these parts then adds an error as large as the range of its colour.
+// Returns whether the parts of cells that only a device enters, at either end of the path, may be
+// deeper than a chunk. If so, each of these parts adds an error as large as the range of its
+// colour.
 bool PreintegrationBound::deep_slivers() const {
   const double share = widening_ * 2.0 * path_.error / std::max(span_, 1e-300);
   const double extinction = extinction_of(around_.most_alpha + model_.table_error);

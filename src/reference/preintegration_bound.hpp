@@ -1,5 +1,5 @@
 #pragma once
-// Bounds the error that a device may have in one step of quadrature preintegrated.
+// Bounds the error that a device may have in one step of quadrature=preintegrated.
 
 #include <array>
 #include <cstddef>
@@ -30,10 +30,10 @@ struct StepPath {
 
 // The bound applies to a device that tabulates the paths between entries. The device cuts a step at
 // the first and the last entry that the step passes. It processes the whole cells between them from
-// front to back, one by one or in chunks whose optical depth is at most (ln 2)/2; when less than
-// 2⁻²⁰ of the light is left, the rest is one chunk. All light below is premultiplied. R is the
-// range of the colour along the path, A the opacity of the step, and T the transmittance from the
-// front of the step.
+// front to back, one by one or in chunks whose optical depth is at most (ln 2)/2; once less than
+// 2⁻²⁰ of the light is left, all remaining cells form one chunk. All light below is premultiplied.
+// R is the range of the colour along the path, A the opacity of the step, and T the transmittance
+// from the front of the step.
 //
 //   - Values. A device's values at front and back are within e of the exact values, and so are all
 //     values on its path. Opacity and colour in every piece therefore have an error of at most e
@@ -51,10 +51,10 @@ struct StepPath {
 //     error of at most R·D⁴/635 (Cauchy–Schwarz). With D ≤ (ln 2)/2 this is 7.8e-5·R times the
 //     chunk's opacity, so all chunks together have an error of at most 7.8e-5·R·A.
 //   - Deep cells. Along one cell, the colour is linear in the position. Consider the position as a
-//     function of the share of the depth that has been passed. It differs from the polynomial with
-//     its first three coefficients by at most t²/4, where t is the relative change of the
-//     extinction around its mean (a test checks all cases). The light of a cell with colour range R
-//     therefore has an error of at most R·A·t²/4 for any depth.
+//     function of the share of the depth that the light has passed. This function differs from the
+//     polynomial with its first three coefficients by at most t²/4, where t is the relative change
+//     of the extinction around its mean (a test checks all cases). The light of a cell with colour
+//     range R therefore has an error of at most R·A·t²/4 for any depth.
 //   - Ends. Within the first and the last cell, the extinction is assumed to be linear. It deviates
 //     from a line by at most Δ²/8(1 − α)², where Δ is the rise of the opacity over the cell. This
 //     deviation is treated like a change of weights. The series of the mean logarithm is truncated
@@ -116,7 +116,7 @@ class PreintegrationBound {
   double depth_ = 0;         // exact depth so far
   double tails_ = 0;         // truncation errors of the series, per voxel
   double front_ = 1;         // largest share of the light that is left behind the pieces so far
-  double front_before_ = 1;  // the same before the most recent piece
+  double front_before_ = 1;  // front_ before the most recent piece
   std::size_t added_ = 0;
   double weights_ = 0;  // ∫T'δ
   Rgba values_{};       // ∫T'τ' times the errors of the values

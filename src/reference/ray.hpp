@@ -48,8 +48,8 @@ class RayMaker {
     double end = 0;
   };
   // Returns the part of the ray with t ≥ 0 that is inside the volume grown by `margin` voxels on
-  // every side. It never divides by a direction component of ±0: such a ray is between the two
-  // planes for all t or for none.
+  // every side. It never divides by a direction component of ±0, because such a ray is between the
+  // two planes for all t or for none.
   [[nodiscard]] std::optional<Chord> clip(const glm::dvec3& voxels_per_unit, double margin) const;
 
   const scene::VolumeScene* scene_;

@@ -18,7 +18,7 @@ struct HistorySample {
   std::int64_t index = 0;
   glm::dvec3 place{};  // in voxels; for a step, its middle
   glm::dvec3 place_error{};
-  std::optional<Bounded> front;  // the value at the front of a step, for quadrature preintegrated
+  std::optional<Bounded> front;  // the value at the front of a step, for quadrature=preintegrated
   Bounded value;                 // the value at the sample, or at the back of the step
   Looked looked;                 // after shading; for a step, the alphas are not used
   StepLength length;             // in voxel lengths
@@ -32,8 +32,8 @@ struct RayHistory {
 };
 
 // Returns the samples that render_volume takes for pixel (x, y) with the same model. It supports
-// only the quadratures midpoint and preintegrated, because the samples of quadrature cells have no
-// numbers. Throws the same errors as render_volume.
+// only the quadratures midpoint and preintegrated, because the samples of quadrature=cells have no
+// indices. Throws the same errors as render_volume.
 [[nodiscard]] RayHistory ray_history(const scene::VolumeScene& scene, const ErrorModel& model,
                                      int x, int y);
 

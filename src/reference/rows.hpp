@@ -9,8 +9,8 @@ namespace triptych::reference {
 using RowWorker = std::function<void(int row)>;
 
 // Calls a worker once for every row 0 … rows − 1, in no particular order, on `threads` threads (0
-// means as many as the machine has). The result does not depend on the number of threads if a row
-// depends only on its number. Rethrows the first exception that a worker throws.
+// means one for each hardware thread). The result does not depend on the number of threads if each
+// row depends only on its index. Rethrows the first exception that a worker throws.
 void for_each_row(int rows, int threads, const std::function<RowWorker()>& make_worker);
 
 }  // namespace triptych::reference

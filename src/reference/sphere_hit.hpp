@@ -9,8 +9,8 @@
 
 namespace triptych::reference {
 
-// How a ray from the origin passes a sphere. First, the foot of the perpendicular is computed, and
-// then r² − p², which does not cancel, however far away the sphere is.
+// How a ray from the eye passes a sphere. p² is computed from the foot of the perpendicular, so
+// that r² − p² is accurate however far away the sphere is.
 struct Passage {
   double distance = 0;      // distance of the centre from the eye
   double along = 0;         // b: position of the centre along the ray
@@ -40,10 +40,10 @@ inline double first_surface(const Passage& ray) {
   return std::numeric_limits<double>::infinity();
 }
 
-// The errors that a device may have. `chord` is the largest |d' − d| of two unit directions.
-// `shift` is the displacement of the sphere's centre across the ray, relative to the radius. If the
-// eye is closer to the surface than `skin` (relative to distance + radius), it may be on the other
-// side of the surface on a device.
+// The errors that a device may have. `chord` is the largest |d' − d|, where d' is the unit
+// direction of the device's ray and d that of the exact ray. `shift` is the displacement of the
+// sphere's centre across the ray, relative to the radius. If the eye is closer to the surface than
+// `skin` (relative to distance + radius), it may be on the other side of the surface on a device.
 struct Wobble {
   double chord = 0;
   double shift = 0;
@@ -52,12 +52,12 @@ struct Wobble {
 
 // The possible results for one sphere, over all rays that a wobble allows.
 struct Reach {
-  // Some ray may meet the sphere; otherwise the members below are meaningless.
+  // Whether some ray may hit the sphere. If not, the members below are meaningless.
   bool possible = false;
-  bool covers = false;  // every ray meets the sphere
-  double nearest = 0;   // smallest distance along a ray that meets the sphere
+  bool covers = false;  // every ray hits the sphere
+  double nearest = 0;   // smallest distance along a ray that hits the sphere
   double farthest = 0;
-  double half_lo = 0;  // smallest half chord of a ray that meets the sphere
+  double half_lo = 0;  // smallest half chord of a ray that hits the sphere
   double half_hi = 0;
 };
 
@@ -67,7 +67,8 @@ struct Reach {
 //   |b' − b| = |b·(cos φ − 1) ± p·sin φ| ≤ Δb = p·chord + |b|·chord²/2,
 //   h'² = r² − p'² between h² − ((p + δ)² − p²) and h² + (p² − (p − δ)²),
 // with p' between 0 and |C| + shift·r. The interval of t = b' ∓ h' follows term by term. h² is
-// adjusted instead of computed again, so that without a wobble the result is bit-identical.
+// adjusted instead of computed again, so that without a wobble, the result is bit-identical to that
+// for the exact ray.
 inline Reach reach(const Passage& ray, const Wobble& wobble) {
   Reach result;
   const double shift = wobble.shift * ray.radius;

@@ -54,10 +54,10 @@ class SpherePicture {
 // Draws pixels. Each thread has its own tracer, because a tracer reuses its memory from pixel to
 // pixel.
 //
-// A sphere is a candidate if some ray within the margin may meet it (Reach) before the farthest
-// depth at which another sphere covers all these rays. Before Z values are compared, they are
-// widened by their relative error. A pixel is certain if there is exactly one candidate and it
-// covers all rays, or if there is no candidate. Particles with the same centre and radius as the
+// A sphere is a candidate if some ray within the margin may hit it (Reach) at a smaller depth than
+// the largest depth at which another sphere covers all these rays. Z values are widened by their
+// relative error before they are compared. A pixel is certain if there is exactly one candidate and
+// it covers all rays, or if there is no candidate. Particles with the same centre and radius as the
 // visible particle do not count as rivals, because on an exact tie the lowest id must win.
 //
 // Instead of sampling rays, this method computes an interval of depth over the whole disc of rays.
@@ -67,8 +67,8 @@ class SphereTracer {
  public:
   explicit SphereTracer(const SpherePicture& picture) : picture_(picture) {}
   [[nodiscard]] SpherePixel operator()(int x, int y);
-  // Returns the indices in the particle set of all spheres that some ray within the margin may
-  // meet, including hidden spheres, sorted by the smallest Z at which a ray may meet them.
+  // Returns the indices in the particle set of all spheres that some ray within the margin may hit,
+  // including hidden spheres, sorted by the smallest Z at which a ray may hit them.
   [[nodiscard]] std::vector<std::uint32_t> spheres_near(int x, int y) const;
 
  private:
@@ -94,7 +94,7 @@ class SphereTracer {
 
   const SpherePicture& picture_;
   std::vector<Candidate> candidates_;
-  double covered_ = 0;       // smallest Z at which every ray within the margin has met a sphere
+  double covered_ = 0;       // smallest Z at which every ray within the margin has hit a sphere
   double distance_ = 0;      // distance of the visible surface along the ray
   std::uint32_t shown_ = 0;  // index of the visible sphere in the tree
 };

@@ -1,6 +1,6 @@
 #pragma once
-// Finds the spheres that a ray may come near: a tree of boxes around spheres, built for one
-// position of the eye.
+// A tree of boxes around spheres, built for one position of the eye. It finds the spheres that a
+// ray may come near.
 
 #include <algorithm>
 #include <array>
@@ -17,8 +17,8 @@
 namespace triptych::reference {
 
 // Nodes are split at the median centre along the widest axis, so that neither clusters nor a giant
-// sphere among small ones make the tree deeper than ⌈log₂(count/4)⌉ levels. It needs at most 52
-// bytes per sphere.
+// sphere among small ones make the tree deeper than ⌈log₂(count/4)⌉ levels. The tree needs at most
+// 52 bytes per sphere.
 class SphereTree {
  public:
   struct Sphere {
@@ -36,9 +36,9 @@ class SphereTree {
   [[nodiscard]] double farthest() const { return farthest_; }
   [[nodiscard]] const Sphere& sphere(std::uint32_t place) const { return spheres_[place]; }
 
-  // Calls visit(place) for at least every sphere whose grown box the ray meets at some t ≥ 0 with
-  // t ≤ limit(), in the order of the boxes' distances. limit() may decrease in the meantime.
-  // `direction` is a unit vector.
+  // Calls visit(place) for every sphere whose grown box the ray hits at some t with
+  // 0 ≤ t ≤ limit(), and possibly for further spheres, in the order of the distances of the boxes.
+  // limit() may decrease between calls. `direction` is a unit vector.
   template <typename Limit, typename Visit>
   void walk(const glm::dvec3& direction, const Limit& limit, const Visit& visit) const {
     if (nodes_.empty()) return;

@@ -42,8 +42,8 @@ struct SphereTruth {
   [[nodiscard]] core::Image bound_image() const;
 };
 
-// Renders the scene. The result does not depend on `threads` (0 means as many as the machine has).
-// Throws InputError if the scene has no particle set or no pixels.
+// Renders the scene. The result does not depend on `threads` (0 means one for each hardware
+// thread). Throws InputError if the scene has no particle set or no pixels.
 [[nodiscard]] SphereTruth render_spheres(const scene::ParticleScene& scene,
                                          const SphereErrorModel& model = {}, int threads = 0);
 

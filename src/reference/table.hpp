@@ -18,8 +18,8 @@ struct Looked {
   double alpha_hi = 0;
 };
 
-// A value and the ends of the interval that contains it, as positions among the centres of the
-// entries 0 … 255.
+// A value and the ends of the interval that contains it, as positions in the table, in which entry
+// k is centred at k.
 struct Span {
   double centre = 0;
   double lo = 0;
@@ -30,8 +30,8 @@ class Table {
  public:
   Table(const scene::TransferFunction& function, double table_error);
 
-  // Returns the position of x among the entry centres, without clamping. The kinks of the function
-  // are at 0 … 255.
+  // Returns the position of x in the table, without clamping. The kinks of the function are at 0 …
+  // 255.
   [[nodiscard]] static double knot_of(double x) { return x * 256.0 - 0.5; }
   [[nodiscard]] static Span span_of(const Bounded& x);
 
@@ -57,7 +57,7 @@ class Table {
   [[nodiscard]] Looked look_up_across_entries(const Span& span) const;
 
   std::array<Rgba, entries> rgba_{};
-  // For each entry, the first entry with alpha > 0 that is not before it.
+  // For each entry, the first entry at or after it whose alpha is greater than 0.
   std::array<std::size_t, entries> next_visible_{};
   double table_error_;
 };

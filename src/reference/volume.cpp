@@ -45,7 +45,7 @@ class Raycaster {
     return compositor_.finish();
   }
 
-  // Returns the samples of the pixel, which are taken by the same loops.
+  // Returns the samples of the pixel, which are taken by the same loops as for the image.
   [[nodiscard]] RayHistory history(int x, int y) {
     RayHistory history;
     history_ = &history;
@@ -97,8 +97,9 @@ class Raycaster {
     }
   }
 
-  // The same for quadrature preintegrated, which uses the values at the ends of the steps. The last
-  // step ends where the ray ends, so its end is as uncertain as the length of the ray.
+  // The counterpart of walk_samples() for quadrature=preintegrated, which uses the values at the
+  // ends of the steps. The last step ends where the ray ends, so its end is as uncertain as the
+  // length of the ray.
   void walk_segments(const Ray& ray) {
     const double step = scene_.step_voxels;
     const double length = ray.length / smallest_spacing_;

@@ -44,10 +44,10 @@ struct Truth {
   [[nodiscard]] core::Image bound_image() const;  // the bound in all four channels, rounded up
 };
 
-// Renders the scene. The cost is about samples × 8 voxels, distributed over `threads` threads (0
-// means as many as the machine has). The result does not depend on the number of threads. Throws
-// InputError if the scene has no volume, if the step is ≤ 0, or if the data do not match the size
-// of the volume.
+// Renders the scene. The work, which is about eight voxel fetches per sample, is distributed over
+// `threads` threads (0 means one for each hardware thread). The result does not depend on the
+// number of threads. Throws InputError if the scene has no volume, if the step is ≤ 0, or if the
+// data do not match the size of the volume.
 [[nodiscard]] Truth render_volume(const scene::VolumeScene& scene, const ErrorModel& model = {},
                                   int threads = 0);
 

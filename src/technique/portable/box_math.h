@@ -2,9 +2,9 @@
 // it is written in the common subset of C++, GLSL and OpenCL C. It uses only sums, products and comparisons. Each sum
 // and product is rounded exactly once, so every API builds the same hierarchy.
 
-// These functions return the lower and upper bounds of a sphere along one axis in world space. The two roundings of c
-// ± r have a total error of less than 2u·(|c| + r), with u = 2⁻²⁴. The box extends 4u·(|c| + r) beyond the sphere on
-// each side.
+// These functions return the lower and upper bounds of a sphere along one axis in world space. The two roundings of
+// c ± r have a total error of less than 2u·(|c| + r), with u = 2⁻²⁴. The box extends 4u·(|c| + r) beyond the sphere
+// on each side.
 TRI_FN float tri_box_low(float c, float r) {
   TRI_PRECISE float size = (c < 0.0f ? 0.0f - c : c) + r;
   TRI_PRECISE float low = (c - r) - 2.4e-7f * size;

@@ -56,10 +56,10 @@ TRI_FN real tri_table_position(real x) {
 }
 
 #if TRI_PRECISION == 64
-// Returns log2(1 − alpha), computed as in the single-precision version below, with an error of 6u. For |t| ≤ 3 −
-// 2√2, truncating the series after t¹⁹ causes an error below t²⁰/(21·(1 − t²)) < 2.5e-17 = 0.3u. The remaining
-// error consists of two roundings in t, one in the last sum of the series, two in products, and half a rounding in
-// the constant. The roundings of t² are negligible, because they are multiplied by t² itself.
+// Returns log2(1 − alpha), computed as in the single-precision version below, with an error of 6u. For
+// |t| ≤ 3 − 2√2, truncating the series after t¹⁹ causes an error below t²⁰/(21·(1 − t²)) < 2.5e-17 = 0.3u. The
+// remaining error consists of two roundings in t, one in the last sum of the series, two in products, and half a
+// rounding in the constant. The roundings of t² are negligible, because they are multiplied by t² itself.
 TRI_FN real tri_log2_1m(real alpha) {
   real y = 1.0f - alpha;
   int high = TRI_HIGH_WORD(y);
@@ -75,10 +75,10 @@ TRI_FN real tri_log2_1m(real alpha) {
 }
 
 // Returns 1 − 2^z, computed as in the single-precision version below, with an error of 5u in addition to the error
-// of z. With x = (z − n)·ln 2 and |x| ≤ ½·ln 2, truncating the series after x¹³ causes an error below 1.1·x¹³/14! <
-// 1.4e-17 = 0.2u. The remaining error consists of one and a half roundings in x (half a rounding is in the
-// constant), one in the outermost sum, and one in its product with x. The roundings of nested sums are multiplied
-// by at most x/2.
+// of z. With x = (z − n)·ln 2 and |x| ≤ ½·ln 2, truncating the series after x¹³ causes an error below
+// 1.1·x¹³/14! < 1.4e-17 = 0.2u. The remaining error consists of one and a half roundings in x (half a rounding is
+// in the constant), one in the outermost sum, and one in its product with x. The roundings of nested sums are
+// multiplied by at most x/2.
 TRI_FN real tri_1m_exp2(real z) {
   real c = z > -1022.0f ? z : TRI_TO_REAL(0 - 1022);
   real n = TRI_FLOOR(c + 0.5f);
@@ -93,10 +93,10 @@ TRI_FN real tri_1m_exp2(real z) {
 
 #else
 
-// Returns log2(1 − alpha) for alpha in [0, 1), without cancellation for small alpha. It uses log(m) =
-// 2·atanh((m−1)/(m+1)) for m in [√½, √2). If the exponent e is 0, m − 1 is exactly −alpha. Truncating the series
-// after t⁹ causes a relative error below 3e-10. With a correctly rounded division, the total error is below 5.2u,
-// as tested for every float. A division with an error of 2.5 ulp, which the languages allow, would add 4u.
+// Returns log2(1 − alpha) for alpha in [0, 1), without cancellation for small alpha. It uses
+// log(m) = 2·atanh((m−1)/(m+1)) for m in [√½, √2). If the exponent e is 0, m − 1 is exactly −alpha. Truncating the
+// series after t⁹ causes a relative error below 3e-10. With a correctly rounded division, the total error is below
+// 5.2u, as tested for every float. A division with an error of 2.5 ulp, which the languages allow, would add 4u.
 TRI_FN float tri_log2_1m(float alpha) {
   float y = 1.0f - alpha;
   int bits = TRI_AS_INT(y);
@@ -109,9 +109,9 @@ TRI_FN float tri_log2_1m(float alpha) {
   return TRI_TO_FLOAT(e) + t * p;
 }
 
-// Returns 1 − 2^z for z ≤ 0, without cancellation for small |z|. With n = round(z), 2^z = 2^n·(1 + w) and 1 − 2^z =
-// (1 − 2^n) − 2^n·w, where w = 2^(z−n) − 1 is computed by a series to degree 7 (relative error below 2e-9). The
-// total error is below 2.3u, as tested for every float.
+// Returns 1 − 2^z for z ≤ 0, without cancellation for small |z|. With n = round(z), 2^z = 2^n·(1 + w) and
+// 1 − 2^z = (1 − 2^n) − 2^n·w, where w = 2^(z−n) − 1 is computed by a series to degree 7 (relative error below
+// 2e-9). The total error is below 2.3u, as tested for every float.
 TRI_FN float tri_1m_exp2(float z) {
   float c = z > -126.0f ? z : -126.0f;
   float n = TRI_FLOOR(c + 0.5f);
@@ -135,9 +135,9 @@ TRI_FN real tri_opacity(real alpha, real steps) {
   return tri_1m_exp2(steps * tri_log2_1m(alpha));
 }
 
-// Returns 1 − (1 − alpha)^steps. If `steps` is a power of two, `form` encodes it: form = k > 0 means steps =
-// 2^(1−k), and form = k < 0 means steps = 2^−k. For any other `steps`, `form` is 0. alpha is in [0, 1], and the
-// result is exact at both ends. For k > 1, square roots are used: with r_0 = 1 − alpha and r_i = √r_(i−1), the
+// Returns 1 − (1 − alpha)^steps. If `steps` is a power of two, `form` encodes it: form = k > 0 means
+// steps = 2^(1−k), and form = k < 0 means steps = 2^−k. For any other `steps`, `form` is 0. alpha is in [0, 1], and
+// the result is exact at both ends. For k > 1, square roots are used: with r_0 = 1 − alpha and r_i = √r_(i−1), the
 // result is 1 − r_n = alpha / ((1 + r_1)…(1 + r_n)), which involves no cancellation. Each square root adds 1.5
 // roundings, and the division adds one. For k < 0, a → a·(2 − a) is applied repeatedly, with two roundings each
 // time.

@@ -66,8 +66,8 @@ real voxel(Grid grid, ivec3 at) {
   return texel;
 }
 
-// Interpolates trilinearly in the shader, between the voxels floor(q) and floor(q)+1 along each axis, where q = p −
-// ½. Indices are clamped to the edge.
+// Interpolates trilinearly in the shader, between the voxels floor(q) and floor(q)+1 along each axis, where
+// q = p − ½. Indices are clamped to the edge.
 real fetch_manual(Grid grid, real3 p) {
   real3 q = p - 0.5;
   real3 base = floor(q);
