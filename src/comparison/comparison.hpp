@@ -76,7 +76,8 @@ struct ComparisonResult {
   double seconds = 0;
 
   [[nodiscard]] core::ExitCode exit_code() const;
-  [[nodiscard]] std::vector<DifferenceGroup> groups() const;  // of all differences except times
+  // Groups all differences except those in times.
+  [[nodiscard]] std::vector<DifferenceGroup> groups() const;
 };
 
 enum class ComparisonStage : std::uint8_t {

@@ -63,8 +63,8 @@ struct SequentialDesign {
   // Returns the design with τ₀ = ln 1.01 and τ₁ = ln 1.03.
   [[nodiscard]] static SequentialDesign standard();
   [[nodiscard]] double alpha_of_a_look() const { return alpha / static_cast<double>(looks.size()); }
-  // Returns the number of blocks of the next look after this number of blocks, or 0 after the last
-  // look.
+  // Returns the number of blocks at which the next look takes place, or 0 after the last look.
+  // `blocks` is the number of blocks measured so far.
   [[nodiscard]] int next_look(int blocks) const;
 };
 
@@ -93,9 +93,8 @@ inline constexpr std::size_t least_process_runs = 2;  // with fewer runs, their 
 struct ConfirmationDesign {
   std::array<std::size_t, 2> looks{5, 10};  // numbers of fresh process runs
   std::size_t blocks_per_process_run = 24;
-  // The limit for the false discovery rate over all looks together, which is the expected fraction
-  // of false results among the confirmed results. Each look adds at most its own share to that
-  // rate.
+  // The limit for the false discovery rate (the expected fraction of false results among the
+  // confirmed results) over all looks together. Each look adds at most its own share to that rate.
   double q = 0.02;
 
   [[nodiscard]] double q_of_a_look() const { return q / static_cast<double>(looks.size()); }

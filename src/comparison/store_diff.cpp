@@ -39,8 +39,8 @@ void add_only_one(const Map& a, const Map& b, const MadeOf& made_of, std::set<On
   }
 }
 
-// Returns whether two differences are equal, if they were found between the same two devices but in
-// different runs.
+// Returns whether two differences, which were found in different runs of the same two devices, are
+// equal.
 bool is_same(const Difference& a, const Difference& b) {
   return a.subject == b.subject && a.name == b.name && a.facts == b.facts && a.worths == b.worths &&
          a.total == b.total;

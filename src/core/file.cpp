@@ -74,7 +74,7 @@ Descriptor open_to_read(const std::filesystem::path& file, struct stat& facts) {
   if (S_ISDIR(facts.st_mode)) fail("cannot read", file, EISDIR);
   if (!S_ISREG(facts.st_mode)) {
     throw IoError(
-        fmt::format("{}: cannot read: it is a pipe or a device, not a file", file.string()));
+        fmt::format("{}: cannot be read: it is a pipe or a device, not a file", file.string()));
   }
   return in;
 }

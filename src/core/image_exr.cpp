@@ -51,7 +51,7 @@ class MemoryIn : public Imf::IStream {
     const auto n = static_cast<std::size_t>(count);
     if (count < 0 || place_ > bytes_.size() || n > bytes_.size() - place_) {
       throw std::runtime_error(
-          fmt::format("the file ends after {} bytes; more were expected", bytes_.size()));
+          fmt::format("the file is truncated; it ends after {} bytes", bytes_.size()));
     }
     std::memcpy(data, bytes_.data() + place_, n);
     place_ += n;

@@ -31,7 +31,7 @@ void require_writable(const fs::path& folder) {
   fs::create_directories(where, error);
   if (!error && ::access(where.c_str(), W_OK) != 0) error = {errno, std::generic_category()};
   if (error) {
-    throw IoError(fmt::format("cannot write into {}: {}; choose another folder", where.string(),
+    throw IoError(fmt::format("cannot write into folder {}: {}; choose another one", where.string(),
                               error.message()));
   }
 }

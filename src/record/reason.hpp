@@ -45,7 +45,7 @@ enum class Cause : std::uint8_t {
   bad_answer,        // the worker's answer was invalid
   no_greeting,       // the worker's first message was not its greeting
   cannot_start,      // the worker's program cannot be started
-  under_way          // the program ended "times" times before this measurement finished
+  under_way          // "times" earlier attempts to measure this configuration never finished
 };
 [[nodiscard]] std::string_view name_of(Cause cause);
 [[nodiscard]] Cause cause(std::string_view name);  // throws InputError

@@ -183,9 +183,8 @@ void throw_store_error(const std::filesystem::path& file, const SQLite::Exceptio
       throw core::IoError(fmt::format(
           "{}: cannot be written, because the file or its folder is read-only ({})", name, what));
     case SQLITE_CANTOPEN:
-      throw core::IoError(
-          fmt::format("{}: cannot be opened ({}); check that its folder exists and can be written",
-                      name, what));
+      throw core::IoError(fmt::format(
+          "{}: cannot be opened ({}); check that its folder exists and is writable", name, what));
     case SQLITE_IOERR:
       throw core::IoError(fmt::format(
           "{}: cannot be read or written ({}); check whether the disk is full or broken", name,

@@ -312,8 +312,9 @@ void require_our_schema(const SQLite::Database& database, const std::filesystem:
       fmt::format("the store has schema version {}, but this program reads version {}; {}, or "
                   "name another file with --store",
                   found, Store::schema_version,
-                  found > Store::schema_version ? "use the newer Triptych that wrote it"
-                                                : "measure again, or use the older Triptych"));
+                  found > Store::schema_version
+                      ? "use the newer version of Triptych that wrote it"
+                      : "measure again, or use the older version of Triptych"));
 }
 
 // Two processes may open the same empty file at the same time. The second process waits for the

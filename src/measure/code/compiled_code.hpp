@@ -24,12 +24,12 @@ class CompiledCode {
   Compiled compiled_;
 };
 
-// Reads the "Name: NUMBER" pairs of one line, as Mesa's drivers print statistics. Text before the
-// first pair and text in parentheses is ignored.
+// Parses a line of "Name: NUMBER" pairs, which is the format in which Mesa's drivers print
+// statistics. Text before the first pair and text in parentheses is ignored.
 [[nodiscard]] std::map<std::string, double> parse_statistics(std::string_view line);
 
-// Reads "NUMBER name" pairs, as in "Used 32 registers, 8 bytes stack frame" (NVIDIA) or "55 inst, 0
-// loops, 328 cycles" (Intel). The name consists of all words up to the next comma.
+// Parses a line of "NUMBER name" pairs, such as "Used 32 registers, 8 bytes stack frame" (NVIDIA)
+// or "55 inst, 0 loops, 328 cycles" (Intel). The name consists of all words up to the next comma.
 [[nodiscard]] std::map<std::string, double> parse_counts(std::string_view line);
 
 }  // namespace triptych::measure

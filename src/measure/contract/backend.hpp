@@ -118,7 +118,7 @@ struct Rasterizer {
   // may round point sizes down by up to this amount. A driver may also round them up by up to this
   // amount.
   double point_margin = 0;
-  double largest_point = 0;  // in pixels, without the margin; larger sprites are drawn as quads
+  double largest_point = 0;  // limit in pixels, without the margin; larger sprites become quads
 };
 
 // The compiler's report about the timed build.
@@ -172,7 +172,7 @@ class Device {
 struct Broken {
   std::string what;                          // such as "OpenCL platform Clover"
   std::string reason;                        // the message of the loader or the driver
-  std::optional<record::Reason> ended = {};  // how the process that listed it failed
+  std::optional<record::Reason> ended = {};  // how the process that enumerates devices failed
 };
 
 struct Listing {

@@ -157,7 +157,7 @@ PlanSource read_plan_file(const std::filesystem::path& file) {
             .yaml = core::read_text(file)};
   } catch (const core::IoError& error) {
     throw core::InputError(
-        fmt::format("{}; a plan is a YAML file or a short name SUITE/PLAN", error.what()));
+        fmt::format("{}; expected a YAML file or a short name SUITE/PLAN", error.what()));
   }
 }
 

@@ -31,7 +31,7 @@ class Combinations {
   // The suite must outlive this object.
   Combinations(const Suite& suite, const std::vector<ValuesByFactor>& blocks);
 
-  // Throws InputError for an invalid shard.
+  // Calls `use` for each combination in the shard. Throws InputError for an invalid shard.
   void for_each(const Shard& shard, const Use& use) const;
 
   // Returns the number of combinations of a block, including combinations that also occur in other

@@ -96,7 +96,7 @@ std::vector<PlacedText> values_of(const YAML::Node& node, const std::string& fil
   if (!node.IsSequence()) return {scalar(node, file, owner)};
   if (node.size() == 0) {
     refuse(file, node,
-           fmt::format("'{}' is an empty list; leave it out to use the default", owner));
+           fmt::format("'{}' is an empty list; remove the entry to use the default", owner));
   }
   std::vector<PlacedText> values;
   for (const YAML::Node& each : node) values.push_back(scalar(each, file, owner));
@@ -134,8 +134,9 @@ class Keys {
   void add(const PlacedText& key) {
     const auto [first, added] = seen_.emplace(key.text, key.place);
     if (!added) {
-      throw core::InputError(key.place, fmt::format("'{}' is given twice, first in line {}",
-                                                    key.text, first->second.line));
+      throw core::InputError(
+          key.place, fmt::format("'{}' is given twice; the first entry is in line {}", key.text,
+                                 first->second.line));
     }
   }
 
@@ -185,8 +186,9 @@ PlanText parse_plan(std::string_view yaml, const std::string& file) {
     }
   }
   if (plan.suite.text.empty()) {
-    throw core::InputError({.file = file, .line = 1},
-                           "'suite:' is missing; it names the suite that defines the factors");
+    throw core::InputError(
+        {.file = file, .line = 1},
+        "'suite:' is missing; add the name of the suite that defines the factors");
   }
   return plan;
 }

@@ -31,7 +31,8 @@ struct PlanText {
   std::vector<std::vector<PlanEntry>> also;
 };
 
-// Parses the YAML of a plan. Error messages call it `file`. Throws InputError in these cases:
+// Parses the YAML of a plan. Error messages use `file` as the name of the file. Throws InputError
+// in these cases:
 // - The text is not YAML, or is not a single mapping.
 // - `suite` is missing, a key is duplicated, or a list is empty.
 // - A value is missing or not a scalar, or `also` is not a list of mappings.

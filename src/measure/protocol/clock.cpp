@@ -61,7 +61,7 @@ std::string verdict_of(const record::ClockTrust& trust, double wall_ns, std::siz
                        wall_ns * 1e-6);
   }
   const std::string limits =
-      fmt::format("a trusted clock shows {} to {}", percent(ClockLimits::least_ratio),
+      fmt::format("a trusted clock must show {} to {}", percent(ClockLimits::least_ratio),
                   percent(ClockLimits::most_ratio));
   const bool is_short = wall_ns < ClockLimits::least_frame_ns / 4 && trust.ratio < 1;
   return fmt::format("not trusted: {}; {}{}", seen, limits,

@@ -38,7 +38,7 @@ class FrameProof {
   // the first frame.
   void check_drawn(std::string_view what);
 
-  // Replaces the image with which frames are compared by the image of the next check(), because a
+  // Makes the image of the next check() the image with which later frames are compared, because a
   // frame after the warm-up may differ from the very first frame. That check() still requires that
   // its frame was drawn.
   void begin_again() { renewed_ = true; }
@@ -51,7 +51,7 @@ class FrameProof {
 
   [[nodiscard]] Prepared& prepared() { return prepared_; }
 
-  // Returns the image that was checked last.
+  // Returns the most recently checked image.
   [[nodiscard]] core::Image take_image() { return std::move(last_); }
 
  private:

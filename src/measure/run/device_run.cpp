@@ -209,7 +209,7 @@ bool DeviceRun::ensure_worker() {
 void DeviceRun::greet(const Hello& hello) {
   if (known_ && known_->key() != hello.device.key()) {
     throw core::InputError(
-        fmt::format("the device {} has changed since run {} began (then {}; now {}); start a new "
+        fmt::format("the device {} has changed since run {} began (then: {}; now: {}); start a new "
                     "run instead of using --resume",
                     device_, context_.run, known_->key(), hello.device.key()));
   }

@@ -4,7 +4,8 @@
 
 namespace triptych::measure {
 
-// Returns a run of the plan with a new id, which starts now. `program` is RunOptions::program.
+// Returns a new run of the plan, which has a new id and starts now. `program` is
+// RunOptions::program.
 [[nodiscard]] record::Run new_run(const Plan& plan, const std::string& program);
 
 }  // namespace triptych::measure

@@ -19,7 +19,7 @@ constexpr std::array error_signals{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
 constexpr std::size_t handler_stack_bytes = std::size_t{64} << 10U;
 
 void say(std::string_view text) {
-  // if this fails, there is no way to report it
+  // If this fails, there is no way to report it.
   static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
 }
 

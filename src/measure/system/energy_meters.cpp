@@ -127,8 +127,8 @@ void EnergyMeters::find_intel_cards(const fs::path& system) {
   }
 }
 
-// Loads the functions under the names and with the types of nvml.h, version 12. They return 0 for
-// success.
+// Loads the functions of NVML by name. Their types are those in nvml.h, version 12. They return 0
+// on success.
 void EnergyMeters::find_nvidia_cards(const fs::path& nvml) {
   using Card = struct nvmlDevice_st*;
   void* library = ::dlopen(nvml.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);

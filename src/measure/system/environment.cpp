@@ -116,8 +116,8 @@ CacheFolder::CacheFolder(std::string_view device_id) {
         lock_ = try_lock(folder);
         if (lock_) return;
       }
-      reasons += fmt::format("; {}: {} workers already use the cache folders there", root.string(),
-                             most_at_once);
+      reasons += fmt::format("; {}: all {} cache folders are in use by other workers",
+                             root.string(), most_at_once);
     } catch (const core::IoError& error) {
       reasons += fmt::format("; {}", error.what());
     }

@@ -123,8 +123,8 @@ void list_compiler(const std::string& id, Listing& listing) {
 [[noreturn]] void refuse_devices(const Listing& listing, std::string_view glob) {
   if (listing.devices.empty()) {
     throw core::NotSupported(fmt::format(
-        "no device matches {}: no installed driver provides such a device; ci/setup installs "
-        "software drivers, and `triptych devices` prints what each loader found",
+        "no device matches {}, because no installed driver provides a device; run ci/setup to "
+        "install software drivers, or `triptych devices` to print what each loader found",
         glob));
   }
   std::string known;

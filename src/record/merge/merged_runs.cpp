@@ -91,10 +91,11 @@ void add(Store::DeviceEntry entry, const fs::path& file, Devices& devices) {
   if (entry.device.key() != known.device.key()) {
     throw core::InputError(
         {.file = file.string()},
-        fmt::format("the device {} differs from the device with this id in {} (here {}; there {}); "
-                    "merge the stores of each driver and machine separately, and compare the "
-                    "results with `triptych diff`",
-                    id, known_file.string(), entry.device.key(), known.device.key()));
+        fmt::format(
+            "the device {} differs from the device with this id in {} (here: {}; there: {}); "
+            "merge the stores of each driver and machine separately, and compare the "
+            "results with `triptych diff`",
+            id, known_file.string(), entry.device.key(), known.device.key()));
   }
   if (seal_of(entry.device, entry.clocks) < seal_of(known.device, known.clocks)) {
     known = std::move(entry);
