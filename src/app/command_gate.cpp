@@ -114,8 +114,8 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
                                const Registry& registry, measure::Truths& truths) {
   judge::GateRequest request = request_of(truths, judged.plan, registry.suite(judged.plan.suite));
   request.devices = judged.devices.empty() ? arguments.devices : judged.devices;
-  // A plan with the check `code` requires only the required devices that only compile. Every other
-  // plan requires only the remaining required devices.
+  // Of the devices named by --require, those that only compile are required for plans with the
+  // check `code`, and all others are required for the remaining plans.
   for (const std::string& glob : arguments.required) {
     const bool compiles = measure::compile_only(glob).has_value();
     if (compiles == judged.plan.compiled()) request.required_devices.push_back(glob);
@@ -162,8 +162,8 @@ std::vector<record::Device> found_devices(const GateArguments& arguments, const 
 }
 
 // Limits default plans with the check `code` to devices that have stored code, and removes plans
-// for which there is no such device. If the user requires a device that only compiles, nothing is
-// limited.
+// for which there is no such device. Changes nothing if the user names plans or requires a device
+// that only compiles.
 void limit_to_stored_code(const GateArguments& arguments, const Registry& registry,
                           std::vector<JudgedPlan>& plans) {
   if (!arguments.plans.empty() || measure::name_a_compiler(arguments.required)) return;

@@ -155,8 +155,8 @@ class Validation {
     judge::add_flakes(cases, results_);
   }
 
-  // Prints and writes which levels and features the validation has covered, so that readers know
-  // what a pass means.
+  // Prints the levels and features that the validation has covered, and writes them to coverage.txt
+  // and coverage.json, so that readers know what a pass means.
   void tell_coverage(const FeatureTable& features) {
     std::vector<record::Record> records;
     for (const judge::GateResult& result : results_) {
@@ -298,7 +298,7 @@ FeatureTable features_of(const ValidateArguments& arguments, const Validation& v
 
 core::ExitCode validate(const ValidateArguments& arguments) {
   const measure::Stopwatch since;
-  // Throws now if the value of --ci is unknown, before anything is measured.
+  // Checks the value of --ci before anything is measured; throws if it is unknown.
   static_cast<void>(ci_system(arguments.ci));
   core::refuse_overwriting({{"--expect", arguments.expect}},
                            {{"--junit", arguments.junit},

@@ -114,8 +114,9 @@ struct Bench {
   record::Store& store;
 };
 
-// Describes how the run began. GPU families whose compiler is not installed are recorded only if
-// the user named a GPU family or requires the device.
+// Returns the state at the beginning of the run: the host, and the requested, found and unusable
+// devices. GPU families whose compiler is not installed are recorded only if the user named a GPU
+// family or requires the device.
 record::Beginning begun_with(const measure::Listing& listing, const Measuring& measuring) {
   record::Beginning begun{.host = measure::host_name(), .asked = measuring.devices};
   const bool named = measure::name_a_compiler(measuring.devices);

@@ -29,10 +29,10 @@ struct Measuring {
   std::optional<std::uint64_t> memory = {};  // bytes that a worker may allocate
   std::vector<std::string> faults = {};
   bool measure_every = false;
-  bool brief = false;       // few frames: times are shown, but do not affect a verdict
-  bool untimed = false;     // one frame each for the image and the counters
+  bool brief = false;       // time only a few frames, because times do not affect the verdict
+  bool untimed = false;     // draw only one frame for the image and one for the counters
   bool statistics = false;  // also read the statistics in an untimed run
-  bool timed = false;       // also measure times for plans without the check timing
+  bool timed = false;       // also measure times for plans without the check `timing`
   std::optional<std::string> error = {};  // requested error, as typed by the user
   bool chooses = false;                   // report the fastest technique if a plan contains `auto`
   bool verbose = false;                   // print a line for each configuration

@@ -28,7 +28,7 @@ struct OneFrame {
   std::string device;  // id
 };
 
-// The suite and the configuration that the arguments name.
+// The suite and the configuration named by the arguments.
 struct ChosenData {
   measure::SuiteWithTruth& suite;
   measure::Plan plan;

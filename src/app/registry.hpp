@@ -22,7 +22,7 @@ struct Registry {
   [[nodiscard]] const measure::Backend& backend(std::string_view api) const;
   [[nodiscard]] measure::FindSuiteWithTruth find_suite() const;
   // Lists the devices of this machine. With globs, only the APIs that may have a matching device
-  // are opened, because opening the drivers of an API takes a quarter of a second.
+  // are opened, because opening the drivers of an API takes about a quarter of a second.
   [[nodiscard]] measure::Listing devices(const std::vector<std::string>& globs) const;
   // Lists the same devices as devices(), and the devices that only compile
   // (measure::list_compilers).

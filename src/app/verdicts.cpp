@@ -192,8 +192,7 @@ report::JunitFacts junit_facts(const record::Store& store,
   return facts;
 }
 
-// Writes the annotations and the job summary, because a CI system does not read these from the
-// folder.
+// Writes annotations and the job summary for GitHub, which does not read them from the folder.
 void tell_ci(const std::vector<judge::GateResult>& results, const report::FindingPlaces& places,
              CiSystem ci) {
   if (ci != CiSystem::github) return;

@@ -50,7 +50,7 @@ void excuse_absent_data(const record::Store& store, judge::GateResult& result);
 
 // The files to which a verdict is written. A file whose name is empty is not written.
 struct VerdictFiles {
-  std::string folder;  // files for a CI system: see report/ci/folder.hpp
+  std::string folder;  // the folder for the files described in report/ci/folder.hpp
   std::string junit;
   std::string markdown;
   std::string json;       // "-": print JSON instead of the last screen

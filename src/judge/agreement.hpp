@@ -1,5 +1,5 @@
 #pragma once
-// How closely two devices must agree, for the gate and for comparisons.
+// How much two devices may differ, for the gate and for comparisons.
 
 #include <array>
 #include <map>

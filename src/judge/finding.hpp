@@ -63,7 +63,7 @@ enum class Cause : std::uint8_t {
   data_changed,        // the data have changed since they were measured [<hash> <now>]
   no_baselines,        // there are no baselines [<folder>]
   nothing_decided,     // no check reached a verdict for the device
-  device_fault,        // a fault outside any configuration [<kind> <subject> <last_words>, detail]
+  device_fault,        // a fault not in a configuration [<kind> <subject> <last_words>, detail]
   unused_waiver,      // a waiver has expired and excuses nothing [<test> <device> <expiry>, detail]
   waiver_of_no_test,  // a waiver matches no test [<test>]
 
@@ -77,7 +77,7 @@ enum class Cause : std::uint8_t {
   no_image,           // the record has no image
   unreadable_image,   // the stored image cannot be read [detail]
   no_reference,       // there is no reference image [detail]
-  reference_changed,  // the reference image differs from the accepted one [because: how]
+  reference_changed,  // the reference image differs from the accepted one [because: difference]
   reference_as_stored,
   devices_agree,     // the images of two devices agree [<device> <other> "rms" "allowed"]
   devices_disagree,  // the images of two devices differ [<device> <other> "rms" "allowed"]
@@ -125,7 +125,7 @@ enum class Cause : std::uint8_t {
   // Causes that concern stress cases.
   score,  // the points of a case ["score" "accepted"; because: the reasons for lost points]
   farther_device,  // <other> draws a different image, closer to the reference ["rms" "allowed"]
-  pixels_differ,   // the image should equal the one with <levels>, but does not
+  pixels_differ,   // the image should equal the image with <levels>, but differs from it
   no_other_image,  // the image with <levels> that an expectation needs is missing
   not_inside,      // the image does not lie inside the image with <levels>
   other_colour,    // a pixel does not have the expected colour
@@ -178,7 +178,7 @@ struct Change {
   Unit unit = Unit::count;
   std::optional<double> before = {};            // nullopt: there was no such value
   std::optional<double> now = {};               // nullopt: the value is missing now
-  std::map<std::string, double> accepted = {};  // by device; empty unless there are several devices
+  std::map<std::string, double> accepted = {};  // accepted values by device, if there are several
   double allowed = 0;                           // the largest allowed difference
 };
 

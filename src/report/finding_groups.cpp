@@ -65,8 +65,8 @@ double size_of(const Finding& finding) {
   return size;
 }
 
-// Whether the finding is a regression of the check `correlation` that a finding of the check `cost`
-// already reports: the instructions of the same device increased.
+// Returns whether the finding is a regression of the check `correlation` that a finding of the
+// check `cost` already reports: the instructions of the same device increased.
 bool is_told_by_cost(const Finding& finding, std::span<const Finding> findings) {
   if (finding.check != Check::correlation || finding.verdict != Verdict::regression) return false;
   return std::ranges::any_of(findings, [&](const Finding& other) {
@@ -251,8 +251,8 @@ class Grouping {
   std::map<std::tuple<Verdict, Check, std::string_view, std::string>, Members> by_kind_;
 };
 
-// Whether `triptych render` reproduces the finding. This includes hangs, because `render` has a
-// time limit.
+// Returns whether `triptych render` reproduces the finding. This includes hangs, because `render`
+// has a time limit.
 bool is_told_by_a_picture(const Finding& finding) {
   return finding.check == Check::image || finding.check == Check::stress || finding.reason.limit();
 }
@@ -282,8 +282,8 @@ void judge_again(const Finding& finding, const judge::GateResult& result, Comman
   }
 }
 
-// Whether a command can name the plan. A plan from a file is named by its path, which a store does
-// not contain.
+// Returns whether a command can name the plan. A plan from a file is named by its path, which a
+// store does not contain.
 bool is_known(const judge::GateResult& result) {
   return !result.argument.empty() || result.plan.find('/') != std::string::npos;
 }

@@ -11,13 +11,13 @@
 
 namespace triptych::report {
 
-// Whether the driver is at fault, derived from the results of other devices.
+// States whether the driver is at fault. This is derived from the results of other devices.
 struct Blame {
   enum class Of : std::uint8_t {
     unknown,
-    driver,                 // it is, because `devices` with the same API pass
-    driver_since_accepted,  // it is, because `devices` with the same API passed when accepted
-    not_the_driver          // it is not, because `devices` with other drivers fail, too
+    driver,                 // at fault, because `devices` with the same API pass
+    driver_since_accepted,  // at fault, because `devices` with the same API passed when accepted
+    not_the_driver          // not at fault, because `devices` with other drivers also fail
   };
   Of of = Of::unknown;
   std::vector<std::string> devices = {};
@@ -58,16 +58,16 @@ struct FindingGroup {
 // counted in changed_with_it.
 [[nodiscard]] std::vector<FindingGroup> grouped(std::span<const judge::Finding> findings);
 
-// Whether groups from two plans have the same cause: they have the same device, verdict, kind and
-// check, and at least one technique in common. If a configuration crashed or ended abnormally, the
-// check and the techniques may differ.
+// Returns whether groups from two plans have the same cause: they have the same device, verdict,
+// kind and check, and at least one technique in common. If a configuration crashed or ended
+// abnormally, the check and the techniques may differ.
 [[nodiscard]] bool have_one_cause(const FindingGroup& a, const FindingGroup& b);
 
 // Adds another group with the same cause. Returns true if the smallest case of that group became
 // the smallest case of the result.
 bool take_in(FindingGroup& group, const FindingGroup& other);
 
-// Whether the finding needs attention: it is a regression, or could not be judged.
+// Returns whether the finding needs attention: it is a regression, or could not be judged.
 [[nodiscard]] bool is_open(const judge::Finding& finding);
 
 // Returns a command that reproduces a finding of the result and that users can copy. It sets the

@@ -58,8 +58,8 @@ KindRow row_of(const words::CheckWords& kind, std::span<const GateResult* const>
   for (const GateResult* result : results) {
     for (const Finding& finding : result->findings) {
       if (finding.check != kind.check) continue;
-      // A finding without a device states that the reference image is the accepted one. It does not
-      // count as an image that is within its bound.
+      // A finding without a device is about the reference image. If it passes, it does not count as
+      // an image that is within its bound.
       const bool of_truth = finding.check == Check::image && finding.device.empty();
       const bool is_right =
           finding.verdict == Verdict::pass || finding.verdict == Verdict::improved;

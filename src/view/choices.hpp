@@ -33,9 +33,9 @@ class Choices {
   // Restores the configuration that the window showed first.
   void reset() { now_ = first_; }
 
-  // Returns the levels in the drop-down list of a factor. If the factor allows other levels, the
-  // user can also type them; then the list also contains the levels in the suite's plans and, for
-  // `data`, the suite's data generators.
+  // Returns the levels in the drop-down list of a factor. For a factor that also accepts typed
+  // levels, the list includes the levels that occur in the suite's plans and, for `data`, the
+  // suite's data generators.
   [[nodiscard]] const std::vector<std::string>& offers(const std::string& factor) const {
     return offers_.at(factor);
   }

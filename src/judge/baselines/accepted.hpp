@@ -17,12 +17,13 @@ struct Accepted {
   record::Run run;
   record::Checks checks;
   std::vector<record::Record> measured;
-  std::vector<record::Record> skipped;  // skipped, and to be removed from the baselines
-  // Skipped because this driver version does not support a feature; other versions may support it.
+  std::vector<record::Record> skipped;  // skipped records, to be removed from the baselines
+  // Records that were skipped because this driver version lacks a feature. Other driver versions
+  // may support the feature.
   std::vector<record::Record> unsupported;
   std::map<std::string, record::Device> devices;  // by id
-  // Whether the run replaces everything that is stored. `configurations` and `scenes` contain those
-  // for which the run has a record; they are used only in this case.
+  // Whether the run replaces everything that is stored. Only then are the next two members used:
+  // the configurations and scenes for which the run has a record.
   bool replaces_all = false;
   std::set<std::string> configurations;
   std::set<std::string> scenes;

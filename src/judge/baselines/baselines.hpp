@@ -142,7 +142,8 @@ class Baselines {
   // Like cost(), but for the code statistics.
   [[nodiscard]] const DriverCode* code(const record::Device& device) const;
   [[nodiscard]] const std::map<std::string, DriverCode>& code_of_all_drivers() const;
-  // Returns nullopt if nothing is stored for this driver version or for this configuration.
+  // Returns the stored statistics, or nullopt if nothing is stored for this driver version or for
+  // this configuration.
   [[nodiscard]] std::optional<record::Counts> statistics(const record::Device& device,
                                                          const std::string& configuration) const;
   [[nodiscard]] bool has_statistics(const record::Device& device) const;
@@ -213,8 +214,8 @@ struct AcceptRequest {
 // followed by its changed values ("  PATH: OLD → NEW", at most 40 for each file).
 //   - Stores only the values that the checks of the run's plan need.
 //   - Throws InputError for a blank reason, a run with injected faults, a run that measured
-//     nothing, a run whose data have changed since, and a run that lacks stored configurations
-//     (unless `drop` or `only` is set).
+//     nothing, a run whose data have changed since the measurement, and a run that lacks stored
+//     configurations (unless `drop` or `only` is set).
 //   - Changes everything or nothing: writes a new folder next to the old folder, and replaces the
 //   old
 //     folder at the end. Throws IoError if another accept runs at the same time.

@@ -15,7 +15,7 @@ struct CostTolerance {
   std::string_view device;     // glob
   std::string_view technique;  // glob
   double share = 0;            // share of the whole frame's stored count (device code and driver)
-  double own = 0;              // plus this share of the stored count of the part itself
+  double own = 0;              // plus this share of the stored count of this part alone
   double count = 0;            // plus this many instructions, regardless of the size of the frame
 };
 

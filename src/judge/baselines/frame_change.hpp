@@ -16,7 +16,7 @@ namespace triptych::judge {
 inline constexpr std::array<std::string_view, 2> cost_parts{"device_code", "driver"};
 
 [[nodiscard]] std::optional<double> count_of(const record::Counts& counts, std::string_view name);
-// Returns the instructions of the whole frame: the sum over cost_parts.
+// Returns the number of instructions of the whole frame: the sum over cost_parts.
 [[nodiscard]] double frame_of(const record::Counts& cost);
 
 struct FrameChange {

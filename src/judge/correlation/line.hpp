@@ -34,7 +34,7 @@ struct LineModel {
   // A level is considered only if at least this many configurations have it and at least this many
   // do not have it.
   static constexpr std::size_t least_level = 4;
-  // The largest number of levels that are reported for one pair of devices.
+  // The maximum number of levels that are reported for one pair of devices.
   static constexpr std::size_t most_levels = 4;
 };
 

@@ -84,8 +84,8 @@ class Explanation {
     return effect;
   }
 
-  // Adds the level that explains most of the remaining sum of squares. Returns false if the search
-  // should end.
+  // Adds the level that explains most of the remaining sum of squares. Returns false if there is no
+  // such level or if it explains no configuration, which ends the search.
   bool find_level() {
     const FactorLevel* best = nullptr;
     double most = 0;

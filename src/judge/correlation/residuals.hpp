@@ -43,12 +43,13 @@ struct CostChange {
 // their bounds, or 0 if no part does. Each part is judged separately, so that a change in device
 // code is detected even if the driver's count varies much.
 [[nodiscard]] double moved_by(const CostChange& change, const Repeatability& bound);
-// Whether the residual r of devices A and B differs from r0 by more than the repeatability of both.
+// Returns whether the residual r of devices A and B differs from r0 by more than the repeatability
+// of both.
 [[nodiscard]] bool residual_moved(const CostChange& a, const Repeatability& bound_a,
                                   const CostChange& b, const Repeatability& bound_b);
 
-// A change on one device, for all configurations, for those with a factor level, or for a single
-// configuration.
+// A change in cost on one device. It applies to all configurations, to the configurations with a
+// factor level, or to a single configuration.
 struct Movement {
   enum class Of : std::uint8_t { everything, level, configuration };
   Of of = Of::configuration;
@@ -62,11 +63,11 @@ struct Movement {
 };
 
 // Describes the changes of all configurations with as few movements as possible. `moved` contains
-// the result of moved_by() for each configuration. Returns first a movement of everything, if all
-// configurations changed in the same direction, then the levels that explain most of the changes,
-// and then the remaining configurations, the largest change first. A configuration that a level or
-// everything already covers is returned only if it changed by more than twice as much or in the
-// opposite direction.
+// the result of moved_by() for each configuration. Returns a movement of everything, if all
+// configurations changed in the same direction, followed by the levels that explain most of the
+// changes, and by the remaining configurations, the largest change first. A configuration that
+// another movement already covers is returned only if it changed by more than twice as much or in
+// the opposite direction.
 [[nodiscard]] std::vector<Movement> explain(std::span<const double> moved,
                                             std::span<const Factors> factors);
 

@@ -1,4 +1,5 @@
-// Compares the statistics that GPU compilers report with those stored for the same driver version.
+// Compares the statistics that GPU compilers report with the stored statistics of the same driver
+// version.
 // The values must be equal on any machine, because the output of these compilers does not depend on
 // the machine on which they run.
 
@@ -44,7 +45,7 @@ std::vector<Change> changes_of(const CodeTotals& totals) {
   return changes;
 }
 
-// Whether executables were added or removed, so that the configuration cannot be compared
+// Returns whether executables were added or removed, so that the configuration cannot be compared
 // executable by executable.
 bool in_other_parts(const CodeComparison& comparison) {
   return !comparison.gone.empty() || !comparison.added.empty();

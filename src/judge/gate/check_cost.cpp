@@ -1,6 +1,7 @@
-// Compares the instructions per frame with those that are stored for the same driver version and
-// were counted by the same emulator. The instructions of device code, those of the driver, and the
-// cache misses can each cause a regression. Allocations and the cost of preparation are only shown.
+// Compares the instruction counts of each frame with the counts that are stored for the same driver
+// version and the same emulator. The instructions of device code, the instructions of the driver,
+// and the cache misses can each cause a regression. Allocations and the cost of preparation are
+// only shown.
 
 #include <algorithm>
 #include <cmath>
@@ -69,9 +70,9 @@ class DeviceCostCheck {
         finding_about(view_, device_, Check::cost, verdict, std::move(what), std::move(advice)));
   }
 
-  // If the instructions of some record were counted by a different emulator than those of
-  // `counted`, returns that emulator. This happens in runs that were resumed, or merged from
-  // shards.
+  // If the instructions of any record were counted by a different emulator than the instructions of
+  // `counted`, returns the different emulator. This happens in runs that were resumed, or merged
+  // from shards.
   [[nodiscard]] std::optional<std::string> counted_otherwise(const record::Record& counted) const {
     for (const record::Record* record : records_) {
       if (record->cost.empty() || record->counted_by == counted.counted_by) continue;

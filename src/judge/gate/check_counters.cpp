@@ -58,8 +58,8 @@ void compare_own(const std::string& name, std::uint64_t stored, const record::Re
   out.wrong.push_back(std::move(change));
 }
 
-// Compares with other devices or driver versions. A counter may be missing, because it may not
-// apply to this device.
+// Compares a counter with the accepted values of other devices or driver versions. The record may
+// lack the counter, because the counter may not apply to this device.
 void compare_with_others(const std::string& name, const Range& range, const record::Record& record,
                          OpenCounts& open, Differences& out) {
   const auto found = record.counters.find(name);
@@ -150,8 +150,8 @@ std::vector<Finding> check_counters(const RunView& view) {
     }
   }
   for (const auto& [device, configurations] : not_stored) {
-    // If no accepted device could draw a configuration, there is nothing with which a new device
-    // could be compared.
+    // For a new device, a configuration without stored counters is skipped, because no accepted
+    // device could draw it, so there is nothing to compare with.
     const record::Device& info = view.devices.at(device);
     const bool known = !view.baselines.present() || view.knows_driver(info);
     findings.push_back(

@@ -13,7 +13,8 @@
 namespace triptych::judge {
 namespace {
 
-// Tolerance for two renderings of the same reference image, which differ only by rounding to float.
+// The tolerance between two renderings of the same reference image. They differ only by rounding to
+// float.
 constexpr double truth_tolerance = 1e-5;
 
 // A correct image of one device, for the comparison with the images of other devices.
@@ -23,8 +24,8 @@ struct Picture {
   double rmse;  // error against the reference image
 };
 
-// Whether the configuration sets only the scene and the technique, so that every device uses its
-// default rendering path.
+// Returns whether the configuration sets only the scene and the technique, so that every device
+// uses its default rendering path.
 bool on_default_path(const record::Record& record) {
   const auto scene = record::parse_factor_list(record.scene);
   const auto named = record::parse_factor_list(record.configuration);

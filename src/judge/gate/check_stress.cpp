@@ -51,8 +51,8 @@ std::vector<Finding> check_stress(const RunView& view) {
         finding_about(view, Check::stress, Verdict::cannot_judge, {.cause = Cause::no_reference}));
     return findings;
   }
-  // Images of devices that are not judged are needed, too, because the images of the judged devices
-  // are compared with them.
+  // Loads the records of all devices, because the images of the judged devices are also compared
+  // with the images of devices that are not judged.
   std::vector<record::Record> all = view.store.records(view.records.front().run);
   std::erase_if(all,
                 [&](const record::Record& record) { return record.plan != view.request.plan; });

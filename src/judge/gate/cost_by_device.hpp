@@ -33,7 +33,8 @@ struct DeviceCost {
   bool measured = false;   // whether the device was measured in this run
   std::map<std::string, ConfigurationCost> configurations;
 
-  // Whether at least one configuration has a stored cost with which the current one is compared.
+  // Returns whether at least one configuration has a stored cost with which the current one is
+  // compared.
   [[nodiscard]] bool accepted() const;
 };
 
@@ -44,11 +45,11 @@ struct DeviceCost {
 // Returns the factors of a record, including its technique as the factor "technique".
 [[nodiscard]] Factors factors_of(const record::Record& record);
 
-// Pairs the costs of all configurations that both devices have, and fits the line.
+// Pairs the costs of all configurations that were measured on both devices, and fits the line.
 [[nodiscard]] CorrelationPair pair_of(const DeviceCost& a, const DeviceCost& b);
 
-// Pairs the times of all devices of the run. The report shows these pairs, but they do not affect
-// the verdict.
+// Pairs the frame times of every two devices in the run. The report shows these pairs, but they do
+// not affect the verdict.
 [[nodiscard]] std::vector<CorrelationPair> pairs_by_time(const CorrelationInput& input);
 
 // Runs the check `correlation` on this input.

@@ -7,8 +7,8 @@
 
 namespace triptych::judge {
 
-// Returns the counters of a record that differ from those of other devices by more than is allowed.
-// Counters that only one side has are not compared.
+// Returns the counters of a record that differ from the counters of other devices by more than is
+// allowed. Counters that are missing on one side are not compared.
 [[nodiscard]] std::vector<Change> counter_changes(const record::Record& record,
                                                   const StoredCounters& of_others,
                                                   const FindOpenCounts& open_counts);

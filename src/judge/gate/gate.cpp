@@ -75,9 +75,10 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
   return view;
 }
 
-// Whether the device measured this skipped configuration when it was accepted, so that the
-// configuration counts as missing. An environment variable that overrides the driver's capabilities
-// (MESA_GL_VERSION_OVERRIDE) makes it a different device, to which this does not apply.
+// Returns whether this skipped configuration was measured on the device when the baselines were
+// accepted, so that it counts as missing. An environment variable that overrides the driver's
+// capabilities (MESA_GL_VERSION_OVERRIDE) makes it a different device, to which this does not
+// apply.
 bool measured_before(const RunView& view, const record::Record& record) {
   const bool overridden = std::ranges::any_of(
       view.device(record).environment,
@@ -90,7 +91,7 @@ bool measured_before(const RunView& view, const record::Record& record) {
   return code != nullptr && code->configurations.contains(record.configuration);
 }
 
-// Reports each record that was not measured once, under the first requested check. A stress case
+// Reports each unmeasured record only once, under the first requested check. A stress case
 // that failed is left out, because its score reports the failure.
 void report_outcomes(const RunView& view, std::vector<Finding>& findings) {
   const Check check = *view.checks.begin();
@@ -110,8 +111,8 @@ void report_outcomes(const RunView& view, std::vector<Finding>& findings) {
   }
 }
 
-// Reports driver faults that belong to no configuration: faults of its clock or its statistics, and
-// crashes or hangs when the device is closed.
+// Reports driver faults that belong to no configuration: faults of the clock or of the pipeline
+// statistics, and crashes or hangs when the device is closed.
 void report_device_faults(const RunView& view, std::vector<Finding>& findings) {
   for (const auto& [id, device] : view.devices) {
     for (const record::DeviceFault& fault : device.faults) {
@@ -254,7 +255,7 @@ void append(std::vector<Finding>& findings, std::vector<Finding> more) {
   std::ranges::move(more, std::back_inserter(findings));
 }
 
-// The input of the checks, and the results, to which each check adds its own.
+// The input of the checks, and the results, to which each check adds its findings.
 struct Judging {
   const RunView& view;
   GateResult& result;
@@ -342,7 +343,8 @@ int rank(Verdict verdict) {
 std::string other_programs(const RunView& view) {
   std::set<std::string> programs;
   for (const record::Beginning& each : view.run.begun) programs.insert(each.program);
-  // Older stores contain the program once for each run instead of once for each command.
+  // Older stores contain the version of the program once for each run instead of once for each
+  // command that measured a part of the run.
   const bool is_known = programs.erase(std::string()) == 0 && !programs.empty();
   const auto program = view.run.system.find("triptych");
   if (!is_known && program != view.run.system.end()) programs.insert(program->second);

@@ -30,7 +30,7 @@ struct GateResult {
   // The errors against the limit images, one entry for each scene on each device.
   std::vector<accuracy::AccuracyScene> accuracies = {};
   std::vector<CorrelationPair> correlations = {};  // the pairs of devices that the report plots
-  std::set<std::string> devices = {};              // the requested devices that measured something
+  std::set<std::string> devices = {};  // requested devices with at least one measurement
   // The environment variables with which each device was measured, by device id. Printed commands
   // set them again.
   std::map<std::string, std::map<std::string, std::string>> environments = {};
@@ -62,13 +62,13 @@ struct GateRequest {
   std::string baselines_option = {};
   std::set<Check> checks;            // empty: the checks of the run's plan (checked_in)
   std::vector<std::string> devices;  // globs; empty: all devices in the run
-  // Globs, each of which must match a device that measured something.
+  // Globs, each of which must match a device on which something was measured.
   std::vector<std::string> required_devices;
-  // Globs for devices that this machine lacks on purpose, and for APIs whose devices cannot be
-  // listed on this machine.
+  // Globs for devices that are absent from this machine on purpose, and for APIs whose device
+  // enumeration may fail on this machine.
   std::vector<std::string> without_devices = {};
-  // The version of the judging program, which is compared with the program that measured. If empty,
-  // they are not compared.
+  // The version of the judging program, which is compared with the version of the program that
+  // measured. If it is empty, the versions are not compared.
   std::string program = {};
   // Returns the reference image of a record's scene, and the error bound for the record's rendering
   // path. The suite computes both, and the caller caches them.
@@ -85,8 +85,8 @@ struct GateRequest {
   // judged. If false, it gets no such finding. This is for CTest tests of a single check, which
   // count as skipped instead.
   bool decides_each_device = true;
-  // If true, a configuration is a regression if the whole 95 % interval of its slowdown lies above
-  // 2 %. If false, times do not affect the verdict.
+  // If true, a configuration is a regression if the whole 95 % confidence interval of its slowdown
+  // lies above 2 %. If false, times do not affect the verdict.
   bool times_decide = false;
   // The hash and the configuration keys of the current plan, to recognize a run of another plan.
   // Empty if they are not known.

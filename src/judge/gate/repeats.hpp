@@ -33,7 +33,7 @@ struct RepeatedCase {
   std::size_t images = 0;         // number of different images
   std::optional<Finding> worst;   // the finding of the first repetition with the worst verdict
 
-  // Whether the case fails in some repetitions and not in others.
+  // Returns whether the case fails in some repetitions and not in others.
   [[nodiscard]] bool flakes() const;
   [[nodiscard]] std::size_t failures() const;
 };

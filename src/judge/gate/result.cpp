@@ -19,7 +19,7 @@ std::size_t count(const GateResult& result, Verdict verdict) {
   return static_cast<std::size_t>(std::ranges::count(result.findings, verdict, &Finding::verdict));
 }
 
-// Whether the verdict counts as a decision. Advisories and skips do not.
+// Returns whether the verdict counts as a decision. Advisories and skips do not.
 bool is_decision(Verdict verdict) {
   return verdict != Verdict::advisory && verdict != Verdict::skipped;
 }

@@ -21,12 +21,12 @@ struct RunView {
   std::map<std::string, record::Device> devices;     // by id
   std::vector<const record::Record*> measured;       // pointers into `records`
   std::vector<const record::Record*> of_other_data;  // measured, but the data differ from the
-                                                     // accepted data or have changed since
+                                                     // accepted data or have changed
 
   [[nodiscard]] const record::Device& device(const record::Record& record) const {
     return devices.at(record.device);
   }
-  // Whether this version of the device's driver was accepted.
+  // Returns whether this version of the device's driver was accepted.
   [[nodiscard]] bool knows_driver(const record::Device& device) const;
   // The test id of findings that belong to no device.
   [[nodiscard]] std::string plan_test(Check check) const;
@@ -86,7 +86,8 @@ struct AccuracyFindings {
 // does not describe, device enumerations that failed, and accepted devices that are missing.
 void report_as_begun(const RunView& view, std::vector<Finding>& findings);
 
-// Whether an unexpired entry of waivers.json covers findings of this check about the record.
+// Returns whether an unexpired entry of waivers.json covers findings of this check about the
+// record.
 [[nodiscard]] bool is_waived(const RunView& view, const record::Record& record, Check check);
 
 // Changes regressions that waivers.json excuses to `waived`, and reports waivers that have expired

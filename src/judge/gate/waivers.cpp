@@ -6,8 +6,8 @@
 namespace triptych::judge {
 namespace {
 
-// Whether the waiver applies to a finding. `configuration` is empty for a finding about a whole
-// device or plan.
+// Returns whether the waiver applies to a finding. `configuration` is empty for a finding about a
+// whole device or plan.
 bool covers(const Waiver& waiver, const std::string& device, const std::string& test,
             const std::string& configuration) {
   return core::glob_matches(waiver.device, device) && core::glob_matches(waiver.test, test) &&
@@ -66,7 +66,7 @@ bool concerns(const Waiver& waiver, const RunView& view) {
   });
 }
 
-// Whether the waiver names this plan, but matches no test of it.
+// Returns whether the waiver names this plan, but matches no test of it.
 bool matches_no_test(const Waiver& waiver, const RunView& view) {
   const record::Checks checks = record::every_check();
   const std::string image = view.plan_test(Check::image);

@@ -34,8 +34,8 @@ class StressRun {
   std::map<std::string, core::Image> pictures_;  // by the hash of the image
 };
 
-// Whether the run contains the second record with which the expectation compares `record`. Returns
-// true for an expectation that needs no second record.
+// Returns whether the run contains the second record with which the expectation compares `record`.
+// Returns true for an expectation that needs no second record.
 [[nodiscard]] bool has_other(const record::Expectation& expectation, const record::Record& record,
                              const StressRun& run);
 

@@ -20,8 +20,8 @@ struct FolderTexts {
   JunitFacts junit = {};
 };
 
-// Writes these files, gate.log with every finding that does not pass, summary.md, and a JUnit
-// report for each plan. Returns the names of the files that people read. Throws core::IoError.
+// Writes the files in `texts`, gate.log with every finding that does not pass, summary.md, and a
+// JUnit report for each plan. Returns the names of the human-readable files. Throws core::IoError.
 [[nodiscard]] std::vector<std::string> write_folder(const std::filesystem::path& folder,
                                                     std::span<const judge::GateResult> results,
                                                     const FolderTexts& texts);

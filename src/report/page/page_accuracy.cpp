@@ -193,8 +193,8 @@ Html dominated_table(const std::vector<AccuracyScene>& scenes) {
   return table(rows);
 }
 
-// A kind of cost other than time. It is plotted if it was measured; the plot is folded if there is
-// a title.
+// A kind of cost other than time. It is plotted if it was measured. If there is a title, the plot
+// is folded under this title.
 struct Beside {
   Cost cost;
   std::string_view title;

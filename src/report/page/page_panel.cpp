@@ -90,8 +90,8 @@ Html figure(const Html& content, std::string_view caption) {
   return markup("<figure>{}<figcaption>{}</figcaption></figure>", content, caption);
 }
 
-// Returns the beginning of a panel, with the attributes that the filters and the comparison of
-// images use, and with the targets of links.
+// Returns the beginning of a panel, with the attributes used by the filters and by the comparison
+// of images, and with the targets of links.
 Html opening(const PictureScene& scene, const SameBits& group, const ShareOfBound* shares) {
   Html ids;
   std::set<std::string_view> checks;

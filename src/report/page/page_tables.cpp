@@ -70,8 +70,8 @@ Html taken_over(const PlanData& plan) {
                 table(rows));
 }
 
-// Whether the technique only fetches memory, like speed_of_light, so that its time is a lower bound
-// for the times of other techniques.
+// Returns whether the technique only fetches memory, like speed_of_light, so that its time is a
+// lower bound for the times of other techniques.
 bool is_bound(const record::Record& record) {
   return !record::has_picture(record) && record.code.empty();
 }

@@ -44,7 +44,7 @@ Html circumstances_of(const Overview& all) {
   return text;
 }
 
-// Whether the only problem is that there are no baselines.
+// Returns whether the only problem is that there are no baselines.
 bool has_no_baselines(const Overview& all) {
   return !all.open.empty() && std::ranges::all_of(all.open, [](const Cause& cause) {
     return cause.group.first->cause == judge::Cause::no_baselines;
@@ -222,8 +222,8 @@ Html links(const Cause& cause, const PlanData& plan) {
   return picture_link(plan, first) + markup(" <a href=\"#verdict\">verdict</a>");
 }
 
-// Returns the checks for which the filters show the cause. A cause about wrong images is also shown
-// for counters and statistics that changed together with the images.
+// Returns the checks for which the filters show the cause. If counters or statistics changed
+// together with wrong images, the cause of the wrong images is also shown for these checks.
 std::string checks_of(const Cause& cause) {
   std::set<std::string_view> checks{judge::name_of(cause.group.first->check)};
   if (cause.group.changed_with_it > 0) {

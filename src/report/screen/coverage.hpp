@@ -1,5 +1,5 @@
 #pragma once
-// The coverage of a validation: the factor levels that it drew and the largest counts that
+// The coverage of a validation: the factor levels that were drawn and the largest counts that
 // occurred. It shows what a pass covers.
 
 #include <cstdint>

@@ -24,7 +24,8 @@ std::string text_of(const SideBySide::Cell& cell) {
   return text;
 }
 
-// Whether a user can choose this technique to draw images. speed_of_light, for example, draws none.
+// Returns whether a user can choose this technique to draw images. speed_of_light, for example,
+// draws none.
 bool is_a_choice(const std::string& technique) {
   return std::ranges::none_of(technique::catalogue(), [&](const technique::Technique& each) {
     return each.id == technique && !each.picture;

@@ -24,7 +24,7 @@ std::string interval(const Allowed& allowed) {
   return fmt::format("{:.7g} to {:.7g}", allowed.lo, allowed.hi);
 }
 
-// States that a number of the device lies outside the interval that the reference allows.
+// States that a number computed on the device lies outside the interval that the reference allows.
 std::string outside(std::string_view what, double number, const Allowed& allowed) {
   return fmt::format("{} is {:.7g}, but the reference allows {}", what, number, interval(allowed));
 }
@@ -106,8 +106,8 @@ std::string reference_line(const SampleRow& row) {
               expected.length.value, expected.opacity.value));
 }
 
-// Whether the row is merged with its neighbours into one line, because its sample is transparent or
-// was skipped because it is transparent.
+// Returns whether the row is merged with its neighbours into one line. This is done for samples
+// that are transparent, whether or not the device took them.
 bool is_quiet(const SampleRow& row) {
   return !row.differs && (!row.taken || row.taken->opacity == 0);
 }

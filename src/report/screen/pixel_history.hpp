@@ -32,7 +32,8 @@ struct PixelText {
   std::size_t marked = 0;          // the index of the marked line of the table; 0: none is marked
 };
 [[nodiscard]] PixelText pixel_text(const PixelInImage& pixel, const accuracy::RayHistory& history);
-// Like the function above, but the table contains the spheres that the pixel's ray may hit.
+// Returns the same for a particle scene. The table contains the spheres that the pixel's ray may
+// hit.
 [[nodiscard]] PixelText pixel_text(const PixelInImage& pixel,
                                    const accuracy::SpriteHistory& history);
 

@@ -12,7 +12,7 @@ namespace triptych::report::words {
 // Describes why a configuration was not measured: "no answer within 60 s", "the worker was killed
 // by SIGSEGV (Segmentation fault)".
 [[nodiscard]] std::string text_of(const record::Reason& reason);
-// Like the function above, but begins with the outcome: "hung: no answer within 60 s".
+// Like text_of(reason), but begins with the outcome: "hung: no answer within 60 s".
 [[nodiscard]] std::string text_of(record::Outcome outcome, const record::Reason& reason);
 
 // Describes how exactly a driver counts a statistic: "exact", "1.18 to 3.88 times the true number

@@ -94,7 +94,8 @@ std::string values_changed(const Observation& what) {
   return text;
 }
 
-// Returns the totals over all configurations, in the format that Mesa developers use.
+// States that the compilers differ, and lists the changed totals over all configurations, under the
+// names that Mesa developers use.
 std::string other_compiler(const Observation& what) {
   std::string text = fmt::format(
       "not judged, because driver version {} has a different compiler than the stored version {}",
