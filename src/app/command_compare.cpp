@@ -182,9 +182,9 @@ void add_compare_commands(Commands& commands) {
   command.add_option("--a", arguments.a, side);
   command.add_option("--b", arguments.b, side);
   command.add_option("--a-program", arguments.a_program,
-                     "Measure side a with another build of triptych: the path of its program");
+                     "Measure side a with the triptych program at this path");
   command.add_option("--b-program", arguments.b_program,
-                     "Measure side b with another build of triptych: the path of its program");
+                     "Measure side b with the triptych program at this path");
   command.add_flag("--no-times", arguments.no_times,
                    "Compare only deterministic measurements, not frame times");
   command.add_flag(

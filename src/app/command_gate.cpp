@@ -282,7 +282,7 @@ std::vector<std::string> plans_to_accept(const AcceptArguments& arguments,
   for (const record::Run& run : latest_runs(store)) plans.push_back(run.plan);
   if (plans.empty()) {
     throw core::NotSupported(
-        fmt::format("{} contains no runs: measure first with `triptych run`", arguments.store));
+        fmt::format("{} contains no runs; measure first with `triptych run`", arguments.store));
   }
   return plans;
 }
@@ -360,16 +360,16 @@ void add_gate_commands(Commands& commands) {
       "Require that something was measured on a device that matches this glob (repeatable)");
   command.add_option(
       "--without-device", arguments.without_devices,
-      "Do not expect devices that match this glob on this machine, and ignore that an API which "
-      "matches it cannot list its devices (repeatable; see docs/gate.md)");
+      "Do not expect devices that match this glob on this machine, and ignore failed device "
+      "enumeration for APIs that match it (repeatable; see docs/gate.md)");
   add_without_data_option(command, arguments.without_data);
   command.add_flag("--times", arguments.times,
                    "Let frame times affect the verdict (only for dedicated benchmarking machines)");
   CLI::Option* base = command.add_option(
       "--base", arguments.base,
-      "Ignore the baselines, and compare each device with itself under another build or driver: "
-      "the path of a build of triptych, or NAME=VALUE,… for environment variables that select a "
-      "driver");
+      "Compare each device with itself under another build or driver instead of with the "
+      "baselines; give the path of another triptych program, or NAME=VALUE,… to select a driver "
+      "with environment variables");
   command.add_option(
       "--out", arguments.out,
       "Folder for report.html, gate.log, summary.md, benchmark.json and one JUnit XML file per "

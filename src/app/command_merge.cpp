@@ -99,7 +99,7 @@ core::ExitCode merge(const MergeArguments& arguments) {
     put_lines(gaps);
     return gaps.empty() ? core::ExitCode::pass : core::ExitCode::cannot_judge;
   }
-  if (arguments.out.empty()) throw core::InputError("--out is required: name the store to write");
+  if (arguments.out.empty()) throw core::InputError("--out is required; name the store to write");
   if (std::ranges::none_of(arguments.stores, holds_a_run)) {
     throw core::NotSupported(
         fmt::format("there is nothing to merge: no runs in {}", fmt::join(arguments.stores, ", ")));

@@ -23,7 +23,7 @@ struct ReportArguments {
 void require_file(std::string_view option, const std::string& file) {
   if (file.empty()) return;
   if (std::filesystem::is_directory(file)) {
-    throw core::InputError(fmt::format("{} {} is a folder: name a file in it", option, file));
+    throw core::InputError(fmt::format("{} {} is a folder; name a file in it", option, file));
   }
   core::require_writable(std::filesystem::path(file).parent_path());
 }
@@ -39,7 +39,7 @@ core::ExitCode write_report(const ReportArguments& arguments) {
   measure::Truths truths(registry.find_suite(), store);
   if (store.runs().empty()) {
     throw core::NotSupported(arguments.store +
-                             " contains no runs: measure first with `triptych run`");
+                             " contains no runs; measure first with `triptych run`");
   }
   core::write_text(arguments.out, page_of(store, truths, arguments.baselines));
   if (!arguments.benchmark_json.empty()) {

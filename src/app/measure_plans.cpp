@@ -57,9 +57,9 @@ void refuse_for_several(const Measuring& measuring) {
   if (measuring.plans.size() < 2) return;
   if (!measuring.choice.set.empty()) {
     throw core::InputError(
-        "--set applies to a single plan: name one plan, or write a YAML file for each plan");
+        "--set applies to a single plan; name one plan, or write a YAML file for each plan");
   }
-  if (measuring.error) throw core::InputError("--error applies to a single plan: name one plan");
+  if (measuring.error) throw core::InputError("--error applies to a single plan; name one plan");
 }
 
 std::vector<measure::Plan> load_plans(const Measuring& measuring, const Registry& registry) {
@@ -68,15 +68,16 @@ std::vector<measure::Plan> load_plans(const Measuring& measuring, const Registry
   for (const std::string& name : measuring.plans) {
     measure::Plan plan = measuring.choice.load(name, registry.find_suite());
     if (std::ranges::find(plans, plan.name, &measure::Plan::name) != plans.end()) {
-      throw core::InputError(fmt::format(
-          "two plans are named {}: rename one, because runs are identified by the plan's name",
-          plan.name));
+      throw core::InputError(
+          fmt::format("two plans are named {}; rename one of them, because runs are identified by "
+                      "the plan's name",
+                      plan.name));
     }
     if (plan.configurations.empty() && measuring.choice.selects()) continue;
     const bool chooses = measuring.chooses && !plan.automatic.empty();
     if (chooses && measuring.untimed && !plan.counted()) {
       throw core::InputError(
-          fmt::format("{}: technique=auto needs frame times: remove --untimed", plan.name));
+          fmt::format("{}: technique=auto needs frame times; remove --untimed", plan.name));
     }
     if ((measuring.timed || chooses) && !plan.counted()) {
       plan.checks.insert(record::Check::timing);

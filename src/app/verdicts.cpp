@@ -61,7 +61,7 @@ void require_store(const std::filesystem::path& file) {
   // An empty name is rejected when the store is opened.
   if (file.empty() || std::filesystem::exists(file)) return;
   throw core::NotSupported(
-      fmt::format("the store {} does not exist: measure first with `triptych run PLAN --store {}`",
+      fmt::format("the store {} does not exist; measure first with `triptych run PLAN --store {}`",
                   file.string(), core::shell_quoted(file.string())));
 }
 
@@ -84,7 +84,7 @@ std::string latest_run_of(const record::Store& store, const std::string& plan,
   const std::optional<record::Run> run = store.latest_run(name);
   if (run) return run->id;
   throw core::NotSupported(
-      fmt::format("{} contains no run of {}: measure first with `triptych run {} --store {}`", file,
+      fmt::format("{} contains no run of {}; measure first with `triptych run {} --store {}`", file,
                   name, core::shell_quoted(plan), core::shell_quoted(file)));
 }
 

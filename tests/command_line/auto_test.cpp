@@ -66,7 +66,7 @@ TEST(Auto, NeedsTimesAndExcludesAnError) {
   const Result untimed =
       program.run("run particles/quick --set technique=auto --device null:scripted --untimed");
   EXPECT_EQ(untimed.code, 3) << untimed.output;
-  expect_found(untimed, "technique=auto needs frame times: remove --untimed");
+  expect_found(untimed, "technique=auto needs frame times; remove --untimed");
   const Result two =
       program.run("render volume --device null:scripted --set technique=auto --error 0.1 --out o");
   EXPECT_EQ(two.code, 3) << two.output;

@@ -99,7 +99,7 @@ TEST_F(ReportTest, WritesBothFilesOrNeither) {
   const std::string command = "report --store s.sqlite --baselines b --out page.html ";
   const Result refused = program_.run(command + "--benchmark-json folder");
   EXPECT_EQ(refused.code, 3);
-  EXPECT_THAT(refused.output, HasSubstr("--benchmark-json folder is a folder: name a file in it"));
+  EXPECT_THAT(refused.output, HasSubstr("--benchmark-json folder is a folder; name a file in it"));
   EXPECT_FALSE(std::filesystem::exists(program_.folder() / "page.html"));
   EXPECT_EQ(program_.run(command + "--benchmark-json b.json").output, "page.html\nb.json\n");
 }

@@ -25,7 +25,8 @@ TEST(Usage, HelpIsNotAnError) {
 TEST(Usage, NoCommandAndAnUnknownOne) {
   const Program program;
   EXPECT_EQ(program.run("").code, 3);
-  expect_refused(program.run("fly"), 3, "unknown command 'fly'; expected one of: devices, list, run,");
+  expect_refused(program.run("fly"), 3,
+                 "unknown command 'fly'; expected one of: devices, list, run,");
 }
 
 TEST(Usage, ListShowsAllFactorsOfASuite) {
@@ -123,8 +124,9 @@ TEST(Usage, AnInterruptSuggestsResumeIfPossible) {
   expect_refused(program.run("render volume " + hang + " --out picture", script, interrupted), 124,
                  "triptych: interrupted\n");
   const Result run = program.run("run volume/quick " + hang, script, interrupted);
-  EXPECT_NE(run.output.find("interrupted; the records so far are in the store; use --resume to continue"),
-            std::string::npos)
+  EXPECT_NE(
+      run.output.find("interrupted; the records so far are in the store; use --resume to continue"),
+      std::string::npos)
       << run.output;
 }
 
@@ -145,7 +147,8 @@ TEST(Usage, AnInvalidStore) {
   const Program program;
   program.write("text.sqlite", "this is no database, however long one looks at it");
   expect_refused(program.run("gate volume/quick --store text.sqlite"), 3, "text.sqlite");
-  expect_refused(program.run("gate volume/quick --store none.sqlite"), 2, "the store none.sqlite does not exist");
+  expect_refused(program.run("gate volume/quick --store none.sqlite"), 2,
+                 "the store none.sqlite does not exist");
   expect_refused(program.run("gate volume/quick --store none.sqlite --check colour"), 3,
                  "unknown check 'colour'");
 }
@@ -156,7 +159,7 @@ TEST(Usage, AdviceNamesThePlanAsItWasTyped) {
             0);
   program.write("my.yaml", tiny_plan);
   expect_refused(program.run("gate my.yaml --store s.sqlite"), 2,
-                 "no run of my: measure first with `triptych run my.yaml --store s.sqlite`");
+                 "no run of my; measure first with `triptych run my.yaml --store s.sqlite`");
 }
 
 // In this test, the two output streams are not joined. The # at the end comments out the

@@ -16,12 +16,12 @@ namespace {
 void refuse_unfit(const std::vector<record::Record>& records, const std::string& run,
                   const AcceptRequest& request) {
   if (request.reason.find_first_not_of(" \t\r\n") == std::string::npos) {
-    throw core::InputError("accepting needs a reason (--reason TEXT)");
+    throw core::InputError("`accept` needs a reason (--reason TEXT)");
   }
   for (const record::Record& record : records) {
     if (record.plan != request.plan) {
       throw core::InputError(
-          fmt::format("run {} measured plan {}, not {}", run, record.plan, request.plan));
+          fmt::format("run {} is a run of plan {}, not of {}", run, record.plan, request.plan));
     }
     if (!record.injected.empty()) {
       throw core::InputError(fmt::format(
@@ -80,7 +80,7 @@ Accepted select_accepted(const record::Store& store, const std::string& run,
   }
   if (accepted.measured.empty() && accepted.skipped.empty() && accepted.unsupported.empty()) {
     throw core::InputError(
-        fmt::format("run {} measured nothing{}", run,
+        fmt::format("run {}: nothing was measured{}", run,
                     request.only.empty() ? "" : " that matches " + request.only));
   }
   std::set<std::string> told_of;

@@ -138,8 +138,8 @@ class Parts {
     const accuracy::AccuracyCase& least = scene_.cases[accuracy::most_accurate(scene_.cases)];
     add("the most accurate: " + least.configuration, "", least.rmse, error_text(least.largest),
         time_text(least));
-    if (least.factors.contains("step")) add("its error from the step size", "", least.lattice);
-    add("its error from rounding, storage and early ray termination", "", least.arithmetic);
+    if (least.factors.contains("step")) add("part due to the step size", "", least.lattice);
+    add("part due to rounding, storage and early ray termination", "", least.arithmetic);
     for (const accuracy::Switched& each : accuracy::switched_alone(scene_.cases)) {
       add(each, scene_.cases[each.to], "");
     }
@@ -150,9 +150,9 @@ class Parts {
     }
     add("output with 8 bits per channel", "", scene_.eight_bits);
     if (scene_.representation)
-      add("error from the voxel size and the table of the transfer function", "",
+      add("error due to the voxel size and the transfer-function table", "",
           *scene_.representation);
-    add("uncertainty of the limit image itself, at most", "", scene_.uncertainty);
+    add("upper bound on the uncertainty of the limit image", "", scene_.uncertainty);
   }
 
  private:
@@ -203,7 +203,7 @@ struct Beside {
 constexpr Beside beside_time[]{
     {Cost::samples, "", "Error against the number of samples, which is the same in every run."},
     {Cost::instructions, "",
-     "Error against the instructions of a frame, in device code and in the driver."},
+     "Error against the number of instructions per frame, in device code and in the driver."},
     {Cost::fetched, "Bytes fetched against error",
      "Error against the bytes that device code loads into a simulated cache of 32 KiB (its cache "
      "misses)."},
@@ -211,7 +211,8 @@ constexpr Beside beside_time[]{
      "Error against the bytes that a configuration allocates on the device: data, tables, bricks "
      "and images. Packed cells need four or eight times as much memory as the voxels."},
     {Cost::energy, "Energy against error",
-     "Error against the energy of a frame according to the machine’s meters, which includes idle "
+     "Error against the energy per frame according to the machine’s meters, which also measure "
+     "idle "
      "power and other programs."}};
 
 Html charts_beside(const std::vector<AccuracyScene>& scenes) {

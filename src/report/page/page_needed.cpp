@@ -66,7 +66,7 @@ Html needed_section(const PlanData& plan) {
       markup(
           "<p>{}.</p>",
           volume
-              ? "“Taken” is the number of all samples, and “needed” is the number of samples "
+              ? "“Taken” is the total number of samples, and “needed” is the number of samples "
                 "that are not transparent"
               : "“Taken” is the number of spheres that were drawn, and “needed” is the number of "
                 "spheres that are visible in at least one pixel") +

@@ -12,11 +12,10 @@ namespace triptych::report::words {
 struct CheckWords {
   record::Check check;
   std::string_view label;
-  std::string_view wrong;  // such as "wrong" in "18 of 66 checks wrong"
-  std::string_view
-      passed;             // such as "within their error bounds" in "264 within their error bounds"
-  std::string_view none;  // shown if the check reached no verdict
-  bool always;            // whether the row is shown even if the check did not run
+  std::string_view wrong;   // the last word of "18 of 66 checks wrong"
+  std::string_view passed;  // the text after the number in "264 within their error bounds"
+  std::string_view none;    // shown if the check reached no verdict
+  bool always;              // whether the row is shown even if the check did not run
 };
 
 inline constexpr std::array check_words{

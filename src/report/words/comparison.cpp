@@ -44,7 +44,8 @@ std::string by_side(const BySide<T>& sides, std::string_view between) {
 std::string other_bits(const Difference& difference) {
   const auto number = [&](const char* name) { return difference.numbers.at(name); };
   std::string text = fmt::format(
-      "{:.0f} of {:.0f} pixels differ, by at most {:.3g} at ({:.0f}, {:.0f}), RMS {:.3g}",
+      "{:.0f} of {:.0f} pixels differ; largest difference {:.3g} at ({:.0f}, {:.0f}), RMS "
+      "difference {:.3g}",
       number("pixels"), number("total"), number("error"), number("x"), number("y"), number("rmse"));
   if (difference.numbers.contains("particles")) {
     text += fmt::format("; {} a different particle",

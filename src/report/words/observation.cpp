@@ -77,7 +77,7 @@ std::string_view fault_text(record::DeviceFaultKind kind) {
     case record::DeviceFaultKind::clock_reads_zero:
       return "the device's clock always reads 0";
     case record::DeviceFaultKind::clock_rate_wrong:
-      return "the ticks of the device's clock are longer or shorter than the driver reports";
+      return "the device's clock does not run at the rate that the driver reports";
     case record::DeviceFaultKind::clock_not_written:
       return "the driver never writes the requested time stamps";
     case record::DeviceFaultKind::statistics_all_zero:
